@@ -1,0 +1,57 @@
+"""mnclab: part programs of real CNC controls, obeyed exactly as their manuals say, and shown.
+
+A part program is text; a control reads it into blocks; a machine obeys the blocks with a dozen verbs; every obeyed verb is a
+row in a table of moves; everything one can look at is computed from that table.
+
+The map of the house, floor by floor (a folder imports only from those above its line)::
+
+    text        what a programmer wrote: Alarm, Program, words, expressions
+    geometry    frames, arcs, contours, offsets, regions: numbers, no CNC word
+    path        what the tool does: Toolpath in columns, and passes over it (corners, compensation)
+    workpiece   what the tool meets: the part a probe touches
+    machining   how metal is cut, whatever the control: depths, pockets
+    comparison  strategies and runs side by side
+    machine     who obeys: Machine, Control, Cycle, interpreter, bulk tier, history, Run
+    controls    who speaks: a folder a control
+    show        what people see and take away: plots, forms, files
+
+This module is the front door, and nothing else: it imports numpy only.
+"""
+
+from mnclab.controls import CONTROLS as controls
+from mnclab.controls.choice import Help, help, read, run
+from mnclab.machine.run import Run
+from mnclab.machine.setup import Datum, Probe, Setup
+from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath
+from mnclab.text.alarm import Alarm
+from mnclab.text.program import Program
+
+__version__ = "0.1.0"
+__all__ = [
+    "Alarm",
+    "Datum",
+    "Help",
+    "Kind",
+    "Limits",
+    "Probe",
+    "Program",
+    "Run",
+    "Setup",
+    "Tool",
+    "Toolpath",
+    "controls",
+    "form",
+    "help",
+    "read",
+    "run",
+]
+
+
+def form(code: str, control: str) -> object:
+    """The parameters of a cycle as a form with a live picture (needs ipywidgets and matplotlib)."""
+    from mnclab.show.forms import form as build
+
+    return build(code, control)

@@ -1,0 +1,64 @@
+"""Who speaks: a folder a control, each built of functions, cycles and a reader.
+
+May import everything below; a control imports ``word_address``, never another control. A new control is a folder whose
+``__init__`` builds one ``Control`` and one line in :data:`MODULES`; third parties use the entry-point group
+``mnclab.controls``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from html import escape
+from importlib import import_module
+from importlib.metadata import entry_points
+
+from mnclab.machine.control import Control
+
+#: Name of a control -> the module that builds it.
+MODULES = {"mnc": "mnclab.controls.mnc", "tnc-620": "mnclab.controls.tnc_620", "nc-31": "mnclab.controls.nc_31"}
+
+
+class Controls(Mapping[str, Control]):
+    """All controls by name; a control is imported when it is first asked for."""
+
+    def __init__(self) -> None:
+        self._built: dict[str, Control] = {}
+
+    def __getitem__(self, name: str) -> Control:
+        if name not in self._built:
+            if name in MODULES:
+                self._built[name] = import_module(MODULES[name]).CONTROL
+            else:
+                self._built[name] = self._foreign()[name]
+        return self._built[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(dict.fromkeys([*MODULES, *self._built, *self._foreign()]))
+
+    def __len__(self) -> int:
+        return len(list(iter(self)))
+
+    def add(self, control: Control) -> None:
+        """Make a control known for this session of Python."""
+        self._built[control.name] = control
+
+    def remove(self, name: str) -> None:
+        """Forget a control that was added."""
+        self._built.pop(name, None)
+
+    def _foreign(self) -> dict[str, Control]:
+        return {point.name: point.load() for point in entry_points(group="mnclab.controls") if point.name not in MODULES}
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{name:8s} {self[name].title}" for name in self)
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td><code>{escape(name)}</code></td><td>{escape(self[name].title)}</td>"
+            f"<td>{len(self[name].functions)}</td><td>{len(self[name].cycles)}</td></tr>"
+            for name in self
+        )
+        return f"<table><tr><th>control</th><th>title</th><th>functions</th><th>cycles</th></tr>{rows}</table>"
+
+
+CONTROLS = Controls()

@@ -1,0 +1,126 @@
+"""From what a user has (a text, a file, a name) to a control and a program; and help on a code."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from html import escape
+from pathlib import Path
+
+from mnclab.controls import CONTROLS
+from mnclab.machine.control import Control, Function
+from mnclab.machine.cycle import Cycle, help_html, help_table
+from mnclab.machine.run import Run, run_program
+from mnclab.machine.setup import Setup
+from mnclab.text.alarm import Alarm
+from mnclab.text.program import Program, decode
+
+
+def run(
+    source: str | Path | Program, control: str | None = None, setup: Setup | None = None, *, strict: bool = False
+) -> Run:
+    """Read and run a part program.
+
+    ``source``: a text, or the path of a file. ``control``: a name of ``mnclab.controls``; None asks the file's suffix, then
+    the text, and refuses to guess when two fit. Faults are collected in ``run.alarms``; ``strict`` raises the first.
+    """
+    program = source if isinstance(source, Program) else read(source, control)
+    return run_program(program, CONTROLS[program.control], setup, strict=strict)
+
+
+def read(source: str | Path, control: str | None = None) -> Program:
+    """Read a part program into blocks without running it; see :func:`run` for the arguments."""
+    text, name, encoding = _text_of(source)
+    chosen = choose(control, name, text)
+    program = chosen.read(text, name)
+    object.__setattr__(program, "encoding", encoding)
+    for alarm in program.alarms:
+        alarm.source = program
+    return program
+
+
+def _text_of(source: str | Path) -> tuple[str, str, str]:
+    """Text, name and code page. A text with a line end is a program; one without is a path if such a file exists."""
+    if isinstance(source, str):
+        if "\n" in source or "\r" in source or len(source) > 4096 or "\0" in source or not _is_file(source):
+            return source, "program", "str"
+        source = Path(source)
+    try:
+        text, encoding = decode(source.read_bytes())
+    except OSError as error:
+        raise Alarm(f"{source} cannot be read: {error.strerror or error}") from None
+    return text, str(source), encoding
+
+
+def _is_file(name: str) -> bool:
+    try:
+        return bool(name.strip()) and Path(name).is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def choose(control: str | None, name: str, text: str) -> Control:
+    """The control that was named, or the one that the suffix or the text points to; an Alarm when none or two do."""
+    if control is not None:
+        if control not in CONTROLS:
+            near = get_close_matches(control, list(CONTROLS), 1, 0.3)
+            raise Alarm(
+                f"there is no control {control!r}", hint=f"known: {', '.join(CONTROLS)}" + (f"; near: {near[0]}" if near else "")
+            )
+        return CONTROLS[control]
+    everyone = [CONTROLS[known] for known in CONTROLS]
+    suffix = Path(name).suffix.lower()
+    by_suffix = [one for one in everyone if suffix and suffix in one.suffixes]
+    if len(by_suffix) == 1:
+        return by_suffix[0]
+    fitting = [one for one in by_suffix or everyone if one.looks_like and one.looks_like(text)]
+    if len(fitting) == 1:
+        return fitting[0]
+    which = "more than one control fits" if fitting else "nothing in the text or the file's name says which control it is for"
+    raise Alarm(f"{which}: name it", hint=f"control= one of {', '.join(CONTROLS)}")
+
+
+class Help:
+    """What a code means on a control: shown as text or as a table."""
+
+    def __init__(self, entry: Function | type[Cycle], control: Control) -> None:
+        self.entry, self.control = entry, control
+
+    def __str__(self) -> str:
+        entry = self.entry
+        if isinstance(entry, Function):
+            takes = f"\ntakes {' '.join(entry.takes)}" if entry.takes else ""
+            group = f", group {entry.group}" if entry.group else ""
+            return f"{entry.code}  {entry.title}  ({self.control.name} {entry.source}{group})\n{entry.doc}{takes}"
+        return help_table(entry)
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        if isinstance(self.entry, Function):
+            return f"<pre>{escape(str(self))}</pre>"
+        return help_html(self.entry)
+
+
+def help(code: str, control: str) -> Help:
+    """The parameter table of a cycle, or the meaning of a function; an Alarm with the nearest codes if there is none."""
+    chosen = choose(control, "", "")
+    wanted = _normal(code, chosen)
+    if wanted in chosen.cycles:
+        return Help(chosen.cycles[wanted], chosen)
+    if wanted in chosen.functions:
+        return Help(chosen.functions[wanted], chosen)
+    if wanted in chosen.refused:
+        raise Alarm(f"{wanted}: {chosen.refused[wanted]}")
+    near = get_close_matches(wanted, [*chosen.functions, *chosen.cycles], 5, 0.4)
+    raise Alarm(f"{chosen.name} has no code {code!r}", hint=f"near: {', '.join(near)}" if near else "")
+
+
+def _normal(code: str, control: Control) -> str:
+    """A code as the tables spell it: upper case, one blank, no leading zeros; a bare cycle number finds its cycle."""
+    code = " ".join(code.upper().split())
+    if len(code) > 1 and code[0] in control.codes and code[1:].isdigit():
+        return f"{code[0]}{int(code[1:])}"
+    for known in control.cycles:
+        if code.isdigit() and known.split()[-1] == code:
+            return known
+    return code

@@ -1,0 +1,53 @@
+"""The MNC milling control (Mechatronics, 2015): the namesake.
+
+``language`` holds motion, offsets and words, ``compensation`` the radius functions, ``drilling`` the cycles of chapter 9.
+Still to come are polar motion, transformations, the other cycles and probing; their codes are refused by name.
+"""
+
+from __future__ import annotations
+
+from mnclab.controls.mnc import compensation, drilling, language
+from mnclab.controls.word_address.reader import reader
+from mnclab.machine.bulk import PlainWords
+from mnclab.machine.control import Control
+from mnclab.machine.setup import Setting
+from mnclab.path.compensation import Compensation
+
+#: Order inside a block (adopted reading MNC-BLOCK-ORDER).
+PHASES = ("plane", "feed", "spindle", "tool", "auxiliary", "frames", "compensation", "dwell", "motion", "call", "end")
+
+SETTINGS = (
+    Setting("block_skip", False, "operator mode: blocks with / are passed over", "1.5"),
+    Setting("arc_tolerance", 0.01, "mm between the radii at start and end of an arc", "MNC-ARC-TOL"),
+    Setting("peck_clearance", 1.0, "mm above the last depth to which G83 returns at rapid", "MNC-G83-CLEARANCE"),
+    Setting("bulk", True, "obey long runs of plain blocks at once", ""),
+)
+
+_LATER = "it is part of this control but not built yet"
+REFUSED = (
+    {f"G{n}": _LATER for n in (4, 9, 10, 11, 12, 13, 15, 16, 25, 26, 36, 37, 38, 39, 50, 51, 53, 61, 64, 94, 95, 147)}
+    | {f"G{n}": _LATER for n in (84, 85, 161, 162, *range(301, 308), 309, 320, 321, 343, 344)}
+    | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
+    | {"D": "the tool corrector is not built yet"}
+)
+
+CONTROL = Control(
+    name="mnc",
+    title="Mechatronics MNC (2015)",
+    suffixes=(".mnc",),
+    read=reader("mnc"),
+    functions=language.FUNCTIONS | compensation.FUNCTIONS | drilling.FUNCTIONS,
+    cycles=drilling.CYCLES,
+    phases=PHASES,
+    settings=SETTINGS,
+    frames=("datum", "local"),
+    compensation=Compensation(approach="corner"),
+    start=language.power_on,
+    refused=REFUSED,
+    bulk=PlainWords(
+        motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
+        ready=lambda m: m.modal.get("motion") in ("G0", "G1", "G2", "G3"),
+        absolute=lambda m: m.modal["dimension"] == "G90",
+        tolerance=lambda m: float(m.settings["arc_tolerance"]),
+    ),
+)

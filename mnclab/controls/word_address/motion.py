@@ -1,0 +1,97 @@
+"""Straight and circular motion, planes, feed, spindle and tool: what G-word controls mean by the same words."""
+
+from __future__ import annotations
+
+from mnclab.machine.control import Words
+from mnclab.machine.machine import PLANES, Machine
+from mnclab.text.program import Word
+
+AXES = "XYZ"
+CENTRE = "IJK"
+
+
+def coordinates(m: Machine, words: Words, absolute: bool) -> dict[str, float]:
+    """Targets of the axes that are written, as arguments of a verb (``x=``, …); increments count from the register."""
+    found = {}
+    for k, axis in enumerate(AXES):
+        if axis in words:
+            value = m.value(words[axis])
+            found[axis.lower()] = value if absolute else m.programmed[k] + value
+    return found
+
+
+def first_word(words: Words) -> Word | None:
+    """The word that called a function, or else the first one it took; where alarms about the whole block point."""
+    return words.words[0] if words.words else None
+
+
+def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centre: bool = False) -> None:
+    """A circular block by R or by I J K, with a third axis a helix.
+
+    ``line_without_centre``: neither R nor I J K gives a straight line (MNC 3.4, note 1), else an alarm.
+    """
+    to = coordinates(m, words, absolute)
+    offsets = {k: words[c] for k, c in enumerate(CENTRE) if c in words}
+    if not to and not offsets and "R" not in words:
+        return
+    head = first_word(words)
+    if not offsets and "R" not in words:
+        if not line_without_centre:
+            m.alarm("an arc needs R or I J K", head)
+        m.line(**to, word=head)
+        return
+    first, second, normal = PLANES[m.plane]
+    if normal in offsets:
+        plane = f"plane {m.plane} has no {CENTRE[normal]}: its centre is given by {CENTRE[first]} and {CENTRE[second]}"
+        m.alarm(f"{CENTRE[normal]} stands along the axis of the arc, {plane}", offsets[normal])
+    third = AXES[normal]
+    if third in words and to[third.lower()] != m.programmed[normal]:
+        m.warn(f"{third} in an arc of the plane {m.plane} makes a helix, which the manual does not describe", words[third])
+    tolerance = m.settings.get("arc_tolerance", 0.01)
+    if "R" in words:
+        radius = m.value(words["R"])
+        if radius == 0:
+            m.alarm("R must not be 0", words["R"])
+        if offsets:
+            m.warn("R and I J K stand in one block: R counts", words["R"])
+        m.arc(**to, sense=sense, radius=radius, word=words["R"], tolerance=tolerance)
+        return
+    centre = {k: m.programmed[k] + m.value(word) for k, word in offsets.items()}
+    m.arc(**to, sense=sense, centre=centre, word=next(iter(offsets.values())), tolerance=tolerance)
+
+
+def set_plane(m: Machine, plane: str, head: Word | None) -> None:
+    """Choose the plane of arcs and compensation."""
+    if m.side and plane != m.plane:
+        m.alarm("the plane cannot change while radius compensation is active", head, hint="write G40 first")
+    m.change("plane", plane)
+
+
+def feed(m: Machine, words: Words) -> None:
+    """F: the feed along the path, kept until a new one."""
+    value = m.value(words["F"])
+    if value <= 0:
+        m.alarm(f"F (feed rate) must be greater than 0, got {value:g}", words["F"])
+    m.change("feed", value)
+
+
+def spindle_speed(m: Machine, words: Words) -> None:
+    """S: the spindle speed."""
+    value = m.value(words["S"])
+    if value < 0:
+        m.alarm(f"S (spindle speed) must be at least 0, got {value:g}", words["S"])
+    m.spindle(speed=value)
+
+
+def tool(m: Machine, words: Words) -> None:
+    """T: the tool from the table is active at once; no axis moves."""
+    word = words["T"]
+    number = m.value(word)
+    if number != int(number) or not 0 <= number <= 99:
+        m.alarm(f"T (tool number) must be a whole number from 0 to 99, got {number:g}", word)
+    if int(number) not in m.tables.tools:
+        known = ", ".join(f"T{n}" for n in sorted(m.tables.tools))
+        m.alarm(f"T{int(number)} has no row in the tool table", word, hint=f"tools: {known}")
+    if m.side:
+        m.alarm("the tool cannot change while radius compensation is active", word, hint="write G40 first")
+    m.change_tool(m.tables.tools[int(number)])

@@ -1,0 +1,179 @@
+"""Reading blocks of one-letter words: ``N40 G83 X20 Z-30 R2 // a hole``.
+
+Lines that hold nothing but good words are found for the whole text at once (``text.words``); the others, with comments,
+block skip or faults, are read one by one here, and this is where mistakes get their names.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.text.program import BulkBlocks, Program, ProgramBuilder
+from mnclab.text.words import Scan, scan
+
+LARGEST = 1e9  # no coordinate, feed or number of a program is as large
+PLAIN_LETTERS = "GXYZIJKRF"
+_BITS = np.zeros(128, dtype=np.int32)
+_BITS[65:91] = 1 << np.arange(26)
+
+_WORD = re.compile(r"([A-Za-z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))?")
+_LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
+
+
+def reader(control: str, comment: str = "//", comment_pattern: str = r"/[ \t]?/") -> Callable[[str, str], Program]:
+    """A function (text, name) -> Program for a control whose comments begin with ``comment``."""
+    mark = re.compile(comment_pattern)
+
+    def read(text: str, name: str = "program") -> Program:
+        found = scan(text)
+        builder = ProgramBuilder(text, name, control, found.starts, comment)
+        labels: list[tuple[int, int]] = []  # offset and number of the N words
+        bulk = _clean_blocks(builder, found, labels)
+        for line in np.flatnonzero(~found.clean):
+            _read_line(builder, text, int(found.starts[line]), mark, labels)
+        _check_labels(builder, labels)
+        return builder.build(bulk)
+
+    return read
+
+
+def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: list[tuple[int, int]]) -> BulkBlocks:
+    """Blocks of the clean lines; N words are checked and left out."""
+    is_label = found.letter == ord("N")
+    first_of_line = np.ones(len(found.line), dtype=bool)
+    first_of_line[1:] = found.line[1:] != found.line[:-1]
+    starts = found.offset[first_of_line]
+
+    for i in np.flatnonzero(is_label & ~first_of_line):
+        builder.alarm("N must be the first word of its block", int(found.offset[i]), int(found.length[i]))
+    bad = is_label & ((found.value <= 0) | (found.value != np.floor(found.value)))
+    for i in np.flatnonzero(bad):
+        builder.alarm(f"N must be a positive whole number, got {found.value[i]:g}", int(found.offset[i]), int(found.length[i]))
+    good = np.flatnonzero(is_label & ~bad)
+    labels += zip(found.offset[good].tolist(), found.value[good].tolist(), strict=True)
+    for i in np.flatnonzero((found.value >= LARGEST) | (found.value <= -LARGEST)):
+        builder.alarm(f"a number must be smaller than {LARGEST:g}", int(found.offset[i]), int(found.length[i]))
+
+    block = np.cumsum(first_of_line, dtype=np.int32) - 1
+    letter, value, offset, length = found.letter, found.value, found.offset, found.length
+    if is_label.any():
+        words = ~is_label
+        letter, value, offset, length, block = (c[words] for c in (letter, value, offset, length, block))
+    count = np.bincount(block, minlength=len(starts)) if len(block) else np.zeros(len(starts), dtype=np.int64)
+    names = "".join(chr(c) for c in range(65, 91))
+    return BulkBlocks(
+        addresses=tuple(names),
+        address=letter - 65,
+        value=value,
+        offset=offset,
+        length=length,
+        keyword="",
+        start=starts,
+        count=count,
+        plain=plain_blocks(letter, value, count, PLAIN_LETTERS),
+    )
+
+
+def plain_blocks(
+    letter: NDArray[np.uint8], value: NDArray[np.float64], count: NDArray[np.int64], letters: str
+) -> NDArray[np.bool_]:
+    """Which blocks (b,) hold only these letters, each once, and of the G words only plain motion.
+
+    Every letter is a bit: a block with a letter twice has a sum of bits that differs from their union.
+    """
+    plain = count > 0
+    if not plain.any():
+        return plain
+    bits = _BITS[letter]
+    begins = (np.cumsum(count) - count)[plain]
+    union, total = np.bitwise_or.reduceat(bits, begins), np.add.reduceat(bits, begins)
+    allowed = sum(1 << (ord(c) - 65) for c in letters)
+    strange = (letter == ord("G")) & ~((value == 0) | (value == 1) | (value == 2) | (value == 3))
+    plain[plain] = ((union & ~np.int32(allowed)) == 0) & (union == total)
+    if strange.any():
+        plain[np.searchsorted(np.cumsum(count), np.flatnonzero(strange), "right")] = False
+    return plain
+
+
+def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: re.Pattern[str], labels: list[tuple[int, int]]) -> None:
+    """One line that is not clean: comment, block skip, words, and the first fault."""
+    end = min((k for k in (text.find("\n", begin), text.find("\r", begin)) if k >= 0), default=len(text))
+    comment = mark.search(text, begin, end)
+    stop = comment.start() if comment else end
+    at = _skip_blanks(text, begin + (text[begin : begin + 1] == "\ufeff"), stop)
+    if at >= stop:
+        if comment:
+            builder.block(stop)
+        return
+    skip = text[at] == "/"
+    builder.block(at, skip=skip)
+    at = _skip_blanks(text, at + skip, stop)
+    first = True
+    while at < stop:
+        match = _WORD.match(text, at, stop)
+        if match is None or match.group(2) is None:
+            _refuse(builder, text, at, stop)
+            return
+        address, number = match.group(1).upper(), float(match.group(2))
+        length = match.end() - at
+        after = text[match.end() : match.end() + 1]
+        if match.end() < stop and (after in ".,+-" or after.isdigit()):
+            _refuse(builder, text, match.end(), stop)
+            return
+        if abs(number) >= LARGEST:
+            builder.alarm(f"a number must be smaller than {LARGEST:g}", at, length)
+        elif address == "N":
+            if not first:
+                builder.alarm("N must be the first word of its block", at, length)
+            elif number <= 0 or number != int(number):
+                builder.alarm(f"N must be a positive whole number, got {number:g}", at, length)
+            else:
+                labels.append((at, int(number)))
+        else:
+            builder.word(address, number, at, length)
+        at, first = _skip_blanks(text, match.end(), stop), False
+
+
+def _skip_blanks(text: str, at: int, stop: int) -> int:
+    while at < stop and text[at] in " \t\ufeff":
+        at += 1
+    return at
+
+
+def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int) -> None:
+    """The fault at a character that is no part of a good word, with the repair where the mistake is known."""
+    c = text[at]
+    following = text[at + 1 : stop].lstrip(" \t")[:1]
+    if c == ",":
+        builder.alarm("',' is no part of a number", at, hint="the decimal mark is a point")
+    elif c in _LOOKS_LATIN:
+        builder.alarm(f"{c!r} is a Cyrillic letter", at, hint=f"write the Latin letter {_LOOKS_LATIN[c]}")
+    elif c.isascii() and c.isalpha():
+        if following in ("O", "o"):
+            builder.alarm(f"{c.upper()} needs a number", at, hint="the letter O stands where the digit 0 was meant")
+        else:
+            found = f", found {following!r}" if following else ""
+            builder.alarm(f"{c.upper()} needs a number{found}", at)
+    elif c == ".":
+        builder.alarm("a number has only one decimal point", at)
+    elif c in "+-":
+        builder.alarm(f"{c!r} must stand between an address and its digits", at)
+    elif c.isdigit():
+        builder.alarm(f"{c!r} needs an address letter before it", at, hint="a blank inside a number splits it")
+    else:
+        builder.alarm(f"{c!r} has no meaning here", at)
+
+
+def _check_labels(builder: ProgramBuilder, labels: list[tuple[int, int]]) -> None:
+    """N numbers must be unique; the second of two is at fault."""
+    if len({number for _, number in labels}) == len(labels):
+        return
+    seen: set[int] = set()
+    for offset, number in sorted(labels):
+        if number in seen:
+            builder.alarm(f"N{int(number)} labels two blocks", offset, 1 + len(str(int(number))))
+        seen.add(number)

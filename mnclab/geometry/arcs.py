@@ -1,0 +1,43 @@
+"""Arcs in a plane: the centre from a radius, the sweep from a centre.
+
+Points are (..., 2) in mm in the axes of the plane, angles in radians, positive counter-clockwise. Everything takes one
+arc or a million.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+
+def sweep(start: ArrayLike, end: ArrayLike, centre: ArrayLike, sense: ArrayLike, full: float = 1e-3) -> Array:
+    """Angle (...) from start to end about centre, in the sense +1 (counter-clockwise) or -1.
+
+    A start and an end closer than ``full`` mm are a whole turn.
+    """
+    start, end, centre = (np.asarray(p, dtype=np.float64) for p in (start, end, centre))
+    a, b = start - centre, end - centre
+    angle = np.arctan2(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=-1))
+    sense = np.asarray(sense, dtype=np.float64)
+    angle = np.where(angle * sense < 0, angle + sense * 2 * np.pi, angle)
+    return np.where(np.hypot(*np.moveaxis(end - start, -1, 0)) < full, sense * 2 * np.pi, angle)
+
+
+def centre_from_radius(start: ArrayLike, end: ArrayLike, radius: ArrayLike, sense: ArrayLike) -> tuple[Array, Array]:
+    """Centre (..., 2) of the arc of a signed radius, and by how much |radius| falls short of half the chord.
+
+    With s, e start and end, d = e - s, n = d turned by +90 degrees: centre = (s + e)/2 ± sqrt(R² - |d|²/4) n/|d|,
+    plus for a counter-clockwise arc below 180 degrees; a negative radius is the arc above 180 degrees. Where the radius
+    is too small the centre is the middle of the chord and the shortage is positive.
+    """
+    start, end = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
+    radius, sense = np.asarray(radius, dtype=np.float64), np.asarray(sense, dtype=np.float64)
+    d = end - start
+    half = np.hypot(d[..., 0], d[..., 1]) / 2
+    # (R - h)(R + h) keeps digits that R² - h² would lose near half a turn
+    height = np.sqrt(np.maximum((np.abs(radius) - half) * (np.abs(radius) + half), 0.0))
+    side = sense * np.sign(radius) * height / np.where(half > 0, 2 * half, 1.0)
+    normal = np.stack([-d[..., 1], d[..., 0]], axis=-1)
+    return (start + end) / 2 + side[..., None] * normal, half - np.abs(radius)

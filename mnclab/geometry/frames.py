@@ -1,0 +1,121 @@
+"""4x4 frames: shift, turn, mirror, scale; and chains of named ones.
+
+A frame maps local coordinates to outer ones: ``outer = M @ (x, y, z, 1)``. Lengths in mm, angles in radians.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Matrix = NDArray[np.float64]
+IDENTITY = np.eye(4)
+IDENTITY.flags.writeable = False
+
+
+def shift(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Matrix:
+    """A translation by (x, y, z) mm."""
+    matrix = np.eye(4)
+    matrix[:3, 3] = x, y, z
+    return matrix
+
+
+def turn(angle: float, axis: str = "z", about: ArrayLike = (0.0, 0.0, 0.0)) -> Matrix:
+    """A right-handed rotation by ``angle`` rad about an axis through ``about``."""
+    first, second = {"z": (0, 1), "x": (1, 2), "y": (2, 0)}[axis]
+    c, s = np.cos(angle), np.sin(angle)
+    matrix = np.eye(4)
+    matrix[first, first] = matrix[second, second] = c
+    matrix[first, second], matrix[second, first] = -s, s
+    return around(matrix, about)
+
+
+def scale(x: float = 1.0, y: float = 1.0, z: float = 1.0, about: ArrayLike = (0.0, 0.0, 0.0)) -> Matrix:
+    """Factors along the axes, about a point; -1 is a mirror."""
+    return around(np.diag([x, y, z, 1.0]), about)
+
+
+def mirror(axes: str, about: ArrayLike = (0.0, 0.0, 0.0)) -> Matrix:
+    """Coordinates of the named axes change their sign, about a point."""
+    return scale(*(-1.0 if axis in axes.lower() else 1.0 for axis in "xyz"), about=about)
+
+
+def around(matrix: Matrix, point: ArrayLike) -> Matrix:
+    """The same map with ``point`` as its fixed point instead of the origin."""
+    centre = np.asarray(point, dtype=np.float64)
+    moved = matrix.copy()
+    moved[:3, 3] += centre - matrix[:3, :3] @ centre
+    return moved
+
+
+def apply(matrix: Matrix, points: ArrayLike) -> NDArray[np.float64]:
+    """Points (..., 3) in outer coordinates."""
+    return np.asarray(points, dtype=np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def inverse(matrix: Matrix) -> Matrix:
+    """The map back from outer to local coordinates."""
+    back = np.eye(4)
+    back[:3, :3] = np.linalg.inv(matrix[:3, :3])
+    back[:3, 3] = -back[:3, :3] @ matrix[:3, 3]
+    return back
+
+
+def is_shift(matrix: Matrix) -> bool:
+    """Whether a frame only moves, so that directions and radii stay as they are."""
+    return bool(np.array_equal(matrix[:3, :3], IDENTITY[:3, :3]))
+
+
+class FrameChain:
+    """Named frames in the order in which they act, the outermost first.
+
+    A control that fixes the order names its slots once; one that keeps the order of definition appends. Setting a slot
+    that exists replaces it in its place; setting it to None removes it (a named slot becomes neutral).
+    """
+
+    def __init__(self, slots: tuple[str, ...] = ()) -> None:
+        self.slots = slots
+        self._frames: dict[str, Matrix] = {name: IDENTITY for name in slots}
+
+    def __getitem__(self, name: str) -> Matrix:
+        return self._frames.get(name, IDENTITY)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._frames and self._frames[name] is not IDENTITY
+
+    def __iter__(self) -> Iterator[tuple[str, Matrix]]:
+        return iter(self._frames.items())
+
+    def set(self, name: str, matrix: Matrix | None) -> None:
+        """Put a frame in its slot; None takes it away."""
+        if matrix is not None:
+            self._frames[name] = matrix
+        elif name in self.slots:
+            self._frames[name] = IDENTITY
+        else:
+            self._frames.pop(name, None)
+
+    @property
+    def matrix(self) -> Matrix:
+        """The product of all frames: local to outermost coordinates."""
+        product = IDENTITY
+        for frame in self._frames.values():
+            product = product @ frame
+        return product
+
+    def before(self, name: str) -> Matrix:
+        """The product of the frames outside ``name``."""
+        product = IDENTITY
+        for key, frame in self._frames.items():
+            if key == name:
+                break
+            product = product @ frame
+        return product
+
+    def copy(self) -> FrameChain:
+        """A chain of its own with the same frames."""
+        twin = FrameChain(self.slots)
+        twin._frames = dict(self._frames)
+        return twin

@@ -1,0 +1,85 @@
+"""Where lines and circles meet: the corners of equidistants and the centres of roundings.
+
+An element is given by a point ``q`` (n, 2) on it, its unit tangent ``t`` (n, 2) there, and for a circle its centre
+``c`` (n, 2) and radius ``r`` (n,); ``r`` is nan for a line. Lengths in mm.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Element(NamedTuple):
+    """Lines and circles, n of them."""
+
+    q: Array
+    t: Array
+    c: Array
+    r: Array
+
+    def __getitem__(self, index: object) -> Element:  # type: ignore[override]
+        return Element(*(field[index] for field in tuple(self)))  # type: ignore[index]
+
+
+def cross(a: Array, b: Array) -> Array:
+    """The z component of a x b for vectors (..., 2)."""
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def dot(a: Array, b: Array) -> Array:
+    """The scalar product along the last axis."""
+    return (a * b).sum(axis=-1)
+
+
+def left(v: Array) -> Array:
+    """Vectors (..., 2) turned by +90 degrees."""
+    return np.stack([-v[..., 1], v[..., 0]], axis=-1)
+
+
+def meet(first: Element, second: Element, near: Array) -> Array:
+    """The common point (n, 2) of two elements that lies nearer to ``near`` (n, 2); nan where there is none."""
+    found = np.full(near.shape, np.nan)
+    circle1, circle2 = ~np.isnan(first.r), ~np.isnan(second.r)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for mask, solve in (
+            (~circle1 & ~circle2, _lines),
+            (~circle1 & circle2, _line_circle),
+            (circle1 & ~circle2, lambda a, b, p: _line_circle(b, a, p)),
+            (circle1 & circle2, _circles),
+        ):
+            if mask.any():
+                found[mask] = solve(first[mask], second[mask], near[mask])
+    return found
+
+
+def _lines(a: Element, b: Element, _: Array) -> Array:
+    return a.q + (cross(b.q - a.q, b.t) / cross(a.t, b.t))[:, None] * a.t
+
+
+def _line_circle(line: Element, circle: Element, near: Array) -> Array:
+    # with h = t x (C - q) and l0 = (C - q) . t the points lie at q + (l0 ± sqrt(r² - h²)) t
+    away = circle.c - line.q
+    h, l0 = cross(line.t, away), dot(away, line.t)
+    reach = np.sqrt((circle.r - h) * (circle.r + h))[:, None]
+    foot = line.q + l0[:, None] * line.t
+    return _nearer(foot - reach * line.t, foot + reach * line.t, near)
+
+
+def _circles(a: Element, b: Element, near: Array) -> Array:
+    d = b.c - a.c
+    distance = np.hypot(d[:, 0], d[:, 1])
+    along = (distance + (a.r - b.r) * (a.r + b.r) / distance) / 2
+    unit = d / distance[:, None]
+    foot = a.c + along[:, None] * unit
+    reach = np.sqrt((a.r - along) * (a.r + along))[:, None]
+    return _nearer(foot - reach * left(unit), foot + reach * left(unit), near)
+
+
+def _nearer(p: Array, q: Array, near: Array) -> Array:
+    closer = np.hypot(*(p - near).T) <= np.hypot(*(q - near).T)
+    return np.where(closer[:, None], p, q)

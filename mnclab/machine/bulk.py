@@ -1,0 +1,276 @@
+"""Runs of plain blocks, obeyed at once.
+
+Programs from a CAM system are long runs of plain motion: axis words, a feed now and then, arcs. Here such a run becomes
+columns: modal words are filled forward, increments summed, one matrix takes all points to the machine, arcs are vector
+formulas. The one-by-one tier is the definition; this one must give the same rows, history and final state.
+
+A block that would raise an alarm or a remark ends the run *before* it and goes to the other tier, which words it: one
+text for one fault. The pieces grow while all is well and start small again after such a block.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry import frames
+from mnclab.geometry.arcs import centre_from_radius, sweep
+from mnclab.path.kinds import Kind
+from mnclab.text.program import Program
+
+if TYPE_CHECKING:
+    from mnclab.machine.control import Control
+    from mnclab.machine.machine import Machine
+
+SHORTEST, LARGEST = 32, 1 << 15  # blocks obeyed at once: below, one by one is faster; above, the cache is lost
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class PlainWords:
+    """How a control reads its plain blocks.
+
+    ``motions`` maps the value of a G word to the code of its motion and its sense (0 rapid, 1 line, ±2 arcs, sign as in
+    +2 counter-clockwise); a control without such words has one entry, None. ``neutral`` addresses change nothing.
+    ``ready`` says whether plain words mean plain motion now, ``absolute`` whether positions are absolute.
+    """
+
+    motions: Mapping[float | None, tuple[str, int]]
+    ready: Callable[[Machine], bool]
+    absolute: Callable[[Machine], bool] = lambda m: True
+    keyword: str = ""
+    neutral: tuple[str, ...] = ()
+    tolerance: Callable[[Machine], float] = lambda m: 0.01
+
+
+class _Columns(NamedTuple):
+    """The words of a run by address (n,), nan where not written."""
+
+    by_address: dict[str, Array]
+
+    def __getitem__(self, address: str) -> Array:  # type: ignore[override]
+        return self.by_address[address]
+
+
+@dataclass
+class _Run:
+    """A run worked out: what its rows are, and where it must stop."""
+
+    points: Array  # (n + 1, 3) programmed
+    tips: Array  # (n + 1, 3) machine
+    motion: NDArray[np.int64]  # (n,) sense codes
+    feed: Array  # (n,) modal feed after each block
+    moves: Mask
+    fault: Mask
+    centre: Array
+    angle: Array
+    arc: Mask = field(default_factory=lambda: np.zeros(0, dtype=bool))
+
+
+class Bulk:
+    """Finds and obeys the runs of one program."""
+
+    def __init__(self, control: Control, machine: Machine, program: Program, faulty: set[int]) -> None:
+        self.rule: PlainWords | None = control.bulk
+        self.machine, self.program, self.group = machine, program, control.motion
+        self.enabled = self.rule is not None and machine.settings.get("bulk", True)
+        self.not_before, self.size = 0, SHORTEST
+        if self.rule is None:
+            return
+        plain = program.plain.copy()
+        plain[list(faulty)] = False
+        if self.rule.keyword and self.rule.keyword in program.keywords:
+            plain &= program.keyword == program.keywords.index(self.rule.keyword)
+        self.breaks = np.append(np.flatnonzero(~plain), len(program))
+        self.enabled = self.enabled and len(program) - len(self.breaks) + 1 >= SHORTEST
+        self.codes = {value: code for value, (code, _) in self.rule.motions.items()}
+        self.senses = {code: sense for code, sense in self.rule.motions.values()}
+        self.next_break = int(self.breaks[0])
+
+    def obey(self, first: int, stop: int) -> int:
+        """Obey the plain blocks from ``first`` on; how many were, 0 if that one goes to the other tier."""
+        if not self.enabled or first < self.not_before:
+            return 0
+        if first > self.next_break or self.next_break - first < SHORTEST:
+            self.next_break = int(self.breaks[np.searchsorted(self.breaks, first)])
+        end = min(self.next_break, stop, first + self.size)
+        if end - first < SHORTEST:
+            self.not_before = end if self.next_break > first else first + 1
+            return 0
+        rule = self.rule
+        assert rule is not None
+        if self.machine.position_cycle or self.machine.per_rev or not rule.ready(self.machine):
+            return 0
+        run = self.work_out(first, end)
+        good = int(np.argmax(run.fault)) if run.fault.any() else end - first
+        if good:
+            self.commit(run, first, good)
+        if good < end - first:
+            self.not_before, self.size = first + good + 1, SHORTEST
+        else:
+            self.size = min(2 * self.size, LARGEST)
+        return good
+
+    # --- what the run is ------------------------------------------------------------------------------------------------
+
+    def columns(self, first: int, end: int) -> _Columns:
+        """The words of the blocks by address."""
+        program, n = self.program, end - first
+        a, b = int(program.first[first]), int(program.first[end])
+        block = np.repeat(np.arange(n), np.diff(program.first[first : end + 1]))
+        address, value = program.address[a:b], program.value[a:b]
+        found = {}
+        for name in "GXYZIJKRF":
+            column = np.full(n, np.nan)
+            if name in program.addresses:
+                mine = address == program.addresses.index(name)
+                column[block[mine]] = value[mine]
+            found[name] = column
+        return _Columns(found)
+
+    def work_out(self, first: int, end: int) -> _Run:
+        """Everything about the blocks [first, end), faults included."""
+        machine, rule = self.machine, self.rule
+        assert rule is not None
+        words, n = self.columns(first, end), end - first
+        axes = np.stack([words["X"], words["Y"], words["Z"]], axis=1)
+        written = ~np.isnan(axes)
+
+        points = np.empty((n + 1, 3))
+        points[0] = machine.programmed
+        if rule.absolute(machine):
+            points[1:] = axes
+            points = _filled(points)
+        else:
+            points[1:] = np.where(written, axes, 0.0)
+            points = np.cumsum(points, axis=0)
+        tips = points + np.array(machine._shift) if machine._shift is not None else frames.apply(machine._matrix, points)
+
+        feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
+        motion, unknown = self.motions(words["G"], n)
+        centred = ~np.isnan(np.stack([words["I"], words["J"], words["K"]], axis=1))
+        by_radius = ~np.isnan(words["R"])
+        shaped = centred.any(axis=1) | by_radius
+        arc = (np.abs(motion) == 2) & shaped
+        moves = written.any(axis=1) | arc
+
+        fault = unknown | (words["F"] <= 0) | (moves & (motion != 0) & np.isnan(feed)) | (shaped & (np.abs(motion) != 2))
+        run = _Run(points, tips, motion, feed, moves, fault, np.full((n, 3), np.nan), np.zeros(n), arc)
+        if arc.any():
+            self.arcs(run, words, centred, by_radius)
+        still = (tips[1:] == tips[:-1]).all(axis=1) & ~arc
+        run.moves = moves & ~still
+        return run
+
+    def motions(self, g: Array, n: int) -> tuple[NDArray[np.int64], Mask]:
+        """The sense of each block's motion, and which G words are none."""
+        active = self.machine.modal.get(self.group, "")
+        if None in self.codes:
+            return np.full(n, self.senses[self.codes[None]]), ~np.isnan(g)
+        known = [value for value in self.codes if value is not None]
+        unknown = ~np.isnan(g) & ~np.isin(g, known)
+        start = next((value for value in known if self.codes[value] == active), np.nan)
+        filled = _filled(np.concatenate([[start], g]))[1:]
+        sense = np.zeros(n, dtype=np.int64)
+        for value in known:
+            sense[filled == value] = self.senses[self.codes[value]]
+        return sense, unknown | np.isnan(filled)
+
+    def arcs(self, run: _Run, words: _Columns, centred: NDArray[np.bool_], by_radius: Mask) -> None:
+        """Centres and sweeps of the arcs; what is doubtful is a fault."""
+        from mnclab.machine.machine import PLANES
+
+        machine, rule = self.machine, self.rule
+        assert rule is not None
+        first, second, normal = PLANES[machine.plane]
+        k = np.flatnonzero(run.arc)
+        s, e = run.points[k][:, [first, second]], run.points[k + 1][:, [first, second]]
+        sense = np.sign(run.motion[k])
+        radius = words["R"][k]
+        round_ = by_radius[k]
+        offset = np.nan_to_num(np.stack([words["IJK"[first]][k], words["IJK"[second]][k]], axis=1))
+        c, shortage = centre_from_radius(s, e, np.where(round_, radius, 1.0), sense)
+        c = np.where(round_[:, None], c, s + offset)
+        at_start, at_end = np.hypot(*(s - c).T), np.hypot(*(e - c).T)
+        chord = np.hypot(*(e - s).T)
+        run.fault[k] |= np.where(
+            round_,
+            (shortage > 1e-4) | (chord < 1e-3) | (radius == 0) | centred[k].any(axis=1),
+            (at_start < 1e-9) | (np.abs(at_start - at_end) > rule.tolerance(machine)) | centred[k, normal],
+        )
+        run.fault[k] |= run.points[k, normal] != run.points[k + 1, normal]  # a helix: the other tier remarks on it
+        angle = sweep(s, e, c, sense)
+        centre = run.points[k].copy()
+        centre[:, normal] = run.points[k + 1, normal]
+        centre[:, [first, second]] = c
+        if machine._shift is None:
+            run.fault[k] = True  # turned planes are rare: one by one
+        else:
+            centre = centre + np.array(machine._shift)
+        run.centre[k], run.angle[k] = centre, angle
+
+    # --- doing it -------------------------------------------------------------------------------------------------------
+
+    def commit(self, run: _Run, first: int, count: int) -> None:
+        """Make the rows, the history and the state of the first ``count`` blocks."""
+        machine = self.machine
+        step = machine.flow.begin_many(first, count)
+        steps = np.arange(step, step + count)
+        before = machine.step
+        machine.step = step + count - 1
+        moved = np.flatnonzero(run.moves[:count])
+        if len(moved):
+            motion = run.motion[moved]
+            kind = np.where(motion == 0, Kind.RAPID, np.where(run.arc[moved], Kind.ARC, Kind.LINE))
+            machine.recorder.bulk(
+                {
+                    "kind": kind,
+                    "line": self.program.line_of(first + moved),
+                    "step": steps[moved],
+                    "end": run.tips[moved + 1],
+                    "centre": run.centre[moved],
+                    "sweep": run.angle[moved],
+                    "feed": np.where(motion == 0, np.inf, run.feed[moved]),
+                    "state": np.full(len(moved), machine.state()),
+                }
+            )
+        self.log(run, steps, count, before)
+        machine.programmed = tuple(run.points[count].tolist())  # type: ignore[assignment]
+        machine.tip = tuple(run.tips[count].tolist())  # type: ignore[assignment]
+        machine.source_line = int(self.program.line_of(first + count - 1))
+
+    def log(self, run: _Run, steps: NDArray[np.int64], count: int, before: int) -> None:
+        """Changes of position, feed and motion, step by step."""
+        machine, history = self.machine, self.machine.recording
+        changed = np.flatnonzero((run.points[1 : count + 1] != run.points[:count]).any(axis=1))
+        history.extend("position", steps[changed], run.points[changed + 1])
+
+        feed = run.feed[:count]
+        start = np.nan if machine.feed is None else machine.feed
+        changed = np.flatnonzero(~np.isnan(feed) & (feed != np.concatenate([[start], feed[:-1]])))
+        if len(changed):
+            history.extend("feed", steps[changed], feed[changed])
+            machine.feed = float(feed[-1])
+            machine._state = None
+
+        names = {sense: code for code, sense in self.senses.items()}
+        if self.group and None not in self.codes:
+            active = self.senses.get(machine.modal.get(self.group, ""), 99)
+            motion = run.motion[:count]
+            changed = np.flatnonzero(motion != np.concatenate([[active], motion[:-1]]))
+            if len(changed):
+                history.extend(self.group, steps[changed], [names[int(m)] for m in motion[changed]])
+                machine.modal[self.group] = names[int(motion[-1])]
+
+
+def _filled(column: Array) -> Array:
+    """The last value that is not nan, going down the rows (n,) or (n, k)."""
+    index = np.where(np.isnan(column), 0, np.arange(len(column)).reshape(-1, *[1] * (column.ndim - 1)))
+    index = np.maximum.accumulate(index, axis=0)
+    return np.take_along_axis(column, index, axis=0)

@@ -1,0 +1,169 @@
+"""A control: a reader, its functions, its cycles, the order inside a block, its settings.
+
+Functions register themselves in a :class:`FunctionTable`; the table *is* the help. ``group`` gives modality: functions
+of one group replace each other and only one may stand in a block. ``takes`` names the addresses that a function uses
+in its block; the interpreter hands out the words and refuses those that nobody takes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from html import escape
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from mnclab.text.program import Program, Word
+
+if TYPE_CHECKING:
+    from mnclab.machine.cycle import CycleTable
+    from mnclab.machine.machine import Machine
+    from mnclab.machine.setup import Setting
+    from mnclab.path.compensation import Compensation
+
+Obey = Callable[["Machine", "Words"], None]
+AnyObey = TypeVar("AnyObey", bound=Callable[..., None])
+Reader = Callable[[str, str], Program]
+
+
+class Words(Mapping[str, Word]):
+    """The words handed to a function: the word that called it, and those it takes. ``words["X"]`` is the first X."""
+
+    def __init__(self, words: tuple[Word, ...], code: str = "") -> None:
+        self.words, self.code = words, code
+
+    def __getitem__(self, address: str) -> Word:
+        for word in self.words:
+            if word.address == address:
+                return word
+        raise KeyError(address)
+
+    def all(self, address: str) -> list[Word]:
+        """Every word of an address, in the order written."""
+        return [word for word in self.words if word.address == address]
+
+    def __iter__(self) -> Any:
+        return iter(dict.fromkeys(word.address for word in self.words))
+
+    def __len__(self) -> int:
+        return len(self.words)
+
+
+@dataclass(frozen=True)
+class Function:
+    """A preparatory, auxiliary or word function of a control.
+
+    ``moves``: belongs to the motion of the block, and runs for later blocks while it is modal. ``still``: a block with it
+    moves nothing. ``reads``: addresses that count as motion only together with the function itself in the block.
+    """
+
+    code: str
+    title: str
+    obey: Obey
+    group: str | None = None
+    phase: str = "motion"
+    takes: tuple[str, ...] = ()
+    power_on: bool = False
+    modal: bool = True
+    moves: bool = False
+    still: bool = False
+    ends_cycle: bool = False
+    source: str = ""
+    doc: str = ""
+
+
+class FunctionTable(dict[str, Function]):
+    """Functions by code; calling it decorates the function that obeys these codes."""
+
+    def __call__(
+        self,
+        codes: str,
+        title: str | Mapping[str, str],
+        *,
+        group: str | None = None,
+        phase: str = "motion",
+        takes: str = "",
+        power_on: str = "",
+        modal: bool = True,
+        moves: bool = False,
+        still: bool = False,
+        ends_cycle: bool = False,
+        source: str = "",
+    ) -> Callable[[AnyObey], AnyObey]:
+        """Register one function for several codes (separated by commas or blanks); ``title`` may differ by code."""
+
+        def register(obey: AnyObey) -> AnyObey:
+            split = codes.split(",") if "," in codes else codes.split()
+            for code in (part.strip() for part in split):
+                self[code] = Function(
+                    code=code,
+                    title=title if isinstance(title, str) else title[code],
+                    obey=obey,
+                    group=group,
+                    phase=phase,
+                    takes=tuple(takes.split()),
+                    power_on=code in power_on.split(),
+                    modal=modal,
+                    moves=moves,
+                    still=still,
+                    ends_cycle=ends_cycle,
+                    source=source,
+                    doc=(obey.__doc__ or "").strip(),
+                )
+            return obey
+
+        return register
+
+    def __or__(self, other: Mapping[str, Function]) -> FunctionTable:  # type: ignore[override]
+        return FunctionTable({**self, **other})
+
+    def without(self, *codes: str) -> FunctionTable:
+        """The table less some codes."""
+        return FunctionTable({code: function for code, function in self.items() if code not in codes})
+
+
+@dataclass(frozen=True)
+class Control:
+    """A control as one value; nothing is inherited, two controls that agree share a function.
+
+    ``codes`` are the addresses whose value makes a code (G and M); ``motion`` is the group whose modal function runs when
+    axis words are left over; ``storage`` says where cycle parameters live until the call ("instance" or "variables").
+    ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so.
+    """
+
+    name: str
+    title: str
+    read: Reader
+    functions: FunctionTable
+    cycles: CycleTable
+    phases: tuple[str, ...]
+    suffixes: tuple[str, ...] = ()
+    axes: str = "XYZ"
+    codes: tuple[str, ...] = ("G", "M")
+    motion: str = "motion"
+    settings: tuple[Setting, ...] = ()
+    storage: str = "instance"
+    frames: tuple[str, ...] = ()
+    compensation: Compensation | None = None
+    start: Callable[[Machine], None] | None = None
+    finish: Callable[[Machine], None] | None = None
+    looks_like: Callable[[str], bool] | None = None
+    refused: Mapping[str, str] = field(default_factory=dict)
+    bulk: Any = None
+    lathe: bool = False
+
+    def power_on(self) -> dict[str, str]:
+        """The modal state at the start: group -> code."""
+        return {f.group: f.code for f in self.functions.values() if f.group and f.power_on}
+
+    def __repr__(self) -> str:
+        return f"<Control {self.name}: {self.title}; {len(self.functions)} functions, {len(self.cycles)} cycles>"
+
+    def _repr_html_(self) -> str:
+        def row(code: str, title: str, group: str, on: str, source: str) -> str:
+            cells = (f"<code>{escape(code)}</code>", escape(title), escape(group), on, escape(source))
+            return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+
+        rows = [row(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.functions.values()]
+        rows += [row(code, cycle.title, "cycle", "", cycle.source) for code, cycle in self.cycles.items()]
+        head = "<tr><th>code</th><th>title</th><th>group</th><th>at power-on</th><th>source</th></tr>"
+        return f"<h4>{escape(self.title)}</h4><table>{head}{''.join(rows)}</table>"

@@ -1,0 +1,238 @@
+"""How a cycle declares itself, once: from its class come binding, checks, the help table, the form and tests.
+
+A defined cycle is a :class:`Definition` (values and the words they came from); it is *bound* to a frozen instance of
+its class when it is called, and checked there. ``runs`` says when: "definition" (as soon as it is read), "call" (by M99,
+CYCL CALL, …) or "position" (at each following position while it is active).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import MISSING, dataclass, field, fields
+from html import escape
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+
+from mnclab.text.alarm import Alarm
+from mnclab.text.program import Word
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One address of a cycle: what it means and what is allowed. ``meaning`` is a short noun phrase; alarms quote it."""
+
+    address: str
+    meaning: str
+    unit: str
+    name: str = ""
+    aliases: tuple[str, ...] = ()
+    required: bool = False
+    default: Any = None
+    default_means: str = ""
+    choices: Mapping[float, str] | None = None
+    above: float | None = None
+    at_least: float | None = None
+    below: float | None = None
+    at_most: float | None = None
+    incremental: bool = False
+    modal: bool = False
+    instead: str = ""
+    also: tuple[str, ...] = ()
+    type: str = "number"
+    predef: bool = False
+    note: str = ""
+
+    @property
+    def allowed(self) -> str:
+        """The limits in words, empty when any number is allowed."""
+        if self.choices:
+            return "one of " + ", ".join(f"{choice:g}" for choice in self.choices)
+        parts = [
+            f"{words} {limit:g}"
+            for words, limit in (
+                ("greater than", self.above),
+                ("at least", self.at_least),
+                ("less than", self.below),
+                ("at most", self.at_most),
+            )
+            if limit is not None
+        ]
+        if self.type == "integer":
+            parts.insert(0, "a whole number")
+        return " and ".join(parts)
+
+    def refuses(self, value: float) -> bool:
+        """Whether a number is outside what is allowed."""
+        return (
+            (self.choices is not None and value not in self.choices)
+            or (self.above is not None and not value > self.above)
+            or (self.at_least is not None and not value >= self.at_least)
+            or (self.below is not None and not value < self.below)
+            or (self.at_most is not None and not value <= self.at_most)
+            or (self.type == "integer" and value != int(value))
+        )
+
+
+def param(
+    address: str | tuple[str, ...],
+    meaning: str,
+    unit: str = "mm",
+    *,
+    default: Any = MISSING,
+    default_means: str = "",
+    choices: Mapping[float, str] | None = None,
+    above: float | None = None,
+    at_least: float | None = None,
+    below: float | None = None,
+    at_most: float | None = None,
+    incremental: bool = False,
+    modal: bool = False,
+    instead: str = "",
+    also: tuple[str, ...] = (),
+    type: str = "number",
+    predef: bool = False,
+    note: str = "",
+) -> Any:
+    """Declare one parameter of a cycle in one line of its class.
+
+    No ``default`` means required, unless ``instead`` of it another is given (a parameter by its name); ``default_means`` says in words what a
+    default of None stands for. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …).
+    """
+    first, *others = (address,) if isinstance(address, str) else address
+    required = default is MISSING
+    declared = Parameter(
+        first, meaning, unit, "", tuple(others), required, None if required else default, default_means, choices, above,
+        at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note,
+    )  # fmt: skip
+    return field(default=declared.default, kw_only=True, metadata={"parameter": declared})
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """A cycle bound to its values. Subclasses declare parameters, :meth:`check` what joins several, and :meth:`moves`."""
+
+    code: ClassVar[str] = ""
+    title: ClassVar[str] = ""
+    runs: ClassVar[str] = "call"
+    source: ClassVar[str] = ""
+    triggers: ClassVar[tuple[str, ...]] = ()
+    """Addresses that run a "position" cycle in a later block."""
+
+    @classmethod
+    def parameters(cls) -> tuple[Parameter, ...]:
+        """The declared parameters, in order."""
+        declared = []
+        for item in fields(cls):
+            if "parameter" in item.metadata:
+                parameter: Parameter = item.metadata["parameter"]
+                declared.append(Parameter(**{**parameter.__dict__, "name": item.name}))
+        return tuple(declared)
+
+    @classmethod
+    def prepare(cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]) -> dict[str, Any]:
+        """Turn what a block wrote into what stays; for cycles that resolve levels when they are programmed.
+
+        ``kept`` lives as long as the cycle is active.
+        """
+        return values
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """Faults that join several parameters, as (name of the parameter to mark, sentence)."""
+        yield from ()
+
+    def moves(self, m: Machine) -> None:
+        """The motion of the cycle, in verbs of the machine."""
+
+
+AnyCycle = TypeVar("AnyCycle", bound=type[Cycle])
+
+
+class CycleTable(dict[str, type[Cycle]]):
+    """Cycles by code; calling it decorates the class of one."""
+
+    def __call__(
+        self, codes: str, title: str, *, runs: str = "call", source: str = "", triggers: str = ""
+    ) -> Callable[[AnyCycle], AnyCycle]:
+        """Register a cycle under its code; further codes, after commas, are aliases."""
+        first, *aliases = (code.strip() for code in codes.split(","))
+
+        def register(cls: AnyCycle) -> AnyCycle:
+            frozen: Any = dataclass(frozen=True)(cls)
+            frozen.code, frozen.title, frozen.runs, frozen.source = first, title, runs, source
+            frozen.triggers = tuple(triggers.split())
+            for code in (first, *aliases):
+                self[code] = frozen
+            return frozen
+
+        return register
+
+    def __or__(self, other: Mapping[str, type[Cycle]]) -> CycleTable:  # type: ignore[override]
+        return CycleTable({**self, **other})
+
+
+@dataclass
+class Definition:
+    """A cycle as a program defined it: values by parameter name, and the words they came from."""
+
+    cycle: type[Cycle]
+    code: str
+    values: dict[str, Any]
+    words: dict[str, Word]
+    head: Word | None
+    extra: dict[str, Any] = field(default_factory=dict)
+
+
+def bind(definition: Definition, m: Machine) -> Cycle:
+    """The frozen cycle with its values, or an Alarm at the word that is wrong (or at the cycle's own word)."""
+    cycle, values = definition.cycle, {}
+    for parameter in cycle.parameters():
+        value = definition.values.get(parameter.name)
+        if value is None and parameter.required and definition.values.get(parameter.instead) is None:
+            others = {p.name: p.address for p in cycle.parameters()}
+            neither = f", and so is {others[parameter.instead]}" if parameter.instead else ""
+            raise fault(definition, parameter, f"is missing{neither}")
+        if value is None:
+            value = parameter.default
+        elif isinstance(value, int | float) and parameter.refuses(value):
+            raise fault(definition, parameter, f"must be {parameter.allowed}, got {value:g}")
+        values[parameter.name] = value
+    bound = cycle(**values)
+    for name, sentence in bound.check(m):
+        named = next((p for p in cycle.parameters() if p.name == name), None)
+        raise fault(definition, named, sentence)
+    return bound
+
+
+def fault(definition: Definition, parameter: Parameter | None, sentence: str) -> Alarm:
+    """An alarm that names code, address and meaning, at the word or, when it is missing, at the cycle's own word."""
+    word = definition.words.get(parameter.name) if parameter else None
+    word = word or definition.head
+    name = f" {parameter.address} ({parameter.meaning})" if parameter else ""
+    return Alarm(f"{definition.code}{name} {sentence}", word.span if word else None)
+
+
+def help_table(cycle: type[Cycle]) -> str:
+    """The parameter table of a cycle as text."""
+    rows = [("address", "meaning", "unit", "allowed", "default")]
+    for p in cycle.parameters():
+        default = "required" if p.required else p.default_means or ("" if p.default is None else f"{p.default:g}")
+        rows.append((p.address, p.meaning, p.unit, p.allowed, default))
+    widths = [max(len(row[k]) for row in rows) for k in range(5)]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    lines.insert(1, "  ".join("-" * width for width in widths))
+    return "\n".join([f"{cycle.code}  {cycle.title}  ({cycle.source})", (cycle.__doc__ or "").strip(), "", *lines])
+
+
+def help_html(cycle: type[Cycle]) -> str:
+    """The parameter table of a cycle as HTML."""
+    rows = []
+    for p in cycle.parameters():
+        default = "required" if p.required else p.default_means or ("" if p.default is None else f"{p.default:g}")
+        choices = "; ".join(f"{k:g} {v}" for k, v in (p.choices or {}).items())
+        cells = (f"<code>{p.address}</code>", escape(p.meaning), p.unit, escape(choices or p.allowed), escape(default), escape(p.note))
+        rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
+    head = "".join(f"<th>{name}</th>" for name in ("address", "meaning", "unit", "allowed", "default", "note"))
+    about = f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4><p>{escape(cycle.__doc__ or '')} ({escape(cycle.source)})</p>"
+    return f"{about}<table><tr>{head}</tr>{''.join(rows)}</table>"

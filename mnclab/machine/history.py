@@ -1,0 +1,124 @@
+"""What changed at each step: a log per name, looked up by ``searchsorted``.
+
+A *step* is one execution of a block; a loop runs a block many times, each a step of its own. Names are modal groups
+("motion", "plane"), values ("feed", "speed", "spindle", "tool"), "position" (the programmed point), variables ("Q5"),
+measured values and table rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Log:
+    """Changes of one name: steps (k,) in rising order, and the values from there on."""
+
+    __slots__ = ("_chunks", "steps", "values")
+
+    def __init__(self) -> None:
+        self.steps: list[int] = []
+        self.values: list[Any] = []
+        self._chunks: list[tuple[NDArray[np.int64], Sequence[Any]]] = []
+
+    def add(self, step: int, value: Any) -> None:
+        """The value changed at a step."""
+        if self.steps and self.steps[-1] == step:
+            self.values[-1] = value
+        else:
+            self.steps.append(step)
+            self.values.append(value)
+
+    def extend(self, steps: NDArray[np.int64], values: Sequence[Any]) -> None:
+        """Changes of many steps at once."""
+        if len(steps):
+            self._chunks += [(np.array(self.steps, dtype=np.int64), self.values), (steps, values)]
+            self.steps, self.values = [], []
+
+    def close(self, last: int) -> tuple[NDArray[np.int64], list[Any] | NDArray[Any]]:
+        """All changes up to step ``last``."""
+        chunks = [chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])]
+        if not chunks:
+            return np.empty(0, dtype=np.int64), []
+        steps = np.concatenate([chunk[0] for chunk in chunks])
+        keep = int(np.searchsorted(steps, last, "right"))
+        if len(chunks) == 1:
+            return steps[:keep], chunks[0][1][:keep]
+        if any(isinstance(chunk[1], np.ndarray) for chunk in chunks):
+            return steps[:keep], np.concatenate([np.asarray(chunk[1]) for chunk in chunks])[:keep]
+        return steps[:keep], [value for chunk in chunks for value in chunk[1]][:keep]
+
+
+class Recording:
+    """The logs while a program runs."""
+
+    def __init__(self) -> None:
+        self.logs: dict[str, Log] = {}
+
+    def add(self, name: str, step: int, value: Any) -> None:
+        """A name has a new value from this step on."""
+        log = self.logs.get(name)
+        if log is None:
+            log = self.logs[name] = Log()
+        log.add(step, value)
+
+    def extend(self, name: str, steps: NDArray[np.int64], values: Sequence[Any]) -> None:
+        """New values at many steps."""
+        self.logs.setdefault(name, Log()).extend(steps, values)
+
+
+class History(Mapping[str, Any]):
+    """What was active at each step of a run. ``history["feed"]`` is one value per step, ``history.at(step)`` a dict."""
+
+    def __init__(self, recording: Recording, steps: int) -> None:
+        self.steps = steps
+        self._logs = {name: log.close(steps - 1) for name, log in recording.logs.items()}
+        self._logs = {name: log for name, log in self._logs.items() if len(log[0])}
+
+    def __getitem__(self, name: str) -> list[Any] | NDArray[Any]:
+        """One value per step; None before the first."""
+        at, values = self._logs[name]
+        index = np.searchsorted(at, np.arange(self.steps), "right") - 1
+        if isinstance(values, np.ndarray) and (index >= 0).all():
+            return values[index]
+        return [values[i] if i >= 0 else None for i in index]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._logs)
+
+    def __len__(self) -> int:
+        return len(self._logs)
+
+    def value(self, name: str, step: int) -> Any:
+        """What ``name`` was after a step; None if it had no value yet."""
+        if name not in self._logs:
+            return None
+        at, values = self._logs[name]
+        index = int(np.searchsorted(at, step, "right")) - 1
+        return _plain(values[index]) if index >= 0 else None
+
+    def at(self, step: int) -> dict[str, Any]:
+        """Everything that had a value after a step."""
+        return {name: value for name in self._logs if (value := self.value(name, step)) is not None}
+
+    def changes(self, step: int) -> dict[str, Any]:
+        """What this step changed."""
+        found = {}
+        for name, (at, values) in self._logs.items():
+            index = int(np.searchsorted(at, step, "right")) - 1
+            if index >= 0 and at[index] == step:
+                found[name] = _plain(values[index])
+        return found
+
+    def __repr__(self) -> str:
+        return f"<History: {self.steps} steps, {len(self._logs)} names>"
+
+
+def _plain(value: Any) -> Any:
+    """A numpy value as a plain one; a point as a tuple."""
+    if isinstance(value, np.ndarray):
+        return tuple(value.tolist())
+    return value.item() if isinstance(value, np.generic) else value

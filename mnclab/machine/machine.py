@@ -1,0 +1,501 @@
+"""The machine: the only thing that changes while a program runs.
+
+Functions and cycles speak to it in verbs, in coordinates of the program (mm, mm/min, rev/min, degrees, seconds). It keeps two
+points: :attr:`Machine.programmed`, the register in program coordinates before any compensation, and :attr:`Machine.tip`,
+the same point in machine coordinates. A change of frame says which of the two it keeps.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+
+import numpy as np
+
+from mnclab.geometry import frames
+from mnclab.geometry.arcs import centre_from_radius, sweep
+from mnclab.geometry.frames import FrameChain, Matrix
+from mnclab.machine.history import Recording
+from mnclab.machine.setup import Datum, Setup, Tables
+from mnclab.path import compensation, corners
+from mnclab.path.fault import PathFault
+from mnclab.path.kinds import Kind
+from mnclab.path.recorder import NAN, Recorder, State, join
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.text.alarm import WARNING, Alarm, Span
+from mnclab.text.expression import Expression
+from mnclab.text.program import Program, Word
+from mnclab.workpiece.part import contact
+
+if TYPE_CHECKING:
+    from mnclab.machine.calls import Flow
+    from mnclab.machine.control import Control
+    from mnclab.machine.cycle import Definition
+
+INF = math.inf
+PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0)}  # first axis, second axis, normal
+_AXES = {plane: tuple(float(k == n) for k in range(3)) for plane, (_, _, n) in PLANES.items()}
+
+
+class Touch(NamedTuple):
+    """What a probe found: the contact of its ball's centre, in program and in machine coordinates."""
+
+    point: tuple[float, float, float]
+    machine_point: tuple[float, float, float]
+    hit: bool
+
+
+class Variables(dict[str, float]):
+    """Q parameters and the like; every change is logged."""
+
+    def __init__(self, machine: Machine) -> None:
+        super().__init__()
+        self._machine = machine
+
+    def __setitem__(self, name: str, value: float) -> None:
+        super().__setitem__(name, value)
+        self._machine.log(name, value)
+
+
+class Measured(dict[str, Any]):
+    """What probing found; every value is logged."""
+
+    def __init__(self, machine: Machine) -> None:
+        super().__init__()
+        self._machine = machine
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        super().__setitem__(name, value)
+        self._machine.log(f"measured {name}", value)
+
+
+class Machine:
+    """Position, frames, modal state, tool, spindle and feed; verbs that turn them into rows of a path."""
+
+    def __init__(self, control: Control, setup: Setup) -> None:
+        self.control, self.setup, self.tables = control, setup, Tables(setup)
+        self.settings: dict[str, Any] = {s.name: s.default for s in control.settings} | dict(setup.settings)
+        self.flow: Flow  # set by the interpreter
+        self.alarms: list[Alarm] = []
+        self.recording = Recording()
+        self.step, self.source_line, self.program = -1, 0, 0
+        self.steps_block: list[Any] = []
+        self.ended = False
+
+        self.tip: tuple[float, float, float] = tuple(map(float, setup.start))  # type: ignore[assignment]
+        self.programmed: tuple[float, float, float] = self.tip
+        self.frames = FrameChain(control.frames)
+        self._matrix: Matrix = frames.IDENTITY
+        self._shift: tuple[float, float, float] | None = (0.0, 0.0, 0.0)
+        self.origin: tuple[float, float, float] | None = None
+
+        self.modal: dict[str, str] = {}
+        self.variables = Variables(self)
+        self.measured = Measured(self)
+        self.plane = "XY"
+        self.feed: float | None = None
+        self.per_rev = False
+        self.speed, self.turning = 0.0, 0  # S, and +1, -1, 0 for M3, M4, M5
+        self.tool: Tool = self.tables.tools[0]
+        self.side, self.corner_rule = 0, 0
+        self.exact, self.exact_here, self.synchronous = False, False, False
+        self.rotary = (0.0, 0.0, 0.0)
+        self.label = ""
+        self.cycle: Definition | None = None
+        self.position_cycle: Definition | None = None
+        self.pole: tuple[float, float] | None = None
+        self.memory: dict[str, Any] = {}  # what a control keeps beside the common state
+
+        self.recorder = Recorder(self.tip)
+        self.programmed_pieces: list[Toolpath] = []
+        self.settled: list[Toolpath] = []
+        self.cut: int | None = None  # the step of a fault found in a pass: nothing from there on counts
+        self._state: int | None = None
+        self.log("position", self.programmed)
+
+    # --- saying what is wrong ----------------------------------------------------------------------------------------
+
+    def alarm(self, message: str, word: Word | Span | None = None, hint: str = "") -> NoReturn:
+        """Stop with an alarm at a word."""
+        raise Alarm(message, self._span(word), hint=hint)
+
+    def warn(self, message: str, word: Word | Span | None = None, hint: str = "") -> None:
+        """Note something doubtful and go on."""
+        self.alarms.append(Alarm(message, self._span(word), WARNING, hint))
+
+    def _span(self, word: Word | Span | None) -> Span | None:
+        span = word.span if isinstance(word, Word) else word
+        return span._replace(program=self.program) if span else self.flow.span_of_step(self.step)
+
+    def message(self, text: str) -> None:
+        """Show a message to the operator: a warning at the block."""
+        self.warn(text)
+
+    # --- values and state --------------------------------------------------------------------------------------------
+
+    def value(self, word: Word) -> float:
+        """The number of a word; expressions are evaluated with the variables as they stand."""
+        value = word.value
+        if isinstance(value, float):
+            return value
+        if isinstance(value, Expression):
+            try:
+                return value.evaluate(self.variables)
+            except Alarm as alarm:
+                alarm.span = alarm.span and alarm.span._replace(program=self.program)
+                raise
+        self.alarm(f"{word.address} needs a number", word)
+
+    def log(self, name: str, value: Any) -> None:
+        """Note a new value of a name in the history."""
+        self.recording.add(name, max(self.step, 0), value)
+
+    def change(self, name: str, value: Any) -> None:
+        """Set an attribute that rows carry (feed, side, plane, …) and note it in the history."""
+        if getattr(self, name) != value:
+            setattr(self, name, value)
+            self._state = None
+            self.log(name, value)
+
+    def set_modal(self, group: str, code: str) -> None:
+        """A function of a group is active from now on."""
+        if self.modal.get(group) != code:
+            self.modal[group] = code
+            self.log(group, code)
+
+    @property
+    def spindle_speed(self) -> float:
+        """rev/min, positive for M3, negative for M4."""
+        return self.speed * self.turning
+
+    @property
+    def radius(self) -> float:
+        """The effective tool radius, signed."""
+        return self.tool.effective_radius
+
+    def state(self) -> int:
+        """The state that rows made now share."""
+        if self._state is None:
+            axis = _AXES[self.plane]
+            if self._shift is None:
+                axis = self._turned_axis()
+            per_rev = self.feed if self.per_rev and self.feed is not None else NAN
+            self._state = self.recorder.state(
+                State(
+                    self.program, axis, self.rotary, per_rev, NAN, self.spindle_speed, self.tool.number, self.radius,
+                    self.side, self.corner_rule, self.exact, self.synchronous,
+                )
+            )  # fmt: skip
+        return self._state
+
+    def _turned_axis(self) -> tuple[float, float, float]:
+        first, second, _ = PLANES[self.plane]
+        u, v = self._matrix[:3, first], self._matrix[:3, second]
+        normal = np.cross(u, v) * (1 if np.linalg.det(self._matrix[:3, :3]) > 0 else -1)
+        x, y, z = (normal / np.linalg.norm(normal)).tolist()
+        return x, y, z
+
+    # --- frames ------------------------------------------------------------------------------------------------------
+
+    def set_frame(self, name: str, matrix: Matrix | None, keep: str = "tip") -> None:
+        """Replace one frame of the chain; ``keep`` "tip" (the program reads the place anew) or "programmed"."""
+        self.frames.set(name, matrix)
+        self._matrix = self.frames.matrix
+        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None  # type: ignore[assignment]
+        self._state = None
+        if keep == "tip":
+            self.read_position()
+        self.log("frame " + name, tuple(map(tuple, (self.frames[name]).tolist())))
+
+    def select_datum(self, datum: Datum, frame: str = "datum") -> None:
+        """Count from a work offset; the first one selected is the origin of the path."""
+        if self.origin is None:
+            self.origin = (datum.x, datum.y, datum.z)
+        self.set_frame(frame, frames.shift(datum.x, datum.y, datum.z))
+
+    def to_machine(self, point: Iterable[float]) -> tuple[float, float, float]:
+        """Program coordinates to machine coordinates."""
+        x, y, z = point
+        if self._shift is not None:
+            dx, dy, dz = self._shift
+            return x + dx, y + dy, z + dz
+        m = self._matrix
+        u, v, w = (m[:3, :3] @ (x, y, z) + m[:3, 3]).tolist()
+        return u, v, w
+
+    def to_program(self, point: Iterable[float]) -> tuple[float, float, float]:
+        """Machine coordinates to program coordinates."""
+        x, y, z = point
+        if self._shift is not None:
+            dx, dy, dz = self._shift
+            return x - dx, y - dy, z - dz
+        u, v, w = frames.apply(frames.inverse(self._matrix), (x, y, z)).tolist()
+        return u, v, w
+
+    def read_position(self) -> None:
+        """Take the register from where the tip stands."""
+        self.programmed = self.to_program(self.tip)
+        self.log("position", self.programmed)
+
+    def write_table(self, table: str, row: int, value: Any) -> None:
+        """Write a row of a table ("tools", "datums", "presets"); the setup stays as it is."""
+        getattr(self.tables, table)[row] = value
+        self.log(f"{table} {row}", value)
+
+    # --- verbs: motion -----------------------------------------------------------------------------------------------
+
+    def target(self, x: float | None, y: float | None, z: float | None) -> tuple[float, float, float]:
+        """The programmed point with some coordinates replaced."""
+        px, py, pz = self.programmed
+        return px if x is None else x, py if y is None else y, pz if z is None else z
+
+    def rapid(self, x: float | None = None, y: float | None = None, z: float | None = None) -> None:
+        """Rapid traverse to a point."""
+        self._go(Kind.RAPID, self.target(x, y, z), INF)
+
+    def line(
+        self, x: float | None = None, y: float | None = None, z: float | None = None,
+        f: float | None = None, word: Word | None = None, joint: Any = None,
+    ) -> None:  # fmt: skip
+        """A straight line at feed ``f`` mm/min, by default the modal feed."""
+        if f == INF:
+            return self.rapid(x, y, z)
+        self._go(Kind.LINE, self.target(x, y, z), self.feed_of(f, word), joint)
+
+    def feed_of(self, f: float | None, word: Word | None = None) -> float:
+        """The feed of a move, mm/min; an alarm if none was programmed."""
+        if f is not None:
+            return f
+        if self.feed is None:
+            self.alarm("no feed rate was programmed before this move", word, hint="write F")
+        if self.per_rev:
+            if not self.spindle_speed:
+                self.alarm("a feed per revolution needs a turning spindle", word, hint="write S and M3 before the move")
+            return self.feed * abs(self.speed)
+        return self.feed
+
+    def _go(self, kind: Kind, point: tuple[float, float, float], feed: float, joint: Any = None) -> None:
+        tip = self.to_machine(point)
+        if tip != self.tip:
+            self._row(kind, tip, feed=feed, joint=joint)
+        elif joint is not None:
+            self.alarm("a rounding or an approach needs a path element that moves")
+        self.programmed, self.tip = point, tip
+
+    def arc(
+        self, x: float | None = None, y: float | None = None, z: float | None = None, *,
+        sense: int, centre: Mapping[int, float] | None = None, radius: float | None = None,
+        f: float | None = None, word: Word | None = None, tolerance: float = 0.01,
+    ) -> None:  # fmt: skip
+        """An arc in the active plane, +1 counter-clockwise, by its centre (axis number -> coordinate) or signed radius.
+
+        A third coordinate makes a helix. Start and end within a micrometre are a full circle by centre; a radius that
+        is too small, a centre on the start, ends at unequal distances from the centre are alarms.
+        """
+        feed = self.feed_of(f, word)
+        point = self.target(x, y, z)
+        first, second, _ = PLANES[self.plane]
+        s = np.array([self.programmed[first], self.programmed[second]])
+        e = np.array([point[first], point[second]])
+        if radius is not None:
+            c = self._centre_by_radius(s, e, radius, sense, word)
+        else:
+            c = np.array([(centre or {}).get(k, self.programmed[k]) for k in (first, second)])
+            self._check_radii(s, e, c, tolerance, word)
+        angle = float(sweep(s, e, c, sense))
+        middle = list(point)
+        middle[first], middle[second] = c.tolist()
+        if self._shift is None:
+            angle *= self._arc_sense(word)
+        self._row(Kind.ARC, self.to_machine(point), self.to_machine(middle), angle, feed)
+        self.programmed, self.tip = point, self.to_machine(point)
+
+    def _centre_by_radius(self, s: np.ndarray, e: np.ndarray, radius: float, sense: int, word: Word | None) -> np.ndarray:
+        if np.hypot(*(e - s)) < 1e-3:
+            self.alarm("a full circle cannot be given by its radius", word, hint="write the centre with I J K")
+        c, shortage = centre_from_radius(s, e, radius, sense)
+        if shortage > 1e-4:
+            chord = 2 * (float(shortage) + abs(radius))
+            self.alarm(
+                f"R{abs(radius):g} is too small for the distance {chord:.4g} mm between start and end: "
+                f"at least {chord / 2:.4f} is needed",
+                word,
+                hint=f"{shortage:.4g} mm are missing",
+            )
+        return c
+
+    def _check_radii(self, s: np.ndarray, e: np.ndarray, c: np.ndarray, tolerance: float, word: Word | None) -> None:
+        at_start, at_end = float(np.hypot(*(s - c))), float(np.hypot(*(e - c)))
+        if at_start < 1e-9:
+            self.alarm("the centre of the arc lies on its start", word)
+        if abs(at_start - at_end) > tolerance:
+            self.alarm(
+                f"the end point is not on the circle: radius {at_start:.4f} at the start, {at_end:.4f} at the end, "
+                f"allowed difference {tolerance:g} mm",
+                word,
+            )
+
+    def _arc_sense(self, word: Word | None) -> int:
+        """-1 under a mirror of the plane; an alarm when the frame would turn the circle into an ellipse."""
+        first, second, _ = PLANES[self.plane]
+        u, v = self._matrix[:3, first], self._matrix[:3, second]
+        if abs(np.linalg.norm(u) - np.linalg.norm(v)) > 1e-9 or abs(u @ v) > 1e-9:
+            self.alarm("an arc under unequal scales of its plane would be an ellipse", word)
+        return 1 if np.dot(np.cross(u, v), self._turned_axis()) > 0 else -1
+
+    def _row(
+        self, kind: Kind, tip: tuple[float, float, float], centre: tuple[float, float, float] = (NAN, NAN, NAN),
+        angle: float = 0.0, feed: float = NAN, time: float = NAN, joint: Any = None,
+    ) -> None:  # fmt: skip
+        recorder, number = self.recorder, -1
+        if joint is not None:
+            number = len(recorder.joints)
+            recorder.joints.append(joint)
+        state = self.state()
+        if self.exact_here and not self.exact:
+            state = recorder.state(recorder.states[state]._replace(exact=True))
+        recorder.rows.append(
+            (int(kind), self.source_line, self.step, recorder.label(self.label), *tip, *centre, angle, feed, time, number, state)
+        )
+
+    def mark_joint(self, joint: Any) -> bool:
+        """Put a joint on the last row, if it is a motion not settled yet; False if there is none."""
+        rows = self.recorder.rows
+        if not rows or rows[-1][0] > Kind.ARC:
+            return False
+        rows[-1] = (*rows[-1][:13], len(self.recorder.joints), rows[-1][14])
+        self.recorder.joints.append(joint)
+        return True
+
+    # --- verbs: events -----------------------------------------------------------------------------------------------
+
+    def dwell(self, seconds: float) -> None:
+        """Wait; nothing for zero seconds."""
+        if seconds > 0:
+            self._row(Kind.DWELL, self.tip, time=float(seconds))
+
+    def spindle(self, speed: float | None = None, turning: int | None = None) -> None:
+        """Set the speed (rev/min) and the sense (+1 M3, -1 M4, 0 M5); a row when the spindle changes."""
+        before = self.spindle_speed
+        if speed is not None:
+            self.change("speed", float(speed))
+        if turning is not None:
+            self.change("turning", turning)
+        if self.spindle_speed != before:
+            self._row(Kind.SPINDLE, self.tip)
+
+    def change_tool(self, tool: Tool, frame_axis: int = 2) -> None:
+        """Put a tool into the spindle: the machine stands still, the tip jumps by the difference of the lengths."""
+        tip = list(self.tip)
+        tip[frame_axis] += self.tool.effective_length - tool.effective_length
+        self.change("tool", tool)
+        self.tip = tuple(tip)  # type: ignore[assignment]
+        self._row(Kind.TOOL, self.tip)
+        self.read_position()
+
+    def stop(self) -> None:
+        """Wait for the operator."""
+        self._row(Kind.STOP, self.tip)
+
+    def coolant(self) -> None:
+        """A change of the coolant."""
+        self._row(Kind.COOLANT, self.tip)
+
+    def touch(
+        self, x: float | None = None, y: float | None = None, z: float | None = None, *,
+        f: float, ball: float | None = None, word: Word | None = None, miss: str = "alarm",
+    ) -> Touch:  # fmt: skip
+        """Move the probe towards a point (of its tip) until its ball touches the part, and stop there.
+
+        No contact is an alarm, or with ``miss="return"`` a touch that did not hit.
+        """
+        if self.side:
+            self.alarm("a probe cannot move under radius compensation", word)
+        if self.setup.part is None:
+            self.alarm("there is no part to touch", word, hint="give one: Setup(part=Part.box(…))")
+        self.settle()
+        radius = self.radius if ball is None else ball
+        start, goal = np.array(self.tip), np.array(self.to_machine(self.target(x, y, z)))
+        reach = float(np.linalg.norm(goal - start))
+        if reach == 0:
+            self.alarm("a touch needs a direction", word)
+        direction = (goal - start) / reach
+        ball_centre = start + (0.0, 0.0, radius)
+        travel = contact(self.setup.part, ball_centre, direction, radius, reach)
+        if travel is None and miss == "alarm":
+            self.alarm(f"touch point inaccessible: no contact within {reach:g} mm", word)
+        end = start + direction * (reach if travel is None else travel)
+        self.tip = tuple(end.tolist())
+        self._row(Kind.PROBE, self.tip, feed=f)
+        self.read_position()
+        touched = tuple((end + (0.0, 0.0, radius)).tolist())
+        return Touch(self.to_program(touched), touched, travel is not None)  # type: ignore[arg-type]
+
+    # --- settling ----------------------------------------------------------------------------------------------------
+
+    def settle(self, unfinished: bool = False) -> None:
+        """Run the passes on the rows not yet settled, so that the true place of the tool is known.
+
+        Afterwards the register is what the tool-centre path says, which only a departure makes differ.
+        """
+        piece = self.recorder.take()
+        if not len(piece):
+            return
+        self.programmed_pieces.append(piece)
+        labels = self.recorder
+        if (piece.joint >= 0).any():
+            labels.label("rounding"), labels.label("approach")
+        if (piece.side != 0).any():
+            labels.label(compensation.CORNER)
+        start = next((path.end[-1] for path in reversed(self.settled) if len(path)), piece.start[0])
+        piece = piece.annotated(labels=tuple(labels.labels), joints=tuple(labels.joints))
+        if not np.array_equal(start, piece.start[0]):
+            piece = piece.replace(start=np.concatenate([start[None], piece.start[1:]]))
+        try:
+            piece = compensation.apply(corners.apply(piece), self.control.compensation, unfinished)
+        except PathFault as fault:
+            self.cut = fault.step
+            self.settled.append(self._before_fault(piece[piece.step < fault.step]))
+            raise Alarm(fault.message, self.flow.span_of_step(fault.step), hint=fault.hint) from None
+        self.settled.append(piece)
+
+    def _before_fault(self, piece: Toolpath) -> Toolpath:
+        """The tool-centre path up to a fault; its last element ends nobody knows where and is left out."""
+        try:
+            return compensation.apply(corners.apply(piece), self.control.compensation, unfinished=True)
+        except PathFault:
+            return piece[:0]
+
+    def observe(self) -> None:
+        """Settle, and take tip and register from the end of the tool-centre path."""
+        self.settle()
+        if self.settled and len(self.settled[-1]):
+            self.tip = tuple(self.settled[-1].end[-1].tolist())  # type: ignore[assignment]
+            self.recorder.start = np.array(self.tip)
+            self.read_position()
+
+    def paths(self) -> tuple[Toolpath, Toolpath]:
+        """The programmed contour and the tool-centre path of the whole run, relative to the origin."""
+        origin = np.array(self.origin or (0.0, 0.0, 0.0))
+        programmed = join(self.programmed_pieces, self.recorder)
+        if self.cut is not None:
+            programmed = programmed[programmed.step < self.cut]
+        same = self.cut is None and len(self.settled) == len(self.programmed_pieces) and all(
+            a is b or (len(a) == len(b) and not (b.side != 0).any() and not (b.joint >= 0).any())
+            for a, b in zip(self.settled, self.programmed_pieces, strict=True)
+        )
+        toolpath = programmed if same else concatenate(self.settled)
+        shown = []
+        for path in (programmed, toolpath):
+            moved = path if not origin.any() else path.replace(
+                start=path.start - origin, end=path.end - origin, centre=path.centre - origin
+            )  # fmt: skip
+            shown.append(
+                moved.annotated(
+                    labels=tuple(self.recorder.labels), joints=tuple(self.recorder.joints), origin=tuple(origin),
+                    lathe=self.control.lathe,
+                )
+            )  # fmt: skip
+        return shown[0], shown[0] if same else shown[1]

@@ -1,0 +1,182 @@
+"""Running a program: text and machine in, path, history and alarms out."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from mnclab.machine.calls import Steps
+from mnclab.machine.control import Control
+from mnclab.machine.history import History
+from mnclab.machine.interpreter import Interpreter, Stop
+from mnclab.machine.machine import Machine
+from mnclab.machine.setup import Setup, Tables
+from mnclab.path.toolpath import Toolpath
+from mnclab.text.alarm import ALARM, Alarm, by_place
+from mnclab.text.program import Block, Program
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from matplotlib.figure import Figure
+
+
+class Moment(NamedTuple):
+    """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
+    the block changed; ``rows`` are the rows of the toolpath that it made."""  # noqa: D205, D209
+
+    step: int
+    line: int
+    block: Block
+    position: tuple[float, float, float]
+    state: dict[str, Any]
+    changed: dict[str, Any]
+    rows: slice
+
+
+class Run:
+    """The result of running a program: both paths, alarms, history, and where the machine stands."""
+
+    def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
+        self.program, self.programs, self.setup, self.control = program, (program,), setup, control
+        self.steps: Steps = machine.flow.steps()
+        self.alarms = by_place(alarms)
+        for alarm in self.alarms:
+            if alarm.source is None:
+                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
+        self.programmed: Toolpath
+        self.toolpath: Toolpath
+        self.programmed, self.toolpath = machine.paths()
+        if machine.cut is not None:
+            self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
+        self.history = History(machine.recording, len(self.steps.block))
+        self.variables: dict[str, float] = self._as_of_end("", machine.variables)
+        self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
+        self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
+        self.frames = machine.frames
+        self.settings = dict(machine.settings)
+
+    def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
+        """Values as the history has them after the last step that counts."""
+        last = len(self.steps.block) - 1
+        found = {name: self.history.value(prefix + name, last) for name in values}
+        return {name: value for name, value in found.items() if value is not None}
+
+    def _tables_of_history(self) -> Tables:
+        """The tables with only those writes that came before a fault."""
+        tables, last = Tables(self.setup), len(self.steps.block) - 1
+        for name in self.history:
+            table, _, row = name.partition(" ")
+            if table in ("tools", "datums", "presets"):
+                getattr(tables, table)[int(row)] = self.history.value(name, last)
+        return tables
+
+    @property
+    def ok(self) -> bool:
+        """Whether no alarm of severity "alarm" was raised."""
+        return not any(alarm.severity == ALARM for alarm in self.alarms)
+
+    def at(self, line: int | None = None, pass_: int = 1, step: int | None = None) -> Moment:
+        """The machine after the ``pass_``-th execution of a line, or after a step."""
+        if step is None:
+            if line is None:
+                raise ValueError("at() needs a line or a step")
+            lines = np.asarray(self.program.line_of(self.steps.block))
+            found = np.flatnonzero(lines == line)
+            if not 1 <= pass_ <= len(found):
+                raise ValueError(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
+            step = int(found[pass_ - 1])
+        if not 0 <= step < len(self.steps.block):
+            raise ValueError(f"step must be 0 … {len(self.steps.block) - 1}, got {step}")
+        block = self.program[int(self.steps.block[step])]
+        position = self.history.value("position", step)
+        a, b = np.searchsorted(self.toolpath.step, [step, step + 1]) if len(self.toolpath) else (0, 0)
+        state = self.history.at(step)
+        return Moment(step, block.span.line, block, position, state, self.history.changes(step), slice(int(a), int(b)))
+
+    # --- doors -------------------------------------------------------------------------------------------------------
+
+    def plot(self, **options: Any) -> Figure:
+        """Views of the path: from above and the side for a mill, X and Z for a lathe."""
+        from mnclab.show.plot.path import plot_run
+
+        return plot_run(self, **options)
+
+    def save(self, path: str | Path) -> Path:
+        """Write one file; the suffix says what: svg, pdf, png, csv, json."""
+        from mnclab.show.export import save
+
+        return save(self, path)
+
+    # --- shown -------------------------------------------------------------------------------------------------------
+
+    def summary(self) -> dict[str, Any]:
+        """The figures of the card."""
+        path = self.toolpath
+        lengths, rapid = path.lengths, path.kind == 0
+        with np.errstate(divide="ignore", invalid="ignore"):
+            cutting_time = np.where(~rapid & (lengths > 0), lengths / path.feed * 60, 0.0)
+        dwell = np.nansum(np.where(path.kind == 4, path.time, 0.0))
+        return {
+            "program": self.program.name,
+            "control": self.control.title,
+            "blocks": len(self.program),
+            "moves": int(path.is_motion.sum()),
+            "cutting length": float(lengths[~rapid].sum()),
+            "rapid length": float(lengths[rapid].sum()),
+            "time at feed": float(np.nansum(cutting_time) + dwell),
+            "alarms": sum(alarm.severity == ALARM for alarm in self.alarms),
+            "warnings": sum(alarm.severity != ALARM for alarm in self.alarms),
+        }
+
+    def __repr__(self) -> str:
+        s = self.summary()
+        head = (
+            f"<Run {s['program']} on {self.control.name}: {s['blocks']} blocks, {s['moves']} moves, "
+            f"cutting {s['cutting length']:.3f} mm, rapid {s['rapid length']:.3f} mm, {s['time at feed']:.1f} s at feed>"
+        )
+        return "\n".join([head, *map(str, self.alarms)])
+
+    def _repr_html_(self) -> str:
+        s = self.summary()
+        cells = {
+            "blocks": s["blocks"],
+            "moves": s["moves"],
+            "cutting": f"{s['cutting length']:.3f} mm",
+            "rapid": f"{s['rapid length']:.3f} mm",
+            "time at feed": f"{s['time at feed']:.1f} s",
+        }
+        head = "".join(f"<th>{name}</th>" for name in cells)
+        body = "".join(f"<td>{value}</td>" for value in cells.values())
+        title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
+        verdict = "" if self.alarms else "<p>no alarms</p>"
+        alarms = "".join(alarm._repr_html_() for alarm in self.alarms)
+        return f"<div>{title}<table><tr>{head}</tr><tr>{body}</tr></table>{verdict}{alarms}</div>"
+
+
+def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
+    """Run a program that was read; with ``strict`` the first alarm is raised instead of collected."""
+    setup = setup or Setup()
+    machine = Machine(control, setup)
+    alarms = list(program.alarms)
+    interpreter = Interpreter(control, machine, program)
+    broken = False
+    try:
+        interpreter.run()
+    except Stop:
+        broken = True
+    except Alarm as alarm:
+        broken = True
+        alarms.append(alarm)
+    try:
+        machine.settle(unfinished=broken)
+    except Alarm as alarm:
+        alarms.append(alarm)
+    result = Run(program, setup, control, machine, alarms + machine.alarms)
+    if strict:
+        for alarm in result.alarms:
+            if alarm.severity == ALARM:
+                raise alarm
+    return result

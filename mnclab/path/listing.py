@@ -1,0 +1,88 @@
+"""A path as text, one row a line, for tests and people; and as a table for notebooks.
+
+Positions have four decimals (a tenth of a micrometre), angles are in degrees, rows of a lathe show X as a diameter is
+*not* done here: a listing shows what the columns hold.
+"""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mnclab.path.kinds import Kind
+
+if TYPE_CHECKING:
+    from mnclab.path.toolpath import Move, Toolpath
+
+HEAD, TAIL = 12, 6
+
+
+def figure(value: float, decimals: int = 4) -> str:
+    """A number without trailing zeros and without a negative zero."""
+    text = f"{value:.{decimals}f}"
+    text = text.rstrip("0").rstrip(".") if "." in text else text
+    return "0" if text in ("-0", "") else text
+
+
+def point(xyz: np.ndarray) -> str:
+    """``X1 Y2 Z3``."""
+    return " ".join(f"{axis}{figure(value)}" for axis, value in zip("XYZ", xyz, strict=True))
+
+
+def words(move: Move) -> str:
+    """The part of a row that says what happens."""
+    match move.kind:
+        case Kind.RAPID:
+            return point(move.end)
+        case Kind.LINE | Kind.PROBE:
+            return f"{point(move.end)}{_feed(move)}"
+        case Kind.ARC:
+            return f"{point(move.end)} centre {point(move.centre)} sweep {figure(np.degrees(move.sweep))}{_feed(move)}"
+        case Kind.DWELL:
+            return f"{figure(move.time)} s"
+        case Kind.TOOL:
+            return f"T{move.tool} radius {figure(move.radius)} tip {point(move.end)}"
+        case Kind.SPINDLE:
+            return f"S{figure(move.spindle)}"
+        case _:
+            return ""
+
+
+def _feed(move: Move) -> str:
+    if np.isfinite(move.per_rev):
+        return f" F{figure(move.per_rev)}/rev"
+    if np.isfinite(move.feed):
+        return f" F{figure(move.feed)}"
+    return ""
+
+
+def listing(path: Toolpath) -> str:
+    """Every row of a path as text: line, kind, where to, and the label."""
+    return "\n".join(_row(move) for move in path)
+
+
+def _row(move: Move) -> str:
+    side = {1: " left", -1: " right"}.get(move.side, "") if move.kind in (Kind.LINE, Kind.ARC) else ""
+    label = f"  ; {move.label}" if move.label else ""
+    return f"{move.line:4d} {Kind(move.kind).name.lower():7s} {words(move)}{side}{label}"
+
+
+def table(path: Toolpath) -> str:
+    """Head and tail of a path as an HTML table."""
+    n = len(path)
+    shown = list(range(n)) if n <= HEAD + TAIL else [*range(HEAD), -1, *range(n - TAIL, n)]
+    columns = ("row", "line", "kind", "x", "y", "z", "feed", "spindle", "tool", "label")
+    body = []
+    for i in shown:
+        if i < 0:
+            body.append(f'<tr><td colspan="{len(columns)}">… {n - HEAD - TAIL} rows …</td></tr>')
+            continue
+        move = path[i]
+        feed = f"{figure(move.per_rev)}/rev" if np.isfinite(move.per_rev) else figure(move.feed) if np.isfinite(move.feed) else ""
+        detail = move.label if move.kind <= Kind.PROBE else f"{words(move)} {move.label}".strip()
+        cells = (i, move.line, Kind(move.kind).name.lower(), *map(figure, move.end), feed, figure(move.spindle), move.tool, detail)
+        body.append("<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in cells) + "</tr>")
+    head = "".join(f"<th>{name}</th>" for name in columns)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table><p>{n} rows, positions in mm</p>"

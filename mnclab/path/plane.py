@@ -1,0 +1,55 @@
+"""A path seen in its plane: two coordinates in it, one along its normal."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Toolpath
+
+Array = NDArray[np.float64]
+
+
+def basis(axis: Array) -> Array:
+    """Unit vectors (n, 3, 3): first and second axis of the plane and its normal.
+
+    For a normal along Z, X or Y the first axis is X, Y or Z: the planes XY, YZ and ZX of the controls.
+    """
+    first = np.roll(axis, 1, axis=-1)
+    skew = np.abs((first * axis).sum(axis=-1)) > 1e-12
+    if skew.any():
+        along = np.eye(3)[np.argmin(np.abs(axis[skew]), axis=-1)]
+        flat = along - (along * axis[skew]).sum(axis=-1, keepdims=True) * axis[skew]
+        first[skew] = flat / np.linalg.norm(flat, axis=-1, keepdims=True)
+    return np.stack([first, np.cross(axis, first), axis], axis=-2)
+
+
+class PlaneView:
+    """Rows of a path in the coordinates (u, v, w) of their planes."""
+
+    def __init__(self, path: Toolpath) -> None:
+        self.basis = basis(path.axis)
+        self.start, self.end, centre = (
+            np.einsum("nij,nj->ni", self.basis, points) for points in (path.start, path.end, path.centre)
+        )
+        self.arc = path.kind == Kind.ARC
+        self.sweep = path.sweep.copy()
+        self.centre = centre[:, :2]
+        travel = self.end[:, :2] - self.start[:, :2]
+        length = np.hypot(travel[:, 0], travel[:, 1])
+        self.moves = path.is_motion & (self.arc | (length > 1e-9))
+        line = travel / np.where(length > 0, length, 1.0)[:, None]
+        self.radius = np.where(self.arc, np.hypot(*(self.start[:, :2] - self.centre).T), np.nan)
+        self.tangent_start = np.where(self.arc[:, None], self._along_arc(self.start), line)
+        self.tangent_end = np.where(self.arc[:, None], self._along_arc(self.end), line)
+
+    def _along_arc(self, at: Array) -> Array:
+        spoke = at[:, :2] - self.centre
+        length = np.hypot(spoke[:, 0], spoke[:, 1])[:, None]
+        sense = np.sign(self.sweep)[:, None]
+        return sense * np.stack([-spoke[:, 1], spoke[:, 0]], axis=-1) / np.where(length > 0, length, 1.0)
+
+    def to_space(self, rows: NDArray[np.int64], uvw: Array) -> Array:
+        """Points (m, 3) of the planes of ``rows`` in machine axes."""
+        return np.einsum("nji,nj->ni", self.basis[rows], uvw)

@@ -1,0 +1,37 @@
+"""A tool: its dimensions, as a tool table holds them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Tool:
+    """Dimensions in mm, angles in degrees.
+
+    ``angle`` is the point angle, ``plunge_angle`` the steepest plunge, ``dl`` and ``dr`` are deltas added to length and
+    radius, ``corner`` is the corner radius, ``cutting_length`` the length of the edges.
+    """
+
+    radius: float = 0.0
+    length: float = 0.0
+    number: int = 0
+    name: str = ""
+    corner: float = 0.0
+    angle: float = 0.0
+    plunge_angle: float = 0.0
+    dl: float = 0.0
+    dr: float = 0.0
+    teeth: int = 0
+    cutting_length: float = 0.0
+    kind: str = ""
+
+    @property
+    def effective_radius(self) -> float:
+        """Radius with its delta, mm."""
+        return self.radius + self.dr
+
+    @property
+    def effective_length(self) -> float:
+        """Length with its delta, mm."""
+        return self.length + self.dl

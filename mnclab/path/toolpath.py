@@ -1,0 +1,255 @@
+"""The path of a tool as columns; ``path[i]`` is a row for people.
+
+Units of the whole library: **mm, mm/min, rev/min, s; radians inside, degrees in programs and in anything shown.**
+Positions are those of the tool tip along the machine's axes, relative to :attr:`Toolpath.origin` (the machine position
+of the first work offset a program selects); a lathe's X is a radius.
+
+A column that is constant is a stride-0 broadcast and costs nothing. ``start`` and ``end`` of a whole path are two views
+of one array of vertices, so that every row begins where the one before ended.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from mnclab.path.kinds import MOTION_KINDS, Kind
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: Every column: its type, its shape per row, the value when nothing is said, and what it means.
+COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
+    "kind": (np.uint8, (), Kind.LINE, "Kind of the row"),
+    "line": (np.int32, (), 0, "source line, from 1"),
+    "program": (np.int16, (), 0, "index into Run.programs"),
+    "step": (np.int32, (), 0, "which execution of a block made the row"),
+    "label": (np.int16, (), 0, "index into labels"),
+    "start": (np.float64, (3,), 0.0, "tool tip before the row, mm"),
+    "end": (np.float64, (3,), 0.0, "tool tip after the row, mm"),
+    "centre": (np.float64, (3,), np.nan, "centre of an arc, mm"),
+    "axis": (np.float64, (3,), (0.0, 0.0, 1.0), "unit normal of the active plane"),
+    "sweep": (np.float64, (), 0.0, "angle of an arc, right-handed about axis, rad; pitch lies in end"),
+    "rotary": (np.float64, (3,), 0.0, "A, B, C at the end of the row, rad"),
+    "feed": (np.float64, (), np.nan, "feed along the path, mm/min; inf for rapids"),
+    "per_rev": (np.float64, (), np.nan, "feed per revolution, mm/rev"),
+    "surface": (np.float64, (), np.nan, "constant cutting speed, m/min"),
+    "time": (np.float64, (), np.nan, "time given by the program, s"),
+    "spindle": (np.float64, (), 0.0, "rev/min, negative for counter-clockwise"),
+    "tool": (np.int32, (), 0, "tool number"),
+    "radius": (np.float64, (), 0.0, "effective tool radius, mm"),
+    "side": (np.int8, (), 0, "radius compensation: +1 left, -1 right, 0 none"),
+    "corner_rule": (np.uint8, (), 0, "how outside corners are joined"),
+    "exact": (np.bool_, (), False, "stop exactly at the end"),
+    "synchronous": (np.bool_, (), False, "spindle and feed locked"),
+    "joint": (np.int16, (), -1, "index into joints"),
+}
+
+
+class Move(NamedTuple):
+    """One row of a toolpath; the fields are those of :data:`COLUMNS`."""
+
+    kind: Kind
+    line: int
+    program: int
+    step: int
+    label: str
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+    centre: NDArray[np.float64]
+    axis: NDArray[np.float64]
+    sweep: float
+    rotary: NDArray[np.float64]
+    feed: float
+    per_rev: float
+    surface: float
+    time: float
+    spindle: float
+    tool: int
+    radius: float
+    side: int
+    corner_rule: int
+    exact: bool
+    synchronous: bool
+    joint: Any
+
+
+class Toolpath:
+    """Moves and events in columns of n rows; the names and meanings are in :data:`COLUMNS`.
+
+    ``labels`` and ``joints`` are what the columns of these names index; ``origin`` (3,) is the machine position, mm,
+    that all positions are relative to; ``lathe`` says that pictures and listings show X (a radius) and Z.
+    """
+
+    kind: NDArray[np.uint8]
+    line: NDArray[np.int32]
+    program: NDArray[np.int16]
+    step: NDArray[np.int32]
+    label: NDArray[np.int16]
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+    centre: NDArray[np.float64]
+    axis: NDArray[np.float64]
+    sweep: NDArray[np.float64]
+    rotary: NDArray[np.float64]
+    feed: NDArray[np.float64]
+    per_rev: NDArray[np.float64]
+    surface: NDArray[np.float64]
+    time: NDArray[np.float64]
+    spindle: NDArray[np.float64]
+    tool: NDArray[np.int32]
+    radius: NDArray[np.float64]
+    side: NDArray[np.int8]
+    corner_rule: NDArray[np.uint8]
+    exact: NDArray[np.bool_]
+    synchronous: NDArray[np.bool_]
+    joint: NDArray[np.int16]
+
+    def __init__(
+        self,
+        columns: dict[str, NDArray[Any]],
+        labels: Sequence[str] = ("",),
+        joints: Sequence[Any] = (),
+        origin: Iterable[float] = (0.0, 0.0, 0.0),
+        lathe: bool = False,
+    ) -> None:
+        self._n = len(columns["kind"])
+        for name, (dtype, shape, default, _) in COLUMNS.items():
+            column = columns.get(name)
+            if column is None:
+                column = np.broadcast_to(np.asarray(default, dtype=dtype), (self._n, *shape))
+            setattr(self, name, np.asarray(column, dtype=dtype))
+        self.labels, self.joints = tuple(labels), tuple(joints)
+        self.origin = np.asarray(tuple(origin), dtype=np.float64)
+        self.lathe = lathe
+
+    @classmethod
+    def chain(cls, vertices: NDArray[np.float64], columns: dict[str, NDArray[Any]], **more: Any) -> Toolpath:
+        """A continuous path through ``vertices`` (n + 1, 3); the other columns (n, ...)."""
+        return cls({**columns, "start": vertices[:-1], "end": vertices[1:]}, **more)
+
+    # --- rows and slices -------------------------------------------------------------------------------------------
+
+    def __len__(self) -> int:
+        return self._n
+
+    @overload
+    def __getitem__(self, index: int) -> Move: ...
+    @overload
+    def __getitem__(self, index: slice | NDArray[Any] | Sequence[int]) -> Toolpath: ...
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, int | np.integer):
+            i = range(self._n)[int(index)]
+            row = {name: getattr(self, name)[i] for name in COLUMNS}
+            plain = {name: value.item() if value.ndim == 0 else value for name, value in row.items()}
+            plain["kind"] = Kind(plain["kind"])
+            plain["label"] = self.labels[plain["label"]]
+            plain["joint"] = self.joints[plain["joint"]] if plain["joint"] >= 0 else None
+            return Move(**plain)
+        return self.replace(**{name: getattr(self, name)[index] for name in COLUMNS})
+
+    def __iter__(self) -> Iterator[Move]:
+        return (self[i] for i in range(self._n))
+
+    def replace(self, **columns: NDArray[Any]) -> Toolpath:
+        """The same path with other columns; if ``kind`` is given, all of them must be."""
+        whole = {name: columns.get(name, getattr(self, name)) for name in COLUMNS}
+        return Toolpath(whole, self.labels, self.joints, self.origin, self.lathe)
+
+    def annotated(self, **more: Any) -> Toolpath:
+        """The same columns with other ``labels``, ``joints``, ``origin`` or ``lathe``."""
+        kept = {"labels": self.labels, "joints": self.joints, "origin": self.origin, "lathe": self.lathe}
+        return Toolpath({name: getattr(self, name) for name in COLUMNS}, **{**kept, **more})
+
+    @property
+    def is_motion(self) -> NDArray[np.bool_]:
+        """Which rows move the tool (n,)."""
+        return np.isin(self.kind, MOTION_KINDS)
+
+    @property
+    def motion(self) -> Toolpath:
+        """The path without its events."""
+        return self[self.is_motion]
+
+    # --- measures ----------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def lengths(self) -> NDArray[np.float64]:
+        """Length of each row along the path, mm (n,); zero for events."""
+        travel = self.end - self.start
+        straight = np.linalg.norm(travel, axis=1)
+        arc = self.kind == Kind.ARC
+        if arc.any():
+            along = np.einsum("ij,ij->i", travel[arc], self.axis[arc])
+            spoke = self.start[arc] - self.centre[arc]
+            spoke = spoke - np.einsum("ij,ij->i", spoke, self.axis[arc])[:, None] * self.axis[arc]
+            straight[arc] = np.hypot(np.linalg.norm(spoke, axis=1) * self.sweep[arc], along)
+        return np.where(self.is_motion, straight, 0.0)
+
+    @property
+    def length(self) -> float:
+        """Length of all motion, mm."""
+        return float(self.lengths.sum())
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """Smallest and greatest coordinates (2, 3) of the motion, arcs included; nan without motion."""
+        from mnclab.path.points import points
+
+        xyz, _ = points(self, 0.01)
+        if not len(xyz):
+            return np.full((2, 3), np.nan)
+        return np.stack([xyz.min(axis=0), xyz.max(axis=0)])
+
+    def points(self, chord_error: float = 0.01) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Points (m, 3) along the motion within ``chord_error`` mm of every arc, and the row (m,) of each."""
+        from mnclab.path.points import points
+
+        return points(self, chord_error)
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """A dict of one-dimensional arrays for pandas, polars or pyarrow; vectors become ``end_x``, ``end_y``, …"""
+        flat: dict[str, NDArray[Any]] = {}
+        for name, (_, shape, _, _) in COLUMNS.items():
+            column = getattr(self, name)
+            names = "abc" if name == "rotary" else "xyz"
+            flat |= {f"{name}_{names[k]}": column[:, k] for k in range(3)} if shape else {name: column}
+        return flat
+
+    # --- shown -------------------------------------------------------------------------------------------------------
+
+    def __str__(self) -> str:
+        from mnclab.path.listing import listing
+
+        return listing(self)
+
+    def __repr__(self) -> str:
+        motion = int(self.is_motion.sum())
+        return f"<Toolpath: {self._n} rows, {motion} moves, {self.length:.3f} mm>"
+
+    def _repr_html_(self) -> str:
+        from mnclab.path.listing import table
+
+        return table(self)
+
+    def plot(self, **options: Any) -> Figure:
+        """Views of the path; see ``mnclab.show.plot.path.plot_path``."""
+        from mnclab.show.plot.path import plot_path
+
+        return plot_path(self, **options)
+
+
+def concatenate(pieces: Sequence[Toolpath]) -> Toolpath:
+    """One path from pieces that follow each other; labels, joints and origin are those of the last."""
+    last = pieces[-1]
+    if len(pieces) == 1:
+        return last
+    joined = {name: np.concatenate([getattr(piece, name) for piece in pieces]) for name in COLUMNS}
+    if len(joined["kind"]):
+        vertices = np.concatenate([joined["start"][:1], joined["end"]])
+        joined |= {"start": vertices[:-1], "end": vertices[1:]}
+    return Toolpath(joined, last.labels, last.joints, last.origin, last.lathe)

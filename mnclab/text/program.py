@@ -1,0 +1,289 @@
+"""A part program as columns: a million blocks are no million objects.
+
+A *word* is an address and a value; a *block* is what a control obeys at once. Words stand in columns of equal length,
+blocks point into them, and ``program[i]`` makes a :class:`Block` for people when asked. Lines and columns of words are
+found from their offset in the text, number and comment of a block are cut from the text on demand.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from html import escape
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.text.alarm import Alarm, Span
+from mnclab.text.expression import Expression
+
+NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
+INCREMENTAL, RAPID_MARK, GROUP_MARK = 1, 2, 4  # bits of column ``flag``
+
+_NUMBER_OF_BLOCK = re.compile(r"[ \t]*/?[ \t]*(N[ \t]*\d+|\d+)", re.IGNORECASE)
+
+
+class Word(NamedTuple):
+    """An address with its value, and where it stands."""
+
+    address: str
+    value: float | str | Expression | None
+    span: Span
+    flag: int = 0
+
+    @property
+    def incremental(self) -> bool:
+        """Whether the word carries the mark of an increment (IX, the @ of the NC-31)."""
+        return bool(self.flag & INCREMENTAL)
+
+    def __str__(self) -> str:
+        value = self.value
+        shown = f"{value:g}" if isinstance(value, float) else getattr(value, "text", value)
+        return f"{'I' if self.incremental else ''}{self.address}{'' if shown is None else shown}"
+
+
+@dataclass(frozen=True)
+class Block:
+    """What a control obeys at once: a keyword (conversational controls only) and words."""
+
+    number: str
+    keyword: str
+    words: tuple[Word, ...]
+    comment: str
+    skip: bool
+    span: Span
+
+    def __str__(self) -> str:
+        head = " ".join(part for part in (self.number, self.keyword) if part)
+        return " ".join([head, *map(str, self.words)]).strip()
+
+
+@dataclass(frozen=True, eq=False)
+class Program:
+    """Words in columns (w,) and blocks in columns (b,).
+
+    ``address`` indexes ``addresses``; ``value`` is the number, or for other forms an index into ``payload``; ``first``
+    (b + 1,) says where the words of a block begin. ``plain`` marks blocks that are textually candidates for bulk work.
+    """
+
+    text: str
+    name: str
+    control: str
+    addresses: tuple[str, ...]
+    address: NDArray[np.int16]
+    value: NDArray[np.float64]
+    form: NDArray[np.uint8]
+    flag: NDArray[np.uint8]
+    offset: NDArray[np.int32]
+    length: NDArray[np.int32]
+    first: NDArray[np.int32]
+    keywords: tuple[str, ...]
+    keyword: NDArray[np.int16]
+    skip: NDArray[np.bool_]
+    plain: NDArray[np.bool_]
+    start: NDArray[np.int32]
+    """Offset of each block in the text."""
+    line_starts: NDArray[np.int32]
+    payload: tuple[Any, ...] = ()
+    alarms: tuple[Alarm, ...] = ()
+    comment_mark: str = "//"
+    encoding: str = "utf-8"
+    labels: Mapping[str, int] = field(default_factory=dict)
+    """Block index of each jump target, as the reader of the control found them."""
+
+    def __len__(self) -> int:
+        return len(self.keyword)
+
+    def __getitem__(self, index: int) -> Block:
+        index = range(len(self))[index]
+        words = tuple(self.word(i) for i in range(self.first[index], self.first[index + 1]))
+        lines = self._lines_of(index)
+        text = self.text[self.start[index] :].lstrip("\ufeff")
+        number = _NUMBER_OF_BLOCK.match(text)
+        comments = (line.partition(self.comment_mark)[2].strip() for line in lines)
+        return Block(
+            number=re.sub(r"\s", "", number.group(1)).upper() if number else "",
+            keyword=self.keywords[self.keyword[index]],
+            words=words,
+            comment=" ".join(comment for comment in comments if comment),
+            skip=bool(self.skip[index]),
+            span=self.span_of_block(index),
+        )
+
+    def __iter__(self) -> Iterator[Block]:
+        return (self[i] for i in range(len(self)))
+
+    def word(self, index: int) -> Word:
+        """The word of row ``index``."""
+        form, value = self.form[index], self.value[index]
+        kept: Any = float(value) if form == NUMBER else None if form == NONE else self.payload[int(value)]
+        span = self.span(int(self.offset[index]), int(self.length[index]))
+        return Word(self.addresses[self.address[index]], kept, span, int(self.flag[index]))
+
+    def span(self, offset: int, length: int = 1) -> Span:
+        """Line and column of a place in the text."""
+        line = int(np.searchsorted(self.line_starts, offset, "right"))
+        return Span(line, offset - int(self.line_starts[line - 1]) + 1, length)
+
+    def span_of_block(self, index: int) -> Span:
+        """The first line of a block, from its first character to its end."""
+        span = self.span(int(self.start[index]))
+        text = self.line_text(span.line).partition(self.comment_mark)[0].rstrip()
+        return span._replace(length=max(1, len(text) - span.column + 1))
+
+    def line_of(self, index: int | NDArray[np.int64]) -> Any:
+        """Source line of a block, 1-based; an array of blocks gives an array of lines."""
+        return np.searchsorted(self.line_starts, self.start[index], "right")
+
+    def line_text(self, line: int) -> str:
+        """The characters of one line, without its end; empty beyond the program."""
+        if not 1 <= line <= len(self.line_starts):
+            return ""
+        begin = self.line_starts[line - 1]
+        end = self.line_starts[line] if line < len(self.line_starts) else len(self.text)
+        return self.text[begin:end].rstrip("\r\n")
+
+    def _lines_of(self, index: int) -> list[str]:
+        first = int(self.line_of(index))
+        last = int(self.line_of(index + 1)) if index + 1 < len(self) else len(self.line_starts) + 1
+        return [self.line_text(line) for line in range(first, max(last, first + 1))]
+
+    def __repr__(self) -> str:
+        return f"<Program {self.name}: {self.control}, {len(self)} blocks, {len(self.alarms)} alarms>"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{block.span.line}</td><td>{escape(block.number)}</td><td><code>"
+            f"{escape(' '.join(filter(None, [block.keyword, *map(str, block.words)])))}</code></td>"
+            f"<td>{escape(block.comment)}</td></tr>"
+            for block in (self[i] for i in range(min(len(self), 40)))
+        )
+        more = f"<p>… {len(self) - 40} more blocks</p>" if len(self) > 40 else ""
+        alarms = "".join(alarm._repr_html_() for alarm in self.alarms)
+        head = "<tr><th>line</th><th>block</th><th>words</th><th>comment</th></tr>"
+        return f"<table>{head}{rows}</table>{more}{alarms}"
+
+
+def decode(data: bytes) -> tuple[str, str]:
+    """Text of bytes in UTF-8, UTF-16 (with its mark), CP1251 or KOI8-R, and the name of the code page.
+
+    The Cyrillic pages are told apart by their letters: in KOI8-R small letters lie where CP1251 has capitals.
+    """
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return data.decode("utf-16", errors="replace"), "utf-16"
+    try:
+        return data.decode("utf-8-sig"), "utf-8"
+    except UnicodeDecodeError:
+        small = {page: sum("а" <= c <= "я" for c in data.decode(page, errors="replace")) for page in ("cp1251", "koi8-r")}
+        page = "koi8-r" if small["koi8-r"] > small["cp1251"] else "cp1251"
+        return data.decode(page, errors="replace"), page
+
+
+class ProgramBuilder:
+    """What a reader fills: blocks, their words, alarms; :meth:`build` makes the columns.
+
+    Readers that find plain words in bulk hand them over as arrays with :meth:`build`'s ``bulk``.
+    """
+
+    def __init__(self, text: str, name: str, control: str, line_starts: NDArray[np.int32], comment_mark: str) -> None:
+        self.text, self.name, self.control = text, name, control
+        self.line_starts, self.comment_mark = line_starts, comment_mark
+        self.addresses: dict[str, int] = {}
+        self.keywords: dict[str, int] = {"": 0}
+        self.words: list[tuple[int, float, int, int, int, int]] = []  # address, value, form, flag, offset, length
+        self.blocks: list[tuple[int, int, bool, bool, int]] = []  # offset, keyword, skip, plain, first word
+        self.payload: list[Any] = []
+        self.alarms: list[Alarm] = []
+        self.labels: dict[str, int] = {}  # jump target -> offset of its block
+
+    def span(self, offset: int, length: int = 1) -> Span:
+        """Line and column of a place in the text."""
+        line = int(np.searchsorted(self.line_starts, offset, "right"))
+        return Span(line, offset - int(self.line_starts[line - 1]) + 1, length)
+
+    def alarm(self, message: str, offset: int, length: int = 1, hint: str = "", severity: str = "alarm") -> None:
+        """Note a fault of the text; reading goes on."""
+        self.alarms.append(Alarm(message, self.span(offset, length), severity, hint))
+
+    def block(self, offset: int, keyword: str = "", skip: bool = False, plain: bool = False) -> None:
+        """Begin a block at ``offset``."""
+        key = self.keywords.setdefault(keyword, len(self.keywords))
+        self.blocks.append((offset, key, skip, plain, len(self.words)))
+
+    def word(
+        self, address: str, value: float | str | Expression | None, offset: int, length: int, flag: int = 0
+    ) -> None:
+        """Add a word to the block begun last."""
+        index = self.addresses.setdefault(address, len(self.addresses))
+        if isinstance(value, int | float):
+            self.words.append((index, float(value), NUMBER, flag, offset, length))
+        elif value is None:
+            self.words.append((index, 0.0, NONE, flag, offset, length))
+        else:
+            form = TEXT if isinstance(value, str) else EXPRESSION
+            self.words.append((index, float(len(self.payload)), form, flag, offset, length))
+            self.payload.append(value)
+
+    def build(self, bulk: BulkBlocks | None = None) -> Program:
+        """The program; blocks found in bulk are sorted in by their place in the text."""
+        words = np.array(self.words, dtype=np.float64).reshape(-1, 6)
+        blocks = np.array(self.blocks, dtype=np.float64).reshape(-1, 5)
+        count = np.diff(np.append(blocks[:, 4], len(words)))
+        kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int32)
+        columns = [words[:, k].astype(kind) for k, kind in enumerate(kinds)]
+        heads = [column.astype(np.int32) for column in (*blocks[:, :4].T, count)]
+        if bulk is not None and len(bulk.start):
+            names = np.array([self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses], dtype=np.int16)
+            key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
+            zero, n = np.zeros(len(bulk.value), dtype=np.uint8), len(bulk.start)
+            more = [names[bulk.address], bulk.value, zero, zero, bulk.offset, bulk.length]
+            more_heads = [bulk.start, np.full(n, key), np.zeros(n, dtype=bool), bulk.plain, bulk.count]
+            if self.blocks:
+                more, more_heads = _merged(columns, more, 4), _merged(heads, more_heads, 0)
+            columns, heads = more, more_heads
+        first = np.concatenate([[0], np.cumsum(heads[4])])
+        return Program(
+            text=self.text,
+            name=self.name,
+            control=self.control,
+            addresses=tuple(self.addresses),
+            address=columns[0],
+            value=columns[1],
+            form=columns[2],
+            flag=columns[3],
+            offset=columns[4].astype(np.int32, copy=False),
+            length=columns[5].astype(np.int32, copy=False),
+            first=first.astype(np.int32),
+            keywords=tuple(self.keywords),
+            keyword=heads[1].astype(np.int16),
+            skip=heads[2].astype(bool),
+            plain=heads[3].astype(bool),
+            start=heads[0].astype(np.int32),
+            line_starts=self.line_starts,
+            payload=tuple(self.payload),
+            alarms=tuple(sorted(self.alarms, key=lambda alarm: (alarm.span or Span(0, 0))[:2])),
+            comment_mark=self.comment_mark,
+            labels={name: int(np.searchsorted(heads[0], at)) for name, at in self.labels.items()},
+        )
+
+
+def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
+    """Two sets of columns sorted together by one of them."""
+    order = np.argsort(np.concatenate([some[by], others[by]]), kind="stable")
+    return [np.concatenate(pair)[order] for pair in zip(some, others, strict=True)]
+
+
+class BulkBlocks(NamedTuple):
+    """Blocks found for a whole text at once: words (w,) with ``address`` into ``addresses``, blocks (b,)."""
+
+    addresses: tuple[str, ...]
+    address: NDArray[np.integer[Any]]
+    value: NDArray[np.float64]
+    offset: NDArray[np.int32]
+    length: NDArray[np.int32]
+    keyword: str
+    start: NDArray[np.int64]
+    count: NDArray[np.int64]
+    plain: NDArray[np.bool_]
