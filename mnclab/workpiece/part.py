@@ -1,0 +1,2 @@
+"""temp"""
+def contact(*a): return None
