@@ -247,7 +247,7 @@ class Bulk:
 
     def log(self, run: _Run, steps: NDArray[np.int64], count: int, before: int) -> None:
         """Changes of position, feed and motion, step by step."""
-        machine, history = self.machine, self.machine.recording
+        machine, history = self.machine, self.machine.logs
         changed = np.flatnonzero((run.points[1 : count + 1] != run.points[:count]).any(axis=1))
         history.extend("position", steps[changed], run.points[changed + 1])
 

@@ -1,4 +1,4 @@
-"""The course of a program: sections, labels, repeats, subprograms, recordings.
+"""The course of a program: sections, labels, repeats, subprograms.
 
 A *step* is one execution of a block. A section of blocks is run by a plain loop; a call or a repeat is a section run
 inside another. Functions steer with :meth:`Flow.call`, :meth:`Flow.repeat`, :meth:`Flow.jump` and :meth:`Flow.leave`.
@@ -17,18 +17,9 @@ from mnclab.text.program import Program
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
-    from mnclab.path.toolpath import Toolpath
 
 DEEPEST = 20  # nested calls
 LONGEST = 1_000_000  # executed blocks, one by one
-
-
-class Recording(NamedTuple):
-    """A contour read from a label: its moves, corners applied and not compensated, and its side (+1 left, -1 right)."""
-
-    path: Toolpath
-    side: int
-    start: tuple[float, float, float]
 
 
 class Steps(NamedTuple):

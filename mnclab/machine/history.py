@@ -52,30 +52,30 @@ class Log:
         return steps[:keep], [value for chunk in chunks for value in chunk[1]][:keep]
 
 
-class Recording:
+class Logs:
     """The logs while a program runs."""
 
     def __init__(self) -> None:
-        self.logs: dict[str, Log] = {}
+        self.by_name: dict[str, Log] = {}
 
     def add(self, name: str, step: int, value: Any) -> None:
         """A name has a new value from this step on."""
-        log = self.logs.get(name)
+        log = self.by_name.get(name)
         if log is None:
-            log = self.logs[name] = Log()
+            log = self.by_name[name] = Log()
         log.add(step, value)
 
     def extend(self, name: str, steps: NDArray[np.int64], values: Sequence[Any]) -> None:
         """New values at many steps."""
-        self.logs.setdefault(name, Log()).extend(steps, values)
+        self.by_name.setdefault(name, Log()).extend(steps, values)
 
 
 class History(Mapping[str, Any]):
     """What was active at each step of a run. ``history["feed"]`` is one value per step, ``history.at(step)`` a dict."""
 
-    def __init__(self, recording: Recording, steps: int) -> None:
+    def __init__(self, logs: Logs, steps: int) -> None:
         self.steps = steps
-        self._logs = {name: log.close(steps - 1) for name, log in recording.logs.items()}
+        self._logs = {name: log.close(steps - 1) for name, log in logs.by_name.items()}
         self._logs = {name: log for name, log in self._logs.items() if len(log[0])}
 
     def __getitem__(self, name: str) -> list[Any] | NDArray[Any]:

@@ -16,7 +16,8 @@ import numpy as np
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import centre_from_radius, sweep
 from mnclab.geometry.frames import FrameChain, Matrix
-from mnclab.machine.history import Recording
+from mnclab.machine.history import Logs
+from mnclab.machine.recording import Recording, record
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.path import compensation, corners
 from mnclab.path.fault import PathFault
@@ -79,10 +80,11 @@ class Machine:
         self.settings: dict[str, Any] = {s.name: s.default for s in control.settings} | dict(setup.settings)
         self.flow: Flow  # set by the interpreter
         self.alarms: list[Alarm] = []
-        self.recording = Recording()
+        self.logs = Logs()
         self.step, self.source_line, self.program = -1, 0, 0
         self.steps_block: list[Any] = []
         self.ended = False
+        self.recorded_only = False
 
         self.tip: tuple[float, float, float] = tuple(map(float, setup.start))  # type: ignore[assignment]
         self.programmed: tuple[float, float, float] = self.tip
@@ -149,8 +151,10 @@ class Machine:
         self.alarm(f"{word.address} needs a number", word)
 
     def log(self, name: str, value: Any) -> None:
-        """Note a new value of a name in the history."""
-        self.recording.add(name, max(self.step, 0), value)
+        """Note a new value of a name in the history; while a contour is recorded only what outlives it."""
+        if self.recorded_only and name not in self.variables:
+            return
+        self.logs.add(name, max(self.step, 0), value)
 
     def change(self, name: str, value: Any) -> None:
         """Set an attribute that rows carry (feed, side, plane, …) and note it in the history."""
@@ -432,6 +436,10 @@ class Machine:
         self.read_position()
         touched = tuple((end + (0.0, 0.0, radius)).tolist())
         return Touch(self.to_program(touched), touched, travel is not None)  # type: ignore[arg-type]
+
+    def record(self, label: str, span: Span | None = None) -> Recording:
+        """Read the contour of a label: nothing moves, variables that it writes stay."""
+        return record(self, label, span)
 
     # --- settling ----------------------------------------------------------------------------------------------------
 

@@ -51,7 +51,7 @@ class Run:
         self.programmed, self.toolpath = machine.paths()
         if machine.cut is not None:
             self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
-        self.history = History(machine.recording, len(self.steps.block))
+        self.history = History(machine.logs, len(self.steps.block))
         self.variables: dict[str, float] = self._as_of_end("", machine.variables)
         self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
