@@ -18,6 +18,11 @@ AXES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0)}  # first axis, second
 KINDS = {"rapid": "rapid", "feed": "line", "arc": "arc"}  # LinuxCNC's word: ours
 
 
+def mm(length):
+    """A length in mm as ticks."""
+    return round(length * TICKS)
+
+
 def decimal(ticks):
     """The shortest spelling in mm: -12.5, 0.0003, 40."""
     whole, rest = divmod(abs(ticks), TICKS)
