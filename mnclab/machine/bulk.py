@@ -207,7 +207,6 @@ class Bulk:
         run.fault[k] |= run.points[k, normal] != run.points[k + 1, normal]  # a helix: the other tier remarks on it
         angle = sweep(s, e, c, sense)
         centre = run.points[k].copy()
-        centre[:, normal] = run.points[k + 1, normal]
         centre[:, [first, second]] = c
         if machine._shift is None:
             run.fault[k] = True  # turned planes are rare: one by one

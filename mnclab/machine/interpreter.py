@@ -97,7 +97,7 @@ class Interpreter:
                 self.call(action.what, head, given)
             else:
                 self.take_cycle(action.what, action.code, head, given)
-        machine.exact_here = False
+        machine.end_block()
         if machine.programmed != before:
             machine.log("position", machine.programmed)
 

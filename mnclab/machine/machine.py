@@ -8,7 +8,7 @@ the same point in machine coordinates. A change of frame says which of the two i
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 import numpy as np
@@ -85,6 +85,7 @@ class Machine:
         self.steps_block: list[Any] = []
         self.ended = False
         self.recorded_only = False
+        self.block_end: list[Callable[[], None]] = []
 
         self.tip: tuple[float, float, float] = tuple(map(float, setup.start))  # type: ignore[assignment]
         self.programmed: tuple[float, float, float] = self.tip
@@ -309,7 +310,7 @@ class Machine:
             c = np.array([(centre or {}).get(k, self.programmed[k]) for k in (first, second)])
             self._check_radii(s, e, c, tolerance, word)
         angle = float(sweep(s, e, c, sense))
-        middle = list(point)
+        middle = list(self.programmed)
         middle[first], middle[second] = c.tolist()
         if self._shift is None:
             angle *= self._arc_sense(word)
@@ -348,6 +349,16 @@ class Machine:
         if abs(np.linalg.norm(u) - np.linalg.norm(v)) > 1e-9 or abs(u @ v) > 1e-9:
             self.alarm("an arc under unequal scales of its plane would be an ellipse", word)
         return 1 if np.dot(np.cross(u, v), self._turned_axis()) > 0 else -1
+
+    def at_block_end(self, undo: Callable[[], None]) -> None:
+        """Do something when the running block is over."""
+        self.block_end.append(undo)
+
+    def end_block(self) -> None:
+        """What a function asked for the end of its block."""
+        self.exact_here = False
+        while self.block_end:
+            self.block_end.pop()()
 
     def _row(
         self, kind: Kind, tip: tuple[float, float, float], centre: tuple[float, float, float] = (NAN, NAN, NAN),

@@ -25,7 +25,7 @@ SETTINGS = (
 
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
-    {f"G{n}": _LATER for n in (4, 9, 10, 11, 12, 13, 15, 16, 25, 26, 36, 37, 38, 39, 50, 51, 53, 61, 64, 94, 95, 147)}
+    {f"G{n}": _LATER for n in (4, 9, 10, 11, 12, 13, 15, 16, 25, 26, 36, 37, 38, 39, 50, 51, 61, 64, 94, 95, 147)}
     | {f"G{n}": _LATER for n in (84, 85, 161, 162, *range(301, 308), 309, 320, 321, 343, 344)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
     | {"D": "the tool corrector is not built yet"}
@@ -42,12 +42,11 @@ CONTROL = Control(
     settings=SETTINGS,
     frames=("datum", "local"),
     compensation=Compensation(approach="corner"),
-    start=language.power_on,
     refused=REFUSED,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=lambda m: m.modal.get("motion") in ("G0", "G1", "G2", "G3"),
-        absolute=lambda m: m.modal["dimension"] == "G90",
+        absolute=language.absolute,
         tolerance=lambda m: float(m.settings["arc_tolerance"]),
     ),
 )

@@ -14,14 +14,9 @@ PLANES = {"G17": "XY", "G18": "ZX", "G19": "YZ"}
 OUTSIDE = "the manual does not list it; it is taken in its ISO meaning"
 
 
-def power_on(m: Machine) -> None:
-    """The machine coordinate system is active until a work offset is selected (2.6)."""
-    m.set_modal("datum", "G53")
-
-
 def absolute(m: Machine) -> bool:
-    """Whether G90 is active."""
-    return m.modal["dimension"] == "G90"
+    """Whether coordinates are absolute: G90, and always in a block with G53 (MNC-G53-G91)."""
+    return m.modal["dimension"] == "G90" or "machine coordinates" in m.memory
 
 
 @FUNCTIONS("G0", "Rapid positioning", group="motion", takes="X Y Z", power_on="G0", moves=True, source="3.1")
@@ -70,6 +65,22 @@ def work_offset(m: Machine, words: Words) -> None:
     """Rows 1 to 6 of the datum table; cancels G92. No motion."""
     m.frames.set("local", None)
     m.select_datum(m.tables.datums.get(int(words.code[1:]) - 53, Datum()))
+
+
+@FUNCTIONS("G53", "Machine coordinates", group="datum", phase="frames", power_on="G53", modal=False, source="2.6")
+def machine_coordinates(m: Machine, words: Words) -> None:
+    """In this block only, work offset and G92 count as zero; active at power-on until a work offset is selected."""
+    kept = [(name, m.frames[name]) for name in ("datum", "local")]
+
+    def restore() -> None:
+        for name, frame in kept:
+            m.set_frame(name, frame)
+        m.memory.pop("machine coordinates")
+
+    m.memory["machine coordinates"] = True
+    for name, _ in kept:
+        m.set_frame(name, None)
+    m.at_block_end(restore)
 
 
 @FUNCTIONS("G92", "Set position", phase="frames", takes="X Y Z U V W", still=True, modal=False, source="2.5")
