@@ -114,6 +114,7 @@ class Machine:
         self.recorder = Recorder(self.tip)
         self.programmed_pieces: list[Toolpath] = []
         self.settled: list[Toolpath] = []
+        self.altered = False  # whether a pass changed anything
         self.cut: int | None = None  # the step of a fault found in a pass: nothing from there on counts
         self._state: int | None = None
         self.log("position", self.programmed)
@@ -473,7 +474,9 @@ class Machine:
         if not np.array_equal(start, piece.start[0]):
             piece = piece.replace(start=np.concatenate([start[None], piece.start[1:]]))
         try:
-            piece = compensation.apply(corners.apply(piece), self.control.compensation, unfinished)
+            passed = compensation.apply(corners.apply(piece), self.control.compensation, unfinished)
+            self.altered |= passed is not piece
+            piece = passed
         except PathFault as fault:
             self.cut = fault.step
             self.settled.append(self._before_fault(piece[piece.step < fault.step]))
@@ -501,10 +504,7 @@ class Machine:
         programmed = join(self.programmed_pieces, self.recorder)
         if self.cut is not None:
             programmed = programmed[programmed.step < self.cut]
-        same = self.cut is None and len(self.settled) == len(self.programmed_pieces) and all(
-            a is b or (len(a) == len(b) and not (b.side != 0).any() and not (b.joint >= 0).any())
-            for a, b in zip(self.settled, self.programmed_pieces, strict=True)
-        )
+        same = self.cut is None and not self.altered
         toolpath = programmed if same else concatenate(self.settled)
         shown = []
         for path in (programmed, toolpath):

@@ -122,6 +122,8 @@ class Toolpath:
             column = columns.get(name)
             if column is None:
                 column = np.broadcast_to(np.asarray(default, dtype=dtype), (self._n, *shape))
+            elif column.dtype != dtype and self._n and column.strides[0] == 0:  # keep a constant column constant
+                column = np.broadcast_to(column[0].astype(dtype), (self._n, *shape))
             setattr(self, name, np.asarray(column, dtype=dtype))
         self.labels, self.joints = tuple(labels), tuple(joints)
         self.origin = np.asarray(tuple(origin), dtype=np.float64)
