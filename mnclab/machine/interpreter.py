@@ -17,7 +17,7 @@ from mnclab.machine.calls import Flow
 from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, fault
 from mnclab.machine.machine import Machine
-from mnclab.text.alarm import ALARM, Alarm, Span
+from mnclab.text.alarm import ALARM, Span
 from mnclab.text.program import NONE, NUMBER, Program, Word
 
 

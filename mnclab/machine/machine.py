@@ -27,7 +27,7 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath, concatenate
 from mnclab.text.alarm import WARNING, Alarm, Span
 from mnclab.text.expression import Expression
-from mnclab.text.program import Program, Word
+from mnclab.text.program import Word
 from mnclab.workpiece.part import contact
 
 if TYPE_CHECKING:

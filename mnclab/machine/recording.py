@@ -29,7 +29,7 @@ _NOWHERE = (float("nan"), float("nan"), 0.0)
 
 class Recording(NamedTuple):
     """A contour as its label describes it: ``path`` in program coordinates from ``start`` on, and its side (+1 left,
-    -1 right, 0 none)."""  # noqa: D209, D205
+    -1 right, 0 none)."""
 
     path: Toolpath
     side: int

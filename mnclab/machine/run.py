@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 class Moment(NamedTuple):
     """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
-    the block changed; ``rows`` are the rows of the toolpath that it made."""  # noqa: D205, D209
+    the block changed; ``rows`` are the rows of the toolpath that it made."""
 
     step: int
     line: int
