@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,15 +47,6 @@ class PlainWords:
     keyword: str = ""
     neutral: tuple[str, ...] = ()
     tolerance: Callable[[Machine], float] = lambda m: 0.01
-
-
-class _Columns(NamedTuple):
-    """The words of a run by address (n,), nan where not written."""
-
-    by_address: dict[str, Array]
-
-    def __getitem__(self, address: str) -> Array:  # type: ignore[override]
-        return self.by_address[address]
 
 
 @dataclass
@@ -117,10 +108,10 @@ class Bulk:
             self.size = min(2 * self.size, LARGEST)
         return good
 
-    # --- what the run is ------------------------------------------------------------------------------------------------
+    # --- what the run is ---------------------------------------------------------------------------------------------
 
-    def columns(self, first: int, end: int) -> _Columns:
-        """The words of the blocks by address."""
+    def columns(self, first: int, end: int) -> dict[str, Array]:
+        """The words of the blocks by address (n,), nan where not written."""
         program, n = self.program, end - first
         a, b = int(program.first[first]), int(program.first[end])
         block = np.repeat(np.arange(n), np.diff(program.first[first : end + 1]))
@@ -132,7 +123,7 @@ class Bulk:
                 mine = address == program.addresses.index(name)
                 column[block[mine]] = value[mine]
             found[name] = column
-        return _Columns(found)
+        return found
 
     def work_out(self, first: int, end: int) -> _Run:
         """Everything about the blocks [first, end), faults included."""
@@ -150,7 +141,8 @@ class Bulk:
         else:
             points[1:] = np.where(written, axes, 0.0)
             points = np.cumsum(points, axis=0)
-        tips = points + np.array(machine._shift) if machine._shift is not None else frames.apply(machine._matrix, points)
+        shift = machine._shift
+        tips = points + np.array(shift) if shift is not None else frames.apply(machine._matrix, points)
 
         feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
         motion, unknown = self.motions(words["G"], n)
@@ -160,7 +152,8 @@ class Bulk:
         arc = (np.abs(motion) == 2) & shaped
         moves = written.any(axis=1) | arc
 
-        fault = unknown | (words["F"] <= 0) | (moves & (motion != 0) & np.isnan(feed)) | (shaped & (np.abs(motion) != 2))
+        without_feed = moves & (motion != 0) & np.isnan(feed)
+        fault = unknown | (words["F"] <= 0) | without_feed | (shaped & (np.abs(motion) != 2))
         run = _Run(points, tips, motion, feed, moves, fault, np.full((n, 3), np.nan), np.zeros(n), arc)
         if arc.any():
             self.arcs(run, words, centred, by_radius)
@@ -182,7 +175,7 @@ class Bulk:
             sense[filled == value] = self.senses[self.codes[value]]
         return sense, unknown | np.isnan(filled)
 
-    def arcs(self, run: _Run, words: _Columns, centred: NDArray[np.bool_], by_radius: Mask) -> None:
+    def arcs(self, run: _Run, words: dict[str, Array], centred: NDArray[np.bool_], by_radius: Mask) -> None:
         """Centres and sweeps of the arcs; what is doubtful is a fault."""
         from mnclab.machine.machine import PLANES
 
@@ -214,7 +207,7 @@ class Bulk:
             centre = centre + np.array(machine._shift)
         run.centre[k], run.angle[k] = centre, angle
 
-    # --- doing it -------------------------------------------------------------------------------------------------------
+    # --- doing it ----------------------------------------------------------------------------------------------------
 
     def commit(self, run: _Run, first: int, count: int) -> None:
         """Make the rows, the history and the state of the first ``count`` blocks."""
@@ -240,8 +233,8 @@ class Bulk:
                 }
             )
         self.log(run, steps, count, before)
-        machine.programmed = tuple(run.points[count].tolist())  # type: ignore[assignment]
-        machine.tip = tuple(run.tips[count].tolist())  # type: ignore[assignment]
+        machine.programmed = tuple(run.points[count].tolist())
+        machine.tip = tuple(run.tips[count].tolist())
         machine.source_line = int(self.program.line_of(first + count - 1))
 
     def log(self, run: _Run, steps: NDArray[np.int64], count: int, before: int) -> None:

@@ -7,11 +7,13 @@ measured values and table rows.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+Values = list[Any] | NDArray[Any]
 
 
 class Log:
@@ -22,7 +24,7 @@ class Log:
     def __init__(self) -> None:
         self.steps: list[int] = []
         self.values: list[Any] = []
-        self._chunks: list[tuple[NDArray[np.int64], Sequence[Any]]] = []
+        self._chunks: list[tuple[NDArray[np.int64], Values]] = []
 
     def add(self, step: int, value: Any) -> None:
         """The value changed at a step."""
@@ -32,13 +34,13 @@ class Log:
             self.steps.append(step)
             self.values.append(value)
 
-    def extend(self, steps: NDArray[np.int64], values: Sequence[Any]) -> None:
+    def extend(self, steps: NDArray[np.int64], values: Values) -> None:
         """Changes of many steps at once."""
         if len(steps):
             self._chunks += [(np.array(self.steps, dtype=np.int64), self.values), (steps, values)]
             self.steps, self.values = [], []
 
-    def close(self, last: int) -> tuple[NDArray[np.int64], list[Any] | NDArray[Any]]:
+    def close(self, last: int) -> tuple[NDArray[np.int64], Values]:
         """All changes up to step ``last``."""
         chunks = [chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])]
         if not chunks:
@@ -65,7 +67,7 @@ class Logs:
             log = self.by_name[name] = Log()
         log.add(step, value)
 
-    def extend(self, name: str, steps: NDArray[np.int64], values: Sequence[Any]) -> None:
+    def extend(self, name: str, steps: NDArray[np.int64], values: Values) -> None:
         """New values at many steps."""
         self.by_name.setdefault(name, Log()).extend(steps, values)
 
@@ -78,7 +80,7 @@ class History(Mapping[str, Any]):
         self._logs = {name: log.close(steps - 1) for name, log in logs.by_name.items()}
         self._logs = {name: log for name, log in self._logs.items() if len(log[0])}
 
-    def __getitem__(self, name: str) -> list[Any] | NDArray[Any]:
+    def __getitem__(self, name: str) -> Values:
         """One value per step; None before the first."""
         at, values = self._logs[name]
         index = np.searchsorted(at, np.arange(self.steps), "right") - 1

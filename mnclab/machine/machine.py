@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
@@ -18,17 +18,16 @@ from mnclab.geometry.arcs import centre_from_radius, sweep
 from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
+from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
-from mnclab.path import compensation, corners
-from mnclab.path.fault import PathFault
+from mnclab.machine.touching import Touch, touch
 from mnclab.path.kinds import Kind
-from mnclab.path.recorder import NAN, Recorder, State, join
+from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import WARNING, Alarm, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import Word
-from mnclab.workpiece.part import contact
 
 if TYPE_CHECKING:
     from mnclab.machine.calls import Flow
@@ -37,15 +36,7 @@ if TYPE_CHECKING:
 
 INF = math.inf
 PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0)}  # first axis, second axis, normal
-_AXES = {plane: tuple(float(k == n) for k in range(3)) for plane, (_, _, n) in PLANES.items()}
-
-
-class Touch(NamedTuple):
-    """What a probe found: the contact of its ball's centre, in program and in machine coordinates."""
-
-    point: tuple[float, float, float]
-    machine_point: tuple[float, float, float]
-    hit: bool
+_AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
 
 
 class Variables(dict[str, float]):
@@ -209,7 +200,7 @@ class Machine:
         """Replace one frame of the chain; ``keep`` "tip" (the program reads the place anew) or "programmed"."""
         self.frames.set(name, matrix)
         self._matrix = self.frames.matrix
-        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None  # type: ignore[assignment]
+        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None
         self._state = None
         if keep == "tip":
             self.read_position()
@@ -423,31 +414,14 @@ class Machine:
         self, x: float | None = None, y: float | None = None, z: float | None = None, *,
         f: float, ball: float | None = None, word: Word | None = None, miss: str = "alarm",
     ) -> Touch:  # fmt: skip
-        """Move the probe towards a point (of its tip) until its ball touches the part, and stop there.
+        """Move the probe towards a point until its ball touches the part; see :mod:`mnclab.machine.touching`."""
+        return touch(self, self.target(x, y, z), f, self.radius if ball is None else ball, word, miss)
 
-        No contact is an alarm, or with ``miss="return"`` a touch that did not hit.
-        """
-        if self.side:
-            self.alarm("a probe cannot move under radius compensation", word)
-        if self.setup.part is None:
-            self.alarm("there is no part to touch", word, hint="give one: Setup(part=Part.box(…))")
-        self.settle()
-        radius = self.radius if ball is None else ball
-        start, goal = np.array(self.tip), np.array(self.to_machine(self.target(x, y, z)))
-        reach = float(np.linalg.norm(goal - start))
-        if reach == 0:
-            self.alarm("a touch needs a direction", word)
-        direction = (goal - start) / reach
-        ball_centre = start + (0.0, 0.0, radius)
-        travel = contact(self.setup.part, ball_centre, direction, radius, reach)
-        if travel is None and miss == "alarm":
-            self.alarm(f"touch point inaccessible: no contact within {reach:g} mm", word)
-        end = start + direction * (reach if travel is None else travel)
-        self.tip = tuple(end.tolist())
-        self._row(Kind.PROBE, self.tip, feed=f)
+    def probe_to(self, tip: tuple[float, float, float], f: float) -> None:
+        """A probing move that ended at a tip in machine coordinates."""
+        self.tip = tip
+        self._row(Kind.PROBE, tip, feed=f)
         self.read_position()
-        touched = tuple((end + (0.0, 0.0, radius)).tolist())
-        return Touch(self.to_program(touched), touched, travel is not None)  # type: ignore[arg-type]
 
     def record(self, label: str, span: Span | None = None) -> Recording:
         """Read the contour of a label: nothing moves, variables that it writes stay."""
@@ -456,65 +430,14 @@ class Machine:
     # --- settling ----------------------------------------------------------------------------------------------------
 
     def settle(self, unfinished: bool = False) -> None:
-        """Run the passes on the rows not yet settled, so that the true place of the tool is known.
-
-        Afterwards the register is what the tool-centre path says, which only a departure makes differ.
-        """
-        piece = self.recorder.take()
-        if not len(piece):
-            return
-        self.programmed_pieces.append(piece)
-        labels = self.recorder
-        if (piece.joint >= 0).any():
-            labels.label("rounding"), labels.label("approach")
-        if (piece.side != 0).any():
-            labels.label(compensation.CORNER)
-        start = next((path.end[-1] for path in reversed(self.settled) if len(path)), piece.start[0])
-        piece = piece.annotated(labels=tuple(labels.labels), joints=tuple(labels.joints))
-        if not np.array_equal(start, piece.start[0]):
-            piece = piece.replace(start=np.concatenate([start[None], piece.start[1:]]))
-        try:
-            passed = compensation.apply(corners.apply(piece), self.control.compensation, unfinished)
-            self.altered |= passed is not piece
-            piece = passed
-        except PathFault as fault:
-            self.cut = fault.step
-            self.settled.append(self._before_fault(piece[piece.step < fault.step]))
-            raise Alarm(fault.message, self.flow.span_of_step(fault.step), hint=fault.hint) from None
-        self.settled.append(piece)
-
-    def _before_fault(self, piece: Toolpath) -> Toolpath:
-        """The tool-centre path up to a fault; its last element ends nobody knows where and is left out."""
-        try:
-            return compensation.apply(corners.apply(piece), self.control.compensation, unfinished=True)
-        except PathFault:
-            return piece[:0]
+        """Run the passes on the rows not yet settled; see :mod:`mnclab.machine.settling`."""
+        settle(self, unfinished)
 
     def observe(self) -> None:
         """Settle, and take tip and register from the end of the tool-centre path."""
-        self.settle()
-        if self.settled and len(self.settled[-1]):
-            self.tip = tuple(self.settled[-1].end[-1].tolist())  # type: ignore[assignment]
-            self.recorder.start = np.array(self.tip)
+        settle(self)
+        end = end_of_settled(self)
+        if end is not None:
+            self.tip = end
+            self.recorder.start = np.array(end)
             self.read_position()
-
-    def paths(self) -> tuple[Toolpath, Toolpath]:
-        """The programmed contour and the tool-centre path of the whole run, relative to the origin."""
-        origin = np.array(self.origin or (0.0, 0.0, 0.0))
-        programmed = join(self.programmed_pieces, self.recorder)
-        if self.cut is not None:
-            programmed = programmed[programmed.step < self.cut]
-        same = self.cut is None and not self.altered
-        toolpath = programmed if same else concatenate(self.settled)
-        shown = []
-        for path in (programmed, toolpath):
-            moved = path if not origin.any() else path.replace(
-                start=path.start - origin, end=path.end - origin, centre=path.centre - origin
-            )  # fmt: skip
-            shown.append(
-                moved.annotated(
-                    labels=tuple(self.recorder.labels), joints=tuple(self.recorder.joints), origin=tuple(origin),
-                    lathe=self.control.lathe,
-                )
-            )  # fmt: skip
-        return shown[0], shown[0] if same else shown[1]

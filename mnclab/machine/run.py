@@ -12,6 +12,7 @@ from mnclab.machine.control import Control
 from mnclab.machine.history import History
 from mnclab.machine.interpreter import Interpreter, Stop
 from mnclab.machine.machine import Machine
+from mnclab.machine.settling import paths
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place
@@ -48,7 +49,7 @@ class Run:
                 alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         self.programmed: Toolpath
         self.toolpath: Toolpath
-        self.programmed, self.toolpath = machine.paths()
+        self.programmed, self.toolpath = paths(machine)
         if machine.cut is not None:
             self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
         self.history = History(machine.logs, len(self.steps.block))
@@ -175,8 +176,6 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     except Alarm as alarm:
         alarms.append(alarm)
     result = Run(program, setup, control, machine, alarms + machine.alarms)
-    if strict:
-        for alarm in result.alarms:
-            if alarm.severity == ALARM:
-                raise alarm
+    if strict and not result.ok:
+        raise next(found for found in result.alarms if found.severity == ALARM)
     return result

@@ -24,7 +24,10 @@ class Span(NamedTuple):
 class Source(Protocol):
     """What an alarm needs of a program to show its place."""
 
-    name: str
+    @property
+    def name(self) -> str:
+        """The file, or "program"."""
+        ...
 
     def line_text(self, line: int) -> str:
         """The characters of one line, without its end."""

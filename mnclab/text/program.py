@@ -239,7 +239,7 @@ class ProgramBuilder:
             key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
             zero, n = np.zeros(len(bulk.value), dtype=np.uint8), len(bulk.start)
             more = [names[bulk.address], bulk.value, zero, zero, bulk.offset, bulk.length]
-            more_heads = [bulk.start, np.full(n, key), np.zeros(n, dtype=bool), bulk.plain, bulk.count]
+            more_heads = [bulk.start, np.full(n, key), np.zeros(n, dtype=bool), bulk.plain, bulk.size]
             if self.blocks:
                 more, more_heads = _merged(columns, more, 4), _merged(heads, more_heads, 0)
             columns, heads = more, more_heads
@@ -284,6 +284,6 @@ class BulkBlocks(NamedTuple):
     offset: NDArray[np.int32]
     length: NDArray[np.int32]
     keyword: str
-    start: NDArray[np.int64]
-    count: NDArray[np.int64]
+    start: NDArray[np.int32]
+    size: NDArray[np.int64]
     plain: NDArray[np.bool_]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from mnclab.machine.control import Words
 from mnclab.machine.machine import PLANES, Machine
 from mnclab.text.program import Word
@@ -10,7 +12,7 @@ AXES = "XYZ"
 CENTRE = "IJK"
 
 
-def coordinates(m: Machine, words: Words, absolute: bool) -> dict[str, float]:
+def coordinates(m: Machine, words: Words, absolute: bool) -> dict[str, Any]:
     """Targets of the axes that are written, as arguments of a verb (``x=``, …); increments count from the register."""
     found = {}
     for k, axis in enumerate(AXES):

@@ -73,7 +73,7 @@ def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: list[tuple[int, 
         length=length,
         keyword="",
         start=starts,
-        count=count,
+        size=count,
         plain=plain_blocks(letter, value, count, PLAIN_LETTERS),
     )
 
