@@ -25,27 +25,19 @@ AnyObey = TypeVar("AnyObey", bound=Callable[..., None])
 Reader = Callable[[str, str], Program]
 
 
-class Words(Mapping[str, Word]):
-    """The words handed to a function: the word that called it, and those it takes. ``words["X"]`` is the first X."""
+class Words(dict[str, Word]):
+    """The words handed to a function: the word that called it, and those it takes. ``words["X"]`` is the first X.
+
+    ``words.words`` has all of them in the order handed out, ``code`` is the code that was called.
+    """
 
     def __init__(self, words: tuple[Word, ...], code: str = "") -> None:
+        super().__init__((word[0], word) for word in reversed(words))
         self.words, self.code = words, code
-
-    def __getitem__(self, address: str) -> Word:
-        for word in self.words:
-            if word.address == address:
-                return word
-        raise KeyError(address)
 
     def all(self, address: str) -> list[Word]:
         """Every word of an address, in the order written."""
         return [word for word in self.words if word.address == address]
-
-    def __iter__(self) -> Any:
-        return iter(dict.fromkeys(word.address for word in self.words))
-
-    def __len__(self) -> int:
-        return len(self.words)
 
 
 @dataclass(frozen=True)

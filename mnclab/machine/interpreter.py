@@ -20,6 +20,8 @@ from mnclab.machine.machine import Machine
 from mnclab.text.alarm import ALARM, Span
 from mnclab.text.program import NONE, NUMBER, Program, Word
 
+WINDOW = 4096  # blocks whose words are held as lists
+
 
 class Action(NamedTuple):
     """One part of a plan: a function or a cycle, the word that called it (or -1), and the words it takes."""
@@ -50,6 +52,9 @@ class Interpreter:
         self.phases = {name: k for k, name in enumerate(control.phases)}
         self.plans: dict[Any, Plan] = {}
         self.lines = program.line_of(np.arange(len(program))).tolist()
+        self.window, self.bounds = (0, 0), [0]
+        self.line_bounds: list[tuple[int, int]] = []
+        self.rows: list[tuple[int, float, int, int, int, int]] = []
         self.faulty = self._faulty_blocks()
         self.bulk = Bulk(control, machine, program, self.faulty)
         machine.flow = Flow(program, self.obey, self.bulk.obey)
@@ -108,27 +113,43 @@ class Interpreter:
         function.obey(self.machine, Words((head, *given) if head else given, function.code))
 
     def words_of(self, index: int) -> list[Word]:
-        """The words of a block."""
+        """The words of a block. Columns become lists for many blocks at a time: plain Python is faster on those."""
         program = self.program
-        a, b = int(program.first[index]), int(program.first[index + 1])
-        names, payload, line = program.addresses, program.payload, self.lines[index]
-        begin = int(program.line_starts[line - 1])
-        end = int(program.line_starts[line]) if line < len(program.line_starts) else 1 << 60
-        columns = (program.address, program.value, program.form, program.flag, program.offset, program.length)
+        if not self.window[0] <= index < self.window[1]:
+            self.open_window(index)
+        a, b = self.bounds[index - self.window[0]], self.bounds[index - self.window[0] + 1]
+        line = self.lines[index]
+        begin, end = self.line_bounds[index - self.window[0]]
         words = []
-        for name, value, form, flag, offset, length in zip(*(c[a:b].tolist() for c in columns), strict=True):
+        for k in range(a, b):
+            address, number, form, flag, offset, length = self.rows[k]
+            value: Any = number
             span = Span(line, offset - begin + 1, length) if offset < end else program.span(offset, length)
-            kept = value if form == NUMBER else None if form == NONE else payload[int(value)]
-            words.append(Word(names[name], kept, span, flag))
+            if form != NUMBER:
+                value = None if form == NONE else program.payload[int(number)]
+            words.append(Word(program.addresses[address], value, span, flag))
         return words
 
-    # --- planning ------------------------------------------------------------------------------------------------------
+    def open_window(self, index: int) -> None:
+        """Take the columns of the next blocks as lists."""
+        program = self.program
+        stop = min(index + WINDOW, len(program))
+        a, b = int(program.first[index]), int(program.first[stop])
+        columns = (program.address, program.value, program.form, program.flag, program.offset, program.length)
+        self.rows = list(zip(*(column[a:b].tolist() for column in columns), strict=True))
+        self.bounds = (program.first[index : stop + 1] - a).tolist()
+        ends = np.append(program.line_starts, 1 << 30)
+        lines = np.asarray(program.line_of(np.arange(index, stop)))
+        self.line_bounds = list(zip(program.line_starts[lines - 1].tolist(), ends[lines].tolist(), strict=True))
+        self.window = (index, stop)
+
+    # --- planning ----------------------------------------------------------------------------------------------------
 
     def plan_for(self, keyword: str, words: list[Word]) -> Plan:
         """The plan for this kind of block, made when it is first met."""
         machine, codes = self.machine, self.control.codes
         active = machine.position_cycle.cycle if machine.position_cycle else None
-        kinds = tuple((w.address, w.value if w.address in codes and type(w.value) is float else None) for w in words)
+        kinds = tuple([w[0] if w[0] not in codes else (w[0], w[1]) for w in words])
         key = (keyword, kinds, machine.modal.get(self.control.motion), active)
         plan = self.plans.get(key)
         if plan is None:
