@@ -213,31 +213,35 @@ class Bulk:
         """Make the rows, the history and the state of the first ``count`` blocks."""
         machine = self.machine
         step = machine.flow.begin_many(first, count)
-        steps = np.arange(step, step + count)
+        steps = np.arange(step, step + count, dtype=np.int32)
         before = machine.step
         machine.step = step + count - 1
         moved = np.flatnonzero(run.moves[:count])
         if len(moved):
-            motion = run.motion[moved]
-            kind = np.where(motion == 0, Kind.RAPID, np.where(run.arc[moved], Kind.ARC, Kind.LINE))
-            machine.recorder.bulk(
-                {
-                    "kind": kind,
-                    "line": self.program.line_of(first + moved),
-                    "step": steps[moved],
-                    "end": run.tips[moved + 1],
-                    "centre": run.centre[moved],
-                    "sweep": run.angle[moved],
-                    "feed": np.where(motion == 0, np.inf, run.feed[moved]),
-                    "state": np.full(len(moved), machine.state()),
-                }
-            )
+            self.rows(run, first, steps, moved if len(moved) < count else slice(0, count))
         self.log(run, steps, count, before)
         machine.programmed = tuple(run.points[count].tolist())
         machine.tip = tuple(run.tips[count].tolist())
         machine.source_line = int(self.program.line_of(first + count - 1))
 
-    def log(self, run: _Run, steps: NDArray[np.int64], count: int, before: int) -> None:
+    def rows(self, run: _Run, first: int, steps: NDArray[np.int32], moved: NDArray[np.int64] | slice) -> None:
+        """Hand the rows of the blocks that move to the recorder."""
+        motion, arc = run.motion[moved], run.arc[moved]
+        kind = np.where(motion == 0, Kind.RAPID, np.where(arc, Kind.ARC, Kind.LINE)).astype(np.uint8)
+        lines = np.asarray(self.program.line_of(slice(first, first + len(run.moves)))).astype(np.int32)
+        columns = {
+            "kind": kind,
+            "line": lines[moved],
+            "step": steps[moved],
+            "end": run.tips[1:][moved],
+            "feed": np.where(motion == 0, np.inf, run.feed[moved]),
+            "state": np.asarray(self.machine.state()),
+        }
+        if arc.any():
+            columns |= {"centre": run.centre[moved], "sweep": run.angle[moved]}
+        self.machine.recorder.bulk(columns)
+
+    def log(self, run: _Run, steps: NDArray[np.int32], count: int, before: int) -> None:
         """Changes of position, feed and motion, step by step."""
         machine, history = self.machine, self.machine.logs
         changed = np.flatnonzero((run.points[1 : count + 1] != run.points[:count]).any(axis=1))

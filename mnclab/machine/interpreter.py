@@ -51,8 +51,8 @@ class Interpreter:
         self.control, self.machine, self.program = control, machine, program
         self.phases = {name: k for k, name in enumerate(control.phases)}
         self.plans: dict[Any, Plan] = {}
-        self.lines = program.line_of(np.arange(len(program))).tolist()
         self.window, self.bounds = (0, 0), [0]
+        self.lines: list[int] = []
         self.line_bounds: list[tuple[int, int]] = []
         self.rows: list[tuple[int, float, int, int, int, int]] = []
         self.faulty = self._faulty_blocks()
@@ -85,7 +85,9 @@ class Interpreter:
         """Obey one block."""
         machine, program = self.machine, self.program
         machine.step = machine.flow.begin(index)
-        machine.source_line = self.lines[index]
+        if not self.window[0] <= index < self.window[1]:
+            self.open_window(index)
+        machine.source_line = self.lines[index - self.window[0]]
         if program.skip[index] and machine.settings.get("block_skip"):
             return
         if index in self.faulty:
@@ -114,12 +116,10 @@ class Interpreter:
 
     def words_of(self, index: int) -> list[Word]:
         """The words of a block. Columns become lists for many blocks at a time: plain Python is faster on those."""
-        program = self.program
-        if not self.window[0] <= index < self.window[1]:
-            self.open_window(index)
-        a, b = self.bounds[index - self.window[0]], self.bounds[index - self.window[0] + 1]
-        line = self.lines[index]
-        begin, end = self.line_bounds[index - self.window[0]]
+        program, at = self.program, index - self.window[0]
+        a, b = self.bounds[at], self.bounds[at + 1]
+        line = self.lines[at]
+        begin, end = self.line_bounds[at]
         words = []
         for k in range(a, b):
             address, number, form, flag, offset, length = self.rows[k]
@@ -139,7 +139,8 @@ class Interpreter:
         self.rows = list(zip(*(column[a:b].tolist() for column in columns), strict=True))
         self.bounds = (program.first[index : stop + 1] - a).tolist()
         ends = np.append(program.line_starts, 1 << 30)
-        lines = np.asarray(program.line_of(np.arange(index, stop)))
+        lines = np.asarray(program.line_of(slice(index, stop)))
+        self.lines = lines.tolist()
         self.line_bounds = list(zip(program.line_starts[lines - 1].tolist(), ends[lines].tolist(), strict=True))
         self.window = (index, stop)
 
