@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -229,7 +229,7 @@ class Bulk:
         motion, arc = run.motion[moved], run.arc[moved]
         kind = np.where(motion == 0, Kind.RAPID, np.where(arc, Kind.ARC, Kind.LINE)).astype(np.uint8)
         lines = np.asarray(self.program.line_of(slice(first, first + len(run.moves)))).astype(np.int32)
-        columns = {
+        columns: dict[str, NDArray[Any]] = {
             "kind": kind,
             "line": lines[moved],
             "step": steps[moved],

@@ -77,7 +77,7 @@ class Program:
     form: NDArray[np.uint8]
     flag: NDArray[np.uint8]
     offset: NDArray[np.int32]
-    length: NDArray[np.int32]
+    length: NDArray[np.int16]
     first: NDArray[np.int32]
     keywords: tuple[str, ...]
     keyword: NDArray[np.int16]
@@ -231,7 +231,8 @@ class ProgramBuilder:
         words = np.array(self.words, dtype=np.float64).reshape(-1, 6)
         blocks = np.array(self.blocks, dtype=np.float64).reshape(-1, 5)
         count = np.diff(np.append(blocks[:, 4], len(words)))
-        kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int32)
+        words[:, 5] = np.minimum(words[:, 5], 32767)
+        kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int16)
         columns = [words[:, k].astype(kind) for k, kind in enumerate(kinds)]
         heads = [column.astype(np.int32) for column in (*blocks[:, :4].T, count)]
         if bulk is not None and len(bulk.start):
@@ -254,7 +255,7 @@ class ProgramBuilder:
             form=columns[2],
             flag=columns[3],
             offset=columns[4].astype(np.int32, copy=False),
-            length=columns[5].astype(np.int32, copy=False),
+            length=columns[5].astype(np.int16, copy=False),
             first=first.astype(np.int32),
             keywords=tuple(self.keywords),
             keyword=heads[1].astype(np.int16),
@@ -282,8 +283,8 @@ class BulkBlocks(NamedTuple):
     address: NDArray[np.integer[Any]]
     value: NDArray[np.float64]
     offset: NDArray[np.int32]
-    length: NDArray[np.int32]
+    length: NDArray[np.int16]
     keyword: str
     start: NDArray[np.int32]
-    size: NDArray[np.int64]
+    size: NDArray[np.int32]
     plain: NDArray[np.bool_]

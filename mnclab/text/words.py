@@ -39,17 +39,22 @@ class Scan:
     """Words of the clean lines, and which lines are clean.
 
     ``letter`` (w,) upper-case ASCII, ``value`` (w,), ``offset`` (w,) of the letter in the text, ``length`` (w,) in
-    characters, ``line`` (w,) counted from 0; ``clean`` (l,); ``starts`` (l,) offsets of the lines; ``lead`` (l,)
-    the whole number before the first letter of a line, -1 where there is none.
+    characters; ``count`` (l,) words of each line, 0 where it is not clean; ``clean`` (l,); ``starts`` (l,) offsets of the
+    lines.
     """
 
     letter: NDArray[np.uint8]
     value: NDArray[np.float64]
     offset: NDArray[np.int32]
-    length: NDArray[np.int32]
-    line: NDArray[np.int32]
+    length: NDArray[np.int16]
+    count: NDArray[np.int32]
     clean: NDArray[np.bool_]
     starts: NDArray[np.int32]
+
+    @property
+    def line(self) -> NDArray[np.int64]:
+        """The line (w,) of each word, from 0."""
+        return np.repeat(np.arange(len(self.count)), self.count)
 
 
 def line_starts(data: NDArray[np.uint8]) -> NDArray[np.int32]:
@@ -71,23 +76,33 @@ def scan(text: str, leading_number: bool = False) -> Scan:
     """Find the words of all clean lines; with ``leading_number`` digits may stand before the first letter."""
     data = characters(text)
     starts = line_starts(data)
-    pieces = []
-    first = 0
+    most = sum(int(np.count_nonzero(_letters(data[k : k + PIECE]))) for k in range(0, len(data), PIECE))
+    # one allocation for all pieces: memory touched for the first time costs more than the work on it
+    columns = [np.empty(most, dtype=kind) for kind in (np.uint8, np.float64, np.int32, np.int16)]
+    count, clean = np.zeros(len(starts), dtype=np.int32), np.ones(len(starts), dtype=bool)
+    first = found = 0
     while first < len(starts):
-        begin = starts[first]
+        begin = int(starts[first])
         after = int(np.searchsorted(starts, begin + PIECE, "right"))
         last = max(after - 1, first + 1) if after < len(starts) else len(starts)
         end = starts[last] if last < len(starts) else len(data)
-        pieces.append(_scan_piece(data[begin:end], starts[first:last] - begin, int(begin), first, leading_number))
-        first = last
-    letter, value, offset, length, line, clean = (np.concatenate(column) for column in zip(*pieces, strict=True))
-    return Scan(letter, value, offset, length, line, clean, starts)
+        lines = slice(first, last)
+        *words, count[lines], clean[lines] = _scan_piece(data[begin:end], starts[lines] - begin, begin, leading_number)
+        for column, part in zip(columns, words, strict=True):
+            column[found : found + len(part)] = part
+        found, first = found + len(words[0]), last
+    letter, value, offset, length = (column[:found] for column in columns)
+    return Scan(letter, value, offset, length, count, clean, starts)
+
+
+def _letters(data: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    return (data | 0x20) - 97 < 26
 
 
 def _scan_piece(
-    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, first_line: int, leading_number: bool
+    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, leading_number: bool
 ) -> tuple[NDArray, ...]:
-    marks = np.flatnonzero(((data | 0x20) - 97 < 26) | (data == 10) | (data == 13))
+    marks = np.flatnonzero(_letters(data) | (data == 10) | (data == 13))
     marked = data[marks]
     is_letter = marked > 13
     at = marks[is_letter]
@@ -105,7 +120,7 @@ def _scan_piece(
     if (marked == 13).any():
         line = np.searchsorted(starts, at, "right") - 1
     else:
-        line = np.cumsum(~is_letter, dtype=np.int32)[is_letter]
+        line = np.cumsum(~is_letter)[is_letter]
     # a line is clean when all its words are good and no other character stands before the first of them
     clean = np.ones(len(starts), dtype=bool)
     clean[line[~good]] = False
@@ -117,9 +132,9 @@ def _scan_piece(
     return (
         data[at[keep]] & 0xDF,
         value[keep],
-        (at[keep] + begin).astype(np.int32),
-        (end_of[keep] - at[keep]).astype(np.int32),
-        (line[keep] + first_line).astype(np.int32),
+        at[keep] + begin,
+        end_of[keep] - at[keep],
+        np.bincount(line[keep], minlength=len(starts)),
         clean,
     )
 
