@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -94,7 +95,7 @@ class Region:
     def parts(self) -> tuple[Region, ...]:
         """The connected pieces, each with its islands."""
         first = [i for i, loop in enumerate(self.loops) if loop.area > 0]
-        return tuple(Region(self.loops[i:k]) for i, k in zip(first, [*first[1:], None], strict=True))
+        return tuple(Region(self.loops[i:k]) for i, k in pairwise([*first, len(self.loops)]))
 
     def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
         """Which of the points `(k, 2)` lie inside, `(k,)`; a point on the boundary may count either way."""
