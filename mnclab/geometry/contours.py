@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 
 FULL_TURN = 2 * np.pi
-FLAT = 1e-9             # a smaller bulge is a line: over a chord of 1 m it would rise by half a nanometre
+FLAT = 1e-9  # a smaller bulge is a line: over a chord of 1 m it would rise by half a nanometre
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,7 +144,7 @@ class Contour:
         q = np.roll(p, -1, axis=0)
         chord2 = ((q - p) ** 2).sum(axis=1)
         sweep = 4 * np.arctan(b)
-        flat = np.abs(b) < 1e-3     # there the difference cancels; the series c²·b·(1 + b²/5) / 3 is exact
+        flat = np.abs(b) < 1e-3  # there the difference cancels; the series c²·b·(1 + b²/5) / 3 is exact
         with np.errstate(divide="ignore", invalid="ignore"):
             round_piece = chord2 * (1 + b * b) ** 2 / (32 * b * b) * (sweep - np.sin(sweep))
         pieces = np.where(flat, chord2 * b * (1 + b * b / 5) / 3, round_piece)
@@ -208,7 +208,7 @@ class Contour:
     def distance(self, points: ArrayLike) -> Floats:
         """Distance of the contour from each of the points `(k, 2)`, never negative, `(k,)`."""
         spots = np.asarray(points, dtype=float).reshape(-1, 2)
-        block = max(1, 2_000_000 // len(self.starts))       # points by elements must fit into memory
+        block = max(1, 2_000_000 // len(self.starts))  # points by elements must fit into memory
         near = [self._feet(spots[i : i + block])[0].min(axis=1) for i in range(0, len(spots), block)]
         return np.concatenate(near) if near else np.zeros(0)
 

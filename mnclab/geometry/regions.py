@@ -25,10 +25,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.contours import FULL_TURN, Contour, Curve, Floats, cross, left, steps_within
 
-CHORD_ERROR = 2e-5      # mm, of the polylines: decides only what touches and what does not
-GRID = 1e-9             # mm, on which shapely rounds corners, so that nearly equal ones become equal
-SAME = 1e-7             # mm, below which places and radii count as equal
-SMOOTH = 1e-9           # rad, below which a corner is none
+CHORD_ERROR = 2e-5  # mm, of the polylines: decides only what touches and what does not
+GRID = 1e-9  # mm, on which shapely rounds corners, so that nearly equal ones become equal
+SAME = 1e-7  # mm, below which places and radii count as equal
+SMOOTH = 1e-9  # rad, below which a corner is none
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,8 +134,8 @@ class _Drawing:
     """Contours as polylines whose pieces know their curves."""
 
     contours: Sequence[Contour]
-    rings: list[Floats] = field(default_factory=list)               # (k, 2) each, not closed
-    tags: list[NDArray[np.intp]] = field(default_factory=list)      # (k,) each: which of the curves
+    rings: list[Floats] = field(default_factory=list)  # (k, 2) each, not closed
+    tags: list[NDArray[np.intp]] = field(default_factory=list)  # (k,) each: which of the curves
     curves: list[Curve] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -195,7 +195,7 @@ class _Drawing:
                 if loop is not None:
                     loops.append(loop if loop.area * sense > 0 else loop.reversed())
                 elif sense > 0:
-                    break       # a sliver, and so are its holes
+                    break  # a sliver, and so are its holes
         return tuple(loops)
 
 
@@ -264,7 +264,7 @@ def _bands(loop: Contour, width: float) -> Iterator[Contour]:
     first, last = loop.starts + width * left(begin), loop.ends + width * left(end)
     turns, bulge = loop.turns(), loop.bulge
     smooth = np.abs(turns) <= SMOOTH
-    first[smooth] = np.roll(last, 1, axis=0)[smooth]        # no gap as wide as a rounding error
+    first[smooth] = np.roll(last, 1, axis=0)[smooth]  # no gap as wide as a rounding error
     to_centre = np.where(bulge > 0, loop.radii, np.inf)
     for i, (start, stop, centre) in enumerate(zip(loop.starts, loop.ends, loop.centres, strict=True)):
         if to_centre[i] <= width + SAME:

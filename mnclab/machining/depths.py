@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-DRIFT = 1e-9            # mm; a rest below this is a rounding error and no level of its own
+DRIFT = 1e-9  # mm; a rest below this is a rounding error and no level of its own
 
 
 def infeeds(surface: float, bottom: float, step: float | None) -> tuple[float, ...]:
@@ -21,5 +21,5 @@ def infeeds(surface: float, bottom: float, step: float | None) -> tuple[float, .
     if not step or not math.isfinite(step):
         return (float(bottom),)
     sign = math.copysign(1.0, bottom - surface)
-    whole = math.ceil((total - DRIFT) / step) - 1       # steps that end clearly before the bottom
+    whole = math.ceil((total - DRIFT) / step) - 1  # steps that end clearly before the bottom
     return (*(surface + sign * k * step for k in range(1, whole + 1)), float(bottom))

@@ -20,7 +20,7 @@ from mnclab.geometry.contours import Contour, Curve, Floats, bounds_of, cross, l
 from mnclab.geometry.regions import Region
 
 MOST_RINGS = 2000
-SHARP = 1e-6            # rad, the least turn of a corner
+SHARP = 1e-6  # rad, the least turn of a corner
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +55,7 @@ class Clearing:
 
 @dataclass(frozen=True, eq=False)
 class _Ring:
-    level: float            # in stepovers inward from the boundary of the tool-centre area
+    level: float  # in stepovers inward from the boundary of the tool-centre area
     island: bool
     contour: Contour
 
@@ -96,7 +96,7 @@ def rounded(loop: Contour, radius: float) -> Contour:
     """
     turns, curves, sweeps, lengths = loop.turns(), loop.curves, loop.sweeps, loop.lengths
     ahead = loop.tangents()[0]
-    taken = np.zeros((2, len(lengths)))                 # of each element, at its start and at its end
+    taken = np.zeros((2, len(lengths)))  # of each element, at its start and at its end
     arcs: dict[int, tuple[Floats, Floats, float]] = {}  # corner: where the arc begins and ends, its bulge
     sharp = (turns > SHARP) & (turns < np.pi - SHARP) & (radius > 0)
     for i in np.flatnonzero(sharp).tolist():
@@ -173,7 +173,7 @@ def _ordered(todo: list[_Ring]) -> Iterator[Contour]:
     starts = np.array([ring.contour.points[0] for ring in todo])
     level = np.array([ring.level for ring in todo])
     island = np.array([ring.island for ring in todo])
-    within = np.array([ring.contour.winding(starts) != 0 for ring in todo])     # [i, k]: k lies within i
+    within = np.array([ring.contour.winding(starts) != 0 for ring in todo])  # [i, k]: k lies within i
     deeper = level[None, :] > level[:, None]
     waits = np.where(island[:, None], within.T & island & deeper, island | (within & deeper))
     left_over = np.ones(len(todo), dtype=bool)

@@ -7,15 +7,15 @@ from hypothesis import strategies as st
 
 from mnclab.geometry.contours import Contour, Curve
 
-QUARTER = np.tan(np.pi / 8)             # the bulge of a quarter circle counter-clockwise
-HALF_LENS = np.arccos(0.6)              # two circles r = 25, 30 mm apart: half of the angle of each arc
+QUARTER = np.tan(np.pi / 8)  # the bulge of a quarter circle counter-clockwise
+HALF_LENS = np.arccos(0.6)  # two circles r = 25, 30 mm apart: half of the angle of each arc
 
-ROUNDED = Contour(                      # 50 × 30, corners rounded with r = 5
+ROUNDED = Contour(  # 50 × 30, corners rounded with r = 5
     [(5, 0), (45, 0), (50, 5), (50, 25), (45, 30), (5, 30), (0, 25), (0, 5)],
     [0, QUARTER] * 4,
 )
 LENS = Contour([(50, 30), (50, 70)], [np.tan(2 * HALF_LENS / 4)] * 2)
-SLOT = Contour([(0, 0), (40, 0), (40, 20), (0, 20)], [0, 1, 0, 1])      # two half circles r = 10
+SLOT = Contour([(0, 0), (40, 0), (40, 20), (0, 20)], [0, 1, 0, 1])  # two half circles r = 10
 
 
 @pytest.mark.parametrize(
@@ -26,7 +26,7 @@ SLOT = Contour([(0, 0), (40, 0), (40, 20), (0, 20)], [0, 1, 0, 1])      # two ha
         (Contour.circle((3, -7), 5, start=1.2, clockwise=True), -25 * np.pi, 10 * np.pi),
         (ROUNDED, 1500 - 4 * 25 + 25 * np.pi, 2 * 40 + 2 * 20 + 10 * np.pi),
         (SLOT, 800 + 100 * np.pi, 80 + 20 * np.pi),
-        (LENS, 1250 * HALF_LENS - 600, 4 * 25 * HALF_LENS),             # 559.119 and 92.730
+        (LENS, 1250 * HALF_LENS - 600, 4 * 25 * HALF_LENS),  # 559.119 and 92.730
     ],
 )
 def test_area_and_length_are_exact(contour, area, length):
@@ -36,16 +36,16 @@ def test_area_and_length_are_exact(contour, area, length):
 
 def test_a_flat_arc_has_the_area_of_its_piece_of_circle():
     for radius in (1e2, 1e3, 1e5, 1e7):
-        sweep = 2 * np.arcsin(1 / radius)                   # over the chord 2
+        sweep = 2 * np.arcsin(1 / radius)  # over the chord 2
         flat = Contour([(0, 0), (2, 0)], [np.tan(sweep / 4), 0])
-        series = radius**2 / 2 * (sweep**3 / 6 - sweep**5 / 120)        # r²·(s - sin s)/2
+        series = radius**2 / 2 * (sweep**3 / 6 - sweep**5 / 120)  # r²·(s - sin s)/2
         assert flat.area == pytest.approx(series, rel=1e-9)
     near_limit = [Contour([(0, 0), (2, 0)], [b, 0]).area / b for b in (0.999e-3, 1.001e-3)]
     assert near_limit[0] == pytest.approx(near_limit[1], rel=1e-8)
 
 
 def test_centre_radius_and_sweep():
-    arc = Contour([(2, 0), (0, 2)], [np.tan(3 * np.pi / 8), 0], closed=False)       # 270° about (2, 2)
+    arc = Contour([(2, 0), (0, 2)], [np.tan(3 * np.pi / 8), 0], closed=False)  # 270° about (2, 2)
     assert arc.centres[0] == pytest.approx([2, 2], abs=1e-14)
     assert arc.radii[0] == pytest.approx(2)
     assert arc.sweeps[0] == pytest.approx(3 * np.pi / 2)
@@ -63,10 +63,10 @@ def test_bounds_include_the_bulging_arcs():
 
 
 def test_point_and_tangent_along_the_way():
-    place, tangent = ROUNDED.point_at(40 + 2.5 * np.pi / 2)         # half way round the corner about (45, 5)
+    place, tangent = ROUNDED.point_at(40 + 2.5 * np.pi / 2)  # half way round the corner about (45, 5)
     assert place == pytest.approx([45 + 5 * np.sqrt(0.5), 5 - 5 * np.sqrt(0.5)])
     assert tangent == pytest.approx([np.sqrt(0.5), np.sqrt(0.5)])
-    places, _ = ROUNDED.point_at([-1, 1, ROUNDED.length + 1])       # round and round
+    places, _ = ROUNDED.point_at([-1, 1, ROUNDED.length + 1])  # round and round
     assert places[1] == pytest.approx(places[2])
     assert places[0] == pytest.approx([5 - 5 * np.sin(0.2), 5 - 5 * np.cos(0.2)])
     stops, _ = Contour([(0, 0), (3, 4)], closed=False).point_at([-2, 2.5, 99])
@@ -77,7 +77,7 @@ def test_polyline_lies_on_the_contour_and_keeps_the_chord_error():
     polyline = ROUNDED.points_within(0.01)
     assert ROUNDED.distance(polyline).max() < 1e-13
     assert ROUNDED.distance((polyline[1:] + polyline[:-1]) / 2).max() <= 0.01
-    assert ROUNDED.distance((polyline[1:] + polyline[:-1]) / 2).max() > 0.005      # and wastes no points
+    assert ROUNDED.distance((polyline[1:] + polyline[:-1]) / 2).max() > 0.005  # and wastes no points
     assert polyline[0] == pytest.approx(polyline[-1])
     with pytest.raises(ValueError, match="chord error"):
         ROUNDED.points_within(0)
@@ -85,11 +85,11 @@ def test_polyline_lies_on_the_contour_and_keeps_the_chord_error():
 
 def test_distance_and_nearest():
     points = [(25, 12), (45, 5), (60, 35), (25, -3), (-5, 0)]
-    from_corners = [np.hypot(15, 10) - 5, np.hypot(10, 5) - 5]          # about (45, 25) and (5, 5)
+    from_corners = [np.hypot(15, 10) - 5, np.hypot(10, 5) - 5]  # about (45, 25) and (5, 5)
     assert ROUNDED.distance(points) == pytest.approx([12, 5, from_corners[0], 3, from_corners[1]])
     assert SLOT.nearest((10, -8)) == pytest.approx(10)
     assert SLOT.nearest((70, 10)) == pytest.approx(40 + 5 * np.pi)
-    assert LENS.distance([(50, 80)]) == pytest.approx([10])         # beyond a corner: the corner
+    assert LENS.distance([(50, 80)]) == pytest.approx([10])  # beyond a corner: the corner
 
 
 def test_winding_tells_inside_from_outside():
@@ -106,7 +106,7 @@ def test_a_closed_contour_begins_anywhere():
         assert moved.points[0] == pytest.approx(ROUNDED.point_at(way)[0])
         assert moved.length == pytest.approx(ROUNDED.length, rel=1e-13)
         assert moved.area == pytest.approx(ROUNDED.area, rel=1e-13)
-    assert len(ROUNDED.started_at(40).points) == 8      # at a corner nothing is split
+    assert len(ROUNDED.started_at(40).points) == 8  # at a corner nothing is split
     with pytest.raises(ValueError, match="closed"):
         Contour([(0, 0), (1, 0)], closed=False).started_at(0.5)
 

@@ -10,7 +10,7 @@ from mnclab.geometry.regions import Region
 
 A = Contour.circle((35, 50), 25, start=np.pi, clockwise=True)
 B = Contour.circle((65, 50), 25, clockwise=True)
-LENS = 1250 * np.arccos(0.6) - 600          # what two discs r = 25 share whose centres are 30 apart
+LENS = 1250 * np.arccos(0.6) - 600  # what two discs r = 25 share whose centres are 30 apart
 QUARTER = np.tan(np.pi / 8)
 
 
@@ -45,9 +45,9 @@ def caps(radius):
 @pytest.mark.parametrize(
     ("region", "area", "around"),
     [
-        (Region.of(A, B), 1250 * np.pi - LENS, 100 * (np.pi - np.arccos(0.6))),     # 3367.872, 221.430
-        (Region.of(A, holes=[B]), 625 * np.pi - LENS, 50 * np.pi),                  # 1404.376, 157.080
-        (Region.of(A).intersection(Region.of(B)), LENS, 100 * np.arccos(0.6)),      # 559.119, 92.730
+        (Region.of(A, B), 1250 * np.pi - LENS, 100 * (np.pi - np.arccos(0.6))),  # 3367.872, 221.430
+        (Region.of(A, holes=[B]), 625 * np.pi - LENS, 50 * np.pi),  # 1404.376, 157.080
+        (Region.of(A).intersection(Region.of(B)), LENS, 100 * np.arccos(0.6)),  # 559.119, 92.730
     ],
 )
 def test_two_overlapping_discs(region, area, around):
@@ -56,7 +56,7 @@ def test_two_overlapping_discs(region, area, around):
     assert len(region.loops) == 1
     corners = region.loops[0].points[np.argsort(region.loops[0].points[:, 1])]
     assert corners == pytest.approx(np.array([[50, 30], [50, 70]]), abs=1e-8)
-    assert region.loops[0].radii == pytest.approx([25, 25], abs=1e-8)           # arcs again
+    assert region.loops[0].radii == pytest.approx([25, 25], abs=1e-8)  # arcs again
 
 
 def test_union_and_difference_of_regions():
@@ -94,11 +94,11 @@ def test_coinciding_arcs_leave_nothing_behind():
 def test_inset_of_a_rounded_rectangle():
     points = [(5, 0), (45, 0), (50, 5), (50, 25), (45, 30), (5, 30), (0, 25), (0, 5)]
     region = Region.of(Contour(points, [0, QUARTER] * 4))
-    for d in (0.5, 3, 4.9999):                          # the corners keep their centres, with radius 5 - d
+    for d in (0.5, 3, 4.9999):  # the corners keep their centres, with radius 5 - d
         expected = (50 - 2 * d) * (30 - 2 * d) - (4 - np.pi) * (5 - d) ** 2
         assert region.inset(d).area == pytest.approx(expected, rel=1e-9)
         assert len(region.inset(d).loops[0].points) == 8
-    for d in (5, 7, 14.99):                             # now the corners are sharp
+    for d in (5, 7, 14.99):  # now the corners are sharp
         assert region.inset(d).area == pytest.approx((50 - 2 * d) * (30 - 2 * d), abs=1e-7)
         assert len(region.inset(d).loops[0].points) == 4
     assert region.inset(15).loops == ()
@@ -114,7 +114,7 @@ def test_inset_past_islands():
     outer, hole = region.inset(5).loops
     assert sorted(hole.radii) == pytest.approx([5] * 4 + [np.inf] * 4)
     assert outer.area > 0 > hole.area
-    assert len(region.inset(13).parts) == 2             # of the 25 mm between wall and island none are left
+    assert len(region.inset(13).parts) == 2  # of the 25 mm between wall and island none are left
     assert len(region.inset(13).loops) == 2
 
 
@@ -131,14 +131,14 @@ def test_the_dumbbell_falls_apart():
     """The coarse tool, r = 15, does not pass the neck (TNC 620, example C20)."""
     region = Region.of(dumbbell())
     neck = 20 * (55 - np.sqrt(800) - np.sqrt(300))
-    assert region.area == pytest.approx(1300 * np.pi - caps(30) - caps(20) + neck, rel=1e-12)      # 4212.730
+    assert region.area == pytest.approx(1300 * np.pi - caps(30) - caps(20) + neck, rel=1e-12)  # 4212.730
     centres = region.inset(15)
     assert [part.area for part in centres.parts] == pytest.approx([713.69, 80.47], abs=0.05)
     beak = max(np.hypot(*(centres.parts[0].loops[0].points - [30, 30]).T))
-    assert beak == pytest.approx(np.sqrt(800) - np.sqrt(125), abs=1e-6)         # 17.104: 15 from both corners
+    assert beak == pytest.approx(np.sqrt(800) - np.sqrt(125), abs=1e-6)  # 17.104: 15 from both corners
     left_over = region.difference(centres.offset(15))
-    swept = 225 * np.arcsin(2 / 3) - 10 * np.sqrt(125)                          # of the neck, from each beak
-    assert left_over.area == pytest.approx(neck - 2 * swept, abs=1e-6)          # 83.134
+    swept = 225 * np.arcsin(2 / 3) - 10 * np.sqrt(125)  # of the neck, from each beak
+    assert left_over.area == pytest.approx(neck - 2 * swept, abs=1e-6)  # 83.134
     assert len(left_over.parts) == 1
 
 
@@ -165,12 +165,12 @@ def test_contains():
 def test_a_straight_way_stays_inside_or_not():
     ring = Region.of(Contour.circle((0, 0), 30), holes=[Contour.circle((0, 0), 10)])
     assert ring.holds((20, -15), (20, 15))
-    assert ring.holds((-28, 10), (28, 10))              # just touches the island
+    assert ring.holds((-28, 10), (28, 10))  # just touches the island
     assert not ring.holds((-28, 9.9), (28, 9.9))
     assert not ring.holds((0, -29), (0, 29))
     assert not ring.holds((20, 0), (31, 0))
     square = Region.of(box(0, 0, 10, 10))
-    assert square.holds((0, 0), (10, 0))                # along a side
+    assert square.holds((0, 0), (10, 0))  # along a side
     assert not square.holds((0, 0), (10, -0.001))
 
 
@@ -199,7 +199,7 @@ def tangent_polygons(draw):
     turns = 2 * np.pi * gaps / gaps.sum()
     radius = draw(st.floats(5, 50))
     normal = np.cumsum(turns) + draw(st.floats(0, 6))
-    middle = normal - turns / 2                         # a corner lies between two sides
+    middle = normal - turns / 2  # a corner lies between two sides
     reach = radius / np.cos(turns / 2)
     points = np.stack([reach * np.cos(middle), reach * np.sin(middle)], axis=1)
     return Contour(points), radius, np.tan(turns / 2).sum()

@@ -12,14 +12,14 @@ from mnclab.machining.depths import infeeds
 @pytest.mark.parametrize(
     ("surface", "bottom", "step", "levels"),
     [
-        (30, 10.1, 5, [25, 20, 15, 10.1]),          # Q1=-20 Q5=+30 Q4=+0.1 Q10=+5
-        (0, -19.5, 6, [-6, -12, -18, -19.5]),       # Q1=-20 Q5=0 Q4=0.5 Q10=6
+        (30, 10.1, 5, [25, 20, 15, 10.1]),  # Q1=-20 Q5=+30 Q4=+0.1 Q10=+5
+        (0, -19.5, 6, [-6, -12, -18, -19.5]),  # Q1=-20 Q5=0 Q4=0.5 Q10=6
         (0, -20, 5, [-5, -10, -15, -20]),
         (0, -3, 5, [-3]),
         (0, -3, None, [-3]),
         (0, -3, 0, [-3]),
         (2, 2, 5, [2]),
-        (-10, -4, 4, [-6, -4]),                     # upwards
+        (-10, -4, 4, [-6, -4]),  # upwards
     ],
 )
 def test_the_last_level_is_the_rest(surface, bottom, step, levels):
@@ -29,7 +29,7 @@ def test_the_last_level_is_the_rest(surface, bottom, step, levels):
 @pytest.mark.parametrize("step", [0.1, 0.3, 0.7, 1.1, 1e-3])
 def test_drift_makes_no_level_of_its_own(step):
     for count in (1, 3, 7, 10, 300):
-        bottom = -sum([step] * count)               # added up, so that it misses count * step by its rounding
+        bottom = -sum([step] * count)  # added up, so that it misses count * step by its rounding
         levels = infeeds(0.0, bottom, step)
         assert len(levels) == count
         assert levels[-1] == bottom

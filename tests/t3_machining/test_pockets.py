@@ -132,7 +132,7 @@ def test_islands_first_and_from_the_inside_out():
 
 
 def test_one_plunge_for_each_piece():
-    assert len(rings(POCKETS["narrow"], 5, 5).pieces) == 2         # the neck of 9 is too narrow for 10
+    assert len(rings(POCKETS["narrow"], 5, 5).pieces) == 2  # the neck of 9 is too narrow for 10
     assert len(rings(POCKETS["wide"], 5, 5).pieces) == 1
 
 
@@ -168,7 +168,7 @@ def test_rounding_between_lines_and_arcs():
     hollow = Contour([(0, 0), (40, 0), (40, 20), (0, 20)], [0, -0.5, 0, 0])
     assert hollow.turns().max() > 2
     assert rounded(hollow, 1.0).turns().max() == pytest.approx(0, abs=1e-7)
-    assert len(rounded(box(0, 0, 3, 3), 1.6).points) < 8        # two arcs of 1.6 do not fit on a side of 3
+    assert len(rounded(box(0, 0, 3, 3), 1.6).points) < 8  # two arcs of 1.6 do not fit on a side of 3
 
 
 @pytest.mark.parametrize(
