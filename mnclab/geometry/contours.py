@@ -9,7 +9,6 @@ counter-clockwise, -1 for half a circle clockwise. Lengths in mm, angles in rad,
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -375,12 +374,6 @@ def steps_within(radii: Floats, sweeps: Floats, chord_error: float) -> NDArray[n
     chords = np.ones_like(sweeps)
     np.divide(np.abs(sweeps), largest, out=chords, where=bent)
     return np.maximum(np.ceil(chords - 1e-9), 1.0).astype(np.intp)
-
-
-def bounds_of(contours: Sequence[Contour]) -> Floats:
-    """Lower left and upper right corner of several contours, `(2, 2)`."""
-    corners = np.array([contour.bounds for contour in contours])
-    return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
 
 
 def _length(vectors: Floats) -> Floats:

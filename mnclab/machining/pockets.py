@@ -16,11 +16,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Curve, Floats, bounds_of, cross, left
+from mnclab.geometry.contours import Contour, Curve, Floats, cross, left
 from mnclab.geometry.regions import Region
 
 MOST_RINGS = 2000
-SHARP = 1e-6  # rad, the least turn of a corner
+SHARP = 1e-6  # rad and mm, the least turn of a corner and the shortest element
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +125,9 @@ def rounded(loop: Contour, radius: float) -> Contour:
         else:
             points.append(corner)
             bulge.append(kept[i])
-    return Contour(points, bulge)
+    full = Contour(points, bulge)
+    some = full.lengths > SHARP  # two arcs may use up what was between them
+    return Contour(full.points[some], full.bulge[some])
 
 
 def _way(curve: Curve, sweep: float, start: Floats, end: Floats) -> float:
@@ -145,8 +147,7 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool, corner_
 
 def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[_Ring]:
     """The rings of a piece, with a core ring wherever one more step would leave a core standing."""
-    width, height = np.ptp(bounds_of(centres.loops), axis=0)
-    if min(width, height) / 2 > MOST_RINGS * stepover:
+    if np.ptp(centres.loops[0].bounds, axis=0).min() / 2 > MOST_RINGS * stepover:
         raise ValueError(f"a stepover of {stepover:g} makes more than {MOST_RINGS} rings")
     level, here = 0, centres
     while here.loops:

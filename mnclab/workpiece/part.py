@@ -91,10 +91,10 @@ def cylinder(bottom: ArrayLike, top: ArrayLike, radius: float) -> Part:
 def contact(part: Part, start: ArrayLike, direction: ArrayLike, radius: float, reach: float) -> float | None:
     """How far a ball travels from `start` along `direction` until it touches: distance(centre) = radius.
 
-    0 if it touches already, None if it does not within `reach`. Between two places no farther apart than their
-    gaps together nothing can stand, for a gap changes by no more than the way; so the ball goes ahead by its
-    gap, and on as long as this holds. Where the gap is small it creeps, and may miss a graze that would cut in
-    by less than a nanometre. Then it settles between the last free place and the first one that is not.
+    0 if it touches already, None if it does not within `reach`. A gap changes by no more than the way, so
+    nothing stands between two places no farther apart than their gaps together: the ball goes ahead by its
+    gap, and on as long as this holds. Where the gap is small it creeps, and may miss a graze of less than a
+    nanometre. Then it settles between the last free place and the first one that is not.
     """
     origin, ahead = np.asarray(start, dtype=float), _unit(direction, "the direction of a probe")
 

@@ -169,6 +169,7 @@ def test_rounding_between_lines_and_arcs():
     assert hollow.turns().max() > 2
     assert rounded(hollow, 1.0).turns().max() == pytest.approx(0, abs=1e-7)
     assert len(rounded(box(0, 0, 3, 3), 1.6).points) < 8  # two arcs of 1.6 do not fit on a side of 3
+    assert rounded(box(0, 0, 3, 3), 1.5).length == pytest.approx(3 * np.pi)  # two of 1.5 just do: a circle
 
 
 @pytest.mark.parametrize(
