@@ -141,8 +141,10 @@ class Bulk:
         else:
             points[1:] = np.where(written, axes, 0.0)
             points = np.cumsum(points, axis=0)
-        shift = machine._shift
-        tips = points + np.array(shift) if shift is not None else frames.apply(machine._matrix, points)
+        if machine._shift is None:
+            tips = frames.apply(machine._matrix, points)
+        else:
+            tips = points + np.array(machine._shift) if any(machine._shift) else points
 
         feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
         motion, unknown = self.motions(words["G"], n)
@@ -245,7 +247,9 @@ class Bulk:
         """Changes of position, feed and motion, step by step."""
         machine, history = self.machine, self.machine.logs
         changed = np.flatnonzero((run.points[1 : count + 1] != run.points[:count]).any(axis=1))
-        history.extend("position", steps[changed], run.points[changed + 1])
+        everywhere = len(changed) == count  # then no copy is needed
+        points = run.points[1 : count + 1] if everywhere else run.points[changed + 1]
+        history.extend("position", steps if everywhere else steps[changed], points)
 
         feed = run.feed[:count]
         start = np.nan if machine.feed is None else machine.feed

@@ -240,11 +240,12 @@ class ProgramBuilder:
             key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
             zero, n = np.zeros(len(bulk.value), dtype=np.uint8), len(bulk.start)
             more = [names[bulk.address], bulk.value, zero, zero, bulk.offset, bulk.length]
-            more_heads = [bulk.start, np.full(n, key), np.zeros(n, dtype=bool), bulk.plain, bulk.size]
+            more_heads = [bulk.start, np.full(n, key, dtype=np.int16), np.zeros(n, dtype=bool), bulk.plain, bulk.size]
             if self.blocks:
                 more, more_heads = _merged(columns, more, 4), _merged(heads, more_heads, 0)
             columns, heads = more, more_heads
-        first = np.concatenate([[0], np.cumsum(heads[4])])
+        first = np.zeros(len(heads[4]) + 1, dtype=np.int32)
+        np.cumsum(heads[4], out=first[1:])
         return Program(
             text=self.text,
             name=self.name,
@@ -256,12 +257,12 @@ class ProgramBuilder:
             flag=columns[3],
             offset=columns[4].astype(np.int32, copy=False),
             length=columns[5].astype(np.int16, copy=False),
-            first=first.astype(np.int32),
+            first=first,
             keywords=tuple(self.keywords),
-            keyword=heads[1].astype(np.int16),
-            skip=heads[2].astype(bool),
-            plain=heads[3].astype(bool),
-            start=heads[0].astype(np.int32),
+            keyword=heads[1].astype(np.int16, copy=False),
+            skip=heads[2].astype(bool, copy=False),
+            plain=heads[3].astype(bool, copy=False),
+            start=heads[0].astype(np.int32, copy=False),
             line_starts=self.line_starts,
             payload=tuple(self.payload),
             alarms=tuple(sorted(self.alarms, key=lambda alarm: (alarm.span or Span(0, 0))[:2])),

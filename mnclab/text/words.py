@@ -12,6 +12,7 @@ The text is worked in pieces of some 256 KiB, which stay in the processor's cach
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,7 +79,7 @@ def scan(text: str, leading_number: bool = False) -> Scan:
     starts = line_starts(data)
     most = sum(int(np.count_nonzero(_letters(data[k : k + PIECE]))) for k in range(0, len(data), PIECE))
     # one allocation for all pieces: memory touched for the first time costs more than the work on it
-    columns = [np.empty(most, dtype=kind) for kind in (np.uint8, np.float64, np.int32, np.int16)]
+    columns: list[NDArray[Any]] = [np.empty(most, dtype=kind) for kind in (np.uint8, np.float64, np.int32, np.int16)]
     count, clean = np.zeros(len(starts), dtype=np.int32), np.ones(len(starts), dtype=bool)
     first = found = 0
     while first < len(starts):
@@ -91,7 +92,8 @@ def scan(text: str, leading_number: bool = False) -> Scan:
         for column, part in zip(columns, words, strict=True):
             column[found : found + len(part)] = part
         found, first = found + len(words[0]), last
-    letter, value, offset, length = (column[:found] for column in columns)
+    columns = [column[:found] for column in columns]
+    letter, value, offset, length = columns
     return Scan(letter, value, offset, length, count, clean, starts)
 
 
@@ -120,7 +122,7 @@ def _scan_piece(
     if (marked == 13).any():
         line = np.searchsorted(starts, at, "right") - 1
     else:
-        line = np.cumsum(~is_letter)[is_letter]
+        line = np.cumsum(~is_letter).astype(np.int64)[is_letter]
     # a line is clean when all its words are good and no other character stands before the first of them
     clean = np.ones(len(starts), dtype=bool)
     clean[line[~good]] = False
