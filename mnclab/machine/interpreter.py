@@ -163,13 +163,14 @@ class Interpreter:
         """A block that defines a cycle, or runs the active one again."""
         machine = self.machine
         values, words = self.assign(cycle, code, given)
-        again = machine.position_cycle if cycle.runs == "position" and head is None else None
-        if again is not None:
+        head = head or Word(code, None, self.span_here())
+        again = machine.position_cycle
+        if again is not None and again.cycle is cycle:  # written again or not, what is modal holds until the cycle ends
             modal = {p.name for p in cycle.parameters() if p.modal}
             values = {k: v for k, v in again.values.items() if k in modal} | values
-            definition = Definition(cycle, code, values, {**again.words, **words}, again.head, again.extra)
+            definition = Definition(cycle, code, values, words, head, again.extra)
         else:
-            definition = Definition(cycle, code, values, words, head or Word(code, None, self.span_here()))
+            definition = Definition(cycle, code, values, words, head)
         definition.values = cycle.prepare(values, words, machine, definition.extra)
         if cycle.runs == "definition":
             self.execute(definition)
@@ -177,9 +178,9 @@ class Interpreter:
         machine.set_modal("cycle", code)
         if cycle.runs == "call":
             verify(definition)
-            machine.cycle = definition
+            machine.cycle, machine.position_cycle = definition, None
         else:
-            machine.position_cycle = definition
+            machine.cycle, machine.position_cycle = None, definition
             self.execute(definition)
 
     def span_here(self) -> Span:
