@@ -165,7 +165,7 @@ class Interpreter:
         values, words = self.assign(cycle, code, given)
         head = head or Word(code, None, self.span_here())
         again = machine.position_cycle
-        if again is not None and again.cycle is cycle:  # written again or not, what is modal holds until the cycle ends
+        if again is not None and again.cycle is cycle:  # written again or not, what is modal holds
             modal = {p.name for p in cycle.parameters() if p.modal}
             values = {k: v for k, v in again.values.items() if k in modal} | values
             definition = Definition(cycle, code, values, words, head, again.extra)
@@ -175,7 +175,9 @@ class Interpreter:
         if cycle.runs == "definition":
             self.execute(definition)
             return
-        machine.set_modal("cycle", code)
+        machine.set_modal("cycle", cycle.code)
+        if code != cycle.code:
+            machine.warn(f"{code} is another name of {cycle.code} ({cycle.title})", head)
         if cycle.runs == "call":
             verify(definition)
             machine.cycle, machine.position_cycle = definition, None
@@ -237,7 +239,7 @@ def run_cycle(machine: Machine, definition: Definition) -> None:
         definition = Definition(
             definition.cycle, definition.code, definition.values | numbers, definition.words, definition.head, definition.extra
         )
-    label, machine.label = machine.label, f"{definition.code} {definition.cycle.title}"
+    label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
     bind(definition, machine).moves(machine)
     machine.label = label
 

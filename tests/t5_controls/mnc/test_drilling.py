@@ -93,6 +93,22 @@ def test_a_fault_of_a_later_hole_stands_at_that_hole():
         assert [alarm.span[:2] for alarm in run.alarms] == [(4, column)]
 
 
+def test_the_old_names_of_table_1_2():
+    """G200 is G300, with a notice; the others are named as not built, not as unknown."""
+    programs = [HEAD + f"{code} Q2 H-15 P5 Z20\nX1 M99\n" for code in ("G200", "G300")]
+    old, new = (mnclab.run(program, "mnc") for program in programs)
+    assert old.ok and [a.message for a in old.alarms] == ["G200 is another name of G300 (Drilling)"]
+    assert str(old.toolpath) == str(new.toolpath)
+    for number in (201, 202, 203, 204, 208, 241):
+        assert mnclab.run(f"G{number}\n", "mnc").alarms[0].message.startswith(f"G{number} is refused: it is part of")
+
+
+def test_the_block_that_prepares_a_cycle_does_not_call_it():
+    run = mnclab.run(HEAD + "G300 Q2 H-15 Z20 M99\n", "mnc")
+    assert [alarm.span[:2] for alarm in run.alarms] == [(2, 18)]
+    assert run.alarms[0].message == "M99 stands in the block that prepares G300"
+
+
 def test_a_start_below_the_clearance_level_is_left_upwards():
     """G300 ends at max(z0, Z + Q): 12 from z0 = 5, 50 from z0 = 50."""
     assert holes("G300 Q2 H-15 Z10\nX1 M99\nG0 Z5\nX2 M99\n") == {2: (12, (-5,), 50), 4: (12, (-5,), 12)}
