@@ -163,23 +163,26 @@ class Interpreter:
         """A block that defines a cycle, or runs the active one again."""
         machine = self.machine
         values, words = self.assign(cycle, code, given)
-        again = machine.position_cycle if cycle.runs == "position" and head is None else None
-        if again is not None:
+        head = head or Word(code, None, self.span_here())
+        again = machine.position_cycle
+        if again is not None and again.cycle is cycle:  # written again or not, what is modal holds
             modal = {p.name for p in cycle.parameters() if p.modal}
             values = {k: v for k, v in again.values.items() if k in modal} | values
-            definition = Definition(cycle, code, values, {**again.words, **words}, again.head, again.extra)
+            definition = Definition(cycle, code, values, words, head, again.extra)
         else:
-            definition = Definition(cycle, code, values, words, head or Word(code, None, self.span_here()))
+            definition = Definition(cycle, code, values, words, head)
         definition.values = cycle.prepare(values, words, machine, definition.extra)
         if cycle.runs == "definition":
             self.execute(definition)
             return
-        machine.set_modal("cycle", code)
+        machine.set_modal("cycle", cycle.code)
+        if code != cycle.code:
+            machine.warn(f"{code} is another name of {cycle.code} ({cycle.title})", head)
         if cycle.runs == "call":
             verify(definition)
-            machine.cycle = definition
+            machine.cycle, machine.position_cycle = definition, None
         else:
-            machine.position_cycle = definition
+            machine.cycle, machine.position_cycle = None, definition
             self.execute(definition)
 
     def span_here(self) -> Span:
@@ -236,7 +239,7 @@ def run_cycle(machine: Machine, definition: Definition) -> None:
         definition = Definition(
             definition.cycle, definition.code, definition.values | numbers, definition.words, definition.head, definition.extra
         )
-    label, machine.label = machine.label, f"{definition.code} {definition.cycle.title}"
+    label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
     bind(definition, machine).moves(machine)
     machine.label = label
 
