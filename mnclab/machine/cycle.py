@@ -8,6 +8,7 @@ CYCL CALL, …) or "position" (at each following position while it is active).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, field, fields
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
@@ -211,6 +212,21 @@ def fault(definition: Definition, parameter: Parameter | None, sentence: str) ->
     word = word or definition.head
     name = f" {parameter.address} ({parameter.meaning})" if parameter else ""
     return Alarm(f"{definition.code}{name} {sentence}", word.span if word else None)
+
+
+@contextmanager
+def own_feed(m: Machine, feed: float | None) -> Iterator[None]:
+    """Inside, moves run at the feed of a cycle, in the units of the modal feed (mm/min or mm/rev); None keeps that one.
+
+    The history does not see it: the feed of the program stays what it was.
+    """
+    kept = m.feed
+    if feed is not None:
+        m.feed, m._state = feed, None
+    try:
+        yield
+    finally:
+        m.feed, m._state = kept, None
 
 
 def help_table(cycle: type[Cycle]) -> str:
