@@ -22,7 +22,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Parameter:
-    """One address of a cycle: what it means and what is allowed. ``meaning`` is a short noun phrase; alarms quote it."""
+    """One address of a cycle: what it means and what is allowed. ``meaning`` is a short noun phrase; alarms quote it.
+
+    A parameter with a ``mark`` (a bit of ``Word.flag``) has no word of its own: it is 1 when the word that calls the
+    cycle carries the mark, and its default when not; its address is the mark's sign.
+    """
 
     address: str
     meaning: str
@@ -44,6 +48,7 @@ class Parameter:
     type: str = "number"
     predef: bool = False
     note: str = ""
+    mark: int = 0
 
     @property
     def allowed(self) -> str:
@@ -95,6 +100,7 @@ def param(
     type: str = "number",
     predef: bool = False,
     note: str = "",
+    mark: int = 0,
 ) -> Any:
     """Declare one parameter of a cycle in one line of its class.
 
@@ -105,7 +111,7 @@ def param(
     required = default is MISSING
     declared = Parameter(
         first, meaning, unit, "", tuple(others), required, None if required else default, default_means, choices, above,
-        at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note,
+        at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note, mark,
     )  # fmt: skip
     return field(default=declared.default, kw_only=True, metadata={"parameter": declared})
 

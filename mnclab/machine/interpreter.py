@@ -162,6 +162,9 @@ class Interpreter:
         """A block that defines a cycle, or runs the active one again."""
         machine = self.machine
         values, words = self.assign(cycle, code, given)
+        if head is not None:
+            marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
+            values, words = values | dict.fromkeys(marks, 1.0), words | marks
         again = machine.position_cycle if cycle.runs == "position" and head is None else None
         if again is not None:
             modal = {p.name for p in cycle.parameters() if p.modal}
