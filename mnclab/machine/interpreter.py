@@ -164,6 +164,8 @@ class Interpreter:
         machine = self.machine
         values, words = self.assign(cycle, code, given)
         head = head or Word(code, None, self.span_here())
+        marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
+        values, words = values | dict.fromkeys(marks, 1.0), words | marks
         again = machine.position_cycle
         if again is not None and again.cycle is cycle:  # written again or not, what is modal holds
             modal = {p.name for p in cycle.parameters() if p.modal}
@@ -286,6 +288,8 @@ class _Planner:
             if function.moves:
                 self.hand_out(function, index)
         self.word_functions()
+        if self.control.one_command and self.actions:
+            self.refuse_strangers(self.actions[0])
         self.modal_motion([f for f, _ in functions])
         self.refuse_leftovers([f for f, _ in functions])
         self.refuse_repeated()
@@ -377,6 +381,21 @@ class _Planner:
                     continue  # a second one is a repeated address
                 self.owner[i] = function.code
                 self.hand_out(function, i)
+
+    def refuse_strangers(self, command: Action) -> None:
+        """Where a block is one command: words that it does not take."""
+        own = {command.head, *command.takes}
+        for i, word in enumerate(self.words):
+            if i in own:
+                continue
+            alike = sum(self.words[k].address == word.address for k in own)
+            if alike:
+                times = "once" if alike == 1 else f"{alike} times"
+                self.alarm(f"{command.code} takes {word.address} {times}: {word} is one too many", i)
+            what = command.what
+            takes = what.takes if isinstance(what, Function) else [p.address for p in what.parameters() if not p.mark]
+            whose = f", which takes {' '.join(takes).replace('*', '')}" if takes else ""
+            self.alarm(f"{word} does not belong to the command {command.code}{whose}", i)
 
     def modal_motion(self, functions: list[Function]) -> None:
         """Axis words that are left belong to the modal motion."""

@@ -107,6 +107,8 @@ class Recorder:
                 values = np.array([getattr(state, name) for state in self.states], dtype=COLUMNS[name][0])
                 same = bool((values == values[:1]).all() or (values != values).all())  # equal, or nothing but nan
                 columns[name] = np.broadcast_to(values[0], (len(which), *values.shape[1:])) if same else values[which]
+            if not np.isnan(columns["per_rev"]).all():  # what does not cut at a feed has none per revolution
+                columns["per_rev"] = np.where(np.isfinite(columns["feed"]), columns["per_rev"], NAN)
         else:
             columns = {"kind": np.empty(0, dtype=np.uint8)}
         return Toolpath.chain(vertices, columns, labels=tuple(self.labels), joints=tuple(self.joints))
