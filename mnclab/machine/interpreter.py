@@ -18,7 +18,7 @@ from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, fault
 from mnclab.machine.machine import Machine
 from mnclab.text.alarm import ALARM, Span
-from mnclab.text.program import NONE, NUMBER, Program, Word
+from mnclab.text.program import NONE, NUMBER, Program, Word, digits
 
 WINDOW = 4096  # blocks whose words are held as lists
 
@@ -301,7 +301,7 @@ class _Planner:
         found = [(self.keyword, -1)] if self.keyword else []
         for i, word in enumerate(self.words):
             if word.address in self.control.codes and type(word.value) is float:
-                found.append((f"{word.address}{word.value:g}", i))
+                found.append((f"{word.address}{digits(word.value)}", i))
         return found
 
     def function(self, code: str, index: int) -> Function:
@@ -411,8 +411,9 @@ class _Planner:
         for i, word in enumerate(self.words):
             if self.owner[i] or any(w.address == word.address and self.owner[k] for k, w in enumerate(self.words)):
                 continue
-            if type(word.value) is float and f"{word.address}{word.value:g}" in self.control.refused:
-                self.alarm(self.control.refused[f"{word.address}{word.value:g}"], i)
+            code = f"{word.address}{digits(word.value)}" if type(word.value) is float else ""
+            if code in self.control.refused:
+                self.alarm(self.control.refused[code], i)
             if word.address in self.control.refused:
                 self.alarm(f"{word.address} is refused: {self.control.refused[word.address]}", i)
             if still and word.address in self.control.axes:

@@ -25,6 +25,11 @@ INCREMENTAL, RAPID_MARK, GROUP_MARK = 1, 2, 4  # bits of column ``flag``
 _NUMBER_OF_BLOCK = re.compile(r"[ \t]*/?[ \t]*(N[ \t]*\d+|\d+)", re.IGNORECASE)
 
 
+def digits(value: float) -> str:
+    """A number as a programmer writes it: without an exponent, and nothing lost."""
+    return np.format_float_positional(value, trim="-")
+
+
 class Word(NamedTuple):
     """An address with its value, and where it stands."""
 
@@ -40,7 +45,7 @@ class Word(NamedTuple):
 
     def __str__(self) -> str:
         value = self.value
-        shown = f"{value:g}" if isinstance(value, float) else getattr(value, "text", value)
+        shown = digits(value) if isinstance(value, float) else getattr(value, "text", value)
         return f"{'I' if self.incremental else ''}{self.address}{'' if shown is None else shown}"
 
 

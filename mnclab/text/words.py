@@ -135,7 +135,7 @@ def _scan_piece(
         data[at[keep]] & 0xDF,
         value[keep],
         at[keep] + begin,
-        end_of[keep] - at[keep],
+        np.minimum(end_of[keep] - at[keep], 32767),
         np.bincount(line[keep], minlength=len(starts)),
         clean,
     )

@@ -6,6 +6,7 @@ block skip or faults, are read one by one here, and this is where mistakes get t
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 
@@ -69,13 +70,13 @@ def _note_labels(
     first = np.zeros(len(is_label), dtype=bool)
     first[begins] = True
     whole = (found.value > 0) & (found.value == np.floor(found.value))
-    for i in np.flatnonzero(is_label & ~(first & whole)):
+    good = is_label & first & whole
+    for i in np.flatnonzero(is_label & ~good):
         if first[i]:
             message = f"N must be a positive whole number, got {found.value[i]:g}"
         else:
             message = "N must be the first word of its block"
         builder.alarm(message, int(found.offset[i]), int(found.length[i]))
-    good = np.flatnonzero(is_label & whole)
     labels += zip(found.offset[good].tolist(), found.value[good].tolist(), strict=True)
 
 
@@ -129,16 +130,16 @@ def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: re.Pattern[
         if match.end() < stop and (after in ".,+-" or after.isdigit()):
             _refuse(builder, text, match.end(), stop)
             return
-        if abs(number) >= LARGEST:
-            builder.alarm(f"a number must be smaller than {LARGEST:g}", at, length)
-        elif address == "N":
+        if address == "N":
             if not first:
                 builder.alarm("N must be the first word of its block", at, length)
-            elif number <= 0 or number != int(number):
+            elif not 0 < number < math.inf or number != int(number):
                 builder.alarm(f"N must be a positive whole number, got {number:g}", at, length)
             else:
                 labels.append((at, int(number)))
         else:
+            if abs(number) >= LARGEST:
+                builder.alarm(f"a number must be smaller than {LARGEST:g}", at, length)
             builder.word(address, number, at, length)
         at, first = _skip_blanks(text, match.end(), stop), False
 
