@@ -119,8 +119,8 @@ class Control:
 
     ``codes`` are the addresses whose value makes a code (G and M); ``motion`` is the group whose modal function runs when
     axis words are left over; ``storage`` says where cycle parameters live until the call ("instance" or "variables").
-    ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``: a
-    block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
+    ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
+    a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     """
 
     name: str
