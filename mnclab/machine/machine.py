@@ -21,6 +21,7 @@ from mnclab.machine.recording import Recording, record
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
+from mnclab.machine.variables import Measured, Variables
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
@@ -37,30 +38,6 @@ if TYPE_CHECKING:
 INF = math.inf
 PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0)}  # first axis, second axis, normal
 _AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
-
-
-class Variables(dict[str, float]):
-    """Q parameters and the like; every change is logged."""
-
-    def __init__(self, machine: Machine) -> None:
-        super().__init__()
-        self._machine = machine
-
-    def __setitem__(self, name: str, value: float) -> None:
-        super().__setitem__(name, value)
-        self._machine.log(name, value)
-
-
-class Measured(dict[str, Any]):
-    """What probing found; every value is logged."""
-
-    def __init__(self, machine: Machine) -> None:
-        super().__init__()
-        self._machine = machine
-
-    def __setitem__(self, name: str, value: Any) -> None:
-        super().__setitem__(name, value)
-        self._machine.log(f"measured {name}", value)
 
 
 class Machine:
