@@ -26,9 +26,9 @@ _WORD = re.compile(r"([A-Za-z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))?")
 _LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
 
 
-def reader(control: str, comment: str = "//", comment_pattern: str = r"/[ \t]?/") -> Callable[[str, str], Program]:
-    """A function (text, name) -> Program for a control whose comments begin with ``comment``."""
-    mark = re.compile(comment_pattern)
+def reader(control: str, comment: str = r"/[ \t]?/") -> Callable[[str, str], Program]:
+    """A function (text, name) -> Program for a control whose comments begin with ``comment``, a regular expression."""
+    mark = re.compile(comment)
 
     def read(text: str, name: str = "program") -> Program:
         found = scan(text)
