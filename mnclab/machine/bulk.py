@@ -189,7 +189,7 @@ class Bulk:
         chord = np.hypot(*(e - s).T)
         run.fault[k] |= np.where(
             round_,
-            (shortage > 1e-4) | (chord < 1e-3) | (radius == 0) | centred[k].any(axis=1),
+            (shortage > rule.tolerance(machine)) | (chord < 1e-3) | (radius == 0) | centred[k].any(axis=1),
             (at_start < 1e-9) | (np.abs(at_start - at_end) > rule.tolerance(machine)) | centred[k, normal],
         )
         run.fault[k] |= run.points[k, normal] != run.points[k + 1, normal]  # a helix: the other tier remarks on it

@@ -280,7 +280,7 @@ class Machine:
         s = np.array([self.programmed[first], self.programmed[second]])
         e = np.array([point[first], point[second]])
         if radius is not None:
-            c = self._centre_by_radius(s, e, radius, sense, word)
+            c = self._centre_by_radius(s, e, radius, sense, tolerance, word)
         else:
             c = np.array([(centre or {}).get(k, self.programmed[k]) for k in (first, second)])
             self._check_radii(s, e, c, tolerance, word)
@@ -292,14 +292,16 @@ class Machine:
         self._row(Kind.ARC, self.to_machine(point), self.to_machine(middle), angle, feed)
         self.programmed, self.tip = point, self.to_machine(point)
 
-    def _centre_by_radius(self, s: np.ndarray, e: np.ndarray, radius: float, sense: int, word: Word | None) -> np.ndarray:
+    def _centre_by_radius(
+        self, s: np.ndarray, e: np.ndarray, radius: float, sense: int, tolerance: float, word: Word | None
+    ) -> np.ndarray:
         if np.hypot(*(e - s)) < 1e-3:
             self.alarm("a full circle cannot be given by its radius", word, hint="write the centre with I J K")
         c, shortage = centre_from_radius(s, e, radius, sense)
-        if shortage > 1e-4:
+        if shortage > tolerance:
             chord = 2 * (float(shortage) + abs(radius))
             self.alarm(
-                f"R{abs(radius):g} is too small for the distance {chord:.4g} mm between start and end: "
+                f"R{abs(radius):g} is too small for the distance {chord:.4f} mm between start and end: "
                 f"at least {chord / 2:.4f} is needed",
                 word,
                 hint=f"{shortage:.4g} mm are missing",
