@@ -139,7 +139,7 @@ class Program:
         text = self._parted(self.line_text(span.line))[0].rstrip()
         return span._replace(length=max(1, len(text) - span.column + 1))
 
-    def line_of(self, index: int | slice | NDArray[np.int64]) -> Any:
+    def line_of(self, index: int | slice | NDArray[np.integer[Any]]) -> Any:
         """Source line of a block, 1-based; an array of blocks gives an array of lines."""
         return np.searchsorted(self.line_starts, self.start[index], "right")
 
