@@ -169,16 +169,23 @@ class Program:
 def decode(data: bytes) -> tuple[str, str]:
     """Text of bytes in UTF-8, UTF-16 (with its mark), CP1251 or KOI8-R, and the name of the code page.
 
-    The Cyrillic pages are told apart by their letters: in KOI8-R small letters lie where CP1251 has capitals.
+    The Cyrillic pages are told apart by their letters: in KOI8-R small letters lie where CP1251 has capitals. Words are
+    mostly small letters; a letter by itself is a slip for a Latin one, and looks like it.
     """
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return data.decode("utf-16", errors="replace"), "utf-16"
     try:
         return data.decode("utf-8-sig"), "utf-8"
     except UnicodeDecodeError:
-        small = {page: sum("а" <= c <= "я" for c in data.decode(page, errors="replace")) for page in ("cp1251", "koi8-r")}
-        page = "koi8-r" if small["koi8-r"] > small["cp1251"] else "cp1251"
+        likely = {page: _likeness(data.decode(page, errors="replace")) for page in ("cp1251", "koi8-r")}
+        page = "koi8-r" if likely["koi8-r"] > likely["cp1251"] else "cp1251"
         return data.decode(page, errors="replace"), page
+
+
+def _likeness(text: str) -> int:
+    """How many Cyrillic letters are what one expects of them."""
+    words = re.findall("[а-яА-Я]+", text)
+    return sum(sum("а" <= c <= "я" for c in word) if len(word) > 1 else word in "АВЕЗКМНОРСТХ" for word in words)
 
 
 class ProgramBuilder:
