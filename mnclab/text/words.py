@@ -38,8 +38,7 @@ class Scan:
     """Words of the clean lines, and which lines are clean.
 
     ``letter`` (w,) upper-case ASCII, ``value`` (w,), ``offset`` (w,) of the letter in the text, ``length`` (w,) in
-    characters, ``line`` (w,) counted from 0; ``clean`` (l,); ``starts`` (l,) offsets of the lines; ``lead`` (l,)
-    the whole number before the first letter of a line, -1 where there is none.
+    characters, ``line`` (w,) counted from 0; ``clean`` (l,); ``starts`` (l,) offsets of the lines.
     """
 
     letter: NDArray[np.uint8]
@@ -66,8 +65,12 @@ def characters(text: str) -> NDArray[np.uint8]:
     return np.frombuffer(text.encode("ascii", errors="replace"), dtype=np.uint8)
 
 
-def scan(text: str, leading_number: bool = False) -> Scan:
-    """Find the words of all clean lines; with ``leading_number`` digits may stand before the first letter."""
+def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
+    """Find the words of all clean lines.
+
+    ``leading_number``: digits may stand before the first letter. ``bare``: letters that may begin a line without a
+    number of their own (``L X+1``); such a word has the value 0.
+    """
     data = characters(text)
     starts = line_starts(data)
     pieces = []
@@ -77,14 +80,14 @@ def scan(text: str, leading_number: bool = False) -> Scan:
         after = int(np.searchsorted(starts, begin + PIECE, "right"))
         last = max(after - 1, first + 1) if after < len(starts) else len(starts)
         end = starts[last] if last < len(starts) else len(data)
-        pieces.append(_scan_piece(data[begin:end], starts[first:last] - begin, int(begin), first, leading_number))
+        pieces.append(_scan_piece(data[begin:end], starts[first:last] - begin, int(begin), first, leading_number, bare))
         first = last
     letter, value, offset, length, line, clean = (np.concatenate(column) for column in zip(*pieces, strict=True))
     return Scan(letter, value, offset, length, line, clean, starts)
 
 
 def _scan_piece(
-    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, first_line: int, leading_number: bool
+    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, first_line: int, leading_number: bool, bare: str
 ) -> tuple[NDArray, ...]:
     kind = _KIND[data]
     marks = np.flatnonzero((kind == LETTER) | (kind == END))
@@ -103,6 +106,10 @@ def _scan_piece(
     # a line is clean when all its words are good and no other character stands before the first of them
     line = np.searchsorted(starts, at, "right") - 1
     lines = len(starts)
+    if bare:
+        alone = (begin_of == end_of) & (np.diff(line, prepend=-1) != 0)
+        alone &= np.isin(data[at] & 0xDF, [ord(letter) for letter in bare])
+        value, good, end_of = np.where(alone, 0.0, value), good | alone, np.where(alone, at + 1, end_of)
     clean = np.ones(lines, dtype=bool)
     clean[line[~good]] = False
     ends = np.append(starts[1:], len(data))
