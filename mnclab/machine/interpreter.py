@@ -18,6 +18,7 @@ from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, fault
 from mnclab.machine.machine import Machine
 from mnclab.text.alarm import ALARM, Alarm, Span
+from mnclab.text.expression import Expression
 from mnclab.text.program import NONE, NUMBER, Program, Word
 
 
@@ -149,6 +150,8 @@ class Interpreter:
         else:
             definition = Definition(cycle, code, values, words, head or Word(code, None, self.span_here()))
         definition.values = cycle.prepare(values, words, machine, definition.extra)
+        if self.control.storage == "variables":
+            store(machine, definition)
         if cycle.runs == "definition":
             self.execute(definition)
             return
@@ -177,20 +180,42 @@ class Interpreter:
     def value_of(self, parameter: Parameter, code: str, word: Word) -> Any:
         """The number of a parameter; a word in place of a number only where it is allowed."""
         if isinstance(word.value, str) and parameter.type != "text":
-            if word.value not in parameter.also:
+            if word.value.rstrip("0123456789.") not in parameter.also:
                 allowed = f"a number{', ' + ', '.join(parameter.also) if parameter.also else ''}"
                 self.machine.alarm(f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word)
-            return word.value
+            return self.control.named(self.machine, word) if self.control.named else word.value
         if word.value is None or isinstance(word.value, str):
             return word.value
         value = self.machine.value(word)
-        if self.control.storage == "variables":
-            self.machine.variables[parameter.address] = value
-        return value
+        if self.control.storage == "variables" and is_variable(parameter):
+            self.machine.variables[parameter.address] = value  # exactly as written
+        return value * unit_of(self.machine, parameter)
 
     def execute(self, definition: Definition) -> None:
         """Bind a definition and make its moves."""
         run_cycle(self.machine, definition)
+
+
+def unit_of(machine: Machine, parameter: Parameter) -> float:
+    """What a number of a parameter that lives in a variable is multiplied with: 25.4 for lengths and feeds in inches."""
+    return machine.variable_unit if is_variable(parameter) and parameter.unit in ("mm", "mm/min", "mm/rev") else 1.0
+
+
+def is_variable(parameter: Parameter) -> bool:
+    """Whether a parameter is a variable of the program (Q200), not an address (X)."""
+    return parameter.address[0] == "Q" and parameter.address[1:].isdigit()
+
+
+def store(machine: Machine, definition: Definition) -> None:
+    """Write what was not given as a number (defaults, FAUTO) into its variable; FMAX and texts have none."""
+    for parameter in filter(is_variable, definition.cycle.parameters()):
+        word, value = definition.words.get(parameter.name), definition.values.get(parameter.name, parameter.default)
+        if word is not None and isinstance(word.value, float | Expression):
+            continue
+        if isinstance(value, int | float):
+            machine.variables[parameter.address] = float(value) / unit_of(machine, parameter)
+        else:
+            machine.variables.pop(parameter.address, None)
 
 
 def verify(definition: Definition) -> None:
@@ -207,9 +232,9 @@ def run_cycle(machine: Machine, definition: Definition) -> None:
     """Bind a definition with the values as they stand now, check it, and make its moves."""
     if machine.control.storage == "variables":
         numbers = {
-            p.name: machine.variables[p.address]
+            p.name: machine.variables[p.address] * unit_of(machine, p)
             for p in definition.cycle.parameters()
-            if isinstance(definition.values.get(p.name), float) and p.address in machine.variables
+            if is_variable(p) and p.address in machine.variables
         }
         definition = Definition(
             definition.cycle, definition.code, definition.values | numbers, definition.words, definition.head, definition.extra
