@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -141,8 +141,10 @@ class Bulk:
         else:
             points[1:] = np.where(written, axes, 0.0)
             points = np.cumsum(points, axis=0)
-        shift = machine._shift
-        tips = points + np.array(shift) if shift is not None else frames.apply(machine._matrix, points)
+        if machine._shift is None:
+            tips = frames.apply(machine._matrix, points)
+        else:
+            tips = points + np.array(machine._shift) if any(machine._shift) else points
 
         feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
         motion, unknown = self.motions(words["G"], n)
@@ -213,35 +215,41 @@ class Bulk:
         """Make the rows, the history and the state of the first ``count`` blocks."""
         machine = self.machine
         step = machine.flow.begin_many(first, count)
-        steps = np.arange(step, step + count)
+        steps = np.arange(step, step + count, dtype=np.int32)
         before = machine.step
         machine.step = step + count - 1
         moved = np.flatnonzero(run.moves[:count])
         if len(moved):
-            motion = run.motion[moved]
-            kind = np.where(motion == 0, Kind.RAPID, np.where(run.arc[moved], Kind.ARC, Kind.LINE))
-            machine.recorder.bulk(
-                {
-                    "kind": kind,
-                    "line": self.program.line_of(first + moved),
-                    "step": steps[moved],
-                    "end": run.tips[moved + 1],
-                    "centre": run.centre[moved],
-                    "sweep": run.angle[moved],
-                    "feed": np.where(motion == 0, np.inf, run.feed[moved]),
-                    "state": np.full(len(moved), machine.state()),
-                }
-            )
+            self.rows(run, first, steps, moved if len(moved) < count else slice(0, count))
         self.log(run, steps, count, before)
         machine.programmed = tuple(run.points[count].tolist())
         machine.tip = tuple(run.tips[count].tolist())
         machine.source_line = int(self.program.line_of(first + count - 1))
 
-    def log(self, run: _Run, steps: NDArray[np.int64], count: int, before: int) -> None:
+    def rows(self, run: _Run, first: int, steps: NDArray[np.int32], moved: NDArray[np.int64] | slice) -> None:
+        """Hand the rows of the blocks that move to the recorder."""
+        motion, arc = run.motion[moved], run.arc[moved]
+        kind = np.where(motion == 0, Kind.RAPID, np.where(arc, Kind.ARC, Kind.LINE)).astype(np.uint8)
+        lines = np.asarray(self.program.line_of(slice(first, first + len(run.moves)))).astype(np.int32)
+        columns: dict[str, NDArray[Any]] = {
+            "kind": kind,
+            "line": lines[moved],
+            "step": steps[moved],
+            "end": run.tips[1:][moved],
+            "feed": np.where(motion == 0, np.inf, run.feed[moved]),
+            "state": np.asarray(self.machine.state()),
+        }
+        if arc.any():
+            columns |= {"centre": run.centre[moved], "sweep": run.angle[moved]}
+        self.machine.recorder.bulk(columns)
+
+    def log(self, run: _Run, steps: NDArray[np.int32], count: int, before: int) -> None:
         """Changes of position, feed and motion, step by step."""
         machine, history = self.machine, self.machine.logs
         changed = np.flatnonzero((run.points[1 : count + 1] != run.points[:count]).any(axis=1))
-        history.extend("position", steps[changed], run.points[changed + 1])
+        everywhere = len(changed) == count  # then no copy is needed
+        points = run.points[1 : count + 1] if everywhere else run.points[changed + 1]
+        history.extend("position", steps if everywhere else steps[changed], points)
 
         feed = run.feed[:count]
         start = np.nan if machine.feed is None else machine.feed

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 DEEPEST = 20  # nested calls
-LONGEST = 1_000_000  # executed blocks, one by one
+LONGEST = 1_000_000  # blocks that repeats and calls may add, one by one
 
 
 class Steps(NamedTuple):
@@ -112,8 +112,8 @@ class Flow:
     def begin(self, block: int) -> int:
         """Note the execution of a block; the number of its step."""
         self.executed += 1
-        if self.executed > LONGEST:
-            raise Alarm(f"the program ran {LONGEST} blocks one by one without an end", self.program.span_of_block(block))
+        if self.executed > LONGEST + len(self.program):
+            raise Alarm(f"repeats and calls ran {LONGEST} blocks without an end", self.program.span_of_block(block))
         self._blocks.append(block)
         return self._counted + len(self._blocks) - 1
 

@@ -119,7 +119,8 @@ class Control:
 
     ``codes`` are the addresses whose value makes a code (G and M); ``motion`` is the group whose modal function runs when
     axis words are left over; ``storage`` says where cycle parameters live until the call ("instance" or "variables").
-    ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so.
+    ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
+    a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     """
 
     name: str
@@ -141,6 +142,7 @@ class Control:
     looks_like: Callable[[str], bool] | None = None
     refused: Mapping[str, str] = field(default_factory=dict)
     bulk: Any = None
+    one_command: bool = False
     lathe: bool = False
 
     def power_on(self) -> dict[str, str]:

@@ -8,6 +8,7 @@ CYCL CALL, …) or "position" (at each following position while it is active).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, field, fields
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
@@ -21,7 +22,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Parameter:
-    """One address of a cycle: what it means and what is allowed. ``meaning`` is a short noun phrase; alarms quote it."""
+    """One address of a cycle: what it means and what is allowed. ``meaning`` is a short noun phrase; alarms quote it.
+
+    A parameter with a ``mark`` (a bit of ``Word.flag``) has no word of its own: it is 1 when the word that calls the
+    cycle carries the mark, and its default when not; its address is the mark's sign.
+    """
 
     address: str
     meaning: str
@@ -43,6 +48,7 @@ class Parameter:
     type: str = "number"
     predef: bool = False
     note: str = ""
+    mark: int = 0
 
     @property
     def allowed(self) -> str:
@@ -94,6 +100,7 @@ def param(
     type: str = "number",
     predef: bool = False,
     note: str = "",
+    mark: int = 0,
 ) -> Any:
     """Declare one parameter of a cycle in one line of its class.
 
@@ -104,7 +111,7 @@ def param(
     required = default is MISSING
     declared = Parameter(
         first, meaning, unit, "", tuple(others), required, None if required else default, default_means, choices, above,
-        at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note,
+        at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note, mark,
     )  # fmt: skip
     return field(default=declared.default, kw_only=True, metadata={"parameter": declared})
 
@@ -211,6 +218,21 @@ def fault(definition: Definition, parameter: Parameter | None, sentence: str) ->
     word = word or definition.head
     name = f" {parameter.address} ({parameter.meaning})" if parameter else ""
     return Alarm(f"{definition.code}{name} {sentence}", word.span if word else None)
+
+
+@contextmanager
+def own_feed(m: Machine, feed: float | None) -> Iterator[None]:
+    """Inside, moves run at the feed of a cycle, in the units of the modal feed (mm/min or mm/rev); None keeps that one.
+
+    The history does not see it: the feed of the program stays what it was.
+    """
+    kept = m.feed
+    if feed is not None:
+        m.feed, m._state = feed, None
+    try:
+        yield
+    finally:
+        m.feed, m._state = kept, None
 
 
 def help_table(cycle: type[Cycle]) -> str:

@@ -18,7 +18,7 @@ from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, fault
 from mnclab.machine.machine import Machine
 from mnclab.text.alarm import ALARM, Span
-from mnclab.text.program import NONE, NUMBER, Program, Word
+from mnclab.text.program import NONE, NUMBER, Program, Word, digits
 
 WINDOW = 4096  # blocks whose words are held as lists
 
@@ -51,8 +51,8 @@ class Interpreter:
         self.control, self.machine, self.program = control, machine, program
         self.phases = {name: k for k, name in enumerate(control.phases)}
         self.plans: dict[Any, Plan] = {}
-        self.lines = program.line_of(np.arange(len(program))).tolist()
         self.window, self.bounds = (0, 0), [0]
+        self.lines: list[int] = []
         self.line_bounds: list[tuple[int, int]] = []
         self.rows: list[tuple[int, float, int, int, int, int]] = []
         self.faulty = self._faulty_blocks()
@@ -85,7 +85,9 @@ class Interpreter:
         """Obey one block."""
         machine, program = self.machine, self.program
         machine.step = machine.flow.begin(index)
-        machine.source_line = self.lines[index]
+        if not self.window[0] <= index < self.window[1]:
+            self.open_window(index)
+        machine.source_line = self.lines[index - self.window[0]]
         if program.skip[index] and machine.settings.get("block_skip"):
             return
         if index in self.faulty:
@@ -114,12 +116,10 @@ class Interpreter:
 
     def words_of(self, index: int) -> list[Word]:
         """The words of a block. Columns become lists for many blocks at a time: plain Python is faster on those."""
-        program = self.program
-        if not self.window[0] <= index < self.window[1]:
-            self.open_window(index)
-        a, b = self.bounds[index - self.window[0]], self.bounds[index - self.window[0] + 1]
-        line = self.lines[index]
-        begin, end = self.line_bounds[index - self.window[0]]
+        program, at = self.program, index - self.window[0]
+        a, b = self.bounds[at], self.bounds[at + 1]
+        line = self.lines[at]
+        begin, end = self.line_bounds[at]
         words = []
         for k in range(a, b):
             address, number, form, flag, offset, length = self.rows[k]
@@ -139,7 +139,8 @@ class Interpreter:
         self.rows = list(zip(*(column[a:b].tolist() for column in columns), strict=True))
         self.bounds = (program.first[index : stop + 1] - a).tolist()
         ends = np.append(program.line_starts, 1 << 30)
-        lines = np.asarray(program.line_of(np.arange(index, stop)))
+        lines = np.asarray(program.line_of(slice(index, stop)))
+        self.lines = lines.tolist()
         self.line_bounds = list(zip(program.line_starts[lines - 1].tolist(), ends[lines].tolist(), strict=True))
         self.window = (index, stop)
 
@@ -162,23 +163,28 @@ class Interpreter:
         """A block that defines a cycle, or runs the active one again."""
         machine = self.machine
         values, words = self.assign(cycle, code, given)
-        again = machine.position_cycle if cycle.runs == "position" and head is None else None
-        if again is not None:
+        head = head or Word(code, None, self.span_here())
+        marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
+        values, words = values | dict.fromkeys(marks, 1.0), words | marks
+        again = machine.position_cycle
+        if again is not None and again.cycle is cycle:  # written again or not, what is modal holds
             modal = {p.name for p in cycle.parameters() if p.modal}
             values = {k: v for k, v in again.values.items() if k in modal} | values
-            definition = Definition(cycle, code, values, {**again.words, **words}, again.head, again.extra)
+            definition = Definition(cycle, code, values, words, head, again.extra)
         else:
-            definition = Definition(cycle, code, values, words, head or Word(code, None, self.span_here()))
+            definition = Definition(cycle, code, values, words, head)
         definition.values = cycle.prepare(values, words, machine, definition.extra)
         if cycle.runs == "definition":
             self.execute(definition)
             return
-        machine.set_modal("cycle", code)
+        machine.set_modal("cycle", cycle.code)
+        if code != cycle.code:
+            machine.warn(f"{code} is another name of {cycle.code} ({cycle.title})", head)
         if cycle.runs == "call":
             verify(definition)
-            machine.cycle = definition
+            machine.cycle, machine.position_cycle = definition, None
         else:
-            machine.position_cycle = definition
+            machine.cycle, machine.position_cycle = None, definition
             self.execute(definition)
 
     def span_here(self) -> Span:
@@ -235,7 +241,7 @@ def run_cycle(machine: Machine, definition: Definition) -> None:
         definition = Definition(
             definition.cycle, definition.code, definition.values | numbers, definition.words, definition.head, definition.extra
         )
-    label, machine.label = machine.label, f"{definition.code} {definition.cycle.title}"
+    label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
     bind(definition, machine).moves(machine)
     machine.label = label
 
@@ -282,6 +288,8 @@ class _Planner:
             if function.moves:
                 self.hand_out(function, index)
         self.word_functions()
+        if self.control.one_command and self.actions:
+            self.refuse_strangers(self.actions[0])
         self.modal_motion([f for f, _ in functions])
         self.refuse_leftovers([f for f, _ in functions])
         self.refuse_repeated()
@@ -293,7 +301,7 @@ class _Planner:
         found = [(self.keyword, -1)] if self.keyword else []
         for i, word in enumerate(self.words):
             if word.address in self.control.codes and type(word.value) is float:
-                found.append((f"{word.address}{word.value:g}", i))
+                found.append((f"{word.address}{digits(word.value)}", i))
         return found
 
     def function(self, code: str, index: int) -> Function:
@@ -374,6 +382,21 @@ class _Planner:
                 self.owner[i] = function.code
                 self.hand_out(function, i)
 
+    def refuse_strangers(self, command: Action) -> None:
+        """Where a block is one command: words that it does not take."""
+        own = {command.head, *command.takes}
+        for i, word in enumerate(self.words):
+            if i in own:
+                continue
+            alike = sum(self.words[k].address == word.address for k in own)
+            if alike:
+                times = "once" if alike == 1 else f"{alike} times"
+                self.alarm(f"{command.code} takes {word.address} {times}: {word} is one too many", i)
+            what = command.what
+            takes = what.takes if isinstance(what, Function) else [p.address for p in what.parameters() if not p.mark]
+            whose = f", which takes {' '.join(takes).replace('*', '')}" if takes else ""
+            self.alarm(f"{word} does not belong to the command {command.code}{whose}", i)
+
     def modal_motion(self, functions: list[Function]) -> None:
         """Axis words that are left belong to the modal motion."""
         code = self.machine.modal.get(self.control.motion)
@@ -388,8 +411,9 @@ class _Planner:
         for i, word in enumerate(self.words):
             if self.owner[i] or any(w.address == word.address and self.owner[k] for k, w in enumerate(self.words)):
                 continue
-            if type(word.value) is float and f"{word.address}{word.value:g}" in self.control.refused:
-                self.alarm(self.control.refused[f"{word.address}{word.value:g}"], i)
+            code = f"{word.address}{digits(word.value)}" if type(word.value) is float else ""
+            if code in self.control.refused:
+                self.alarm(self.control.refused[code], i)
             if word.address in self.control.refused:
                 self.alarm(f"{word.address} is refused: {self.control.refused[word.address]}", i)
             if still and word.address in self.control.axes:

@@ -182,7 +182,7 @@ class Machine:
             self._state = self.recorder.state(
                 State(
                     self.program, axis, self.rotary, per_rev, NAN, self.spindle_speed, self.tool.number, self.radius,
-                    self.side, self.corner_rule, self.exact, self.synchronous,
+                    self.side * self.orientation, self.corner_rule, self.exact, self.synchronous,
                 )
             )  # fmt: skip
         return self._state
@@ -240,6 +240,12 @@ class Machine:
         """Write a row of a table ("tools", "datums", "presets"); the setup stays as it is."""
         getattr(self.tables, table)[row] = value
         self.log(f"{table} {row}", value)
+
+    def set_register(self, point: Iterable[float]) -> None:
+        """Give the programmed point exact values; the tip stays where it is."""
+        x, y, z = point
+        self.programmed = (float(x), float(y), float(z))
+        self.log("position", self.programmed)
 
     # --- verbs: motion -----------------------------------------------------------------------------------------------
 
@@ -335,12 +341,20 @@ class Machine:
             )
 
     def _arc_sense(self, word: Word | None) -> int:
-        """-1 under a mirror of the plane; an alarm when the frame would turn the circle into an ellipse."""
+        """The orientation; an alarm when the frame would turn the circle into an ellipse."""
         first, second, _ = PLANES[self.plane]
         u, v = self._matrix[:3, first], self._matrix[:3, second]
         if abs(np.linalg.norm(u) - np.linalg.norm(v)) > 1e-9 or abs(u @ v) > 1e-9:
             self.alarm("an arc under unequal scales of its plane would be an ellipse", word)
-        return 1 if np.dot(np.cross(u, v), self._turned_axis()) > 0 else -1
+        return self.orientation
+
+    @property
+    def orientation(self) -> int:
+        """-1 when the frame mirrors the plane: arcs and the side of the tool turn over; else 1."""
+        if self._shift is not None:
+            return 1
+        first, second, _ = PLANES[self.plane]
+        return 1 if np.dot(np.cross(self._matrix[:3, first], self._matrix[:3, second]), self._turned_axis()) > 0 else -1
 
     def at_block_end(self, undo: Callable[[], None]) -> None:
         """Do something when the running block is over."""

@@ -66,7 +66,7 @@ def parse(text: str, span: Span) -> Expression:
         tokens.append(Token(kind, part.upper().replace(",", "."), place))
         at = match.end()
     expression = Expression(tuple(tokens), text.strip())
-    _Evaluation(expression.tokens, _Anything()).whole(reading=True)  # the grammar, before any block runs
+    _Evaluation(expression.tokens, _Anything()).whole(reading=True)  # the grammar; values come when it runs
     return expression
 
 
@@ -127,18 +127,25 @@ class _Evaluation:
         value = self.part()
         if self.peek() == "^":
             operator = self.take()
+            self.deeper(operator)
             exponent = self.power()
+            self.depth -= 1
+            if self.reading:
+                return 1.0
             try:
                 value = self.finite(float(value**exponent), operator)
             except (ZeroDivisionError, OverflowError, TypeError):
                 self.refuse("no real power at", operator)
         return value
 
-    def part(self) -> float:
-        token = self.take()
+    def deeper(self, token: Token) -> None:
         self.depth += 1
         if self.depth > 100:
             self.refuse("the expression is nested deeper than 100 at", token)
+
+    def part(self) -> float:
+        token = self.take()
+        self.deeper(token)
         value = self.value_of(token)
         self.depth -= 1
         return value
@@ -173,6 +180,6 @@ class _Evaluation:
             raise Alarm(f"{token.text} of {argument:g} has no real value", token.span) from None
 
     def finite(self, value: float, token: Token) -> float:
-        if not math.isfinite(value):
+        if not math.isfinite(value) and not self.reading:
             self.refuse("the result is out of range at", token)
         return value

@@ -25,6 +25,11 @@ INCREMENTAL, RAPID_MARK, GROUP_MARK = 1, 2, 4  # bits of column ``flag``
 _NUMBER_OF_BLOCK = re.compile(r"[ \t]*/?[ \t]*(N[ \t]*\d+|\d+)", re.IGNORECASE)
 
 
+def digits(value: float) -> str:
+    """A number as a programmer writes it: without an exponent, and nothing lost."""
+    return np.format_float_positional(value, trim="-")
+
+
 class Word(NamedTuple):
     """An address with its value, and where it stands."""
 
@@ -40,7 +45,7 @@ class Word(NamedTuple):
 
     def __str__(self) -> str:
         value = self.value
-        shown = f"{value:g}" if isinstance(value, float) else getattr(value, "text", value)
+        shown = digits(value) if isinstance(value, float) else getattr(value, "text", value)
         return f"{'I' if self.incremental else ''}{self.address}{'' if shown is None else shown}"
 
 
@@ -77,7 +82,7 @@ class Program:
     form: NDArray[np.uint8]
     flag: NDArray[np.uint8]
     offset: NDArray[np.int32]
-    length: NDArray[np.int32]
+    length: NDArray[np.int16]
     first: NDArray[np.int32]
     keywords: tuple[str, ...]
     keyword: NDArray[np.int16]
@@ -133,7 +138,7 @@ class Program:
         text = self.line_text(span.line).partition(self.comment_mark)[0].rstrip()
         return span._replace(length=max(1, len(text) - span.column + 1))
 
-    def line_of(self, index: int | NDArray[np.int64]) -> Any:
+    def line_of(self, index: int | slice | NDArray[np.int64]) -> Any:
         """Source line of a block, 1-based; an array of blocks gives an array of lines."""
         return np.searchsorted(self.line_starts, self.start[index], "right")
 
@@ -231,7 +236,8 @@ class ProgramBuilder:
         words = np.array(self.words, dtype=np.float64).reshape(-1, 6)
         blocks = np.array(self.blocks, dtype=np.float64).reshape(-1, 5)
         count = np.diff(np.append(blocks[:, 4], len(words)))
-        kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int32)
+        words[:, 5] = np.minimum(words[:, 5], 32767)
+        kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int16)
         columns = [words[:, k].astype(kind) for k, kind in enumerate(kinds)]
         heads = [column.astype(np.int32) for column in (*blocks[:, :4].T, count)]
         if bulk is not None and len(bulk.start):
@@ -239,11 +245,12 @@ class ProgramBuilder:
             key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
             zero, n = np.zeros(len(bulk.value), dtype=np.uint8), len(bulk.start)
             more = [names[bulk.address], bulk.value, zero, zero, bulk.offset, bulk.length]
-            more_heads = [bulk.start, np.full(n, key), np.zeros(n, dtype=bool), bulk.plain, bulk.size]
+            more_heads = [bulk.start, np.full(n, key, dtype=np.int16), np.zeros(n, dtype=bool), bulk.plain, bulk.size]
             if self.blocks:
                 more, more_heads = _merged(columns, more, 4), _merged(heads, more_heads, 0)
             columns, heads = more, more_heads
-        first = np.concatenate([[0], np.cumsum(heads[4])])
+        first = np.zeros(len(heads[4]) + 1, dtype=np.int32)
+        np.cumsum(heads[4], out=first[1:])
         return Program(
             text=self.text,
             name=self.name,
@@ -254,13 +261,13 @@ class ProgramBuilder:
             form=columns[2],
             flag=columns[3],
             offset=columns[4].astype(np.int32, copy=False),
-            length=columns[5].astype(np.int32, copy=False),
-            first=first.astype(np.int32),
+            length=columns[5].astype(np.int16, copy=False),
+            first=first,
             keywords=tuple(self.keywords),
-            keyword=heads[1].astype(np.int16),
-            skip=heads[2].astype(bool),
-            plain=heads[3].astype(bool),
-            start=heads[0].astype(np.int32),
+            keyword=heads[1].astype(np.int16, copy=False),
+            skip=heads[2].astype(bool, copy=False),
+            plain=heads[3].astype(bool, copy=False),
+            start=heads[0].astype(np.int32, copy=False),
             line_starts=self.line_starts,
             payload=tuple(self.payload),
             alarms=tuple(sorted(self.alarms, key=lambda alarm: (alarm.span or Span(0, 0))[:2])),
@@ -282,8 +289,8 @@ class BulkBlocks(NamedTuple):
     address: NDArray[np.integer[Any]]
     value: NDArray[np.float64]
     offset: NDArray[np.int32]
-    length: NDArray[np.int32]
+    length: NDArray[np.int16]
     keyword: str
     start: NDArray[np.int32]
-    size: NDArray[np.int64]
+    size: NDArray[np.int32]
     plain: NDArray[np.bool_]
