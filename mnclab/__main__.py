@@ -12,14 +12,15 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import mnclab
 from mnclab.machine.setup_file import FORMAT, load
 from mnclab.text.alarm import ALARM, Alarm
 
+Result = TypeVar("Result")
 CLEAN, ALARMS, USAGE = 0, 1, 2
 FIRST_LESSON = "00_first_path.ipynb"
 
@@ -42,9 +43,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status: int = chosen.do(chosen)
         sys.stdout.flush()
         return status
-    except Alarm as alarm:
-        say(alarm)
-        return ALARMS
     except BrokenPipeError:  # the reader (head, less) has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return CLEAN
@@ -97,28 +95,46 @@ def say(alarm: Alarm, file: str = "") -> None:
     line = alarm.headline
     if alarm.source is None and alarm.span is None:
         hint = f" ({alarm.hint})" if alarm.hint else ""
-        line = f"{file or 'mnclab'}: {alarm.severity}: {alarm.message}{hint}"
+        line = f"{file or 'mnclab'}: {alarm.severity}: {alarm.message.removeprefix(f'{file} ')}{hint}"
     print(" ".join(line.split("\n")), file=sys.stderr)
 
 
-def obey(chosen: argparse.Namespace, file: str) -> mnclab.Run:
-    """Run a file with the control and the setup of the command line."""
-    setup = load(chosen.setup) if chosen.setup else None
-    return mnclab.run(Path(file), chosen.control, setup)
+def describe(alarm: Alarm, file: str) -> dict[str, Any]:
+    """An alarm for programs that read JSON."""
+    return alarm.as_dict() if alarm.source else alarm.as_dict() | {"file": file}
+
+
+def sensible(do: Callable[..., Result], *arguments: Any) -> Result:
+    """The result of what a command line asks for beside its programs; a fault in that is a wrong command line."""
+    try:
+        return do(*arguments)
+    except Alarm as alarm:
+        say(alarm)
+        sys.exit(USAGE)
+
+
+def obey(chosen: argparse.Namespace) -> mnclab.Run | None:
+    """Run a file as the command line says; None, and a line on stderr, if there is no program in it."""
+    setup = sensible(load, chosen.setup) if chosen.setup else None
+    try:
+        return mnclab.run(Path(chosen.file), chosen.control, setup)
+    except Alarm as alarm:
+        say(alarm, chosen.file)
+        return None
 
 
 def check(chosen: argparse.Namespace) -> int:
     """Report the alarms of several programs."""
     status, report = CLEAN, []
-    setup = load(chosen.setup) if chosen.setup else None
+    setup = sensible(load, chosen.setup) if chosen.setup else None
     for file in chosen.files:
         try:
             alarms = mnclab.run(Path(file), chosen.control, setup).alarms
-        except Alarm as alarm:
-            alarms = (alarm,)
+        except Alarm as unreadable:
+            alarms = (unreadable,)
         if any(alarm.severity == ALARM for alarm in alarms):
             status = ALARMS
-        report.append({"file": file, "alarms": [alarm.as_dict() | {"file": file} for alarm in alarms]})
+        report.append({"file": file, "alarms": [describe(alarm, file) for alarm in alarms]})
         for alarm in () if chosen.json else alarms:
             say(alarm, file)
     if chosen.json:
@@ -128,7 +144,9 @@ def check(chosen: argparse.Namespace) -> int:
 
 def run(chosen: argparse.Namespace) -> int:
     """Print the moves of a program."""
-    result = obey(chosen, chosen.file)
+    result = obey(chosen)
+    if result is None:
+        return ALARMS
     if chosen.json:
         from mnclab.show.export import document
 
@@ -140,8 +158,10 @@ def run(chosen: argparse.Namespace) -> int:
 
 def plot(chosen: argparse.Namespace) -> int:
     """Save a picture of what a program does, or its table of moves."""
-    result = obey(chosen, chosen.file)
-    result.save(chosen.output)
+    result = obey(chosen)
+    if result is None:
+        return ALARMS
+    sensible(result.save, chosen.output)
     return verdict(result)
 
 
@@ -154,7 +174,7 @@ def verdict(result: mnclab.Run, quiet: bool = False) -> int:
 
 def explain(chosen: argparse.Namespace) -> int:
     """Print what a code means."""
-    print(mnclab.help(" ".join(chosen.code), chosen.control))
+    print(sensible(mnclab.help, " ".join(chosen.code), chosen.control))
     return CLEAN
 
 

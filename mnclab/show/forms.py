@@ -77,7 +77,8 @@ def form(code: str, control: str) -> Any:
         return trial.program(help_page.control.name, chosen, {n: v for n, v in values.items() if v != defaults.get(n)})
 
     title = _html(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>")
-    live = _live(boxes, [title, *rows], text, help_page.control.name, None, "auto", also=ticks, listed=True)
+    setup = Setup(start=(30, 0, 20)) if help_page.control.lathe else None  # clear of the chuck's axis
+    live = _live(boxes, [title, *rows], text, help_page.control.name, setup, "auto", also=ticks, listed=True)
     live.ticks = ticks
     return live
 
@@ -106,7 +107,7 @@ def _parameter_box(p: Parameter) -> Any:
     otherwise = p.default_means or ("" if p.default is None else f"{p.default:g}")
     facts = [p.meaning, p.allowed, p.note, f"left out: {otherwise}" if otherwise else ""]
     looks: dict[str, Any] = {
-        "description": f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit else ""),
+        "description": f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and not p.mark else ""),
         "tooltip": "; ".join(fact for fact in facts if fact),
         "style": {"description_width": "19em"},
         "layout": {"width": "27em"},

@@ -13,6 +13,9 @@ from mnclab.path.listing import figure
 
 #: A piece of a meaning -> a first value, mm where it is a length; the first that fits and is allowed counts.
 FIRST = (
+    ("diameter of the finished", 30.0),
+    ("end of the passes", -20.0),
+    ("stock removed", 2.0),
     ("position along X", 20.0),
     ("position along Y", 10.0),
     ("along X", 20.0),
@@ -34,7 +37,8 @@ FIRST = (
 )
 #: What may be left out, but is worth seeing at first.
 WRITTEN = ("position along", "peck", "infeed")
-BY_UNIT = {"mm/min": 120.0, "s": 0.0, "rev/min": 1000.0}
+BY_UNIT = {"mm/min": 120.0, "s": 0.0, "rev/min": 1000.0, "0.0001 mm/rev": 2000.0}
+SCALE = {"0.01 mm": 100.0}
 
 
 def number(value: float) -> str:
@@ -48,9 +52,9 @@ def first_value(parameter: Any) -> float:
         return float(parameter.default)
     if parameter.choices:
         return float(next(iter(parameter.choices)))
-    meaning = parameter.meaning.lower()
+    meaning, scale = parameter.meaning.lower(), SCALE.get(parameter.unit, 1.0)
     likely = [BY_UNIT[parameter.unit]] if parameter.unit in BY_UNIT else []
-    likely += [value for piece, value in FIRST if piece.lower() in meaning]
+    likely += [value * scale for piece, value in FIRST if piece.lower() in meaning]
     return next((value for value in likely if not parameter.refuses(value)), 0.0)
 
 
@@ -78,4 +82,14 @@ def _tnc_620(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
     return "\n".join([*start, " ~\n".join(lines), *call, "END PGM TRIAL MM", ""])
 
 
-PROGRAMS: dict[str, Callable[[Any, Sequence[tuple[str, float]]], str]] = {"mnc": _mnc, "tnc-620": _tnc_620}
+def _nc_31(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+    marks = [address for address, value in words if address in "~@" and value]
+    frames = [" ".join([cycle.code, *marks]), *(a + number(value) for a, value in words if a not in "~@")]
+    return "\n".join(["S800", "M3", "F20", "X4000 ~ *", "Z200 ~", " *\n".join(frames), ""])
+
+
+PROGRAMS: dict[str, Callable[[Any, Sequence[tuple[str, float]]], str]] = {
+    "mnc": _mnc,
+    "tnc-620": _tnc_620,
+    "nc-31": _nc_31,
+}
