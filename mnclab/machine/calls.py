@@ -25,7 +25,7 @@ LONGEST = 1_000_000  # blocks that repeats and calls may add, one by one
 class Steps(NamedTuple):
     """Which block and which program each step executed (s,)."""
 
-    block: NDArray[np.int64]
+    block: NDArray[np.int32]
     program: NDArray[np.int16]
 
 
@@ -40,7 +40,7 @@ class Flow:
         self.returning = False
         self.current = 0  # block being obeyed
         self._jump: int | None = None
-        self._chunks: list[NDArray[np.int64]] = []
+        self._chunks: list[NDArray[np.int64] | range] = []
         self._blocks: list[int] = []
         self._counted = 0
 
@@ -120,7 +120,7 @@ class Flow:
     def begin_many(self, first: int, count: int) -> int:
         """Note the execution of blocks in a row; the number of the first step."""
         self._flush()
-        self._chunks.append(np.arange(first, first + count))
+        self._chunks.append(range(first, first + count))
         self._counted += count
         return self._counted - count
 
@@ -132,8 +132,13 @@ class Flow:
     def steps(self) -> Steps:
         """All steps so far."""
         self._flush()
-        blocks = np.concatenate(self._chunks)
-        return Steps(blocks, np.zeros(len(blocks), dtype=np.int16))
+        blocks = np.empty(self._counted, dtype=np.int32)
+        at = 0
+        for chunk in self._chunks:
+            part = np.arange(chunk.start, chunk.stop) if isinstance(chunk, range) else chunk
+            blocks[at : at + len(part)] = part
+            at += len(part)
+        return Steps(blocks, np.broadcast_to(np.int16(0), (len(blocks),)))
 
     def span_of_step(self, step: int) -> Span | None:
         """The place of the block that a step executed."""

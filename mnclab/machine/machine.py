@@ -21,6 +21,7 @@ from mnclab.machine.recording import Recording, record
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
+from mnclab.machine.variables import Measured, Variables
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
@@ -37,30 +38,6 @@ if TYPE_CHECKING:
 INF = math.inf
 PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0)}  # first axis, second axis, normal
 _AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
-
-
-class Variables(dict[str, float]):
-    """Q parameters and the like; every change is logged."""
-
-    def __init__(self, machine: Machine) -> None:
-        super().__init__()
-        self._machine = machine
-
-    def __setitem__(self, name: str, value: float) -> None:
-        super().__setitem__(name, value)
-        self._machine.log(name, value)
-
-
-class Measured(dict[str, Any]):
-    """What probing found; every value is logged."""
-
-    def __init__(self, machine: Machine) -> None:
-        super().__init__()
-        self._machine = machine
-
-    def __setitem__(self, name: str, value: Any) -> None:
-        super().__setitem__(name, value)
-        self._machine.log(f"measured {name}", value)
 
 
 class Machine:
@@ -303,7 +280,7 @@ class Machine:
         s = np.array([self.programmed[first], self.programmed[second]])
         e = np.array([point[first], point[second]])
         if radius is not None:
-            c = self._centre_by_radius(s, e, radius, sense, word)
+            c = self._centre_by_radius(s, e, radius, sense, tolerance, word)
         else:
             c = np.array([(centre or {}).get(k, self.programmed[k]) for k in (first, second)])
             self._check_radii(s, e, c, tolerance, word)
@@ -315,14 +292,16 @@ class Machine:
         self._row(Kind.ARC, self.to_machine(point), self.to_machine(middle), angle, feed)
         self.programmed, self.tip = point, self.to_machine(point)
 
-    def _centre_by_radius(self, s: np.ndarray, e: np.ndarray, radius: float, sense: int, word: Word | None) -> np.ndarray:
+    def _centre_by_radius(
+        self, s: np.ndarray, e: np.ndarray, radius: float, sense: int, tolerance: float, word: Word | None
+    ) -> np.ndarray:
         if np.hypot(*(e - s)) < 1e-3:
             self.alarm("a full circle cannot be given by its radius", word, hint="write the centre with I J K")
         c, shortage = centre_from_radius(s, e, radius, sense)
-        if shortage > 1e-4:
+        if shortage > tolerance:
             chord = 2 * (float(shortage) + abs(radius))
             self.alarm(
-                f"R{abs(radius):g} is too small for the distance {chord:.4g} mm between start and end: "
+                f"R{abs(radius):g} is too small for the distance {chord:.4f} mm between start and end: "
                 f"at least {chord / 2:.4f} is needed",
                 word,
                 hint=f"{shortage:.4g} mm are missing",

@@ -22,7 +22,7 @@ from mnclab.text.expression import Expression
 NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
 INCREMENTAL, RAPID_MARK, GROUP_MARK = 1, 2, 4  # bits of column ``flag``
 
-_NUMBER_OF_BLOCK = re.compile(r"[ \t]*/?[ \t]*(N[ \t]*\d+|\d+)", re.IGNORECASE)
+_NUMBER_OF_BLOCK = re.compile(r"[ \t]*/?[ \t]*(N[ \t]*\+?\d+|\d+)", re.IGNORECASE)
 
 
 def digits(value: float) -> str:
@@ -61,7 +61,7 @@ class Block:
     span: Span
 
     def __str__(self) -> str:
-        head = " ".join(part for part in (self.number, self.keyword) if part)
+        head = " ".join(part for part in ("/" * self.skip + self.number, self.keyword) if part)
         return " ".join([head, *map(str, self.words)]).strip()
 
 
@@ -94,6 +94,7 @@ class Program:
     payload: tuple[Any, ...] = ()
     alarms: tuple[Alarm, ...] = ()
     comment_mark: str = "//"
+    """What a comment begins with, as a regular expression."""
     encoding: str = "utf-8"
     labels: Mapping[str, int] = field(default_factory=dict)
     """Block index of each jump target, as the reader of the control found them."""
@@ -107,9 +108,9 @@ class Program:
         lines = self._lines_of(index)
         text = self.text[self.start[index] :].lstrip("\ufeff")
         number = _NUMBER_OF_BLOCK.match(text)
-        comments = (line.partition(self.comment_mark)[2].strip() for line in lines)
+        comments = (self._parted(line)[1].strip() for line in lines)
         return Block(
-            number=re.sub(r"\s", "", number.group(1)).upper() if number else "",
+            number=re.sub(r"[\s+]", "", number.group(1)).upper() if number else "",
             keyword=self.keywords[self.keyword[index]],
             words=words,
             comment=" ".join(comment for comment in comments if comment),
@@ -135,10 +136,10 @@ class Program:
     def span_of_block(self, index: int) -> Span:
         """The first line of a block, from its first character to its end."""
         span = self.span(int(self.start[index]))
-        text = self.line_text(span.line).partition(self.comment_mark)[0].rstrip()
+        text = self._parted(self.line_text(span.line))[0].rstrip()
         return span._replace(length=max(1, len(text) - span.column + 1))
 
-    def line_of(self, index: int | slice | NDArray[np.int64]) -> Any:
+    def line_of(self, index: int | slice | NDArray[np.integer[Any]]) -> Any:
         """Source line of a block, 1-based; an array of blocks gives an array of lines."""
         return np.searchsorted(self.line_starts, self.start[index], "right")
 
@@ -149,6 +150,11 @@ class Program:
         begin = self.line_starts[line - 1]
         end = self.line_starts[line] if line < len(self.line_starts) else len(self.text)
         return self.text[begin:end].rstrip("\r\n")
+
+    def _parted(self, line: str) -> tuple[str, str]:
+        """A line before its comment, and the comment."""
+        mark = re.search(self.comment_mark, line)
+        return (line[: mark.start()], line[mark.end() :]) if mark else (line, "")
 
     def _lines_of(self, index: int) -> list[str]:
         first = int(self.line_of(index))
@@ -174,16 +180,25 @@ class Program:
 def decode(data: bytes) -> tuple[str, str]:
     """Text of bytes in UTF-8, UTF-16 (with its mark), CP1251 or KOI8-R, and the name of the code page.
 
-    The Cyrillic pages are told apart by their letters: in KOI8-R small letters lie where CP1251 has capitals.
+    Every byte is a letter in both Cyrillic pages, but a wrong reading has rare letters in place of frequent ones, and
+    capitals after small letters. A few letters decide nothing: then it is CP1251, the page of Windows.
     """
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return data.decode("utf-16", errors="replace"), "utf-16"
     try:
         return data.decode("utf-8-sig"), "utf-8"
     except UnicodeDecodeError:
-        small = {page: sum("а" <= c <= "я" for c in data.decode(page, errors="replace")) for page in ("cp1251", "koi8-r")}
-        page = "koi8-r" if small["koi8-r"] > small["cp1251"] else "cp1251"
+        windows, koi = (_russian(data.decode(page, errors="replace")) for page in ("cp1251", "koi8-r"))
+        page = "koi8-r" if koi > windows + 20 else "cp1251"
         return data.decode(page, errors="replace"), page
+
+
+_BY_FREQUENCY = "ъёфэщцюшжхйчбзгьыяупдмклврстниаео"  # Russian letters, the rarest first
+
+
+def _russian(text: str) -> int:
+    """How much a text looks like Russian."""
+    return sum(map(_BY_FREQUENCY.find, text.lower())) - 40 * len(re.findall("[а-яё][А-ЯЁ]", text))
 
 
 class ProgramBuilder:

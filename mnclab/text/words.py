@@ -75,26 +75,44 @@ def characters(text: str) -> NDArray[np.uint8]:
 
 def scan(text: str, leading_number: bool = False) -> Scan:
     """Find the words of all clean lines; with ``leading_number`` digits may stand before the first letter."""
-    data = characters(text)
-    starts = line_starts(data)
-    most = sum(int(np.count_nonzero(_letters(data[k : k + PIECE]))) for k in range(0, len(data), PIECE))
-    # one allocation for all pieces: memory touched for the first time costs more than the work on it
+    # room for as many words as fit: memory that is never touched costs nothing, what is touched costs more than the work
+    most = len(text) // 2 + 1
     columns: list[NDArray[Any]] = [np.empty(most, dtype=kind) for kind in (np.uint8, np.float64, np.int32, np.int16)]
-    count, clean = np.zeros(len(starts), dtype=np.int32), np.ones(len(starts), dtype=bool)
-    first = found = 0
-    while first < len(starts):
-        begin = int(starts[first])
-        after = int(np.searchsorted(starts, begin + PIECE, "right"))
-        last = max(after - 1, first + 1) if after < len(starts) else len(starts)
-        end = starts[last] if last < len(starts) else len(data)
-        lines = slice(first, last)
-        *words, count[lines], clean[lines] = _scan_piece(data[begin:end], starts[lines] - begin, begin, leading_number)
+    starts: list[NDArray[np.int32]] = []
+    counts: list[NDArray[np.int64]] = []
+    cleans: list[NDArray[np.bool_]] = []
+    begin = found = 0
+    while begin < len(text) or not starts:
+        end = _end_of_piece(text, begin)
+        data = characters(text[begin:end])
+        local = line_starts(data)
+        if end < len(text):
+            local = local[:-1]  # the line that begins the next piece
+        *words, count, clean = _scan_piece(data, local, begin, leading_number)
         for column, part in zip(columns, words, strict=True):
             column[found : found + len(part)] = part
-        found, first = found + len(words[0]), last
-    columns = [column[:found] for column in columns]
-    letter, value, offset, length = columns
-    return Scan(letter, value, offset, length, count, clean, starts)
+        starts.append(local + begin)
+        counts.append(count)
+        cleans.append(clean)
+        found, begin = found + len(words[0]), end
+    letter, value, offset, length = (column[:found] for column in columns)
+    return Scan(
+        letter, value, offset, length,
+        np.concatenate(counts).astype(np.int32), np.concatenate(cleans), np.concatenate(starts).astype(np.int32),
+    )  # fmt: skip
+
+
+def _end_of_piece(text: str, begin: int) -> int:
+    """Where the piece that begins at ``begin`` ends: behind the last line end within reach, or behind the first one."""
+    if begin + PIECE >= len(text):
+        return len(text)
+    last = max(text.rfind("\n", begin, begin + PIECE), text.rfind("\r", begin, begin + PIECE - 1))
+    if last < 0:
+        ends = [k for k in (text.find("\n", begin + PIECE), text.find("\r", begin + PIECE)) if k >= 0]
+        if not ends:
+            return len(text)
+        last = min(ends)
+    return last + 2 if text[last : last + 2] == "\r\n" else last + 1
 
 
 def _letters(data: NDArray[np.uint8]) -> NDArray[np.bool_]:

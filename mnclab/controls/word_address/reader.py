@@ -26,9 +26,9 @@ _WORD = re.compile(r"([A-Za-z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))?")
 _LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
 
 
-def reader(control: str, comment: str = "//", comment_pattern: str = r"/[ \t]?/") -> Callable[[str, str], Program]:
-    """A function (text, name) -> Program for a control whose comments begin with ``comment``."""
-    mark = re.compile(comment_pattern)
+def reader(control: str, comment: str = r"/[ \t]?/") -> Callable[[str, str], Program]:
+    """A function (text, name) -> Program for a control whose comments begin with ``comment``, a regular expression."""
+    mark = re.compile(comment)
 
     def read(text: str, name: str = "program") -> Program:
         found = scan(text)
@@ -159,7 +159,7 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int) -> None:
     elif c in _LOOKS_LATIN:
         builder.alarm(f"{c!r} is a Cyrillic letter", at, hint=f"write the Latin letter {_LOOKS_LATIN[c]}")
     elif c.isascii() and c.isalpha():
-        if following in ("O", "o"):
+        if following in ("O", "o") or (c in "Oo" and text[at - 1 : at].isdigit()):
             builder.alarm(f"{c.upper()} needs a number", at, hint="the letter O stands where the digit 0 was meant")
         else:
             found = f", found {following!r}" if following else ""

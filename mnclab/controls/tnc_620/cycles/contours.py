@@ -19,7 +19,7 @@ from mnclab.path.outline import outline
 
 CYCLES = CycleTable()
 FEEDS = ("FAUTO", "FU", "FZ")
-WIDE = {"at_least": -99999.9999, "at_most": 99999.9999}
+WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
 MOST_LABELS = 12
 
 

@@ -7,13 +7,14 @@ height are those of the ball's centre.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 
 CYCLES = CycleTable()
-WIDE = {"at_least": -99999.9999, "at_most": 99999.9999}
+WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
 
 
 @CYCLES("TCH PROBE 419", "Preset in one axis", runs="definition", source="TNC 15.13")
