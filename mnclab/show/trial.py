@@ -75,7 +75,9 @@ def _mnc(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
     return f"G17 G90 G54\nT2 S1000 M3\nG0 X0 Y0 Z20 F100\n{block}\n{call}\n"
 
 
-def _tnc_620(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+def _tnc_620(cycle: Any, words: Sequence[tuple[str, float]]) -> str | None:
+    if not words or not all(address.startswith("Q") for address, _ in words):
+        return None  # the old cycles stand in blocks of their own kind
     lines = [f"{cycle.code} {cycle.title.upper()}", *(f"  {address}={value:+.6g}" for address, value in words)]
     call = ["L X+20 Y+10 R0 FMAX M99"] if cycle.runs == "call" else []
     start = ["BEGIN PGM TRIAL MM", "TOOL CALL 2 Z S1000", "L X+0 Y+0 Z+50 R0 FMAX M3"]
@@ -88,7 +90,7 @@ def _nc_31(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
     return "\n".join(["S800", "M3", "F20", "X4000 ~ *", "Z200 ~", " *\n".join(frames), ""])
 
 
-PROGRAMS: dict[str, Callable[[Any, Sequence[tuple[str, float]]], str]] = {
+PROGRAMS: dict[str, Callable[[Any, Sequence[tuple[str, float]]], str | None]] = {
     "mnc": _mnc,
     "tnc-620": _tnc_620,
     "nc-31": _nc_31,
