@@ -15,7 +15,7 @@ import numpy as np
 from mnclab.machine.bulk import Bulk
 from mnclab.machine.calls import Flow
 from mnclab.machine.control import Control, Function, Words
-from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, fault
+from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault
 from mnclab.machine.machine import Machine
 from mnclab.text.alarm import ALARM, Span
 from mnclab.text.program import NONE, NUMBER, Program, Word, digits
@@ -196,9 +196,11 @@ class Interpreter:
         values: dict[str, Any] = {}
         words: dict[str, Word] = {}
         for word in given:
-            parameter = next(p for p in cycle.parameters() if word.address in (p.address, *p.aliases) and p.name not in words)
-            words[parameter.name] = word
-            values[parameter.name] = self.value_of(parameter, code, word)
+            fitting = (p for p in cycle.parameters() if word.address in (p.address, *p.aliases))
+            parameter = next(p for p in fitting if p.several or p.name not in words)
+            value = self.value_of(parameter, code, word)
+            words.setdefault(parameter.name, word)
+            values[parameter.name] = (*values.get(parameter.name, ()), value) if parameter.several else value
         return values, words
 
     def value_of(self, parameter: Parameter, code: str, word: Word) -> Any:
@@ -224,8 +226,7 @@ def verify(definition: Definition) -> None:
     """Range and presence of the parameters, where a cycle is defined."""
     for parameter in definition.cycle.parameters():
         value = definition.values.get(parameter.name)
-        if isinstance(value, int | float) and parameter.refuses(value):
-            raise fault(definition, parameter, f"must be {parameter.allowed}, got {value:g}")
+        check_value(definition, parameter, value)
         if value is None and parameter.required and definition.values.get(parameter.instead) is None:
             raise fault(definition, parameter, "is missing")
 
@@ -329,7 +330,7 @@ class _Planner:
         room: dict[str, int] = {}
         for parameter in cycle.parameters():
             for address in (parameter.address, *parameter.aliases):
-                room[address] = room.get(address, 0) + 1
+                room[address] = room.get(address, 0) + (len(self.words) if parameter.several else 1)
         taken = []
         for i, word in enumerate(self.words):
             if i != index and not self.owner[i] and room.get(word.address, 0):

@@ -196,9 +196,15 @@ def decode(data: bytes) -> tuple[str, str]:
 _BY_FREQUENCY = "ъёфэщцюшжхйчбзгьыяупдмклврстниаео"  # Russian letters, the rarest first
 
 
+_LIKE_LATIN = "АВЕЗКМНОРСТХУ"
+
+
 def _russian(text: str) -> int:
-    """How much a text looks like Russian."""
-    return sum(map(_BY_FREQUENCY.find, text.lower())) - 40 * len(re.findall("[а-яё][А-ЯЁ]", text))
+    """How much a text looks like Russian; a letter by itself is a slip for a Latin one, and looks like it."""
+    words = re.findall("[а-яёА-ЯЁ]+", text)
+    letters = sum(sum(map(_BY_FREQUENCY.find, word.lower())) for word in words if len(word) > 1)
+    slips = sum(len(word) == 1 and word.upper() in _LIKE_LATIN for word in words)
+    return letters + 40 * (slips - len(re.findall("[а-яё][А-ЯЁ]", text)))
 
 
 class ProgramBuilder:

@@ -27,22 +27,22 @@ MOST_LABELS = 12
 class ContourGeometry(Cycle):
     """The labels whose contours together are the pocket; no motion."""
 
-    labels: str = param("LBL", "label numbers of the contour", "count", type="text", modal=True, note="1/2/3, up to 12")
+    labels: tuple[float, ...] = param(
+        "LBL", "label numbers of the contour", "count", type="integer", several=True, at_least=1, at_most=65535, modal=True,
+        note="1/2/3, up to 12",
+    )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Numbers that are labels of the program."""
-        numbers = self.labels.split("/")
-        if len(numbers) > MOST_LABELS:
-            yield "labels", f"must be at most {MOST_LABELS} labels, got {len(numbers)}"
-        for number in numbers:
-            if not number.isdigit() or not 1 <= int(number) <= 65535:
-                yield "labels", f"must be whole numbers from 1 to 65535, got {number!r}"
-            elif str(int(number)) not in m.flow.program.labels:
-                yield "labels", f"names label {int(number)}, which does not exist"
+        if len(self.labels) > MOST_LABELS:
+            yield "labels", f"must be at most {MOST_LABELS} labels, got {len(self.labels)}"
+        for number in self.labels:
+            if f"{number:g}" not in m.flow.program.labels:
+                yield "labels", f"names label {number:g}, which does not exist"
 
     def moves(self, m: Machine) -> None:
         """Keep the list until the next one."""
-        m.memory["contour labels"] = tuple(str(int(number)) for number in self.labels.split("/"))
+        m.memory["contour labels"] = tuple(f"{number:g}" for number in self.labels)
 
 
 @CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="TNC 8.4")
