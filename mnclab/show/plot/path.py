@@ -19,7 +19,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
-from mnclab.show.plot.picture import VIEWS, Foot, View, arrange, dress, roomy, write_legend
+from mnclab.show.plot.picture import VIEWS, Foot, Picture, View, arrange, dress, roomy, write_legend
 from mnclab.text.alarm import ALARM, Alarm
 
 LINES = {Kind.RAPID: colours.RAPID, Kind.LINE: colours.FEED, Kind.ARC: colours.FEED, Kind.PROBE: colours.PROBING}
@@ -81,6 +81,13 @@ def plot_run(run: Any, ax: Axes | None = None, view: str = "auto", *, frame: str
     """Views of the path of a run (see :func:`plot_path`), with its programmed contour and the place of its alarm."""
     programmed = None if run.programmed is run.toolpath else run.programmed
     return plot_path(run.toolpath, ax, view, frame=frame, programmed=programmed, alarms=run.alarms)
+
+
+def image(run: Any, view: str = "auto") -> str:
+    """The views of a run as an HTML image with a name, for those who show pictures but do not draw."""
+    picture = plot_run(run, view=view)
+    assert isinstance(picture, Picture)
+    return picture.html()
 
 
 # --- what is drawn ---------------------------------------------------------------------------------------------------
