@@ -269,6 +269,8 @@ class _Planner:
             codes = [(c, i) for c, i in codes if i != cycle[1]]
             for code, index in codes:
                 other = self.control.functions.get(code)
+                if code == cycle[0]:
+                    self.alarm(f"{code} is written twice in this block", index, "keep one of them")
                 if code in self.control.cycles or (other and other.ends_cycle):
                     self.alarm(f"{code} and {cycle[0]} are of one group: only one of it may stand in a block", index)
         functions = [(self.function(code, index), index) for code, index in codes]
@@ -311,14 +313,15 @@ class _Planner:
         return found
 
     def check_groups(self, functions: list[Function], indices: list[int]) -> None:
-        seen: dict[str, Function] = {}
+        seen: dict[str, str] = {}  # group, or the code itself where it has none
         for function, index in zip(functions, indices, strict=True):
-            if function.group and function.group in seen:
-                other = seen[function.group].code
-                what = "is written twice" if other == function.code else f"and {other} are of one group"
-                self.alarm(f"{function.code} {what}: only one function of a group may stand in a block", index)
-            if function.group:
-                seen[function.group] = function
+            group = function.group or function.code
+            if seen.get(group) == function.code:
+                self.alarm(f"{function.code} is written twice in this block", index, "keep one of them")
+            if group in seen:
+                one_of = "only one function of a group may stand in a block"
+                self.alarm(f"{function.code} and {seen[group]} are of one group: {one_of}", index)
+            seen[group] = function.code
 
     def claim(self, cycle: type[Cycle], code: str, index: int) -> None:
         """A cycle takes its addresses before any function sees them."""
@@ -373,8 +376,8 @@ class _Planner:
         for i, word in enumerate(self.words):
             if not self.owner[i] and word.address not in self.control.codes and word.address in self.control.functions:
                 function = self.control.functions[word.address]
-                if any(a.what is function for a in self.actions):
-                    continue  # a second one is a repeated address
+                if any(w.address == word.address and self.owner[k] for k, w in enumerate(self.words)):
+                    continue  # a second one, of a cycle too, is a repeated address
                 self.owner[i] = function.code
                 self.hand_out(function, i)
 
