@@ -128,11 +128,15 @@ class Machine:
         self.logs.add(name, max(self.step, 0), value)
 
     def change(self, name: str, value: Any) -> None:
-        """Set an attribute that rows carry (feed, side, plane, …) and note it in the history."""
+        """Set an attribute that rows carry (feed, side, plane, …) and note it in the history.
+
+        Where a modal group has the same name (plane), the history holds its codes.
+        """
         if getattr(self, name) != value:
             setattr(self, name, value)
             self._state = None
-            self.log(name, value)
+            if name not in self.modal:
+                self.log(name, value)
 
     def set_modal(self, group: str, code: str) -> None:
         """A function of a group is active from now on."""

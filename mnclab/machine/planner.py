@@ -57,6 +57,8 @@ class Planner:
             codes = [(c, i) for c, i in codes if i != cycle[1]]
             for code, index in codes:
                 other = self.control.functions.get(code)
+                if code == cycle[0]:
+                    self.alarm(f"{code} is written twice in this block", index, "keep one of them")
                 if code in self.control.cycles or (other and other.ends_cycle):
                     self.alarm(f"{code} and {cycle[0]} are of one group: only one of it may stand in a block", index)
         functions = [(self.function(code, index), index) for code, index in codes]
@@ -101,14 +103,15 @@ class Planner:
         return found
 
     def check_groups(self, functions: list[Function], indices: list[int]) -> None:
-        seen: dict[str, Function] = {}
+        seen: dict[str, str] = {}  # group, or the code itself where it has none
         for function, index in zip(functions, indices, strict=True):
-            if function.group and function.group in seen:
-                other = seen[function.group].code
-                what = "is written twice" if other == function.code else f"and {other} are of one group"
-                self.alarm(f"{function.code} {what}: only one function of a group may stand in a block", index)
-            if function.group:
-                seen[function.group] = function
+            group = function.group or function.code
+            if seen.get(group) == function.code:
+                self.alarm(f"{function.code} is written twice in this block", index, "keep one of them")
+            if group in seen:
+                one_of = "only one function of a group may stand in a block"
+                self.alarm(f"{function.code} and {seen[group]} are of one group: {one_of}", index)
+            seen[group] = function.code
 
     def claim(self, cycle: type[Cycle], code: str, index: int) -> None:
         """A cycle takes its addresses before any function sees them."""
@@ -147,7 +150,7 @@ class Planner:
                     continue
                 if self.owner[i] and self.owner[i] != function.code:
                     if function.moves and self.owner[i] in self.control.cycles:
-                        continue
+                        break  # a second one is a repeated address, no motion
                     if self.owner[i] in self.control.functions and word.address not in self.control.codes:
                         self.alarm(f"{self.owner[i]} and {function.code} both take {word}", i, "write them in two blocks")
                     continue
@@ -163,8 +166,8 @@ class Planner:
         for i, word in enumerate(self.words):
             if not self.owner[i] and word.address not in self.control.codes and word.address in self.control.functions:
                 function = self.control.functions[word.address]
-                if any(a.what is function for a in self.actions):
-                    continue  # a second one is a repeated address
+                if any(w.address == word.address and self.owner[k] for k, w in enumerate(self.words)):
+                    continue  # a second one, of a cycle too, is a repeated address
                 self.owner[i] = function.code
                 self.hand_out(function, i)
 
