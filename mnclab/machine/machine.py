@@ -64,6 +64,7 @@ class Machine:
 
         self.modal: dict[str, str] = {}
         self.variables = Variables(self)
+        self.variable_unit = 1.0  # mm that a length of 1 in a variable stands for: 25.4 in a program in inches
         self.measured = Measured(self)
         self.plane = "XY"
         self.feed: float | None = None
@@ -361,13 +362,13 @@ class Machine:
         )
 
     def mark_joint(self, joint: Any) -> bool:
-        """Put a joint on the last row, if it is a motion not settled yet; False if there is none."""
-        rows = self.recorder.rows
-        if not rows or rows[-1][0] > Kind.ARC:
-            return False
-        rows[-1] = (*rows[-1][:13], len(self.recorder.joints), rows[-1][14])
-        self.recorder.joints.append(joint)
-        return True
+        """Put a joint on the last motion not settled yet; False if there is none, or if it has one already."""
+        return self.recorder.mark(joint)
+
+    def heading(self) -> tuple[float, float, float] | None:
+        """The unit tangent at the end of the last motion not settled yet, in machine axes; None if there is none."""
+        travel = self.recorder.heading()
+        return None if travel is None else tuple(travel.tolist())
 
     # --- verbs: events -----------------------------------------------------------------------------------------------
 

@@ -128,7 +128,7 @@ class RoughOut(Cycle):
         "Q18", "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
     )
     swing_feed: float = param("Q19", "feed rate for reciprocation", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True)
-    retract_feed: float = param(
+    retract_feed: float | str = param(
         "Q208", "retraction feed rate", "mm/min", default=INF, default_means="FMAX", at_least=0, also=("FMAX", "FAUTO"), modal=True
     )
     factor: float = param("Q401", "feed rate factor at full engagement", "ratio", default=100, at_least=0.0001, at_most=100, modal=True)
@@ -140,9 +140,9 @@ class RoughOut(Cycle):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Contour and data are there, the infeed is not zero; what is not built is refused."""
         if "contour labels" not in m.memory:
-            yield "", "needs a contour", 
+            yield "", "needs a contour: CYCL DEF 14 comes before it"
         if "contour data" not in m.memory:
-            yield "", "needs its contour data"
+            yield "", "needs its contour data: CYCL DEF 20 comes before it"
         if self.infeed == 0:
             yield "infeed", "must not be 0"
         if self.coarse_tool:
@@ -182,11 +182,11 @@ class RoughOut(Cycle):
                         self.enter(m, ring, above, above, level, plunge)
                     follow(m, ring, self.feed)
         m.label = "22 retract"
-        m.line(z=data.height, f=self.retract_feed or self.feed)
+        m.line(z=data.height, f=INF if self.retract_feed == "FMAX" else self.retract_feed or self.feed)
 
     def enter(self, m: Machine, ring: Contour, height: float, above: float, level: float, plunge: float) -> None:
         """Over the start of a ring, then down to its level."""
-        m.rapid(z=max(height, m.programmed[2]) if m.programmed[2] < height else height)
+        m.rapid(z=height)
         m.rapid(*_start(ring))
         m.rapid(z=above)
         m.line(z=level, f=plunge)
