@@ -38,7 +38,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):  # a Windows code page lacks letters that an alarm may quote
             stream.reconfigure(errors="replace")
-    chosen = parser().parse_args(arguments)
+    commands = parser()
+    chosen, rest = commands.parse_known_args(arguments)
+    if rest and chosen.do is not lab:
+        commands.error(f"unrecognized arguments: {' '.join(rest)}")
+    chosen.rest = rest
     try:
         status: int = chosen.do(chosen)
         sys.stdout.flush()
@@ -85,8 +89,7 @@ def parser() -> argparse.ArgumentParser:
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function")
     sub.add_argument("code", nargs="+", metavar="CODE", help="such as G83 or CYCL DEF 200")
     sub.add_argument("--control", choices=list(mnclab.controls), required=True)
-    sub = command("lab", lab, "open the lessons in JupyterLab")
-    sub.add_argument("rest", nargs=argparse.REMAINDER, metavar="...", help="what else JupyterLab is told")
+    command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow")
     return top
 
 

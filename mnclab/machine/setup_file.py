@@ -45,6 +45,11 @@ class _File:
     def __init__(self, name: str, text: str) -> None:
         self.name, self._lines = name, text.splitlines()
 
+    @property
+    def end(self) -> Span:
+        """Just behind the last character."""
+        return Span(len(self._lines), len(self._lines[-1]) + 1) if self._lines else Span(1, 1)
+
     def line_text(self, line: int) -> str:
         return self._lines[line - 1] if 0 < line <= len(self._lines) else ""
 
@@ -62,7 +67,7 @@ def load(path: str | Path) -> Setup:
         return _setup(tomllib.loads(text), path.parent)
     except tomllib.TOMLDecodeError as error:
         place = re.search(r"line (\d+), column (\d+)", str(error))
-        span = Span(int(place[1]), int(place[2])) if place else None
+        span = Span(int(place[1]), int(place[2])) if place else file.end
         raise Alarm(re.sub(r" \(at .*\)", "", str(error)), span, source=file) from None
     except Alarm as alarm:
         alarm.source = file

@@ -42,7 +42,7 @@ def panel(
             if name not in other:
                 near = get_close_matches(name, list(other), 1)
                 raise Alarm(f"{{{name}}} {what}", hint=f"near: {near[0]}" if near else f"write {{{name}}} and {name}=…")
-    boxes = {name: _number_box(name.replace("_", " "), numbers[name]) for name in places}
+    boxes = {name: _number_box(name.replace("_", " "), number) for name, number in numbers.items()}
 
     def text() -> str:
         return PLACE.sub(lambda place: trial.number(boxes[place[1]].value), template)
