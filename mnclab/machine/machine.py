@@ -455,7 +455,7 @@ class Machine:
         if not np.array_equal(start, piece.start[0]):
             piece = piece.replace(start=np.concatenate([start[None], piece.start[1:]]))
         try:
-            piece = compensation.apply(corners.apply(piece), self.control.compensation, unfinished)
+            piece = compensation.apply(corners.apply(piece, unfinished), self.control.compensation, unfinished)
         except PathFault as fault:
             self.cut = fault.step
             self.settled.append(self._before_fault(piece[piece.step < fault.step]))
@@ -465,7 +465,7 @@ class Machine:
     def _before_fault(self, piece: Toolpath) -> Toolpath:
         """The tool-centre path up to a fault; its last element ends nobody knows where and is left out."""
         try:
-            return compensation.apply(corners.apply(piece), self.control.compensation, unfinished=True)
+            return compensation.apply(corners.apply(piece, True), self.control.compensation, unfinished=True)
         except PathFault:
             return piece[:0]
 
