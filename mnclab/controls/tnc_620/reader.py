@@ -202,10 +202,8 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
         word = np.where(first, 0, bits[found.letter])
         good &= np.bitwise_or.reduceat(word, heads) == np.add.reduceat(word, heads)  # each address once
         good &= ~np.logical_or.reduceat(strange, heads)
-    at = text.find("~")
-    while at >= 0:  # the line after it goes on with a block
-        good &= found.line[heads] != np.searchsorted(found.starts, at, "right")
-        at = text.find("~", at + 1)
+    if "~" in text:  # the line after it goes on with a block
+        good &= ~np.isin(found.line[heads], np.searchsorted(found.starts, np.flatnonzero(data == ord("~")), "right"))
 
     plain = np.zeros(len(found.starts), dtype=bool)
     plain[found.line[heads[good]]] = True
