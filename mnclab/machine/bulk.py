@@ -151,6 +151,7 @@ class Bulk:
             points[1:] = np.where(written, axes, 0.0)
             points = np.cumsum(points, axis=0)
         tips = points + np.array(machine._shift) if machine._shift is not None else frames.apply(machine._matrix, points)
+        tips[0] = machine.tip  # not the register turned there and back
 
         feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
         motion, unknown = self.motions(words["G"], n)
