@@ -135,10 +135,12 @@ class Bulk:
             moves |= written
             points[1:, k] = words[axis] if absolute else np.where(written, words[axis], 0.0)
             points[:, k] = _filled(points[:, k]) if absolute else np.cumsum(points[:, k])
-        if machine._shift is None:
-            tips = frames.apply(machine._matrix, points)
+        if machine._shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed:
+            tips = points  # no copy: memory costs more than the work on it
         else:
-            tips = points + np.array(machine._shift) if any(machine._shift) else points
+            turned = machine._shift is None
+            tips = frames.apply(machine._matrix, points) if turned else points + np.array(machine._shift)
+            tips[0] = machine.tip  # not the register turned there and back
 
         feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
         motion, unknown = self.motions(words["G"], n)

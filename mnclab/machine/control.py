@@ -120,7 +120,8 @@ class FunctionTable(dict[str, Function]):
 class Control:
     """A control as one value; nothing is inherited, two controls that agree share a function.
 
-    ``codes`` are the addresses whose value makes a code (G and M); ``motion`` is the group whose modal function runs when
+    ``codes`` are the addresses whose value makes a code (G and M); ``word_functions``: an address may be a function by itself
+    (F, S, T), which a control of keywords does not want, where C is a statement and an axis; ``motion`` is the group whose modal function runs when
     axis words are left over; ``storage`` says where cycle parameters live until the call ("instance" or "variables").
     ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
@@ -136,6 +137,7 @@ class Control:
     suffixes: tuple[str, ...] = ()
     axes: str = "XYZ"
     codes: tuple[str, ...] = ("G", "M")
+    word_functions: bool = True
     motion: str = "motion"
     settings: tuple[Setting, ...] = ()
     storage: str = "instance"

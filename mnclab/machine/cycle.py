@@ -57,7 +57,7 @@ class Parameter:
         if self.choices:
             return "one of " + ", ".join(f"{choice:g}" for choice in self.choices)
         parts = [
-            f"{words} {limit:g}"
+            f"{words} {limit:.10g}"
             for words, limit in (
                 ("greater than", self.above),
                 ("at least", self.at_least),

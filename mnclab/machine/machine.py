@@ -200,8 +200,7 @@ class Machine:
         if self._shift is not None:
             dx, dy, dz = self._shift
             return x + dx, y + dy, z + dz
-        m = self._matrix
-        u, v, w = (m[:3, :3] @ (x, y, z) + m[:3, 3]).tolist()
+        u, v, w = frames.apply(self._matrix, (x, y, z)).tolist()
         return u, v, w
 
     def to_program(self, point: Iterable[float]) -> tuple[float, float, float]:

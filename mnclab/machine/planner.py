@@ -163,6 +163,8 @@ class Planner:
 
     def word_functions(self) -> None:
         """F, S, T and the like: addresses that are functions by themselves."""
+        if not self.control.word_functions:
+            return
         for i, word in enumerate(self.words):
             if not self.owner[i] and word.address not in self.control.codes and word.address in self.control.functions:
                 function = self.control.functions[word.address]

@@ -44,6 +44,7 @@ CONTROL = Control(
     cycles=CYCLES,
     phases=PHASES,
     codes=("M",),
+    word_functions=False,
     settings=SETTINGS,
     storage="variables",
     frames=("preset",),

@@ -87,6 +87,8 @@ M = {
     149: "end of M148", 197: "rounding of corners",
 }  # fmt: skip
 
+BUILDER = "a cycle of the machine tool builder, whose manual alone describes it"
+
 WORDS = {
     **{axis: f"the axis {axis} is not built yet" for axis in "UVWABC"},
     "FU": "a feed per revolution is not built yet", "FZ": "a feed per tooth is not built yet",
@@ -99,7 +101,6 @@ def refused(functions: FunctionTable, cycles: Container[str]) -> dict[str, str]:
     """Codes and addresses that are not built, with the sentence that says so."""
     known = {f"CYCL DEF {n}": title for n, title in CYCLES.items()} | {f"TCH PROBE {n}": title for n, title in PROBING.items()}
     known |= STATEMENTS | {f"FN {n}": title for n, title in FN.items()} | {f"M{n}": title for n, title in M.items()}
-    known |= {f"CYCL DEF {n}": "a cycle of the machine tool builder" for n in range(300, 400)}
-    known |= {f"TCH PROBE {n}": "a cycle of the machine tool builder" for n in range(500, 600)}
+    builder = {f"CYCL DEF {n}": BUILDER for n in range(300, 400)} | {f"TCH PROBE {n}": BUILDER for n in range(500, 600)}
     waiting = {code: title for code, title in known.items() if code not in functions and code not in cycles}
-    return {code: f"{title}, not built yet" for code, title in waiting.items()} | WORDS
+    return {code: f"{title}, not built yet" for code, title in waiting.items()} | builder | WORDS

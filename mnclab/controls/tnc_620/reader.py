@@ -38,7 +38,16 @@ def read(text: str, name: str = "program") -> Program:
     lines = _Lines(builder, inch)
     for line in np.flatnonzero(~plain).tolist():
         lines.read(line)
+    _check_end(builder, bulk, lines.end)
     return builder.build(bulk)
+
+
+def _check_end(builder: ProgramBuilder, bulk: BulkBlocks, end: int | None) -> None:
+    """Warn about blocks after END PGM."""
+    if end is not None:
+        after = [block[0] for block in builder.blocks if block[0] > end and block[1]] + bulk.start[bulk.start > end][:1].tolist()
+        if after:
+            builder.alarm("nothing after END PGM is obeyed", min(after), severity="warning")
 
 
 class _Lines:
@@ -49,7 +58,8 @@ class _Lines:
         self.last = -1  # the line read last
         self.statement: Statement | None = None  # of the block that may go on
         self.tilde = False  # the line before ended in ~
-        self.skip = self.faulty = self.begun = self.ended = False
+        self.skip = self.faulty = self.begun = False
+        self.end: int | None = None  # place of END PGM
 
     def read(self, line: int) -> None:
         """One line: a block, a part of the block before it, a comment, or nothing."""
@@ -160,15 +170,13 @@ class _Lines:
             raise Fault("all sub-blocks of a cycle must be marked with / or none", begin, length)
 
     def check_order(self, statement: Statement, begin: int, length: int) -> None:
-        """BEGIN PGM stands first, END PGM last."""
+        """BEGIN PGM stands once; END PGM is the last block that counts."""
         if statement.keyword == "BEGIN PGM":
             if self.begun:
                 raise Fault("BEGIN PGM stands twice: a file holds one program", begin, length)
             self.begun = True
-        if self.ended:
-            self.builder.alarm("nothing after END PGM is obeyed", begin, length, severity="warning")
-            self.ended = False
-        self.ended |= statement.keyword == "END PGM"
+        if statement.keyword == "END PGM" and self.end is None:
+            self.end = begin
 
     def unknown(self, cursor: Cursor) -> Fault:
         """The fault of a line that begins with no statement."""
@@ -203,10 +211,8 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
         word = np.where(first, 0, bits[found.letter])
         good &= np.bitwise_or.reduceat(word, heads) == np.add.reduceat(word, heads)  # each address once
         good &= ~np.logical_or.reduceat(strange, heads)
-    at = text.find("~")
-    while at >= 0:  # the line after it goes on with a block
-        good &= with_words != np.searchsorted(found.starts, at, "right")
-        at = text.find("~", at + 1)
+    if "~" in text:  # the line after it goes on with a block
+        good &= ~np.isin(with_words, np.searchsorted(found.starts, np.flatnonzero(data == ord("~")), "right"))
 
     plain = np.zeros(len(found.starts), dtype=bool)
     plain[with_words[good]] = True

@@ -26,7 +26,7 @@ PARAMETER = re.compile(r"[ \t]*[+-]?[ \t]*Q[LR]?\d+", FLAGS)
 TEXT = re.compile(r'[ \t]*"([^"]*)"')
 
 _FEEDS = re.compile(r"F[ \t]*(MAX|AUTO)(?![A-Z])", FLAGS)
-_SIDES = re.compile(r"(RL|RR|R0|RO)(?![A-Z0-9.,])", FLAGS)
+_SIDES = re.compile(r"(?:(RL|RR|RO)(?![A-Z])|(R0)(?![\d.,]))", FLAGS)
 _SENSE = re.compile(r"DR[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
 
 _ADDRESSES = (
@@ -128,7 +128,7 @@ class Cursor:
         if found := self.match(_FEEDS):
             self.add("F" + found.group(1).upper(), None, begin)
         elif not (radius and self.text[begin + 1 : begin + 2] in "0Oo") and (found := self.match(_SIDES)):
-            self.add(found.group(1).upper().replace("O", "0"), None, begin)
+            self.add(found.group().upper().replace("O", "0"), None, begin)
         elif found := self.match(_SENSE):
             self.add("DR", found.group(1), begin)
         elif found := self.match(_NAMED):
@@ -163,7 +163,8 @@ class Cursor:
             return Fault(f"{c!r} needs an address before it", self.at, hint=hint)
         if c in "Gg":
             return Fault("G has no meaning here", self.at, hint="G words belong to DIN/ISO programs; write L, C, CR or CYCL DEF")
-        return Fault(f"{c!r} has no meaning here", self.at)
+        hint = "the letter O stands where the digit 0 was meant" if c in "Oo" and self.text[self.at - 1].isdigit() else ""
+        return Fault(f"{c!r} has no meaning here", self.at, hint=hint)
 
     def without_number(self, found: re.Match[str]) -> Fault:
         """The fault of an address whose value is missing or odd."""

@@ -182,7 +182,8 @@ class RoughOut(Cycle):
                         self.enter(m, ring, above, above, level, plunge)
                     follow(m, ring, self.feed)
         m.label = "22 retract"
-        m.line(z=data.height, f=INF if self.retract_feed == "FMAX" else self.retract_feed or self.feed)
+        feed = self.retract_feed
+        m.line(z=data.height, f=INF if isinstance(feed, str) else feed or self.feed)
 
     def enter(self, m: Machine, ring: Contour, height: float, above: float, level: float, plunge: float) -> None:
         """Over the start of a ring, then down to its level."""

@@ -15,6 +15,7 @@ from mnclab.machining.depths import infeeds
 
 CYCLES = CycleTable()
 FAR = 99999.9999  # mm, the largest length of a cycle
+MOST = 10_000  # infeeds of one hole
 TIP = {0: "depth refers to the tool tip", 1: "depth refers to the cylindrical part of the tool"}
 
 
@@ -44,6 +45,8 @@ class Drilling(Cycle):
             yield "depth", f"must be negative, got {self.depth:g}: a positive depth works upwards"
         if self.reference == 1 and not 0 < m.tool.angle < 180:
             yield "reference", f"needs the point angle of tool {m.tool.number} (T-ANGLE of the tool table)"
+        if self.infeed and abs(self.depth) / self.infeed > MOST:
+            yield "infeed", f"{self.infeed:g} divides the depth {self.depth:g} into more than {MOST} infeeds"
         if self.feed == 0:
             yield "feed", "must be greater than 0 to drill with, got 0"
 
