@@ -63,8 +63,9 @@ def form(code: str, control: str) -> Any:
         raise Alarm(f"{code} has no parameters to make a form of", hint=f"cycles of {control}: {known}")
     chosen: type[Cycle] = cycle
     boxes, ticks, rows = {}, {}, []
+    longest = max((len(_name(p)) for p in chosen.parameters()), default=0)
     for parameter in sorted(chosen.parameters(), key=lambda p: not p.required):
-        box = boxes[parameter.name] = _parameter_box(parameter)
+        box = boxes[parameter.name] = _parameter_box(parameter, min(32.0, 0.58 * longest))
         if not parameter.required and parameter.default is None:
             ticks[parameter.name] = tick = _tick(parameter, box)
             rows.append(_row(box, tick))
@@ -99,18 +100,23 @@ def _number_box(name: str, number: Number) -> Any:
     return kinds[1](min=limits[0], max=limits[1], **looks) if limits else kinds[0](**looks)
 
 
-def _parameter_box(p: Parameter) -> Any:
-    """The box that fits the kind and the limits of a parameter; what it means stands in its tooltip."""
+def _name(p: Parameter) -> str:
+    """What is written beside a box: ``K depth of one peck [mm]``."""
+    return f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and not p.mark else "")
+
+
+def _parameter_box(p: Parameter, width: float) -> Any:
+    """The box that fits the kind and limits of a parameter, its name ``width`` em wide; the tooltip says the rest."""
     import ipywidgets
 
     value = trial.first_value(p)
     otherwise = p.default_means or ("" if p.default is None else f"{p.default:g}")
     facts = [p.meaning, p.allowed, p.note, f"left out: {otherwise}" if otherwise else ""]
     looks: dict[str, Any] = {
-        "description": f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and not p.mark else ""),
+        "description": _name(p),
         "tooltip": "; ".join(fact for fact in facts if fact),
-        "style": {"description_width": "19em"},
-        "layout": {"width": "27em"},
+        "style": {"description_width": f"{width:.1f}em"},
+        "layout": {"width": f"{width + 8:.1f}em"},
     }
     if p.choices:
         options = [(f"{choice:g} {meaning}", choice) for choice, meaning in p.choices.items()]
