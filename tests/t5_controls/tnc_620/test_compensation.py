@@ -111,3 +111,12 @@ def test_departure_after_plain_lines_in_bulk(inside) -> None:
 def test_repeating_the_side_in_an_arc_is_no_beginning(inside) -> None:
     run = inside("2 L X+10 RL\n3 L X+20\n4 CR X+20 Y+40 R20 DR+ RL F50\n5 L X+10\n6 L X+0 R0")
     assert run.ok, run.alarms
+
+
+def test_entry_and_exit_at_rapid(inside) -> None:
+    """Square to the contour at both ends: in to (10, 5), along to (30, 5), out to (30, 40)."""
+    run = inside("2 L X+10 RL FMAX\n3 L X+30\n4 L Y+40 R0 FMAX")
+    assert run.ok, run.alarms
+    assert [(m.kind.name, m.end[:2].tolist()) for m in run.toolpath.motion] == [
+        ("RAPID", [10, 5]), ("LINE", [30, 5]), ("RAPID", [30, 40]),
+    ]  # fmt: skip

@@ -66,7 +66,7 @@ REFUSED = [
     ("2 DEP LT LEN5", 3, 1, "DEP LT ends radius compensation, and none is active (begin it with APPR LT or with RL, RR)"),
     ("2 DEP CT CCA90 R5", 3, 1, "DEP CT is refused: departure, not built yet"),
     ("2 L X+5 RL\n3 TOOL CALL 2 Z", 4, 13, "TOOL CALL cannot change the tool under radius compensation (write R0 first)"),
-    ("2 L X+5 RL FMAX\n3 L X+9", 3, 1, "radius compensation begins only in a straight line at feed (write the entry as a linear move, then the contour)"),
+    ("2 L X+5 RL\n3 L X+9\n4 C X+9 Y+5 R0 DR+", 5, 13, "R0 cannot end the radius compensation in C (write it in a straight line L)"),
     # labels and parameters
     ("2 LBL 1\n3 LBL 0\n4 LBL 1", 5, 7, "LBL 1 is set twice (a label stands for one place in the program)"),
     ("2 CALL LBL 0", 3, 12, "CALL LBL 0: LBL 0 is the end of a subprogram and cannot be called"),
