@@ -48,7 +48,7 @@ CONTROL = Control(
     settings=SETTINGS,
     storage="variables",
     frames=("preset",),
-    compensation=Compensation(approach="perpendicular"),
+    compensation=Compensation(approach="perpendicular", rapid=True),
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
     refused=later.refused(FUNCTIONS, CYCLES),
