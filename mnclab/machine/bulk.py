@@ -10,6 +10,7 @@ text for one fault. The pieces grow while all is well and start small again afte
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry import frames
 from mnclab.geometry.arcs import centre_from_radius, sweep
 from mnclab.path.kinds import Kind
 from mnclab.text.program import Program
@@ -135,10 +135,7 @@ class Bulk:
             moves |= written
             points[1:, k] = words[axis] if absolute else np.where(written, words[axis], 0.0)
             points[:, k] = _filled(points[:, k]) if absolute else np.cumsum(points[:, k])
-        if machine._shift is None:
-            tips = frames.apply(machine._matrix, points)
-        else:
-            tips = points + np.array(machine._shift) if any(machine._shift) else points
+        tips = self.to_machine(points)
 
         feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
         motion, unknown = self.motions(words["G"], n)
@@ -147,14 +144,25 @@ class Bulk:
         shaped = centred[:, 0] | centred[:, 1] | centred[:, 2] | by_radius
         arc = (np.abs(motion) == 2) & shaped
         moves |= arc
+        go = int(np.argmax(moves)) if moves.any() else n  # until then the tool stands where it stood
+        begin, tips[: go + 1] = tips[0].tolist(), machine.tip
 
         without_feed = moves & (motion != 0) & np.isnan(feed)
         fault = unknown | (words["F"] <= 0) | without_feed | (shaped & (np.abs(motion) != 2))
         run = _Run(points, tips, motion, feed, moves, fault, np.full((n, 3), np.nan), np.zeros(n), arc)
         if arc.any():
             self.arcs(run, words, centred, by_radius)
+            run.fault[go] |= arc[go] and math.dist(begin, machine.tip) > rule.tolerance(machine)
         run.moves = moves & (_differ(tips[1:], tips[:-1]) | arc)
         return run
+
+    def to_machine(self, points: Array) -> Array:
+        """Program coordinates (n, 3) to machine coordinates, a new table."""
+        machine = self.machine
+        if machine._shift is not None:
+            return points + np.array(machine._shift) if any(machine._shift) else points.copy()
+        x, y, z = points.T
+        return np.stack([a * x + b * y + c * z + d for a, b, c, d in machine._matrix[:3].tolist()], axis=1)
 
     def motions(self, g: Array, n: int) -> tuple[NDArray[np.int64], Mask]:
         """The sense of each block's motion, and which G words are none."""
@@ -198,9 +206,7 @@ class Bulk:
         centre[:, [first, second]] = c
         if machine._shift is None:
             run.fault[k] = True  # turned planes are rare: one by one
-        else:
-            centre = centre + np.array(machine._shift)
-        run.centre[k], run.angle[k] = centre, angle
+        run.centre[k], run.angle[k] = self.to_machine(centre), angle
 
     # --- doing it ----------------------------------------------------------------------------------------------------
 
