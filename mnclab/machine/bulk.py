@@ -205,7 +205,8 @@ class Bulk:
         centre = run.points[k].copy()
         centre[:, [first, second]] = c
         if machine._shift is None:
-            run.fault[k] = True  # turned planes are rare: one by one
+            run.fault[k] |= not machine.keeps_circles
+            angle = angle * machine.orientation
         run.centre[k], run.angle[k] = self.to_machine(centre), angle
 
     # --- doing it ----------------------------------------------------------------------------------------------------

@@ -275,7 +275,9 @@ class Machine:
         """
         feed = self.feed_of(f, word)
         point = self.target(x, y, z)
-        self._check_begin(tolerance, word)
+        if (away := math.dist(self.to_machine(self.programmed), self.tip)) > tolerance:
+            fault = f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move"
+            self.alarm(fault, word, hint="lead the tool to the start of the arc by a straight move first")
         first, second, _ = PLANES[self.plane]
         s = np.array([self.programmed[first], self.programmed[second]])
         e = np.array([point[first], point[second]])
@@ -291,16 +293,6 @@ class Machine:
             angle *= self._arc_sense(word)
         self._row(Kind.ARC, self.to_machine(point), self.to_machine(middle), angle, feed)
         self.programmed, self.tip = point, self.to_machine(point)
-
-    def _check_begin(self, tolerance: float, word: Word | None) -> None:
-        """A transformation that was switched without a move since: the arc would not begin where the tool stands."""
-        away = math.dist(self.to_machine(self.programmed), self.tip)
-        if away > tolerance:
-            self.alarm(
-                f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move",
-                word,
-                hint="lead the tool to the start of the arc by a straight move first",
-            )
 
     def _centre_by_radius(
         self, s: np.ndarray, e: np.ndarray, radius: float, sense: int, tolerance: float, word: Word | None
