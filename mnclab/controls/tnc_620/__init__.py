@@ -32,7 +32,9 @@ FUNCTIONS = (
 )  # fmt: skip
 CYCLES = drilling.CYCLES | transformations.CYCLES
 
-_KLARTEXT = re.compile(r"^[ \t\ufeff]*\d*[ \t]*(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M)
+_KLARTEXT = re.compile(
+    r"^[ \t\ufeff]*\d*[ \t]*(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M
+)
 
 CONTROL = Control(
     name="tnc-620",
