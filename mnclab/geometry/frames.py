@@ -39,7 +39,8 @@ def scale(x: float = 1.0, y: float = 1.0, z: float = 1.0, about: ArrayLike = (0.
 
 def mirror(axes: str, about: ArrayLike = (0.0, 0.0, 0.0)) -> Matrix:
     """Coordinates of the named axes change their sign, about a point."""
-    return scale(*(-1.0 if axis in axes.lower() else 1.0 for axis in "xyz"), about=about)
+    x, y, z = (-1.0 if axis in axes.lower() else 1.0 for axis in "xyz")
+    return scale(x, y, z, about)
 
 
 def around(matrix: Matrix, point: ArrayLike) -> Matrix:

@@ -22,8 +22,9 @@ class Element(NamedTuple):
     c: Array
     r: Array
 
-    def __getitem__(self, index: object) -> Element:  # type: ignore[override]
-        return Element(*(field[index] for field in tuple(self)))  # type: ignore[index]
+    def only(self, mask: NDArray[np.bool_]) -> Element:
+        """Those where ``mask`` (n,) holds."""
+        return Element(self.q[mask], self.t[mask], self.c[mask], self.r[mask])
 
 
 def cross(a: Array, b: Array) -> Array:
@@ -53,7 +54,7 @@ def meet(first: Element, second: Element, near: Array) -> Array:
             (circle1 & circle2, _circles),
         ):
             if mask.any():
-                found[mask] = solve(first[mask], second[mask], near[mask])
+                found[mask] = solve(first.only(mask), second.only(mask), near[mask])
     return found
 
 

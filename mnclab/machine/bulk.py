@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 SHORTEST, LARGEST = 32, 1 << 15  # blocks obeyed at once: below, one by one is faster; above, the cache is lost
 
+LETTERS = "GXYZIJKRF"  # the addresses of plain words
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
@@ -47,15 +48,6 @@ class PlainWords:
     keyword: str = ""
     neutral: tuple[str, ...] = ()
     tolerance: Callable[[Machine], float] = lambda m: 0.01
-
-
-class _Columns(NamedTuple):
-    """The words of a run by address (n,), nan where not written."""
-
-    by_address: dict[str, Array]
-
-    def __getitem__(self, address: str) -> Array:  # type: ignore[override]
-        return self.by_address[address]
 
 
 @dataclass
@@ -87,6 +79,8 @@ class Bulk:
         plain[list(faulty)] = False
         if self.rule.keyword and self.rule.keyword in program.keywords:
             plain &= program.keyword == program.keywords.index(self.rule.keyword)
+        # the column of each address of this program; one more for those that change nothing
+        self.place = np.array([LETTERS.find(name) if len(name) == 1 else -1 for name in program.addresses] or [-1])
         self.breaks = np.append(np.flatnonzero(~plain), len(program))
         self.enabled = self.enabled and len(program) - len(self.breaks) + 1 >= SHORTEST
         self.codes = {value: code for value, (code, _) in self.rule.motions.items()}
@@ -117,56 +111,51 @@ class Bulk:
             self.size = min(2 * self.size, LARGEST)
         return good
 
-    # --- what the run is ------------------------------------------------------------------------------------------------
+    # --- what the run is ---------------------------------------------------------------------------------------------
 
-    def columns(self, first: int, end: int) -> _Columns:
-        """The words of the blocks by address."""
+    def columns(self, first: int, end: int) -> dict[str, Array]:
+        """The words of the blocks by address (n,), nan where not written."""
         program, n = self.program, end - first
         a, b = int(program.first[first]), int(program.first[end])
         block = np.repeat(np.arange(n), np.diff(program.first[first : end + 1]))
-        address, value = program.address[a:b], program.value[a:b]
-        found = {}
-        for name in "GXYZIJKRF":
-            column = np.full(n, np.nan)
-            if name in program.addresses:
-                mine = address == program.addresses.index(name)
-                column[block[mine]] = value[mine]
-            found[name] = column
-        return _Columns(found)
+        table = np.full((n, len(LETTERS) + 1), np.nan)
+        table[block, self.place[program.address[a:b]]] = program.value[a:b]
+        return {name: table[:, k] for k, name in enumerate(LETTERS)}
 
     def work_out(self, first: int, end: int) -> _Run:
         """Everything about the blocks [first, end), faults included."""
         machine, rule = self.machine, self.rule
         assert rule is not None
         words, n = self.columns(first, end), end - first
-        axes = np.stack([words["X"], words["Y"], words["Z"]], axis=1)
-        written = ~np.isnan(axes)
-
-        points = np.empty((n + 1, 3))
+        points, moves = np.empty((n + 1, 3)), np.zeros(n, dtype=bool)
         points[0] = machine.programmed
-        if rule.absolute(machine):
-            points[1:] = axes
-            points = _filled(points)
+        absolute = rule.absolute(machine)
+        for k, axis in enumerate("XYZ"):
+            written = ~np.isnan(words[axis])
+            moves |= written
+            points[1:, k] = words[axis] if absolute else np.where(written, words[axis], 0.0)
+            points[:, k] = _filled(points[:, k]) if absolute else np.cumsum(points[:, k])
+        if machine._shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed:
+            tips = points  # no copy: memory costs more than the work on it
         else:
-            points[1:] = np.where(written, axes, 0.0)
-            points = np.cumsum(points, axis=0)
-        tips = points + np.array(machine._shift) if machine._shift is not None else frames.apply(machine._matrix, points)
-        tips[0] = machine.tip  # not the register turned there and back
+            turned = machine._shift is None
+            tips = frames.apply(machine._matrix, points) if turned else points + np.array(machine._shift)
+            tips[0] = machine.tip  # not the register turned there and back
 
         feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
         motion, unknown = self.motions(words["G"], n)
         centred = ~np.isnan(np.stack([words["I"], words["J"], words["K"]], axis=1))
         by_radius = ~np.isnan(words["R"])
-        shaped = centred.any(axis=1) | by_radius
+        shaped = centred[:, 0] | centred[:, 1] | centred[:, 2] | by_radius
         arc = (np.abs(motion) == 2) & shaped
-        moves = written.any(axis=1) | arc
+        moves |= arc
 
-        fault = unknown | (words["F"] <= 0) | (moves & (motion != 0) & np.isnan(feed)) | (shaped & (np.abs(motion) != 2))
+        without_feed = moves & (motion != 0) & np.isnan(feed)
+        fault = unknown | (words["F"] <= 0) | without_feed | (shaped & (np.abs(motion) != 2))
         run = _Run(points, tips, motion, feed, moves, fault, np.full((n, 3), np.nan), np.zeros(n), arc)
         if arc.any():
             self.arcs(run, words, centred, by_radius)
-        still = (tips[1:] == tips[:-1]).all(axis=1) & ~arc
-        run.moves = moves & ~still
+        run.moves = moves & (_differ(tips[1:], tips[:-1]) | arc)
         return run
 
     def motions(self, g: Array, n: int) -> tuple[NDArray[np.int64], Mask]:
@@ -183,7 +172,7 @@ class Bulk:
             sense[filled == value] = self.senses[self.codes[value]]
         return sense, unknown | np.isnan(filled)
 
-    def arcs(self, run: _Run, words: _Columns, centred: NDArray[np.bool_], by_radius: Mask) -> None:
+    def arcs(self, run: _Run, words: dict[str, Array], centred: NDArray[np.bool_], by_radius: Mask) -> None:
         """Centres and sweeps of the arcs; what is doubtful is a fault."""
         from mnclab.machine.machine import PLANES
 
@@ -202,13 +191,12 @@ class Bulk:
         chord = np.hypot(*(e - s).T)
         run.fault[k] |= np.where(
             round_,
-            (shortage > 1e-4) | (chord < 1e-3) | (radius == 0) | centred[k].any(axis=1),
+            (shortage > rule.tolerance(machine)) | (chord < 1e-3) | (radius == 0) | centred[k].any(axis=1),
             (at_start < 1e-9) | (np.abs(at_start - at_end) > rule.tolerance(machine)) | centred[k, normal],
         )
         run.fault[k] |= run.points[k, normal] != run.points[k + 1, normal]  # a helix: the other tier remarks on it
         angle = sweep(s, e, c, sense)
         centre = run.points[k].copy()
-        centre[:, normal] = run.points[k + 1, normal]
         centre[:, [first, second]] = c
         if machine._shift is None:
             run.fault[k] = True  # turned planes are rare: one by one
@@ -216,41 +204,47 @@ class Bulk:
             centre = centre + np.array(machine._shift)
         run.centre[k], run.angle[k] = centre, angle
 
-    # --- doing it -------------------------------------------------------------------------------------------------------
+    # --- doing it ----------------------------------------------------------------------------------------------------
 
     def commit(self, run: _Run, first: int, count: int) -> None:
         """Make the rows, the history and the state of the first ``count`` blocks."""
         machine = self.machine
         step = machine.flow.begin_many(first, count)
-        steps = np.arange(step, step + count)
+        steps = np.arange(step, step + count, dtype=np.int32)
         before = machine.step
         machine.step = step + count - 1
         moved = np.flatnonzero(run.moves[:count])
         if len(moved):
-            motion = run.motion[moved]
-            kind = np.where(motion == 0, Kind.RAPID, np.where(run.arc[moved], Kind.ARC, Kind.LINE))
-            machine.recorder.bulk(
-                {
-                    "kind": kind,
-                    "line": self.program.line_of(first + moved),
-                    "step": steps[moved],
-                    "end": run.tips[moved + 1],
-                    "centre": run.centre[moved],
-                    "sweep": run.angle[moved],
-                    "feed": np.where(motion == 0, np.inf, run.feed[moved]),
-                    "state": np.full(len(moved), machine.state()),
-                }
-            )
+            self.rows(run, first, steps, moved if len(moved) < count else slice(0, count))
         self.log(run, steps, count, before)
-        machine.programmed = tuple(run.points[count].tolist())  # type: ignore[assignment]
-        machine.tip = tuple(run.tips[count].tolist())  # type: ignore[assignment]
+        machine.programmed = tuple(run.points[count].tolist())
+        machine.tip = tuple(run.tips[count].tolist())
         machine.source_line = int(self.program.line_of(first + count - 1))
 
-    def log(self, run: _Run, steps: NDArray[np.int64], count: int, before: int) -> None:
+    def rows(self, run: _Run, first: int, steps: NDArray[np.int32], moved: NDArray[np.int64] | slice) -> None:
+        """Hand the rows of the blocks that move to the recorder."""
+        motion, arc = run.motion[moved], run.arc[moved]
+        kind = np.where(motion == 0, Kind.RAPID, np.where(arc, Kind.ARC, Kind.LINE)).astype(np.uint8)
+        lines = np.asarray(self.program.line_of(slice(first, first + len(run.moves)))).astype(np.int32)
+        columns: dict[str, NDArray[Any]] = {
+            "kind": kind,
+            "line": lines[moved],
+            "step": steps[moved],
+            "end": run.tips[1:][moved],
+            "feed": np.where(motion == 0, np.inf, run.feed[moved]),
+            "state": np.asarray(self.machine.state()),
+        }
+        if arc.any():
+            columns |= {"centre": run.centre[moved], "sweep": run.angle[moved]}
+        self.machine.recorder.bulk(columns)
+
+    def log(self, run: _Run, steps: NDArray[np.int32], count: int, before: int) -> None:
         """Changes of position, feed and motion, step by step."""
-        machine, history = self.machine, self.machine.recording
-        changed = np.flatnonzero((run.points[1 : count + 1] != run.points[:count]).any(axis=1))
-        history.extend("position", steps[changed], run.points[changed + 1])
+        machine, history = self.machine, self.machine.logs
+        changed = np.flatnonzero(_differ(run.points[1 : count + 1], run.points[:count]))
+        everywhere = len(changed) == count  # then no copy is needed
+        points = run.points[1 : count + 1] if everywhere else run.points[changed + 1]
+        history.extend("position", steps if everywhere else steps[changed], points)
 
         feed = run.feed[:count]
         start = np.nan if machine.feed is None else machine.feed
@@ -270,8 +264,14 @@ class Bulk:
                 machine.modal[self.group] = names[int(motion[-1])]
 
 
+def _differ(a: Array, b: Array) -> Mask:
+    """Which points (n, 3) are not equal; column by column, which is faster than along rows."""
+    return (a[:, 0] != b[:, 0]) | (a[:, 1] != b[:, 1]) | (a[:, 2] != b[:, 2])
+
+
 def _filled(column: Array) -> Array:
-    """The last value that is not nan, going down the rows (n,) or (n, k)."""
-    index = np.where(np.isnan(column), 0, np.arange(len(column)).reshape(-1, *[1] * (column.ndim - 1)))
-    index = np.maximum.accumulate(index, axis=0)
-    return np.take_along_axis(column, index, axis=0)
+    """The last value that is not nan, going down a column (n,)."""
+    empty = np.isnan(column)
+    if not empty[1:].any():
+        return column
+    return column[np.maximum.accumulate(np.where(empty, 0, np.arange(len(column))))]

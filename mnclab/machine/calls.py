@@ -1,4 +1,4 @@
-"""The course of a program: sections, labels, repeats, subprograms, recordings.
+"""The course of a program: sections, labels, repeats, subprograms.
 
 A *step* is one execution of a block. A section of blocks is run by a plain loop; a call or a repeat is a section run
 inside another. Functions steer with :meth:`Flow.call`, :meth:`Flow.repeat`, :meth:`Flow.jump` and :meth:`Flow.leave`.
@@ -17,24 +17,15 @@ from mnclab.text.program import Program
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
-    from mnclab.path.toolpath import Toolpath
 
 DEEPEST = 20  # nested calls
-LONGEST = 1_000_000  # executed blocks, one by one
-
-
-class Recording(NamedTuple):
-    """A contour read from a label: its moves, corners applied and not compensated, and its side (+1 left, -1 right)."""
-
-    path: Toolpath
-    side: int
-    start: tuple[float, float, float]
+LONGEST = 1_000_000  # blocks that repeats and calls may add, one by one
 
 
 class Steps(NamedTuple):
     """Which block and which program each step executed (s,)."""
 
-    block: NDArray[np.int64]
+    block: NDArray[np.int32]
     program: NDArray[np.int16]
 
 
@@ -49,7 +40,7 @@ class Flow:
         self.returning = False
         self.current = 0  # block being obeyed
         self._jump: int | None = None
-        self._chunks: list[NDArray[np.int64]] = []
+        self._chunks: list[NDArray[np.int64] | range] = []
         self._blocks: list[int] = []
         self._counted = 0
 
@@ -123,15 +114,15 @@ class Flow:
     def begin(self, block: int) -> int:
         """Note the execution of a block; the number of its step."""
         self.executed += 1
-        if self.executed > LONGEST:
-            raise Alarm(f"the program ran {LONGEST} blocks one by one without an end", self.program.span_of_block(block))
+        if self.executed > LONGEST + len(self.program):
+            raise Alarm(f"repeats and calls ran {LONGEST} blocks without an end", self.program.span_of_block(block))
         self._blocks.append(block)
         return self._counted + len(self._blocks) - 1
 
     def begin_many(self, first: int, count: int) -> int:
         """Note the execution of blocks in a row; the number of the first step."""
         self._flush()
-        self._chunks.append(np.arange(first, first + count))
+        self._chunks.append(range(first, first + count))
         self._counted += count
         return self._counted - count
 
@@ -143,8 +134,13 @@ class Flow:
     def steps(self) -> Steps:
         """All steps so far."""
         self._flush()
-        blocks = np.concatenate(self._chunks)
-        return Steps(blocks, np.zeros(len(blocks), dtype=np.int16))
+        blocks = np.empty(self._counted, dtype=np.int32)
+        at = 0
+        for chunk in self._chunks:
+            part = np.arange(chunk.start, chunk.stop) if isinstance(chunk, range) else chunk
+            blocks[at : at + len(part)] = part
+            at += len(part)
+        return Steps(blocks, np.broadcast_to(np.int16(0), (len(blocks),)))
 
     def span_of_step(self, step: int) -> Span | None:
         """The place of the block that a step executed."""

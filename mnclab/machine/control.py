@@ -25,27 +25,19 @@ AnyObey = TypeVar("AnyObey", bound=Callable[..., None])
 Reader = Callable[[str, str], Program]
 
 
-class Words(Mapping[str, Word]):
-    """The words handed to a function: the word that called it, and those it takes. ``words["X"]`` is the first X."""
+class Words(dict[str, Word]):
+    """The words handed to a function: the word that called it, and those it takes. ``words["X"]`` is the first X.
+
+    ``words.words`` has all of them in the order handed out, ``code`` is the code that was called.
+    """
 
     def __init__(self, words: tuple[Word, ...], code: str = "") -> None:
+        super().__init__((word[0], word) for word in reversed(words))
         self.words, self.code = words, code
-
-    def __getitem__(self, address: str) -> Word:
-        for word in self.words:
-            if word.address == address:
-                return word
-        raise KeyError(address)
 
     def all(self, address: str) -> list[Word]:
         """Every word of an address, in the order written."""
         return [word for word in self.words if word.address == address]
-
-    def __iter__(self) -> Any:
-        return iter(dict.fromkeys(word.address for word in self.words))
-
-    def __len__(self) -> int:
-        return len(self.words)
 
 
 @dataclass(frozen=True)
@@ -131,8 +123,9 @@ class Control:
     ``codes`` are the addresses whose value makes a code (G and M); ``word_functions``: an address may be a function by itself
     (F, S, T), which a control of keywords does not want, where C is a statement and an axis; ``motion`` is the group whose modal function runs when
     axis words are left over; ``storage`` says where cycle parameters live until the call ("instance" or "variables").
-    ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``named`` gives the
-    number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself.
+    ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
+    a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
+    ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself.
     """
 
     name: str
@@ -155,6 +148,7 @@ class Control:
     looks_like: Callable[[str], bool] | None = None
     refused: Mapping[str, str] = field(default_factory=dict)
     bulk: Any = None
+    one_command: bool = False
     named: Callable[[Machine, Word], float | str] | None = None
     lathe: bool = False
 

@@ -7,11 +7,13 @@ measured values and table rows.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+Values = list[Any] | NDArray[Any]
 
 
 class Log:
@@ -22,7 +24,7 @@ class Log:
     def __init__(self) -> None:
         self.steps: list[int] = []
         self.values: list[Any] = []
-        self._chunks: list[tuple[NDArray[np.int64], Sequence[Any]]] = []
+        self._chunks: list[tuple[NDArray[np.integer[Any]], Values]] = []
 
     def add(self, step: int, value: Any) -> None:
         """The value changed at a step."""
@@ -32,13 +34,19 @@ class Log:
             self.steps.append(step)
             self.values.append(value)
 
-    def extend(self, steps: NDArray[np.int64], values: Sequence[Any]) -> None:
+    def extend(self, steps: NDArray[np.integer[Any]], values: Values) -> None:
         """Changes of many steps at once."""
         if len(steps):
             self._chunks += [(np.array(self.steps, dtype=np.int64), self.values), (steps, values)]
             self.steps, self.values = [], []
 
-    def close(self, last: int) -> tuple[NDArray[np.int64], list[Any] | NDArray[Any]]:
+    @property
+    def first(self) -> int:
+        """The step of the first change."""
+        chunks = [steps for steps, _ in self._chunks if len(steps)]
+        return int(chunks[0][0]) if chunks else self.steps[0]
+
+    def close(self, last: int) -> tuple[NDArray[np.integer[Any]], Values]:
         """All changes up to step ``last``."""
         chunks = [chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])]
         if not chunks:
@@ -52,69 +60,76 @@ class Log:
         return steps[:keep], [value for chunk in chunks for value in chunk[1]][:keep]
 
 
-class Recording:
+class Logs:
     """The logs while a program runs."""
 
     def __init__(self) -> None:
-        self.logs: dict[str, Log] = {}
+        self.by_name: dict[str, Log] = {}
 
     def add(self, name: str, step: int, value: Any) -> None:
         """A name has a new value from this step on."""
-        log = self.logs.get(name)
+        log = self.by_name.get(name)
         if log is None:
-            log = self.logs[name] = Log()
+            log = self.by_name[name] = Log()
         log.add(step, value)
 
-    def extend(self, name: str, steps: NDArray[np.int64], values: Sequence[Any]) -> None:
+    def extend(self, name: str, steps: NDArray[np.integer[Any]], values: Values) -> None:
         """New values at many steps."""
-        self.logs.setdefault(name, Log()).extend(steps, values)
+        self.by_name.setdefault(name, Log()).extend(steps, values)
 
 
 class History(Mapping[str, Any]):
     """What was active at each step of a run. ``history["feed"]`` is one value per step, ``history.at(step)`` a dict."""
 
-    def __init__(self, recording: Recording, steps: int) -> None:
+    def __init__(self, logs: Logs, steps: int) -> None:
         self.steps = steps
-        self._logs = {name: log.close(steps - 1) for name, log in recording.logs.items()}
-        self._logs = {name: log for name, log in self._logs.items() if len(log[0])}
+        self._open = {name: log for name, log in logs.by_name.items() if log.first < max(steps, 1)}
+        self._closed: dict[str, tuple[NDArray[np.integer[Any]], Values]] = {}
 
-    def __getitem__(self, name: str) -> list[Any] | NDArray[Any]:
+    def _log(self, name: str) -> tuple[NDArray[np.integer[Any]], Values]:
+        """Steps and values of a name; put together when first asked for, since a million positions take time."""
+        if name not in self._closed:
+            self._closed[name] = self._open[name].close(max(self.steps - 1, 0))
+        return self._closed[name]
+
+    def __getitem__(self, name: str) -> Values:
         """One value per step; None before the first."""
-        at, values = self._logs[name]
+        at, values = self._log(name)
         index = np.searchsorted(at, np.arange(self.steps), "right") - 1
         if isinstance(values, np.ndarray) and (index >= 0).all():
             return values[index]
         return [values[i] if i >= 0 else None for i in index]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._logs)
+        return iter(self._open)
 
     def __len__(self) -> int:
-        return len(self._logs)
+        return len(self._open)
 
     def value(self, name: str, step: int) -> Any:
         """What ``name`` was after a step; None if it had no value yet."""
-        if name not in self._logs:
+        if name not in self._open:
             return None
-        at, values = self._logs[name]
+        at, values = self._log(name)
         index = int(np.searchsorted(at, step, "right")) - 1
         return _plain(values[index]) if index >= 0 else None
 
     def at(self, step: int) -> dict[str, Any]:
         """Everything that had a value after a step."""
-        return {name: value for name in self._logs if (value := self.value(name, step)) is not None}
+        return {name: value for name in self._open if (value := self.value(name, step)) is not None}
 
     def changes(self, step: int) -> dict[str, Any]:
         """What this step changed."""
         found = {}
-        for name, (at, values) in self._logs.items():
+        for name in self._open:
+            at, values = self._log(name)
             index = int(np.searchsorted(at, step, "right")) - 1
             if index >= 0 and at[index] == step:
                 found[name] = _plain(values[index])
         return found
 
     def __repr__(self) -> str:
-        return f"<History: {self.steps} steps, {len(self._logs)} names>"
+        return f"<History: {self.steps} steps, {len(self._open)} names>"
 
 
 def _plain(value: Any) -> Any:

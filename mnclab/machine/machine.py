@@ -8,26 +8,27 @@ the same point in machine coordinates. A change of frame says which of the two i
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import centre_from_radius, sweep
 from mnclab.geometry.frames import FrameChain, Matrix
-from mnclab.machine.history import Recording
+from mnclab.machine.history import Logs
+from mnclab.machine.recording import Recording, record
+from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
-from mnclab.path import compensation, corners
-from mnclab.path.fault import PathFault
+from mnclab.machine.touching import Touch, touch
+from mnclab.machine.variables import Measured, Variables
 from mnclab.path.kinds import Kind
-from mnclab.path.recorder import NAN, Recorder, State, join
+from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import WARNING, Alarm, Span
 from mnclab.text.expression import Expression
-from mnclab.text.program import Program, Word
-from mnclab.workpiece.part import contact
+from mnclab.text.program import Word
 
 if TYPE_CHECKING:
     from mnclab.machine.calls import Flow
@@ -36,39 +37,7 @@ if TYPE_CHECKING:
 
 INF = math.inf
 PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0)}  # first axis, second axis, normal
-_AXES = {plane: tuple(float(k == n) for k in range(3)) for plane, (_, _, n) in PLANES.items()}
-
-
-class Touch(NamedTuple):
-    """What a probe found: the contact of its ball's centre, in program and in machine coordinates."""
-
-    point: tuple[float, float, float]
-    machine_point: tuple[float, float, float]
-    hit: bool
-
-
-class Variables(dict[str, float]):
-    """Q parameters and the like; every change is logged."""
-
-    def __init__(self, machine: Machine) -> None:
-        super().__init__()
-        self._machine = machine
-
-    def __setitem__(self, name: str, value: float) -> None:
-        super().__setitem__(name, value)
-        self._machine.log(name, value)
-
-
-class Measured(dict[str, Any]):
-    """What probing found; every value is logged."""
-
-    def __init__(self, machine: Machine) -> None:
-        super().__init__()
-        self._machine = machine
-
-    def __setitem__(self, name: str, value: Any) -> None:
-        super().__setitem__(name, value)
-        self._machine.log(f"measured {name}", value)
+_AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
 
 
 class Machine:
@@ -79,10 +48,12 @@ class Machine:
         self.settings: dict[str, Any] = {s.name: s.default for s in control.settings} | dict(setup.settings)
         self.flow: Flow  # set by the interpreter
         self.alarms: list[Alarm] = []
-        self.recording = Recording()
+        self.logs = Logs()
         self.step, self.source_line, self.program = -1, 0, 0
         self.steps_block: list[Any] = []
         self.ended = False
+        self.recorded_only = False
+        self.block_end: list[Callable[[], None]] = []
 
         self.tip: tuple[float, float, float] = tuple(map(float, setup.start))  # type: ignore[assignment]
         self.programmed: tuple[float, float, float] = self.tip
@@ -112,6 +83,7 @@ class Machine:
         self.recorder = Recorder(self.tip)
         self.programmed_pieces: list[Toolpath] = []
         self.settled: list[Toolpath] = []
+        self.altered = False  # whether a pass changed anything
         self.cut: int | None = None  # the step of a fault found in a pass: nothing from there on counts
         self._state: int | None = None
         self.log("position", self.programmed)
@@ -150,15 +122,21 @@ class Machine:
         self.alarm(f"{word.address} needs a number", word)
 
     def log(self, name: str, value: Any) -> None:
-        """Note a new value of a name in the history."""
-        self.recording.add(name, max(self.step, 0), value)
+        """Note a new value of a name in the history; while a contour is recorded only what outlives it."""
+        if self.recorded_only and name not in self.variables:
+            return
+        self.logs.add(name, max(self.step, 0), value)
 
     def change(self, name: str, value: Any) -> None:
-        """Set an attribute that rows carry (feed, side, plane, …) and note it in the history."""
+        """Set an attribute that rows carry (feed, side, plane, …) and note it in the history.
+
+        Where a modal group has the same name (plane), the history holds its codes.
+        """
         if getattr(self, name) != value:
             setattr(self, name, value)
             self._state = None
-            self.log(name, value)
+            if name not in self.modal:
+                self.log(name, value)
 
     def set_modal(self, group: str, code: str) -> None:
         """A function of a group is active from now on."""
@@ -186,7 +164,7 @@ class Machine:
             self._state = self.recorder.state(
                 State(
                     self.program, axis, self.rotary, per_rev, NAN, self.spindle_speed, self.tool.number, self.radius,
-                    self.side, self.corner_rule, self.exact, self.synchronous,
+                    self.side * self.orientation, self.corner_rule, self.exact, self.synchronous,
                 )
             )  # fmt: skip
         return self._state
@@ -204,7 +182,7 @@ class Machine:
         """Replace one frame of the chain; ``keep`` "tip" (the program reads the place anew) or "programmed"."""
         self.frames.set(name, matrix)
         self._matrix = self.frames.matrix
-        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None  # type: ignore[assignment]
+        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None
         self._state = None
         if keep == "tip":
             self.read_position()
@@ -243,6 +221,12 @@ class Machine:
         """Write a row of a table ("tools", "datums", "presets"); the setup stays as it is."""
         getattr(self.tables, table)[row] = value
         self.log(f"{table} {row}", value)
+
+    def set_register(self, point: Iterable[float]) -> None:
+        """Give the programmed point exact values; the tip stays where it is."""
+        x, y, z = point
+        self.programmed = (float(x), float(y), float(z))
+        self.log("position", self.programmed)
 
     # --- verbs: motion -----------------------------------------------------------------------------------------------
 
@@ -300,26 +284,28 @@ class Machine:
         s = np.array([self.programmed[first], self.programmed[second]])
         e = np.array([point[first], point[second]])
         if radius is not None:
-            c = self._centre_by_radius(s, e, radius, sense, word)
+            c = self._centre_by_radius(s, e, radius, sense, tolerance, word)
         else:
             c = np.array([(centre or {}).get(k, self.programmed[k]) for k in (first, second)])
             self._check_radii(s, e, c, tolerance, word)
         angle = float(sweep(s, e, c, sense))
-        middle = list(point)
+        middle = list(self.programmed)
         middle[first], middle[second] = c.tolist()
         if self._shift is None:
             angle *= self._arc_sense(word)
         self._row(Kind.ARC, self.to_machine(point), self.to_machine(middle), angle, feed)
         self.programmed, self.tip = point, self.to_machine(point)
 
-    def _centre_by_radius(self, s: np.ndarray, e: np.ndarray, radius: float, sense: int, word: Word | None) -> np.ndarray:
+    def _centre_by_radius(
+        self, s: np.ndarray, e: np.ndarray, radius: float, sense: int, tolerance: float, word: Word | None
+    ) -> np.ndarray:
         if np.hypot(*(e - s)) < 1e-3:
             self.alarm("a full circle cannot be given by its radius", word, hint="write the centre with I J K")
         c, shortage = centre_from_radius(s, e, radius, sense)
-        if shortage > 1e-4:
+        if shortage > tolerance:
             chord = 2 * (float(shortage) + abs(radius))
             self.alarm(
-                f"R{abs(radius):g} is too small for the distance {chord:.4g} mm between start and end: "
+                f"R{abs(radius):g} is too small for the distance {chord:.4f} mm between start and end: "
                 f"at least {chord / 2:.4f} is needed",
                 word,
                 hint=f"{shortage:.4g} mm are missing",
@@ -338,12 +324,30 @@ class Machine:
             )
 
     def _arc_sense(self, word: Word | None) -> int:
-        """-1 under a mirror of the plane; an alarm when the frame would turn the circle into an ellipse."""
+        """The orientation; an alarm when the frame would turn the circle into an ellipse."""
         first, second, _ = PLANES[self.plane]
         u, v = self._matrix[:3, first], self._matrix[:3, second]
         if abs(np.linalg.norm(u) - np.linalg.norm(v)) > 1e-9 or abs(u @ v) > 1e-9:
             self.alarm("an arc under unequal scales of its plane would be an ellipse", word)
-        return 1 if np.dot(np.cross(u, v), self._turned_axis()) > 0 else -1
+        return self.orientation
+
+    @property
+    def orientation(self) -> int:
+        """-1 when the frame mirrors the plane: arcs and the side of the tool turn over; else 1."""
+        if self._shift is not None:
+            return 1
+        first, second, _ = PLANES[self.plane]
+        return 1 if np.dot(np.cross(self._matrix[:3, first], self._matrix[:3, second]), self._turned_axis()) > 0 else -1
+
+    def at_block_end(self, undo: Callable[[], None]) -> None:
+        """Do something when the running block is over."""
+        self.block_end.append(undo)
+
+    def end_block(self) -> None:
+        """What a function asked for the end of its block."""
+        self.exact_here = False
+        while self.block_end:
+            self.block_end.pop()()
 
     def _row(
         self, kind: Kind, tip: tuple[float, float, float], centre: tuple[float, float, float] = (NAN, NAN, NAN),
@@ -407,95 +411,30 @@ class Machine:
         self, x: float | None = None, y: float | None = None, z: float | None = None, *,
         f: float, ball: float | None = None, word: Word | None = None, miss: str = "alarm",
     ) -> Touch:  # fmt: skip
-        """Move the probe towards a point (of its tip) until its ball touches the part, and stop there.
+        """Move the probe towards a point until its ball touches the part; see :mod:`mnclab.machine.touching`."""
+        return touch(self, self.target(x, y, z), f, self.radius if ball is None else ball, word, miss)
 
-        No contact is an alarm, or with ``miss="return"`` a touch that did not hit.
-        """
-        if self.side:
-            self.alarm("a probe cannot move under radius compensation", word)
-        if self.setup.part is None:
-            self.alarm("there is no part to touch", word, hint="give one: Setup(part=Part.box(…))")
-        self.settle()
-        radius = self.radius if ball is None else ball
-        start, goal = np.array(self.tip), np.array(self.to_machine(self.target(x, y, z)))
-        reach = float(np.linalg.norm(goal - start))
-        if reach == 0:
-            self.alarm("a touch needs a direction", word)
-        direction = (goal - start) / reach
-        ball_centre = start + (0.0, 0.0, radius)
-        travel = contact(self.setup.part, ball_centre, direction, radius, reach)
-        if travel is None and miss == "alarm":
-            self.alarm(f"touch point inaccessible: no contact within {reach:g} mm", word)
-        end = start + direction * (reach if travel is None else travel)
-        self.tip = tuple(end.tolist())
-        self._row(Kind.PROBE, self.tip, feed=f)
+    def probe_to(self, tip: tuple[float, float, float], f: float) -> None:
+        """A probing move that ended at a tip in machine coordinates."""
+        self.tip = tip
+        self._row(Kind.PROBE, tip, feed=f)
         self.read_position()
-        touched = tuple((end + (0.0, 0.0, radius)).tolist())
-        return Touch(self.to_program(touched), touched, travel is not None)  # type: ignore[arg-type]
+
+    def record(self, label: str, span: Span | None = None) -> Recording:
+        """Read the contour of a label: nothing moves, variables that it writes stay."""
+        return record(self, label, span)
 
     # --- settling ----------------------------------------------------------------------------------------------------
 
     def settle(self, unfinished: bool = False) -> None:
-        """Run the passes on the rows not yet settled, so that the true place of the tool is known.
-
-        Afterwards the register is what the tool-centre path says, which only a departure makes differ.
-        """
-        piece = self.recorder.take()
-        if not len(piece):
-            return
-        self.programmed_pieces.append(piece)
-        labels = self.recorder
-        if (piece.joint >= 0).any():
-            labels.label("rounding"), labels.label("approach")
-        if (piece.side != 0).any():
-            labels.label(compensation.CORNER)
-        start = next((path.end[-1] for path in reversed(self.settled) if len(path)), piece.start[0])
-        piece = piece.annotated(labels=tuple(labels.labels), joints=tuple(labels.joints))
-        if not np.array_equal(start, piece.start[0]):
-            piece = piece.replace(start=np.concatenate([start[None], piece.start[1:]]))
-        try:
-            piece = compensation.apply(corners.apply(piece, unfinished), self.control.compensation, unfinished)
-        except PathFault as fault:
-            self.cut = fault.step
-            self.settled.append(self._before_fault(piece[piece.step < fault.step]))
-            raise Alarm(fault.message, self.flow.span_of_step(fault.step), hint=fault.hint) from None
-        self.settled.append(piece)
-
-    def _before_fault(self, piece: Toolpath) -> Toolpath:
-        """The tool-centre path up to a fault; its last element ends nobody knows where and is left out."""
-        try:
-            return compensation.apply(corners.apply(piece, True), self.control.compensation, unfinished=True)
-        except PathFault:
-            return piece[:0]
+        """Run the passes on the rows not yet settled; see :mod:`mnclab.machine.settling`."""
+        settle(self, unfinished)
 
     def observe(self) -> None:
         """Settle, and take tip and register from the end of the tool-centre path."""
-        self.settle()
-        if self.settled and len(self.settled[-1]):
-            self.tip = tuple(self.settled[-1].end[-1].tolist())  # type: ignore[assignment]
-            self.recorder.start = np.array(self.tip)
+        settle(self)
+        end = end_of_settled(self)
+        if end is not None:
+            self.tip = end
+            self.recorder.start = np.array(end)
             self.read_position()
-
-    def paths(self) -> tuple[Toolpath, Toolpath]:
-        """The programmed contour and the tool-centre path of the whole run, relative to the origin."""
-        origin = np.array(self.origin or (0.0, 0.0, 0.0))
-        programmed = join(self.programmed_pieces, self.recorder)
-        if self.cut is not None:
-            programmed = programmed[programmed.step < self.cut]
-        same = self.cut is None and len(self.settled) == len(self.programmed_pieces) and all(
-            a is b or (len(a) == len(b) and not (b.side != 0).any() and not (b.joint >= 0).any())
-            for a, b in zip(self.settled, self.programmed_pieces, strict=True)
-        )
-        toolpath = programmed if same else concatenate(self.settled)
-        shown = []
-        for path in (programmed, toolpath):
-            moved = path if not origin.any() else path.replace(
-                start=path.start - origin, end=path.end - origin, centre=path.centre - origin
-            )  # fmt: skip
-            shown.append(
-                moved.annotated(
-                    labels=tuple(self.recorder.labels), joints=tuple(self.recorder.joints), origin=tuple(origin),
-                    lathe=self.control.lathe,
-                )
-            )  # fmt: skip
-        return shown[0], shown[0] if same else shown[1]

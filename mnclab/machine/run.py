@@ -12,6 +12,7 @@ from mnclab.machine.control import Control
 from mnclab.machine.history import History
 from mnclab.machine.interpreter import Interpreter, Stop
 from mnclab.machine.machine import Machine
+from mnclab.machine.settling import paths
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 class Moment(NamedTuple):
     """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
-    the block changed; ``rows`` are the rows of the toolpath that it made."""  # noqa: D205, D209
+    the block changed; ``rows`` are the rows of the toolpath that it made."""
 
     step: int
     line: int
@@ -48,10 +49,10 @@ class Run:
                 alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         self.programmed: Toolpath
         self.toolpath: Toolpath
-        self.programmed, self.toolpath = machine.paths()
+        self.programmed, self.toolpath = paths(machine)
         if machine.cut is not None:
             self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
-        self.history = History(machine.recording, len(self.steps.block))
+        self.history = History(machine.logs, len(self.steps.block))
         self.variables: dict[str, float] = self._as_of_end("", machine.variables)
         self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
@@ -175,8 +176,6 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     except Alarm as alarm:
         alarms.append(alarm)
     result = Run(program, setup, control, machine, alarms + machine.alarms)
-    if strict:
-        for alarm in result.alarms:
-            if alarm.severity == ALARM:
-                raise alarm
+    if strict and not result.ok:
+        raise next(found for found in result.alarms if found.severity == ALARM)
     return result

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.path.toolpath import COLUMNS, Toolpath, concatenate
 
 NAN = float("nan")
 
@@ -34,6 +34,11 @@ class State(NamedTuple):
     synchronous: bool = False
 
 
+#: What a column is where a chunk of rows does not say.
+PLAIN: dict[str, Any] = {
+    "label": 0, "sweep": 0.0, "feed": NAN, "time": NAN, "joint": -1, "state": 0, "centre": np.array([NAN] * 3),
+}  # fmt: skip
+STATE = (np.int64,)
 ROW = ("kind", "line", "step", "label", "x", "y", "z", "cx", "cy", "cz", "sweep", "feed", "time", "joint", "state")
 
 
@@ -63,14 +68,9 @@ class Recorder:
         return self.labels.setdefault(text, len(self.labels))
 
     def bulk(self, columns: dict[str, NDArray[Any]]) -> None:
-        """Rows (n,) as columns: ``end`` (n, 3), ``kind``, ``line``, ``step`` … and ``state`` (index or array)."""
+        """Rows (n,) as columns: ``kind`` and ``end`` (n, 3), and what differs from :data:`PLAIN`; one value stands for all."""
         self._flush()
-        n = len(columns["kind"])
-        defaults = {"label": 0, "sweep": 0.0, "feed": NAN, "time": NAN, "joint": -1}
-        whole = {name: np.broadcast_to(np.asarray(value), (n,)) for name, value in defaults.items()}
-        whole["centre"] = np.broadcast_to(np.array([NAN] * 3), (n, 3))
-        whole |= {name: np.broadcast_to(np.asarray(c), (n,)) if np.ndim(c) == 0 else c for name, c in columns.items()}
-        self._done.append(whole)
+        self._done.append(columns)
 
     def _last_motion(self) -> tuple[dict[str, NDArray[Any]], int] | None:
         """The columns and the row in them of the last line, arc or rapid not yet taken."""
@@ -85,11 +85,14 @@ class Recorder:
     def mark(self, joint: Any) -> bool:
         """Put a joint on the last motion; False if there is none, or if it has one already."""
         last = self._last_motion()
-        if last is None or last[0]["joint"][last[1]] >= 0:
+        if last is None:
             return False
         chunk, row = last
-        chunk["joint"] = np.array(chunk["joint"])  # may be a broadcast constant
-        chunk["joint"][row] = len(self.joints)
+        joints = np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape).copy()
+        if joints[row] >= 0:
+            return False
+        joints[row] = len(self.joints)
+        chunk["joint"] = joints
         self.joints.append(joint)
         return True
 
@@ -101,7 +104,8 @@ class Recorder:
         chunk, row = last
         end = chunk["end"][row]
         if chunk["kind"][row] == Kind.ARC:
-            axis = np.array(self.states[int(chunk["state"][row])].axis)
+            state = np.broadcast_to(chunk["state"], chunk["kind"].shape)[row]
+            axis = np.array(self.states[int(state)].axis)
             spoke = end - chunk["centre"][row]
             travel = np.cross(axis, spoke) * np.sign(chunk["sweep"][row])
         else:
@@ -125,22 +129,48 @@ class Recorder:
         chunks, self._done = self._done, []
         if not chunks:
             return self._path({}, self.start[None])
-        columns = {name: np.concatenate([chunk[name] for chunk in chunks]) for name in chunks[0]}
-        vertices = np.concatenate([self.start[None], columns.pop("end")])
+        sizes = [len(chunk["kind"]) for chunk in chunks]
+        columns = {
+            name: _column([chunk.get(name, PLAIN.get(name)) for chunk in chunks], sizes, COLUMNS.get(name, STATE)[0])
+            for name in dict.fromkeys(name for chunk in chunks for name in chunk)
+            if name != "end"
+        }
+        vertices = np.concatenate([self.start[None], *(chunk["end"] for chunk in chunks)])
         self.start = vertices[-1]
         return self._path(columns, vertices)
 
     def _path(self, columns: dict[str, NDArray[Any]], vertices: NDArray[np.float64]) -> Toolpath:
         if columns:
-            which = columns.pop("state").astype(np.int64)
-            states = self.states
+            which = columns.pop("state")
+            constant = which.strides[0] == 0
             for name in State._fields:
-                values = np.array([getattr(state, name) for state in states])
-                same = bool((values == values[:1]).all()) or bool(np.isnan(values.astype(float)).all())
+                if constant:
+                    value = np.asarray(getattr(self.states[int(which[0])], name), dtype=COLUMNS[name][0])
+                    columns[name] = np.broadcast_to(value, (len(which), *value.shape))
+                    continue
+                values = np.array([getattr(state, name) for state in self.states], dtype=COLUMNS[name][0])
+                same = bool((values == values[:1]).all() or (values != values).all())  # equal, or nothing but nan
                 columns[name] = np.broadcast_to(values[0], (len(which), *values.shape[1:])) if same else values[which]
+            if not np.isnan(columns["per_rev"]).all():  # what does not cut at a feed has none per revolution
+                columns["per_rev"] = np.where(np.isfinite(columns["feed"]), columns["per_rev"], NAN)
         else:
             columns = {"kind": np.empty(0, dtype=np.uint8)}
         return Toolpath.chain(vertices, columns, labels=tuple(self.labels), joints=tuple(self.joints))
+
+
+def _column(parts: list[Any], sizes: list[int], dtype: Any) -> NDArray[Any]:
+    """One column from parts, some of which are a single value for all their rows; a constant column costs nothing."""
+    if all(np.ndim(part) == 0 for part in parts) and len({repr(float(part)) for part in parts}) == 1:
+        return np.broadcast_to(np.asarray(parts[0], dtype=dtype), (sum(sizes),))
+    if all(part is PLAIN["centre"] for part in parts):
+        return np.broadcast_to(PLAIN["centre"], (sum(sizes), 3))
+    vector = any(np.ndim(part) == 2 or part is PLAIN["centre"] for part in parts)
+    result = np.empty((sum(sizes), 3) if vector else (sum(sizes),), dtype=dtype)
+    at = 0
+    for part, size in zip(parts, sizes, strict=True):
+        result[at : at + size] = part
+        at += size
+    return result
 
 
 def join(pieces: list[Toolpath], recorder: Recorder) -> Toolpath:

@@ -77,7 +77,7 @@ def parse(text: str, span: Span) -> Expression:
         tokens.append(Token(kind, part.upper().replace(",", "."), place))
         at = match.end()
     expression = Expression(tuple(tokens), text.strip())
-    _Evaluation(expression.tokens, _Anything()).whole(reading=True)  # the grammar, before any block runs
+    _Evaluation(expression.tokens, _Anything()).whole(reading=True)  # the grammar; values come when it runs
     return expression
 
 
@@ -143,11 +143,18 @@ class _Evaluation:
             self.deeper(operator)
             exponent = self.power()
             self.depth -= 1
+            if self.reading:
+                return 1.0
             try:
                 value = self.finite(float(value**exponent), operator)
             except (ZeroDivisionError, OverflowError, TypeError):
                 self.refuse("no real power at", operator)
         return value
+
+    def deeper(self, token: Token) -> None:
+        self.depth += 1
+        if self.depth > 100:
+            self.refuse("the expression is nested deeper than 100 at", token)
 
     def part(self) -> float:
         token = self.take()
@@ -155,11 +162,6 @@ class _Evaluation:
         value = self.value_of(token)
         self.depth -= 1
         return value
-
-    def deeper(self, token: Token) -> None:
-        self.depth += 1
-        if self.depth > 100:
-            self.refuse("the expression is nested deeper than 100 at", token)
 
     def value_of(self, token: Token) -> float:
         if token.kind == "number":
@@ -193,6 +195,6 @@ class _Evaluation:
             raise Alarm(f"{token.text} of {argument:g} has no real value", token.span) from None
 
     def finite(self, value: float, token: Token) -> float:
-        if not math.isfinite(value):
+        if not math.isfinite(value) and not self.reading:
             self.refuse("the result is out of range at", token)
         return value

@@ -22,7 +22,12 @@ from mnclab.text.expression import Expression
 NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
 INCREMENTAL, RAPID_MARK, GROUP_MARK = 1, 2, 4  # bits of column ``flag``
 
-_NUMBER_OF_BLOCK = re.compile(r"[ \t]*/?[ \t]*(N[ \t]*\d+|\d+)", re.IGNORECASE)
+_NUMBER_OF_BLOCK = re.compile(r"[ \t]*/?[ \t]*(N[ \t]*\+?\d+|\d+)", re.IGNORECASE)
+
+
+def digits(value: float) -> str:
+    """A number as a programmer writes it: without an exponent, and nothing lost."""
+    return np.format_float_positional(value, trim="-")
 
 
 class Word(NamedTuple):
@@ -40,7 +45,7 @@ class Word(NamedTuple):
 
     def __str__(self) -> str:
         value = self.value
-        shown = f"{value:g}" if isinstance(value, float) else getattr(value, "text", value)
+        shown = digits(value) if isinstance(value, float) else getattr(value, "text", value)
         if self.address.islower():  # a value that stands without an address in the text
             return f"{shown}"
         equals = "=" if self.address[:1] == "Q" and self.address[-1].isdigit() else ""
@@ -59,7 +64,7 @@ class Block:
     span: Span
 
     def __str__(self) -> str:
-        head = " ".join(part for part in (self.number, self.keyword) if part)
+        head = " ".join(part for part in ("/" * self.skip + self.number, self.keyword) if part)
         return " ".join([head, *map(str, self.words)]).strip()
 
 
@@ -80,7 +85,7 @@ class Program:
     form: NDArray[np.uint8]
     flag: NDArray[np.uint8]
     offset: NDArray[np.int32]
-    length: NDArray[np.int32]
+    length: NDArray[np.int16]
     first: NDArray[np.int32]
     keywords: tuple[str, ...]
     keyword: NDArray[np.int16]
@@ -92,6 +97,7 @@ class Program:
     payload: tuple[Any, ...] = ()
     alarms: tuple[Alarm, ...] = ()
     comment_mark: str = "//"
+    """What a comment begins with, as a regular expression."""
     encoding: str = "utf-8"
     labels: Mapping[str, int] = field(default_factory=dict)
     """Block index of each jump target, as the reader of the control found them."""
@@ -105,9 +111,9 @@ class Program:
         lines = self._lines_of(index)
         text = self.text[self.start[index] :].lstrip("\ufeff")
         number = _NUMBER_OF_BLOCK.match(text)
-        comments = (line.partition(self.comment_mark)[2].strip() for line in lines)
+        comments = (self._parted(line)[1].strip() for line in lines)
         return Block(
-            number=re.sub(r"\s", "", number.group(1)).upper() if number else "",
+            number=re.sub(r"[\s+]", "", number.group(1)).upper() if number else "",
             keyword=self.keywords[self.keyword[index]],
             words=words,
             comment=" ".join(comment for comment in comments if comment),
@@ -133,10 +139,10 @@ class Program:
     def span_of_block(self, index: int) -> Span:
         """The first line of a block, from its first character to its end."""
         span = self.span(int(self.start[index]))
-        text = self.line_text(span.line).partition(self.comment_mark)[0].rstrip()
+        text = self._parted(self.line_text(span.line))[0].rstrip()
         return span._replace(length=max(1, len(text) - span.column + 1))
 
-    def line_of(self, index: int | NDArray[np.int64]) -> Any:
+    def line_of(self, index: int | slice | NDArray[np.integer[Any]]) -> Any:
         """Source line of a block, 1-based; an array of blocks gives an array of lines."""
         return np.searchsorted(self.line_starts, self.start[index], "right")
 
@@ -147,6 +153,11 @@ class Program:
         begin = self.line_starts[line - 1]
         end = self.line_starts[line] if line < len(self.line_starts) else len(self.text)
         return self.text[begin:end].rstrip("\r\n")
+
+    def _parted(self, line: str) -> tuple[str, str]:
+        """A line before its comment, and the comment."""
+        mark = re.search(self.comment_mark, line)
+        return (line[: mark.start()], line[mark.end() :]) if mark else (line, "")
 
     def _lines_of(self, index: int) -> list[str]:
         first = int(self.line_of(index))
@@ -172,16 +183,31 @@ class Program:
 def decode(data: bytes) -> tuple[str, str]:
     """Text of bytes in UTF-8, UTF-16 (with its mark), CP1251 or KOI8-R, and the name of the code page.
 
-    The Cyrillic pages are told apart by their letters: in KOI8-R small letters lie where CP1251 has capitals.
+    Every byte is a letter in both Cyrillic pages, but a wrong reading has rare letters in place of frequent ones, and
+    capitals after small letters. A few letters decide nothing: then it is CP1251, the page of Windows.
     """
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return data.decode("utf-16", errors="replace"), "utf-16"
     try:
         return data.decode("utf-8-sig"), "utf-8"
     except UnicodeDecodeError:
-        small = {page: sum("а" <= c <= "я" for c in data.decode(page, errors="replace")) for page in ("cp1251", "koi8-r")}
-        page = "koi8-r" if small["koi8-r"] > small["cp1251"] else "cp1251"
+        windows, koi = (_russian(data.decode(page, errors="replace")) for page in ("cp1251", "koi8-r"))
+        page = "koi8-r" if koi > windows + 20 else "cp1251"
         return data.decode(page, errors="replace"), page
+
+
+_BY_FREQUENCY = "ъёфэщцюшжхйчбзгьыяупдмклврстниаео"  # Russian letters, the rarest first
+
+
+_LIKE_LATIN = "АВЕЗКМНОРСТХУ"
+
+
+def _russian(text: str) -> int:
+    """How much a text looks like Russian; a letter by itself is a slip for a Latin one, and looks like it."""
+    words = re.findall("[а-яёА-ЯЁ]+", text)
+    letters = sum(sum(map(_BY_FREQUENCY.find, word.lower())) for word in words if len(word) > 1)
+    slips = sum(len(word) == 1 and word.upper() in _LIKE_LATIN for word in words)
+    return letters + 40 * (slips - len(re.findall("[а-яё][А-ЯЁ]", text)))
 
 
 class ProgramBuilder:
@@ -234,7 +260,8 @@ class ProgramBuilder:
         words = np.array(self.words, dtype=np.float64).reshape(-1, 6)
         blocks = np.array(self.blocks, dtype=np.float64).reshape(-1, 5)
         count = np.diff(np.append(blocks[:, 4], len(words)))
-        kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int32)
+        words[:, 5] = np.minimum(words[:, 5], 32767)
+        kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int16)
         columns = [words[:, k].astype(kind) for k, kind in enumerate(kinds)]
         heads = [column.astype(np.int32) for column in (*blocks[:, :4].T, count)]
         if bulk is not None and len(bulk.start):
@@ -243,11 +270,12 @@ class ProgramBuilder:
             zero, n = np.zeros(len(bulk.value), dtype=np.uint8), len(bulk.start)
             form = zero if bulk.form is None else bulk.form
             more = [names[bulk.address], bulk.value, form, zero, bulk.offset, bulk.length]
-            more_heads = [bulk.start, np.full(n, key), np.zeros(n, dtype=bool), bulk.plain, bulk.count]
+            more_heads = [bulk.start, np.full(n, key, dtype=np.int16), np.zeros(n, dtype=bool), bulk.plain, bulk.size]
             if self.blocks:
                 more, more_heads = _merged(columns, more, 4), _merged(heads, more_heads, 0)
             columns, heads = more, more_heads
-        first = np.concatenate([[0], np.cumsum(heads[4])])
+        first = np.zeros(len(heads[4]) + 1, dtype=np.int32)
+        np.cumsum(heads[4], out=first[1:])
         return Program(
             text=self.text,
             name=self.name,
@@ -258,13 +286,13 @@ class ProgramBuilder:
             form=columns[2],
             flag=columns[3],
             offset=columns[4].astype(np.int32, copy=False),
-            length=columns[5].astype(np.int32, copy=False),
-            first=first.astype(np.int32),
+            length=columns[5].astype(np.int16, copy=False),
+            first=first,
             keywords=tuple(self.keywords),
-            keyword=heads[1].astype(np.int16),
-            skip=heads[2].astype(bool),
-            plain=heads[3].astype(bool),
-            start=heads[0].astype(np.int32),
+            keyword=heads[1].astype(np.int16, copy=False),
+            skip=heads[2].astype(bool, copy=False),
+            plain=heads[3].astype(bool, copy=False),
+            start=heads[0].astype(np.int32, copy=False),
             line_starts=self.line_starts,
             payload=tuple(self.payload),
             alarms=tuple(sorted(self.alarms, key=lambda alarm: (alarm.span or Span(0, 0))[:2])),
@@ -289,9 +317,9 @@ class BulkBlocks(NamedTuple):
     address: NDArray[np.integer[Any]]
     value: NDArray[np.float64]
     offset: NDArray[np.int32]
-    length: NDArray[np.int32]
+    length: NDArray[np.int16]
     keyword: str
-    start: NDArray[np.int64]
-    count: NDArray[np.int64]
+    start: NDArray[np.int32]
+    size: NDArray[np.int32]
     plain: NDArray[np.bool_]
     form: NDArray[np.uint8] | None = None

@@ -12,6 +12,7 @@ The text is worked in pieces of some 256 KiB, which stay in the processor's cach
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +30,8 @@ _KIND[ord("A") : ord("Z") + 1] = LETTER
 _KIND[ord("a") : ord("z") + 1] = LETTER
 
 _u8 = np.uint64
-_ZEROS, _POINTS, _LOW, _HIGH = _u8(0x3030303030303030), _u8(0x2E2E2E2E2E2E2E2E), _u8(0x0101010101010101), _u8(0x8080808080808080)
+_ZEROS, _POINTS = _u8(0x3030303030303030), _u8(0x2E2E2E2E2E2E2E2E)
+_LOW, _HIGH = _u8(0x0101010101010101), _u8(0x8080808080808080)
 _POWERS = 10.0 ** np.arange(23)
 
 
@@ -38,16 +40,22 @@ class Scan:
     """Words of the clean lines, and which lines are clean.
 
     ``letter`` (w,) upper-case ASCII, ``value`` (w,), ``offset`` (w,) of the letter in the text, ``length`` (w,) in
-    characters, ``line`` (w,) counted from 0; ``clean`` (l,); ``starts`` (l,) offsets of the lines.
+    characters; ``count`` (l,) words of each line, 0 where it is not clean; ``clean`` (l,); ``starts`` (l,) offsets of the
+    lines.
     """
 
     letter: NDArray[np.uint8]
     value: NDArray[np.float64]
     offset: NDArray[np.int32]
-    length: NDArray[np.int32]
-    line: NDArray[np.int32]
+    length: NDArray[np.int16]
+    count: NDArray[np.int32]
     clean: NDArray[np.bool_]
     starts: NDArray[np.int32]
+
+    @property
+    def line(self) -> NDArray[np.int64]:
+        """The line (w,) of each word, from 0."""
+        return np.repeat(np.arange(len(self.count)), self.count)
 
 
 def line_starts(data: NDArray[np.uint8]) -> NDArray[np.int32]:
@@ -71,94 +79,135 @@ def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
     ``leading_number``: digits may stand before the first letter. ``bare``: letters that may begin a line without a
     number of their own (``L X+1``); such a word has the value 0.
     """
-    data = characters(text)
-    starts = line_starts(data)
-    pieces = []
-    first = 0
-    while first < len(starts):
-        begin = starts[first]
-        after = int(np.searchsorted(starts, begin + PIECE, "right"))
-        last = max(after - 1, first + 1) if after < len(starts) else len(starts)
-        end = starts[last] if last < len(starts) else len(data)
-        pieces.append(_scan_piece(data[begin:end], starts[first:last] - begin, int(begin), first, leading_number, bare))
-        first = last
-    letter, value, offset, length, line, clean = (np.concatenate(column) for column in zip(*pieces, strict=True))
-    return Scan(letter, value, offset, length, line, clean, starts)
+    # room for as many words as fit: memory that is never touched costs nothing, what is touched costs more than the work
+    most = len(text) // 2 + 1
+    columns: list[NDArray[Any]] = [np.empty(most, dtype=kind) for kind in (np.uint8, np.float64, np.int32, np.int16)]
+    starts: list[NDArray[np.int32]] = []
+    counts: list[NDArray[np.int64]] = []
+    cleans: list[NDArray[np.bool_]] = []
+    begin = found = 0
+    while begin < len(text) or not starts:
+        end = _end_of_piece(text, begin)
+        data = characters(text[begin:end])
+        local = line_starts(data)
+        if end < len(text):
+            local = local[:-1]  # the line that begins the next piece
+        *words, count, clean = _scan_piece(data, local, begin, leading_number, bare)
+        for column, part in zip(columns, words, strict=True):
+            column[found : found + len(part)] = part
+        starts.append(local + begin)
+        counts.append(count)
+        cleans.append(clean)
+        found, begin = found + len(words[0]), end
+    letter, value, offset, length = (column[:found] for column in columns)
+    return Scan(
+        letter, value, offset, length,
+        np.concatenate(counts).astype(np.int32), np.concatenate(cleans), np.concatenate(starts).astype(np.int32),
+    )  # fmt: skip
+
+
+def _end_of_piece(text: str, begin: int) -> int:
+    """Where the piece that begins at ``begin`` ends: behind the last line end within reach, or behind the first one."""
+    if begin + PIECE >= len(text):
+        return len(text)
+    last = max(text.rfind("\n", begin, begin + PIECE), text.rfind("\r", begin, begin + PIECE - 1))
+    if last < 0:
+        ends = [k for k in (text.find("\n", begin + PIECE), text.find("\r", begin + PIECE)) if k >= 0]
+        if not ends:
+            return len(text)
+        last = min(ends)
+    return last + 2 if text[last : last + 2] == "\r\n" else last + 1
+
+
+def _letters(data: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    return (data | 0x20) - 97 < 26
 
 
 def _scan_piece(
-    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, first_line: int, leading_number: bool, bare: str
+    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, leading_number: bool, bare: str
 ) -> tuple[NDArray, ...]:
-    kind = _KIND[data]
-    marks = np.flatnonzero((kind == LETTER) | (kind == END))
-    is_letter = kind[marks] == LETTER
+    marks = np.flatnonzero(_letters(data) | (data == 10) | (data == 13))
+    marked = data[marks]
+    is_letter = marked > 13
     at = marks[is_letter]
-    after = np.append(marks, len(data))[1:][is_letter]
+    after = np.append(marks[1:], len(data))[is_letter]
 
     # the number lies between the letter and the next one, blanks cut off at both ends
-    begin_of = _skip_blanks(kind, at + 1, after)
-    end_of = _drop_blanks(kind, begin_of, after)
-    signed = (end_of > begin_of) & (kind[np.minimum(begin_of, len(data) - 1)] == SIGN)
+    begin_of = _skip_blanks(data, at + 1, after)
+    end_of = _drop_blanks(data, begin_of, after)
+    first_of = data[np.minimum(begin_of, len(data) - 1)]
+    negative = (first_of == ord("-")) & (end_of > begin_of)
+    signed = negative | ((first_of == ord("+")) & (end_of > begin_of))
     value, good = numbers(data, begin_of + signed, end_of)
-    negative = signed & (data[np.minimum(begin_of, len(data) - 1)] == ord("-"))
     value = np.where(negative, -value, value)
 
+    if (marked == 13).any():
+        line = np.searchsorted(starts, at, "right") - 1
+    else:
+        line = np.cumsum(~is_letter).astype(np.int64)[is_letter]
     # a line is clean when all its words are good and no other character stands before the first of them
-    line = np.searchsorted(starts, at, "right") - 1
-    lines = len(starts)
     if bare:
         alone = (begin_of == end_of) & (np.diff(line, prepend=-1) != 0)
         alone &= np.isin(data[at] & 0xDF, [ord(letter) for letter in bare])
         value, good, end_of = np.where(alone, 0.0, value), good | alone, np.where(alone, at + 1, end_of)
-    clean = np.ones(lines, dtype=bool)
+    clean = np.ones(len(starts), dtype=bool)
     clean[line[~good]] = False
     ends = np.append(starts[1:], len(data))
     head = ends.copy()
     head[line[::-1]] = at[::-1]
-    filled = np.concatenate([[0], np.cumsum((kind != BLANK) & (kind != END), dtype=np.int32)])
-    before = filled[head] - filled[starts]
-    if leading_number and before.any():
-        digits = np.concatenate([[0], np.cumsum(kind == DIGIT, dtype=np.int32)])
-        here = _skip_blanks(kind, starts.astype(np.int64), head.astype(np.int64))
-        solid = (digits[head] - digits[starts] == before) & (digits[np.minimum(here + before, len(data))] - digits[here] == before)
-        clean &= (before == 0) | solid
-    else:
-        clean &= before == 0
-    keep = clean[line]
+    clean &= _clean_heads(data, starts, head, leading_number)
+    keep = slice(None) if clean.all() else clean[line]
     return (
         data[at[keep]] & 0xDF,
         value[keep],
-        (at[keep] + begin).astype(np.int32),
-        (end_of - at)[keep].astype(np.int32),
-        (line[keep] + first_line).astype(np.int32),
+        at[keep] + begin,
+        np.minimum(end_of[keep] - at[keep], 32767),
+        np.bincount(line[keep], minlength=len(starts)),
         clean,
     )
 
 
-def _skip_blanks(kind: NDArray[np.uint8], at: NDArray[np.int64], end: NDArray[np.int64]) -> NDArray[np.int64]:
+def _clean_heads(
+    data: NDArray[np.uint8], starts: NDArray[np.int32], head: NDArray[np.int32], leading_number: bool
+) -> NDArray[np.bool_] | bool:
+    """Which lines have only blanks, or with ``leading_number`` one whole number, before ``head``, their first letter."""
+    if (head - starts <= 1).all() and not leading_number and not (data[starts[head > starts]] > 32).any():
+        return True  # nothing, or an empty line's end
+    kind = _KIND[data]
+    filled = np.concatenate([[0], np.cumsum((kind != BLANK) & (kind != END), dtype=np.int32)])
+    before = filled[head] - filled[starts]
+    if not leading_number or not before.any():
+        return before == 0
+    digits = np.concatenate([[0], np.cumsum(kind == DIGIT, dtype=np.int32)])
+    here = _skip_blanks(data, starts.astype(np.int64), head.astype(np.int64))
+    there = np.minimum(here + before, len(data))
+    return (before == 0) | ((digits[head] - digits[starts] == before) & (digits[there] - digits[here] == before))
+
+
+def _blank(data: NDArray[np.uint8], at: NDArray[np.int64]) -> NDArray[np.bool_]:
+    character = data[at]
+    return (character == 32) | (character == 9)
+
+
+def _skip_blanks(data: NDArray[np.uint8], at: NDArray[np.int64], end: NDArray[np.int64]) -> NDArray[np.int64]:
     """First place in [at, end) that is no blank."""
-    blank = (at < end) & (kind[np.minimum(at, len(kind) - 1)] == BLANK)
+    blank = (at < end) & _blank(data, np.minimum(at, len(data) - 1))
     if not blank.any():
         return at
-    solid = np.append(np.flatnonzero(kind != BLANK), len(kind))
+    solid = np.append(np.flatnonzero((data != 32) & (data != 9)), len(data))
     found = solid[np.searchsorted(solid, at[blank])]
     result = at.copy()
     result[blank] = np.minimum(found, end[blank])
     return result
 
 
-def _drop_blanks(kind: NDArray[np.uint8], begin: NDArray[np.int64], end: NDArray[np.int64]) -> NDArray[np.int64]:
+def _drop_blanks(data: NDArray[np.uint8], begin: NDArray[np.int64], end: NDArray[np.int64]) -> NDArray[np.int64]:
     """Last place after ``begin`` behind which [.., end) holds only blanks."""
-    result = end.copy()
-    todo = np.flatnonzero(result > begin)
-    for _ in range(4):  # nearly always one blank
-        todo = todo[kind[result[todo] - 1] == BLANK]
-        result[todo] -= 1
-        todo = todo[result[todo] > begin[todo]]
-        if not len(todo):
-            return result
-    last = np.maximum.accumulate(np.where(kind != BLANK, np.arange(len(kind)), -1))
-    result[todo] = np.maximum(last[result[todo] - 1] + 1, begin[todo])
+    result = end - ((end > begin) & _blank(data, end - 1))  # nearly always one
+    todo = np.flatnonzero((result > begin) & _blank(data, result - 1))
+    if len(todo):
+        solid = np.maximum.accumulate(np.where((data != 32) & (data != 9), np.arange(len(data)), -1))
+        result[todo] = np.maximum(solid[result[todo] - 1] + 1, begin[todo])
     return result
 
 

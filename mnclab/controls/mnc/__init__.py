@@ -6,7 +6,7 @@ Still to come are polar motion, transformations, the other cycles and probing; t
 
 from __future__ import annotations
 
-from mnclab.controls.mnc import compensation, drilling, language
+from mnclab.controls.mnc import compensation, drilling, language, polar, transforms
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -25,8 +25,10 @@ SETTINGS = (
 
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
-    {f"G{n}": _LATER for n in (4, 9, 10, 11, 12, 13, 15, 16, 25, 26, 36, 37, 38, 39, 50, 51, 53, 61, 64, 94, 95, 147)}
-    | {f"G{n}": _LATER for n in (84, 85, 161, 162, *range(301, 308), 309, 320, 321, 343, 344)}
+    {f"G{n}": _LATER for n in (84, 85, 161, 162, *range(301, 308), 309, 320, 321, 343, 344)}
+    | {f"G{n}": _LATER for n in (201, 202, 203, 204, 208, 241)}  # other names, table 1.2 and 2.5
+    | {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
+    | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
     | {"D": "the tool corrector is not built yet"}
 )
@@ -36,18 +38,17 @@ CONTROL = Control(
     title="Mechatronics MNC (2015)",
     suffixes=(".mnc",),
     read=reader("mnc"),
-    functions=language.FUNCTIONS | compensation.FUNCTIONS | drilling.FUNCTIONS,
+    functions=language.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | compensation.FUNCTIONS | drilling.FUNCTIONS,
     cycles=drilling.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
-    frames=("datum", "local"),
+    frames=("datum", "local", "rotation", "mirror", "scaling"),
     compensation=Compensation(approach="corner"),
-    start=language.power_on,
     refused=REFUSED,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=lambda m: m.modal.get("motion") in ("G0", "G1", "G2", "G3"),
-        absolute=lambda m: m.modal["dimension"] == "G90",
+        absolute=language.absolute,
         tolerance=lambda m: float(m.settings["arc_tolerance"]),
     ),
 )

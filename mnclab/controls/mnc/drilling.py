@@ -33,11 +33,13 @@ def return_level(m: Machine, words: Words) -> None:
 @FUNCTIONS("M99", "Cycle call", phase="call", modal=False, source="9.4")
 def call_cycle(m: Machine, words: Words) -> None:
     """Runs the cycle prepared last at the end point of the block."""
+    head = first_word(words)
     if m.cycle is None:
-        m.alarm("M99 has no prepared cycle to run", first_word(words), hint="prepare one before, for example G300")
+        m.alarm("M99 has no prepared cycle to run", head, hint="prepare one before, for example G300")
+    if m.cycle.head and head and m.cycle.head.span.line == head.span.line:
+        m.alarm(f"M99 stands in the block that prepares {m.cycle.code}", head, hint="write it at the first hole")
     if m.side:
-        m.alarm("a cycle cannot run under radius compensation", first_word(words), hint="write G40 first")
-    assert m.cycle is not None
+        m.alarm("a cycle cannot run under radius compensation", head, hint="write G40 first")
     run_cycle(m, m.cycle)
 
 
@@ -114,7 +116,7 @@ class DeepHoleDrilling(Cycle):
             m.rapid(z=m.position_cycle.extra["initial"] if m.position_cycle else None)
 
 
-@CYCLES("G300", "Drilling", runs="call", source="MNC 9.4")
+@CYCLES("G300, G200", "Drilling", runs="call", source="MNC 9.4")
 class Drilling(Cycle):
     """Prepared by its block, run by M99 at the end point of a block: pecks with withdrawal to the clearance level."""
 

@@ -9,8 +9,9 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620 import later, reader
-from mnclab.controls.tnc_620.cycles import drilling, transformations
+from mnclab.controls.tnc_620.cycles import contours, drilling, transformations
 from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
+from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
 from mnclab.machine.setup import Setting
@@ -30,7 +31,7 @@ FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS
 )  # fmt: skip
-CYCLES = drilling.CYCLES | transformations.CYCLES
+CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
 
 _KLARTEXT = re.compile(
     r"^[ \t\ufeff]*\d*[ \t]*(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M

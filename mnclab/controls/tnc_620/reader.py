@@ -196,10 +196,11 @@ class _Lines:
 
 def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_], BulkBlocks]:
     """Which lines (l,) are plain straight lines, and their blocks."""
-    first = np.ones(len(found.line), dtype=bool)
-    first[1:] = found.line[1:] != found.line[:-1]
-    heads = np.flatnonzero(first)
-    count = np.diff(np.append(heads, len(found.line))) - 1
+    with_words = np.flatnonzero(found.count)  # lines
+    heads = np.cumsum(found.count[with_words]) - found.count[with_words]
+    first = np.zeros(len(found.letter), dtype=bool)
+    first[heads] = True
+    count = found.count[with_words] - 1
     data = np.append(characters(text), np.uint8(10))
 
     after = data[found.offset[heads] + 1]
@@ -213,16 +214,16 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
         good &= np.bitwise_or.reduceat(word, heads) == np.add.reduceat(word, heads)  # each address once
         good &= ~np.logical_or.reduceat(strange, heads)
     if "~" in text:  # the line after it goes on with a block
-        good &= ~np.isin(found.line[heads], np.searchsorted(found.starts, np.flatnonzero(data == ord("~")), "right"))
+        good &= ~np.isin(with_words, np.searchsorted(found.starts, np.flatnonzero(data == ord("~")), "right"))
 
     plain = np.zeros(len(found.starts), dtype=bool)
-    plain[found.line[heads[good]]] = True
-    keep = plain[found.line] & ~first
+    plain[with_words[good]] = True
+    keep = np.repeat(good, found.count[with_words]) & ~first
     letter, value = found.letter[keep], found.value[keep]
     address = np.searchsorted(np.array(sorted(ord(c) for c in _PLAIN)), letter)
-    starts = found.starts[found.line[heads[good]]].astype(np.int64)
+    starts = found.starts[with_words[good]]
     while (indented := (data[starts] == 32) | (data[starts] == 9)).any():
-        starts += indented
+        starts = starts + indented
     return plain, BulkBlocks(
         addresses=tuple("R0" if c == "R" else c for c in sorted(_PLAIN)),
         address=address,
@@ -231,7 +232,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
         length=found.length[keep],
         keyword="L",
         start=starts,
-        count=count[good],
+        size=count[good],
         plain=np.ones(int(good.sum()), dtype=bool),
         form=np.where(letter == ord("R"), NONE, 0).astype(np.uint8),
     )

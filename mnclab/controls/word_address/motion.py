@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from mnclab.machine.control import Words
 from mnclab.machine.machine import PLANES, Machine
 from mnclab.text.program import Word
 
 AXES = "XYZ"
 CENTRE = "IJK"
+ARGUMENTS = (("X", "x"), ("Y", "y"), ("Z", "z"))
 
 
-def coordinates(m: Machine, words: Words, absolute: bool) -> dict[str, float]:
+def coordinates(m: Machine, words: Words, absolute: bool) -> dict[str, Any]:
     """Targets of the axes that are written, as arguments of a verb (``x=``, …); increments count from the register."""
     found = {}
-    for k, axis in enumerate(AXES):
+    for k, (axis, name) in enumerate(ARGUMENTS):
         if axis in words:
             value = m.value(words[axis])
-            found[axis.lower()] = value if absolute else m.programmed[k] + value
+            found[name] = value if absolute else m.programmed[k] + value
     return found
 
 

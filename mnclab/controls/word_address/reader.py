@@ -6,6 +6,7 @@ block skip or faults, are read one by one here, and this is where mistakes get t
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from mnclab.text.program import BulkBlocks, Program, ProgramBuilder
 from mnclab.text.words import Scan, scan
 
+PIECE = 1 << 16
 LARGEST = 1e9  # no coordinate, feed or number of a program is as large
 PLAIN_LETTERS = "GXYZIJKRF"
 _BITS = np.zeros(128, dtype=np.int32)
@@ -24,9 +26,9 @@ _WORD = re.compile(r"([A-Za-z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))?")
 _LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
 
 
-def reader(control: str, comment: str = "//", comment_pattern: str = r"/[ \t]?/") -> Callable[[str, str], Program]:
-    """A function (text, name) -> Program for a control whose comments begin with ``comment``."""
-    mark = re.compile(comment_pattern)
+def reader(control: str, comment: str = r"/[ \t]?/") -> Callable[[str, str], Program]:
+    """A function (text, name) -> Program for a control whose comments begin with ``comment``, a regular expression."""
+    mark = re.compile(comment)
 
     def read(text: str, name: str = "program") -> Program:
         found = scan(text)
@@ -43,59 +45,63 @@ def reader(control: str, comment: str = "//", comment_pattern: str = r"/[ \t]?/"
 
 def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: list[tuple[int, int]]) -> BulkBlocks:
     """Blocks of the clean lines; N words are checked and left out."""
-    is_label = found.letter == ord("N")
-    first_of_line = np.ones(len(found.line), dtype=bool)
-    first_of_line[1:] = found.line[1:] != found.line[:-1]
-    starts = found.offset[first_of_line]
-
-    for i in np.flatnonzero(is_label & ~first_of_line):
-        builder.alarm("N must be the first word of its block", int(found.offset[i]), int(found.length[i]))
-    bad = is_label & ((found.value <= 0) | (found.value != np.floor(found.value)))
-    for i in np.flatnonzero(bad):
-        builder.alarm(f"N must be a positive whole number, got {found.value[i]:g}", int(found.offset[i]), int(found.length[i]))
-    good = np.flatnonzero(is_label & ~bad)
-    labels += zip(found.offset[good].tolist(), found.value[good].tolist(), strict=True)
-    for i in np.flatnonzero((found.value >= LARGEST) | (found.value <= -LARGEST)):
-        builder.alarm(f"a number must be smaller than {LARGEST:g}", int(found.offset[i]), int(found.length[i]))
-
-    block = np.cumsum(first_of_line, dtype=np.int32) - 1
+    count = found.count[found.count > 0]
+    begins = np.cumsum(count) - count  # the first word of each block
+    starts = found.offset[begins]
     letter, value, offset, length = found.letter, found.value, found.offset, found.length
+    is_label = letter == ord("N")
     if is_label.any():
+        _note_labels(builder, found, is_label, begins, labels)
         words = ~is_label
-        letter, value, offset, length, block = (c[words] for c in (letter, value, offset, length, block))
-    count = np.bincount(block, minlength=len(starts)) if len(block) else np.zeros(len(starts), dtype=np.int64)
+        count = count - np.add.reduceat(is_label, begins, dtype=np.int32)
+        letter, value, offset, length = (column[words] for column in (letter, value, offset, length))
+    if len(value) and max(value.max(), -value.min()) >= LARGEST:
+        for i in np.flatnonzero(np.abs(value) >= LARGEST):
+            builder.alarm(f"a number must be smaller than {LARGEST:g}", int(offset[i]), int(length[i]))
     names = "".join(chr(c) for c in range(65, 91))
-    return BulkBlocks(
-        addresses=tuple(names),
-        address=letter - 65,
-        value=value,
-        offset=offset,
-        length=length,
-        keyword="",
-        start=starts,
-        count=count,
-        plain=plain_blocks(letter, value, count, PLAIN_LETTERS),
-    )
+    plain = plain_blocks(letter, value, count, PLAIN_LETTERS)
+    return BulkBlocks(tuple(names), letter - 65, value, offset, length, "", starts, count, plain)
+
+
+def _note_labels(
+    builder: ProgramBuilder, found: Scan, is_label: NDArray[np.bool_], begins: NDArray[np.int64], labels: list[tuple[int, int]]
+) -> None:
+    """N must be first in its block, a positive whole number, and (checked at the end) unique."""
+    first = np.zeros(len(is_label), dtype=bool)
+    first[begins] = True
+    whole = (found.value > 0) & (found.value == np.floor(found.value))
+    good = is_label & first & whole
+    for i in np.flatnonzero(is_label & ~good):
+        if first[i]:
+            message = f"N must be a positive whole number, got {found.value[i]:g}"
+        else:
+            message = "N must be the first word of its block"
+        builder.alarm(message, int(found.offset[i]), int(found.length[i]))
+    labels += zip(found.offset[good].tolist(), found.value[good].tolist(), strict=True)
 
 
 def plain_blocks(
-    letter: NDArray[np.uint8], value: NDArray[np.float64], count: NDArray[np.int64], letters: str
+    letter: NDArray[np.uint8], value: NDArray[np.float64], count: NDArray[np.int32], letters: str
 ) -> NDArray[np.bool_]:
     """Which blocks (b,) hold only these letters, each once, and of the G words only plain motion.
 
     Every letter is a bit: a block with a letter twice has a sum of bits that differs from their union.
     """
     plain = count > 0
-    if not plain.any():
-        return plain
-    bits = _BITS[letter]
-    begins = (np.cumsum(count) - count)[plain]
-    union, total = np.bitwise_or.reduceat(bits, begins), np.add.reduceat(bits, begins)
-    allowed = sum(1 << (ord(c) - 65) for c in letters)
-    strange = (letter == ord("G")) & ~((value == 0) | (value == 1) | (value == 2) | (value == 3))
-    plain[plain] = ((union & ~np.int32(allowed)) == 0) & (union == total)
-    if strange.any():
-        plain[np.searchsorted(np.cumsum(count), np.flatnonzero(strange), "right")] = False
+    allowed = np.int32(sum(1 << (ord(c) - 65) for c in letters))
+    filled = np.flatnonzero(plain)
+    begins = np.append(0, np.cumsum(count[filled]))
+    for k in range(0, len(filled), PIECE):  # in pieces that stay in the cache
+        a, b = begins[k], begins[min(k + PIECE, len(filled))]
+        edges = begins[k : k + PIECE][: len(filled) - k] - a
+        bits = _BITS[letter[a:b]]
+        g = value[a:b][letter[a:b] == ord("G")]
+        union, total = np.bitwise_or.reduceat(bits, edges), np.add.reduceat(bits, edges)
+        good = ((union & ~allowed) == 0) & (union == total)
+        if not ((g == 0) | (g == 1) | (g == 2) | (g == 3)).all():
+            strange = np.flatnonzero((letter[a:b] == ord("G")) & ~np.isin(value[a:b], (0, 1, 2, 3)))
+            good[np.searchsorted(edges, strange, "right") - 1] = False
+        plain[filled[k : k + PIECE]] = good
     return plain
 
 
@@ -124,16 +130,16 @@ def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: re.Pattern[
         if match.end() < stop and (after in ".,+-" or after.isdigit()):
             _refuse(builder, text, match.end(), stop)
             return
-        if abs(number) >= LARGEST:
-            builder.alarm(f"a number must be smaller than {LARGEST:g}", at, length)
-        elif address == "N":
+        if address == "N":
             if not first:
                 builder.alarm("N must be the first word of its block", at, length)
-            elif number <= 0 or number != int(number):
+            elif not 0 < number < math.inf or number != int(number):
                 builder.alarm(f"N must be a positive whole number, got {number:g}", at, length)
             else:
                 labels.append((at, int(number)))
         else:
+            if abs(number) >= LARGEST:
+                builder.alarm(f"a number must be smaller than {LARGEST:g}", at, length)
             builder.word(address, number, at, length)
         at, first = _skip_blanks(text, match.end(), stop), False
 
@@ -153,7 +159,7 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int) -> None:
     elif c in _LOOKS_LATIN:
         builder.alarm(f"{c!r} is a Cyrillic letter", at, hint=f"write the Latin letter {_LOOKS_LATIN[c]}")
     elif c.isascii() and c.isalpha():
-        if following in ("O", "o"):
+        if following in ("O", "o") or (c in "Oo" and text[at - 1 : at].isdigit()):
             builder.alarm(f"{c.upper()} needs a number", at, hint="the letter O stands where the digit 0 was meant")
         else:
             found = f", found {following!r}" if following else ""

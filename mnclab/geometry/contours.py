@@ -1,0 +1,391 @@
+"""A contour: a chain of lines and circular arcs in the plane, exact in length, area, sense and place.
+
+An arc is a chord with a *bulge* b = tan(sweep / 4), as in DXF: 0 for a line, 1 for half a circle
+counter-clockwise, -1 for half a circle clockwise. Lengths in mm, angles in rad, arrays `(n, 2)`.
+
+     s ----- e      chord c, sagitta c·b/2, radius c·(1 + b²) / (4·|b|); drawn for b > 0
+      `.___.'       the centre lies c·(1 - b²) / (4·b) to the left of the middle of the chord
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+FULL_TURN = 2 * np.pi
+FLAT = 1e-9  # a smaller bulge is a line: over a chord of 1 m it would rise by half a nanometre
+
+
+@dataclass(frozen=True, eq=False)
+class Contour:
+    """Points `(n, 2)` joined by lines and arcs; element i runs from point i to point i + 1.
+
+    A closed contour has n elements, the last one back to point 0. An open one has n - 1, but `bulge` has n
+    entries, so that columns stay columns; the last is set to 0 and not used. No element sweeps a full turn: a
+    full circle is two halves (`Contour.circle`).
+    """
+
+    points: Floats
+    bulge: Floats
+    closed: bool = True
+
+    def __init__(self, points: ArrayLike, bulge: ArrayLike | None = None, closed: bool = True) -> None:
+        corners = np.array(points, dtype=float).reshape(-1, 2)
+        bent = np.zeros(len(corners)) if bulge is None else np.array(bulge, dtype=float)
+        if len(corners) < 2:
+            raise ValueError(f"a contour needs at least two points, got {len(corners)}")
+        if bent.shape != (len(corners),):
+            raise ValueError(f"a contour needs a bulge for each of {len(corners)} points, got {bent.size}")
+        if not (np.isfinite(corners).all() and np.isfinite(bent).all()):
+            raise ValueError("a contour has finite points and bulges only (a full circle is two arcs)")
+        bent[np.abs(bent) < FLAT] = 0.0
+        if not closed:
+            bent[-1] = 0.0
+        corners.flags.writeable = bent.flags.writeable = False
+        object.__setattr__(self, "points", corners)
+        object.__setattr__(self, "bulge", bent)
+        object.__setattr__(self, "closed", bool(closed))
+
+    @classmethod
+    def circle(cls, centre: ArrayLike, radius: float, start: float = 0.0, clockwise: bool = False) -> Contour:
+        """The full circle that begins at the angle `start`, as two half circles."""
+        arm = abs(radius) * np.array([np.cos(start), np.sin(start)])
+        middle = np.asarray(centre, dtype=float)
+        return cls([middle + arm, middle - arm], [-1.0, -1.0] if clockwise else [1.0, 1.0])
+
+    def __repr__(self) -> str:
+        kind = "closed" if self.closed else "open"
+        return f"<Contour {kind}, {len(self.starts)} elements, {self.length:.3f} mm>"
+
+    # ---- elements, as columns ----
+
+    @property
+    def starts(self) -> Floats:
+        """Where the m elements begin, `(m, 2)`."""
+        return self.points if self.closed else self.points[:-1]
+
+    @property
+    def ends(self) -> Floats:
+        """Where the m elements end, `(m, 2)`."""
+        return np.roll(self.points, -1, axis=0) if self.closed else self.points[1:]
+
+    @property
+    def sweeps(self) -> Floats:
+        """Signed angles of the m elements, + counter-clockwise, 0 for lines, `(m,)`."""
+        return 4 * np.arctan(self.bulge if self.closed else self.bulge[:-1])
+
+    @property
+    def radii(self) -> Floats:
+        """Radii of the m elements, inf for lines, `(m,)`."""
+        b = np.abs(self.bulge[: len(self.starts)])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            radius: Floats = _length(self.ends - self.starts) * (1 + b * b) / (4 * b)
+            return np.where(b == 0, np.inf, radius)
+
+    @property
+    def centres(self) -> Floats:
+        """Centres of the m elements, nan for lines, `(m, 2)`."""
+        b = self.bulge[: len(self.starts), None]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            offset: Floats = left(self.ends - self.starts) * (1 - b * b) / (4 * b)
+            return np.where(b == 0, np.nan, (self.starts + self.ends) / 2 + offset)
+
+    @property
+    def lengths(self) -> Floats:
+        """Lengths of the m elements, `(m,)`: chord · (1 + b²) · atan(b) / b."""
+        b = self.bulge[: len(self.starts)]
+        ratio = np.divide(np.arctan(b), b, out=np.ones_like(b), where=b != 0)
+        return _length(self.ends - self.starts) * (1 + b * b) * ratio
+
+    @property
+    def curves(self) -> list[Curve]:
+        """The whole lines and circles on which the m elements lie."""
+        chords = self.ends - self.starts
+        units = chords / np.where(_length(chords) > 0, _length(chords), 1.0)[:, None]
+        rows = zip(self.starts, units, self.centres, self.radii, strict=True)
+        return [Curve(s, u, r) if np.isinf(r) else Curve(c, u, r) for s, u, c, r in rows]
+
+    def tangents(self) -> tuple[Floats, Floats]:
+        """Unit tangents at the start and at the end of every element, each `(m, 2)`."""
+        return self._at(0.0)[1], self._at(1.0)[1]
+
+    def turns(self) -> Floats:
+        """Angle by which the contour turns at the start of every element, + to the left, `(m,)`.
+
+        The first entry of an open contour is 0.
+        """
+        begin, end = self.tangents()
+        before = np.roll(end, 1, axis=0)
+        angle: Floats = np.arctan2(cross(before, begin), (before * begin).sum(axis=1))
+        if not self.closed:
+            angle[0] = 0.0
+        return angle
+
+    # ---- the whole ----
+
+    @property
+    def length(self) -> float:
+        return float(self.lengths.sum())
+
+    @property
+    def area(self) -> float:
+        """Area within, + counter-clockwise; an open contour counts as closed by a straight line.
+
+        The area within the chords, and for every arc the piece between it and its chord: r²·(s - sin s) / 2.
+        """
+        p = self.points - self.points[0]
+        b = self.bulge
+        q = np.roll(p, -1, axis=0)
+        chord2 = ((q - p) ** 2).sum(axis=1)
+        sweep = 4 * np.arctan(b)
+        flat = np.abs(b) < 1e-3  # there the difference cancels; the series c²·b·(1 + b²/5) / 3 is exact
+        with np.errstate(divide="ignore", invalid="ignore"):
+            round_piece = chord2 * (1 + b * b) ** 2 / (32 * b * b) * (sweep - np.sin(sweep))
+        pieces = np.where(flat, chord2 * b * (1 + b * b / 5) / 3, round_piece)
+        return float(cross(p, q).sum() / 2 + pieces.sum())
+
+    @property
+    def bounds(self) -> Floats:
+        """Lower left and upper right corner, `(2, 2)`; arcs bulge out to their quadrant points."""
+        east_north = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
+        bent = self.sweeps != 0
+        quadrants = self.centres[bent, None] + self.radii[bent, None, None] * east_north
+        first, sweep = self._first_angles()[bent, None], self.sweeps[bent, None]
+        ahead = _ahead(np.arange(4) * np.pi / 2, first, sweep)
+        corners = np.vstack([self.points, quadrants[ahead <= np.abs(sweep)]])
+        return np.array([corners.min(axis=0), corners.max(axis=0)])
+
+    def reversed(self) -> Contour:
+        """The same way walked backwards; a closed contour keeps its first point."""
+        if self.closed:
+            return Contour(np.roll(self.points[::-1], 1, axis=0), -self.bulge[::-1])
+        return Contour(self.points[::-1], np.append(-self.bulge[-2::-1], 0.0), closed=False)
+
+    def transformed(self, matrix: ArrayLike) -> Contour:
+        """Moved by a 3×3 matrix of the plane, or by x and y of a 4×4 frame; under a mirror arcs turn over.
+
+        Raises ValueError where an arc would become an ellipse.
+        """
+        frame = np.asarray(matrix, dtype=float)
+        turn, shift = frame[:2, :2], frame[:2, -1]
+        gram = turn.T @ turn
+        alike = np.allclose(gram, gram[0, 0] * np.eye(2), rtol=1e-9, atol=1e-9 * np.trace(gram))
+        if self.bulge.any() and not alike:
+            raise ValueError("an arc stays an arc only under equal scales and without a tilt of its plane")
+        sign = -1.0 if np.linalg.det(turn) < 0 else 1.0
+        return Contour(self.points @ turn.T + shift, sign * self.bulge, self.closed)
+
+    # ---- places on it ----
+
+    def point_at(self, distance: ArrayLike) -> tuple[Floats, Floats]:
+        """Point and unit tangent after a way along the contour: `(2,)` each, or `(k, 2)` for k distances.
+
+        A closed contour goes round and round; an open one stops at its ends.
+        """
+        way = np.asarray(distance, dtype=float)
+        element, fraction = self._element_at(np.atleast_1d(way))
+        place, tangent = self._at(fraction, element)
+        return (place, tangent) if way.ndim else (place[0], tangent[0])
+
+    def points_within(self, chord_error: float) -> Floats:
+        """A polyline `(m, 2)` with its points on the contour, nowhere farther off than `chord_error`.
+
+        Ends where the contour ends: for a closed one the first point comes again.
+        """
+        steps = steps_within(self.radii, self.sweeps, chord_error)
+        element = np.repeat(np.arange(len(steps)), steps)
+        first = np.repeat(np.cumsum(steps) - steps, steps)
+        fraction = (np.arange(len(element)) - first) / steps[element]
+        places = self._at(fraction, element)[0]
+        return np.vstack([places, self.ends[-1]])
+
+    def distance(self, points: ArrayLike) -> Floats:
+        """Distance of the contour from each of the points `(k, 2)`, never negative, `(k,)`."""
+        spots = np.asarray(points, dtype=float).reshape(-1, 2)
+        block = max(1, 2_000_000 // len(self.starts))  # points by elements must fit into memory
+        near = [self._feet(spots[i : i + block])[0].min(axis=1) for i in range(0, len(spots), block)]
+        return np.concatenate(near) if near else np.zeros(0)
+
+    def nearest(self, point: ArrayLike) -> float:
+        """The way along the contour to its point nearest to `point` (the first of several)."""
+        off, fraction = self._feet(np.asarray(point, dtype=float).reshape(1, 2))
+        i = int(off[0].argmin())
+        return float(self.lengths[:i].sum() + fraction[0, i] * self.lengths[i])
+
+    def winding(self, points: ArrayLike) -> NDArray[np.int_]:
+        """Rounds of a closed contour about each of the points `(k, 2)`, + counter-clockwise, `(k,)`."""
+        spots = np.asarray(points, dtype=float).reshape(-1, 2)
+        block = max(1, 2_000_000 // len(self.points))
+        rounds = [self._winding(spots[i : i + block]) for i in range(0, len(spots), block)]
+        return np.concatenate(rounds) if rounds else np.zeros(0, dtype=int)
+
+    def started_at(self, distance: float) -> Contour:
+        """The same closed contour begun after a way along it; the element met there is split in two.
+
+        A circle of two halves is two halves again.
+        """
+        if not self.closed:
+            raise ValueError("only a closed contour can begin anywhere")
+        elements, fractions = self._element_at(np.array([float(distance)]))
+        i, u = int(elements[0]), float(fractions[0])
+        if min(u, 1 - u) * self.lengths[i] < 1e-9:
+            i = (i + round(u)) % len(self.points)
+            return Contour(np.roll(self.points, -i, axis=0), np.roll(self.bulge, -i))
+        place = self._at(np.array([u]), elements)[0]
+        if len(self.points) == 2 and (np.abs(self.bulge) == 1).all():
+            return Contour([place[0], self.points.sum(axis=0) - place[0]], self.bulge)
+        points = np.vstack([place, np.roll(self.points, -i - 1, axis=0)])
+        bulge = np.append(0.0, np.roll(self.bulge, -i - 1))
+        bulge[[0, -1]] = np.tan(self.sweeps[i] * np.array([1 - u, u]) / 4)
+        return Contour(points, bulge)
+
+    # ---- beneath ----
+
+    def _winding(self, spots: Floats) -> NDArray[np.int_]:
+        """Rounds of the chords, and of the pieces between each arc and its chord.
+
+        A spot on a chord must lie on one side of it for both: it counts as shifted a little along +x.
+        """
+        to, chord, sweep = spots[:, None] - self.starts, self.ends - self.starts, self.sweeps
+        side, y = cross(chord, to), spots[:, 1, None]
+        low, high = self.starts[:, 1], self.ends[:, 1]
+        up, down = (low <= y) & (y < high), (high <= y) & (y < low)
+        rounds = (up & (side > 0)).sum(axis=1) - (down & (side < 0)).sum(axis=1)
+        k = np.flatnonzero(sweep)
+        dx, dy = chord[k, 0], chord[k, 1]
+        on_right = np.where(side[:, k] == 0, (dy > 0) | ((dy == 0) & (dx < 0)), side[:, k] < 0)
+        within = _length(spots[:, None] - self.centres[k]) < self.radii[k]
+        pieces = (within & (on_right == (sweep[k] > 0))) * np.sign(sweep[k])
+        return np.asarray(rounds + pieces.sum(axis=1), dtype=int)
+
+    def _first_angles(self) -> Floats:
+        """Direction from the centre to the start of every element; nan for lines."""
+        arm = self.starts - self.centres
+        return np.arctan2(arm[:, 1], arm[:, 0])
+
+    def _element_at(self, way: Floats) -> tuple[NDArray[np.intp], Floats]:
+        """Element and fraction of it after each way along the contour."""
+        upto = np.concatenate([[0.0], np.cumsum(self.lengths)])
+        way = np.mod(way, upto[-1]) if self.closed else np.clip(way, 0.0, upto[-1])
+        element = np.clip(np.searchsorted(upto, way, side="right") - 1, 0, len(self.starts) - 1)
+        span = np.where(self.lengths > 0, self.lengths, 1.0)[element]
+        return element, np.clip((way - upto[element]) / span, 0.0, 1.0)
+
+    def _at(self, fraction: float | Floats, element: NDArray[np.intp] | None = None) -> tuple[Floats, Floats]:
+        """Points and tangents at fractions u of elements.
+
+        The chord from the start to the fraction u of a sweep s has the length c·sin(u·s/2) / sin(s/2) and is
+        turned by (u - 1)·s/2 against the whole chord: true of lines too, and of flat arcs with a far centre.
+        """
+        pick: Any = slice(None) if element is None else element
+        chord, s = (self.ends - self.starts)[pick], self.sweeps[pick]
+        u = np.broadcast_to(np.asarray(fraction, dtype=float), s.shape)
+        bent = np.abs(s) > 1e-8
+        ratio = np.divide(np.sin(u * s / 2), np.sin(s / 2), out=u.copy(), where=bent)
+        place = self.starts[pick] + ratio[:, None] * _turned(chord, (u - 1) * s / 2)
+        place = np.where((u == 1.0)[:, None], self.ends[pick], place)
+        size = _length(chord)[:, None]
+        return place, _turned(chord, (u - 0.5) * s) / np.where(size > 0, size, 1.0)
+
+    def _feet(self, spots: Floats) -> tuple[Floats, Floats]:
+        """Distance and fraction of the foot on each of m elements for each of k spots, `(k, m)` each."""
+        chord, s = self.ends - self.starts, self.sweeps
+        to_start = spots[:, None] - self.starts
+        size2 = np.where((chord**2).sum(axis=1) > 0, (chord**2).sum(axis=1), 1.0)
+        u = np.clip((to_start * chord).sum(axis=2) / size2, 0.0, 1.0)
+        off = _length(to_start - u[..., None] * chord)
+        k = np.flatnonzero(s)
+        if len(k):
+            arm = spots[:, None] - self.centres[k]
+            ahead = _ahead(np.arctan2(arm[..., 1], arm[..., 0]), self._first_angles()[k], s[k])
+            inside = ahead <= np.abs(s[k])
+            at_start, at_end = _length(to_start[:, k]), _length(spots[:, None] - self.ends[k])
+            off[:, k] = np.where(inside, np.abs(_length(arm) - self.radii[k]), np.minimum(at_start, at_end))
+            u[:, k] = np.where(inside, ahead / np.abs(s[k]), np.where(at_start <= at_end, 0.0, 1.0))
+        return off, u
+
+
+class Curve(NamedTuple):
+    """A whole line (radius inf, through `point` along the unit `direction`), or a circle about `point`."""
+
+    point: Floats
+    direction: Floats
+    radius: float
+
+    def moved_left(self, distance: float, sweep: float) -> Curve:
+        """The curve at a distance to the left of an element on it that turns by `sweep`."""
+        if np.isinf(self.radius):
+            return Curve(self.point + distance * left(self.direction), self.direction, np.inf)
+        return Curve(self.point, self.direction, self.radius - np.sign(sweep) * distance)
+
+    def foot(self, point: Floats) -> Floats:
+        """The point of the curve nearest to a point."""
+        arm = point - self.point
+        if np.isinf(self.radius):
+            return self.point + (arm @ self.direction) * self.direction
+        return self.point + arm * (self.radius / max(float(_length(arm)), 1e-300))
+
+    def meeting(self, other: Curve, near: Floats) -> Floats:
+        """Where two curves cross, of two crossings the one nearer to `near`; where they touch, if they touch.
+
+        Two circles cross on their radical line, so that only line with line and line with circle remain.
+        """
+        line, ring = (self, other) if np.isinf(self.radius) else (other, self)
+        if np.isinf(ring.radius):
+            sine = cross(line.direction, ring.direction)
+            if abs(sine) < 1e-9:
+                return line.foot(near)
+            return line.point + cross(ring.point - line.point, ring.direction) / sine * line.direction
+        if np.isfinite(line.radius):
+            between = ring.point - line.point
+            apart = float(_length(between))
+            if apart < 1e-9:
+                return ring.foot(near)
+            u = between / apart
+            along = (apart**2 + line.radius**2 - ring.radius**2) / (2 * apart)
+            line = Curve(line.point + along * u, left(u), np.inf)
+        middle = line.foot(ring.point)
+        high = float(_length(middle - ring.point))
+        half = np.sqrt(max(ring.radius**2 - high**2, 0.0)) * line.direction
+        return min((middle - half, middle + half), key=lambda p: float(_length(p - near)))
+
+
+def left(vectors: Floats) -> Floats:
+    """Vectors `(…, 2)` turned a quarter to the left."""
+    return np.stack([-vectors[..., 1], vectors[..., 0]], axis=-1)
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """The third component of a × b, for vectors `(…, 2)`."""
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def steps_within(radii: Floats, sweeps: Floats, chord_error: float) -> NDArray[np.intp]:
+    """Into how many chords each element is cut; one over the angle a is off by 2·r·sin²(a/4)."""
+    if not chord_error > 0:
+        raise ValueError(f"the chord error must be greater than 0, got {chord_error}")
+    largest = 4 * np.arcsin(np.sqrt(np.minimum(chord_error / (2 * np.maximum(radii, 1e-300)), 0.5)))
+    bent = sweeps != 0
+    chords = np.ones_like(sweeps)
+    np.divide(np.abs(sweeps), largest, out=chords, where=bent)
+    return np.maximum(np.ceil(chords - 1e-9), 1.0).astype(np.intp)
+
+
+def _length(vectors: Floats) -> Floats:
+    return np.hypot(vectors[..., 0], vectors[..., 1])
+
+
+def _turned(vectors: Floats, angle: Floats) -> Floats:
+    c, s = np.cos(angle), np.sin(angle)
+    x, y = vectors[..., 0], vectors[..., 1]
+    return np.stack([c * x - s * y, s * x + c * y], axis=-1)
+
+
+def _ahead(angle: Floats, first: Floats, sweep: Floats) -> Floats:
+    """How far an angle lies ahead of the first one in the sense of the sweep, 0 to 2π."""
+    return np.mod((angle - first) * np.sign(sweep), FULL_TURN)

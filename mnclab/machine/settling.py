@@ -1,0 +1,93 @@
+"""Settling: the passes run on the rows that a machine has made, so that the true place of the tool is known.
+
+Settled once at the end of a run, and before anything that observes the tool: a departure, a touch, an actual position.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mnclab.path import compensation, corners
+from mnclab.path.fault import PathFault
+from mnclab.path.recorder import join
+from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.text.alarm import Alarm
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+
+
+def settle(m: Machine, unfinished: bool = False) -> None:
+    """Corners, then compensation; ``unfinished`` says that an alarm broke the program off.
+
+    A fault is an Alarm at the block of its row, and the machine notes the step from which nothing counts.
+    """
+    piece = m.recorder.take()
+    if not len(piece):
+        return
+    m.programmed_pieces.append(piece)
+    labels = m.recorder
+    if (piece.joint >= 0).any():
+        labels.label("rounding")
+        labels.label("approach")
+    if (piece.side != 0).any():
+        labels.label(compensation.CORNER)
+    piece = piece.annotated(labels=tuple(labels.labels), joints=tuple(labels.joints))
+    start = end_of_settled(m)
+    if start is not None and start != tuple(piece.start[0].tolist()):
+        piece = piece.replace(start=np.concatenate([[start], piece.start[1:]]))
+    try:
+        passed = _passes(m, piece, unfinished)
+    except PathFault as fault:
+        m.cut = fault.step
+        m.settled.append(_before(m, piece[piece.step < fault.step]))
+        raise Alarm(fault.message, m.flow.span_of_step(fault.step), hint=fault.hint) from None
+    m.altered |= passed is not piece
+    m.settled.append(passed)
+
+
+def _passes(m: Machine, piece: Toolpath, unfinished: bool) -> Toolpath:
+    return compensation.apply(corners.apply(piece, unfinished), m.control.compensation, unfinished)
+
+
+def _before(m: Machine, piece: Toolpath) -> Toolpath:
+    """The tool-centre path up to a fault; its last element ends nobody knows where and is left out."""
+    try:
+        return _passes(m, piece, True)
+    except PathFault:
+        return piece[:0]
+
+
+def end_of_settled(m: Machine) -> tuple[float, float, float] | None:
+    """Where the tool-centre path ends so far, machine coordinates; None before its first row."""
+    for path in reversed(m.settled):
+        if len(path):
+            x, y, z = path.end[-1].tolist()
+            return x, y, z
+    return None
+
+
+def paths(m: Machine) -> tuple[Toolpath, Toolpath]:
+    """The programmed contour and the tool-centre path of a whole run, relative to the origin; one path if no pass acted."""
+    programmed = join(m.programmed_pieces, m.recorder)
+    if m.cut is not None:
+        programmed = programmed[programmed.step < m.cut]
+    if m.cut is None and not m.altered:
+        both = [programmed]
+    else:
+        both = [programmed, concatenate(m.settled)]
+    shown = [_shown(m, path) for path in both]
+    return shown[0], shown[-1]
+
+
+def _shown(m: Machine, path: Toolpath) -> Toolpath:
+    """A path relative to the origin, with the labels and joints known at the end."""
+    origin = np.array(m.origin or (0.0, 0.0, 0.0))
+    if origin.any():
+        path = path.replace(start=path.start - origin, end=path.end - origin, centre=path.centre - origin)
+    recorder = m.recorder
+    return path.annotated(
+        labels=tuple(recorder.labels), joints=tuple(recorder.joints), origin=tuple(origin), lathe=m.control.lathe
+    )

@@ -1,0 +1,51 @@
+"""A probe moves until its ball touches the part, and stops there."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from mnclab.text.program import Word
+from mnclab.workpiece.part import contact
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+
+Point = tuple[float, float, float]
+
+
+class Touch(NamedTuple):
+    """Where the centre of the ball stood at the contact, in program and in machine coordinates, mm."""
+
+    point: Point
+    machine_point: Point
+    hit: bool
+
+
+def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, miss: str) -> Touch:
+    """Move the tip (the south pole of the ball) towards a point in program coordinates at feed ``f``.
+
+    No contact is an alarm, or with ``miss="return"`` a touch that did not hit. Radius compensation is refused.
+    """
+    if m.side:
+        m.alarm("a probe cannot move under radius compensation", word)
+    if m.setup.part is None:
+        m.alarm("there is no part to touch", word, hint="give one: Setup(part=…)")
+    m.settle()
+    start, goal = np.array(m.tip), np.array(m.to_machine(target))
+    reach = float(np.linalg.norm(goal - start))
+    if reach == 0:
+        m.alarm("a touch needs a direction", word)
+    direction, up = (goal - start) / reach, np.array([0.0, 0.0, ball])
+    travel = contact(m.setup.part, start + up, direction, ball, reach)
+    if travel is None and miss == "alarm":
+        m.alarm(f"touch point inaccessible: no contact within {reach:g} mm", word)
+    end = start + direction * (reach if travel is None else travel)
+    m.probe_to(_point(end), f)
+    return Touch(m.to_program(_point(end + up)), _point(end + up), travel is not None)
+
+
+def _point(xyz: np.ndarray) -> Point:
+    x, y, z = xyz.tolist()
+    return x, y, z

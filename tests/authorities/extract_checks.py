@@ -1,0 +1,92 @@
+"""Examples, codes and parameters of the MNC manual, copied from a catalogue of it: writes the files of catalogue/.
+
+    python3 tests/authorities/extract_checks.py FOLDER
+
+FOLDER holds the catalogue, one YAML file for each part of the manual. The tests read only the JSON files made here.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import yaml
+
+HERE = Path(__file__).parent / "catalogue"
+
+#: Entries whose examples are copied, by file. A function that is built gets its entry here.
+EXAMPLES = {
+    "mnc-language": [
+        *("words", "modal groups", "block execution", "G17", "G18", "G19", "G90", "G91", "G92", "G53"),
+        *("G54", "G55", "G56", "G57", "G58", "G59", "G0", "G1", "G2", "G3", "arc by radius", "arc by centre"),
+        *("F", "G94", "G95", "G4", "T", "tool length compensation", "cutter radius compensation", "G41", "G42"),
+        *("CRC entry (table 7.1)", "CRC travel (table 7.2)", "G40", "CRC exit (table 7.3)"),
+        *("M word", "M3", "M4", "M5", "M99"),
+    ],
+    "mnc-drilling": ["drilling cycles G83-G85", "G80", "G98", "G99", "G83", "prepared cycles", "G300"],
+}
+
+#: Files whose cycles give their parameters, and those whose G and M codes are listed.
+CYCLES = ["mnc-drilling", "mnc-milling"]
+CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
+KEYS = ("address", "meaning", "unit", "type", "range", "choices", "default", "required", "modal", "incremental")
+
+
+def entries(folder, name):
+    """The entries of one file of the catalogue by their codes."""
+    loaded = yaml.safe_load((folder / f"{name}.yaml").read_text(encoding="utf-8"))
+    return {entry["code"]: entry for entry in loaded["entries"]}
+
+
+def examples(folder, name, codes):
+    """The examples of the named entries, with the numbers that they must give."""
+    found = entries(folder, name)
+    for code in codes:
+        for example in found[code].get("examples") or []:
+            check = example.get("check", example.get("checks"))
+            kept = {key: example[key] for key in ("title", "origin", "program", "expected")}
+            yield {"code": code, **kept, "check": check}
+
+
+def parameters(folder, names):
+    """Parameters of every cycle, with the codes that mean the same."""
+    for name in names:
+        for code, entry in entries(folder, name).items():
+            if entry["kind"] == "cycle":
+                rows = [{key: row[key] for key in KEYS if key in row} for row in entry["parameters"]]
+                yield {"code": code, "title": entry["title"], "aliases": entry.get("aliases", []), "parameters": rows}
+
+
+def listed(folder, names):
+    """Every G and M code of the manual."""
+    for name in names:
+        for code, entry in entries(folder, name).items():
+            if entry["kind"] in ("function", "cycle"):
+                kept = {key: entry.get(key) for key in ("kind", "title", "group", "modal", "power_on", "aliases")}
+                yield {"code": code, **kept}
+
+
+def save(name, records):
+    """One record a line and one parameter a line, so that changes can be read."""
+    lines = []
+    for record in records:
+        rows = record.pop("parameters", None)
+        text = json.dumps(record, ensure_ascii=False)
+        if rows is not None:
+            inner = ",\n  ".join(json.dumps(row, ensure_ascii=False) for row in rows)
+            text = f'{text[:-1]}, "parameters": [\n  {inner}\n]}}'
+        lines.append(text)
+    (HERE / f"{name}.json").write_text("[\n" + ",\n".join(lines) + "\n]\n", encoding="utf-8")
+    print(f"{name}: {len(lines)}")
+
+
+def main(folder):
+    for name, codes in EXAMPLES.items():
+        save(name, examples(folder, name, codes))
+    save("parameters", parameters(folder, CYCLES))
+    save("codes", listed(folder, CODES))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    main(Path(sys.argv[1]))

@@ -1,0 +1,24 @@
+"""What every test shares: pictures without a screen, examples without chance, and the option --rewrite."""
+
+import os
+
+import pytest
+from hypothesis import settings
+
+os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+os.environ.setdefault("MPLBACKEND", "agg")
+
+settings.register_profile("ci", deadline=None, derandomize=True, max_examples=60)
+settings.register_profile("long", deadline=None, max_examples=3000)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+
+def pytest_addoption(parser):
+    """Add the option that renews golden listings."""
+    parser.addoption("--rewrite", action="store_true", help="write golden listings anew for review")
+
+
+@pytest.fixture
+def rewrite(request) -> bool:
+    """Whether golden listings are to be written instead of compared."""
+    return request.config.getoption("rewrite")

@@ -1,0 +1,110 @@
+"""Touching parts: closed forms for planes, bars and bores, and a touch worked out for a probing cycle."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mnclab.workpiece.part import ball, box, contact, cylinder, plane
+
+BLOCK = box((0, 0, 0), (100, 60, 20))
+BORED = BLOCK - cylinder((50, 30, -10), (50, 30, 30), 12)
+
+
+def test_a_wall_six_hundredths_off():
+    """Nominal wall at X 25, true wall at 25.06, ball R = 2 from (21, 25, 25): it travels 25.06 - 2 - 21."""
+    wall = plane((25.06, 0, 0), (-1, 0, 0))
+    assert contact(wall, (21, 25, 25), (1, 0, 0), radius=2, reach=10) == pytest.approx(2.06, abs=1e-12)
+
+
+def test_distances():
+    assert BLOCK([(-3, 30, 10), (-3, -4, 10), (103, 64, 32), (50, 30, 19)]) == pytest.approx([3, 5, 13, -1])
+    bar = cylinder((0, 0, 0), (0, 0, 10), 5)
+    assert bar([(9, 0, 5), (0, 0, 14), (8, 0, 14), (0, 0, 4), (0, 4, 5)]) == pytest.approx([4, 4, 5, -4, -1])
+    lying = cylinder((0, 0, 0), (10, 0, 0), 5)
+    assert lying([(5, 3, 12), (-4, 8, 0)]) == pytest.approx([np.hypot(3, 12) - 5, 5])
+    assert ball((1, 1, 1), 2)([(1, 5, 4)]) == pytest.approx([3])
+    assert plane((0, 0, 5), (0, 0, 9))([(7, 8, 9)]) == pytest.approx([4])
+
+
+def test_combinations():
+    either = ball((0, 0, 0), 2) | ball((10, 0, 0), 3)
+    assert either([(3, 0, 0), (6, 0, 0)]) == pytest.approx([1, 1])
+    slab = plane((0, 0, 10), (0, 0, 1)) & plane((0, 0, 0), (0, 0, -1))
+    assert slab([(3, 3, 12), (3, 3, -4), (3, 3, 4)]) == pytest.approx([2, 4, -4])
+    assert BORED([(50, 30, 10), (50, 35, 10), (30, 30, 24)]) == pytest.approx([12, 7, 4])
+
+
+@pytest.mark.parametrize(
+    ("part", "start", "direction", "radius", "travel"),
+    [
+        (BLOCK, (-10, 30, 10), (1, 0, 0), 2, 8),
+        (BLOCK, (50, 30, 40), (0, 0, -1), 3, 17),
+        (BORED, (50, 30, 10), (1, 0, 0), 2, 10),
+        (BORED, (50, 30, 18.5), (0, -1, 0), 2, 10),  # near the rim, still inside
+        (BORED, (53, 30, 10), (0, 1, 0), 2, np.sqrt(10**2 - 3**2)),
+        (BLOCK, (-10, -1, 10), (1, 0, 0), 2, 10 - np.sqrt(3)),  # past an edge
+        (BLOCK, (-10, -1, 21), (1, 0, 0), 3, 10 - np.sqrt(7)),  # past a corner
+        (cylinder((0, 0, 0), (0, 0, 50), 12), (-30, 9, 20), (1, 0, 0), 2, 30 - np.sqrt(14**2 - 9**2)),
+        (ball((0, 0, 0), 10), (-30, 4, 3), (1, 0, 0), 3, 30 - 12),  # 13² = 12² + 5²
+    ],
+)
+def test_a_ball_travels_until_it_touches(part, start, direction, radius, travel):
+    assert contact(part, start, direction, radius, reach=50) == pytest.approx(travel, abs=1e-10)
+
+
+def test_no_contact():
+    assert contact(BLOCK, (-10, 30, 10), (-1, 0, 0), 2, reach=1000) is None
+    assert contact(BLOCK, (-10, 30, 10), (1, 0, 0), 2, reach=7.999) is None
+    assert contact(BLOCK, (-10, 30, 10), (1, 0, 0), 2, reach=8) == pytest.approx(8)
+    assert contact(BLOCK, (-10, 30, 22.00005), (1, 0, 0), 2, reach=150) is None  # just above the face
+    assert contact(BLOCK, (-10, 30, 21.99995), (1, 0, 0), 2, reach=150) is not None
+
+
+def test_in_contact_already():
+    assert contact(BLOCK, (-2, 30, 10), (1, 0, 0), 2, reach=5) == 0.0
+    assert contact(BLOCK, (-2, 30, 10), (-1, 0, 0), 2, reach=5) == 0.0
+    assert contact(BLOCK, (50, 30, 10), (1, 0, 0), 2, reach=5) == 0.0
+
+
+def test_a_part_is_placed_by_a_frame():
+    """The block turned by 30° about Z: along X its side x = 0 is met where the ball is 2 off that plane."""
+    c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
+    frame = np.array([[c, -s, 0, 5], [s, c, 0, 7], [0, 0, 1, 0], [0, 0, 0, 1]])
+    turned = BLOCK.placed(frame)
+    corner = np.array([5, 7, 0])
+    for y in (20, 40):
+        start = np.array([-60.0, y, 10])
+        normal = np.array([-c, -s, 0])
+        gap = (start - corner) @ normal - 2
+        assert contact(turned, start, (1, 0, 0), 2, reach=100) == pytest.approx(gap / c, abs=1e-10)
+    with pytest.raises(ValueError, match="scaling"):
+        BLOCK.placed(np.diag([2.0, 2.0, 2.0, 1.0]))
+
+
+def test_a_direction_needs_a_length():
+    with pytest.raises(ValueError, match="direction"):
+        contact(BLOCK, (-10, 30, 10), (0, 0, 0), 2, reach=10)
+    with pytest.raises(ValueError, match="normal"):
+        plane((0, 0, 0), (0, 0, 0))
+    with pytest.raises(ValueError, match="axis"):
+        cylinder((0, 0, 0), (0, 0, 0), 3)
+
+
+@given(
+    st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda n: np.linalg.norm(n) > 0.1),
+    st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda d: np.linalg.norm(d) > 0.1),
+    st.floats(0.001, 50),
+    st.floats(0, 5),
+)
+def test_planes_are_met_exactly(normal, direction, gap, radius):
+    """From a gap g before a plane with normal n the ball travels g / (-n·d), if it comes nearer at all."""
+    n, d = np.array(normal) / np.linalg.norm(normal), np.array(direction) / np.linalg.norm(direction)
+    start = np.array([3.0, -2.0, 7.0])
+    wall = plane(start - (gap + radius) * n, n)
+    travel = contact(wall, start, direction, radius, reach=500)
+    nearer = -(n @ d)
+    if nearer * 500 < gap - 1e-6:
+        assert travel is None
+    elif nearer * 500 > gap + 1e-6:
+        assert travel == pytest.approx(gap / nearer, rel=1e-11, abs=1e-10)

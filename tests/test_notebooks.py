@@ -1,0 +1,37 @@
+"""Every notebook is a lesson: short cells, exercises at the end, no stored outputs; and it runs."""
+
+import os
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+ROOT = Path(__file__).resolve().parent.parent
+NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+LONGEST_CELL = 8
+
+each_notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+
+
+@each_notebook
+def test_notebook_is_a_lesson(path):
+    cells = nbformat.read(path, as_version=4).cells
+    for cell in cells:
+        if cell.cell_type == "code":
+            assert not cell.outputs, "outputs are stored: clear them before saving"
+            assert len(cell.source.splitlines()) <= LONGEST_CELL, f"too long:\n{cell.source}"
+            assert not re.search(r"^\s*(async )?def ", cell.source, re.M), f"a function:\n{cell.source}"
+    prose = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+    headings = re.findall(r"^##? +(.+?) *$", prose, re.M)
+    assert headings and headings[-1] == "Exercises", "the last section is headed Exercises"
+
+
+@each_notebook
+def test_notebook_runs(path):
+    notebook = nbformat.read(path, as_version=4)
+    environment = dict(os.environ)
+    environment.pop("MPLBACKEND", None)  # the kernel chooses its own, as it does for people
+    place = {"metadata": {"path": path.parent}}
+    NotebookClient(notebook, timeout=120, kernel_name="python3", resources=place).execute(env=environment)
