@@ -83,11 +83,13 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     m.at_block_end(restore)
 
 
-@FUNCTIONS("G92", "Set position", phase="frames", takes="X Y Z U V W", still=True, modal=False, source="2.5")
+@FUNCTIONS("G92", "Set position", phase="local", takes="X Y Z U V W", still=True, modal=False, source="2.5")
 def set_position(m: Machine, words: Words) -> None:
     """The present point gets the coordinates X Y Z; U V W move the origin by that much. No motion."""
     if m.side:
         m.alarm("G92 cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    if "machine coordinates" in m.memory:
+        m.alarm("G92 and G53 stand in one block: G53 moves, G92 does not", first_word(words), hint="write two blocks")
     move = [0.0, 0.0, 0.0]
     register = list(m.programmed)
     for k, (axis, increment) in enumerate(zip(AXES, "UVW", strict=True)):
