@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 SHORTEST, LARGEST = 32, 1 << 15  # blocks obeyed at once: below, one by one is faster; above, the cache is lost
 
+LETTERS = "GXYZIJKRF"  # the addresses of plain words
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
@@ -78,6 +79,8 @@ class Bulk:
         plain[list(faulty)] = False
         if self.rule.keyword and self.rule.keyword in program.keywords:
             plain &= program.keyword == program.keywords.index(self.rule.keyword)
+        # the column of each address of this program; one more for those that change nothing
+        self.place = np.array([LETTERS.find(name) if len(name) == 1 else -1 for name in program.addresses] or [-1])
         self.breaks = np.append(np.flatnonzero(~plain), len(program))
         self.enabled = self.enabled and len(program) - len(self.breaks) + 1 >= SHORTEST
         self.codes = {value: code for value, (code, _) in self.rule.motions.items()}
@@ -115,50 +118,44 @@ class Bulk:
         program, n = self.program, end - first
         a, b = int(program.first[first]), int(program.first[end])
         block = np.repeat(np.arange(n), np.diff(program.first[first : end + 1]))
-        address, value = program.address[a:b], program.value[a:b]
-        found = {}
-        for name in "GXYZIJKRF":
-            column = np.full(n, np.nan)
-            if name in program.addresses:
-                mine = address == program.addresses.index(name)
-                column[block[mine]] = value[mine]
-            found[name] = column
-        return found
+        table = np.full((n, len(LETTERS) + 1), np.nan)
+        table[block, self.place[program.address[a:b]]] = program.value[a:b]
+        return {name: table[:, k] for k, name in enumerate(LETTERS)}
 
     def work_out(self, first: int, end: int) -> _Run:
         """Everything about the blocks [first, end), faults included."""
         machine, rule = self.machine, self.rule
         assert rule is not None
         words, n = self.columns(first, end), end - first
-        axes = np.stack([words["X"], words["Y"], words["Z"]], axis=1)
-        written = ~np.isnan(axes)
-
-        points = np.empty((n + 1, 3))
+        points, moves = np.empty((n + 1, 3)), np.zeros(n, dtype=bool)
         points[0] = machine.programmed
-        if rule.absolute(machine):
-            points[1:] = axes
-            points = _filled(points)
+        absolute = rule.absolute(machine)
+        for k, axis in enumerate("XYZ"):
+            written = ~np.isnan(words[axis])
+            moves |= written
+            points[1:, k] = words[axis] if absolute else np.where(written, words[axis], 0.0)
+            points[:, k] = _filled(points[:, k]) if absolute else np.cumsum(points[:, k])
+        if machine._shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed:
+            tips = points  # no copy: memory costs more than the work on it
         else:
-            points[1:] = np.where(written, axes, 0.0)
-            points = np.cumsum(points, axis=0)
-        shift = machine._shift
-        tips = points + np.array(shift) if shift is not None else frames.apply(machine._matrix, points)
+            turned = machine._shift is None
+            tips = frames.apply(machine._matrix, points) if turned else points + np.array(machine._shift)
+            tips[0] = machine.tip  # not the register turned there and back
 
         feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
         motion, unknown = self.motions(words["G"], n)
         centred = ~np.isnan(np.stack([words["I"], words["J"], words["K"]], axis=1))
         by_radius = ~np.isnan(words["R"])
-        shaped = centred.any(axis=1) | by_radius
+        shaped = centred[:, 0] | centred[:, 1] | centred[:, 2] | by_radius
         arc = (np.abs(motion) == 2) & shaped
-        moves = written.any(axis=1) | arc
+        moves |= arc
 
         without_feed = moves & (motion != 0) & np.isnan(feed)
         fault = unknown | (words["F"] <= 0) | without_feed | (shaped & (np.abs(motion) != 2))
         run = _Run(points, tips, motion, feed, moves, fault, np.full((n, 3), np.nan), np.zeros(n), arc)
         if arc.any():
             self.arcs(run, words, centred, by_radius)
-        still = (tips[1:] == tips[:-1]).all(axis=1) & ~arc
-        run.moves = moves & ~still
+        run.moves = moves & (_differ(tips[1:], tips[:-1]) | arc)
         return run
 
     def motions(self, g: Array, n: int) -> tuple[NDArray[np.int64], Mask]:
@@ -244,8 +241,10 @@ class Bulk:
     def log(self, run: _Run, steps: NDArray[np.int32], count: int, before: int) -> None:
         """Changes of position, feed and motion, step by step."""
         machine, history = self.machine, self.machine.logs
-        changed = np.flatnonzero((run.points[1 : count + 1] != run.points[:count]).any(axis=1))
-        history.extend("position", steps[changed], run.points[changed + 1])
+        changed = np.flatnonzero(_differ(run.points[1 : count + 1], run.points[:count]))
+        everywhere = len(changed) == count  # then no copy is needed
+        points = run.points[1 : count + 1] if everywhere else run.points[changed + 1]
+        history.extend("position", steps if everywhere else steps[changed], points)
 
         feed = run.feed[:count]
         start = np.nan if machine.feed is None else machine.feed
@@ -265,8 +264,14 @@ class Bulk:
                 machine.modal[self.group] = names[int(motion[-1])]
 
 
+def _differ(a: Array, b: Array) -> Mask:
+    """Which points (n, 3) are not equal; column by column, which is faster than along rows."""
+    return (a[:, 0] != b[:, 0]) | (a[:, 1] != b[:, 1]) | (a[:, 2] != b[:, 2])
+
+
 def _filled(column: Array) -> Array:
-    """The last value that is not nan, going down the rows (n,) or (n, k)."""
-    index = np.where(np.isnan(column), 0, np.arange(len(column)).reshape(-1, *[1] * (column.ndim - 1)))
-    index = np.maximum.accumulate(index, axis=0)
-    return np.take_along_axis(column, index, axis=0)
+    """The last value that is not nan, going down a column (n,)."""
+    empty = np.isnan(column)
+    if not empty[1:].any():
+        return column
+    return column[np.maximum.accumulate(np.where(empty, 0, np.arange(len(column))))]

@@ -25,7 +25,7 @@ LONGEST = 1_000_000  # blocks that repeats and calls may add, one by one
 class Steps(NamedTuple):
     """Which block and which program each step executed (s,)."""
 
-    block: NDArray[np.int64]
+    block: NDArray[np.int32]
     program: NDArray[np.int16]
 
 
@@ -36,11 +36,11 @@ class Flow:
         self.programs = [program]
         self.obey, self.bulk = obey, bulk
         self.machine: Machine
-        self.depth, self.executed = 0, 0
+        self.depth, self.calls, self.executed = 0, 0, 0  # calls: subprograms alone, without repeats
         self.returning = False
         self.current = 0  # block being obeyed
         self._jump: int | None = None
-        self._chunks: list[NDArray[np.int64]] = []
+        self._chunks: list[NDArray[np.int64] | range] = []
         self._blocks: list[int] = []
         self._counted = 0
 
@@ -72,7 +72,9 @@ class Flow:
         """Run from a label to the end of its subprogram."""
         self.enter(span)
         here = self.current
+        self.calls += 1
         self.section(self.index_of(label, span) + 1, len(self.program))
+        self.calls -= 1
         self.depth, self.returning, self.current = self.depth - 1, False, here
 
     def repeat(self, first: int, stop: int, times: int, span: Span | None = None) -> None:
@@ -93,7 +95,7 @@ class Flow:
 
     def leave(self) -> None:
         """End the running subprogram; nothing in the main program."""
-        self.returning = self.depth > 0
+        self.returning = self.calls > 0
 
     def jump(self, label: str, span: Span | None = None) -> None:
         """Go on at a label."""
@@ -120,7 +122,7 @@ class Flow:
     def begin_many(self, first: int, count: int) -> int:
         """Note the execution of blocks in a row; the number of the first step."""
         self._flush()
-        self._chunks.append(np.arange(first, first + count))
+        self._chunks.append(range(first, first + count))
         self._counted += count
         return self._counted - count
 
@@ -132,8 +134,13 @@ class Flow:
     def steps(self) -> Steps:
         """All steps so far."""
         self._flush()
-        blocks = np.concatenate(self._chunks)
-        return Steps(blocks, np.zeros(len(blocks), dtype=np.int16))
+        blocks = np.empty(self._counted, dtype=np.int32)
+        at = 0
+        for chunk in self._chunks:
+            part = np.arange(chunk.start, chunk.stop) if isinstance(chunk, range) else chunk
+            blocks[at : at + len(part)] = part
+            at += len(part)
+        return Steps(blocks, np.broadcast_to(np.int16(0), (len(blocks),)))
 
     def span_of_step(self, step: int) -> Span | None:
         """The place of the block that a step executed."""

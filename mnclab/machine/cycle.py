@@ -8,6 +8,7 @@ CYCL CALL, …) or "position" (at each following position while it is active).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, field, fields
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
@@ -21,7 +22,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Parameter:
-    """One address of a cycle: what it means and what is allowed. ``meaning`` is a short noun phrase; alarms quote it."""
+    """One address of a cycle: what it means and what is allowed. ``meaning`` is a short noun phrase; alarms quote it.
+
+    A parameter with a ``mark`` (a bit of ``Word.flag``) has no word of its own: it is 1 when the word that calls the
+    cycle carries the mark, and its default when not; its address is the mark's sign.
+    """
 
     address: str
     meaning: str
@@ -43,6 +48,8 @@ class Parameter:
     type: str = "number"
     predef: bool = False
     note: str = ""
+    mark: int = 0
+    several: bool = False
 
     @property
     def allowed(self) -> str:
@@ -50,7 +57,7 @@ class Parameter:
         if self.choices:
             return "one of " + ", ".join(f"{choice:g}" for choice in self.choices)
         parts = [
-            f"{words} {limit:g}"
+            f"{words} {limit:.10g}"
             for words, limit in (
                 ("greater than", self.above),
                 ("at least", self.at_least),
@@ -94,17 +101,19 @@ def param(
     type: str = "number",
     predef: bool = False,
     note: str = "",
+    mark: int = 0,
+    several: bool = False,
 ) -> Any:
     """Declare one parameter of a cycle in one line of its class.
 
     No ``default`` means required, unless ``instead`` of it another is given (a parameter by its name); ``default_means`` says in words what a
-    default of None stands for. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …).
+    default of None stands for. ``several``: the address may be repeated, and the value is a tuple. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …).
     """
     first, *others = (address,) if isinstance(address, str) else address
     required = default is MISSING
     declared = Parameter(
         first, meaning, unit, "", tuple(others), required, None if required else default, default_means, choices, above,
-        at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note,
+        at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note, mark, several,
     )  # fmt: skip
     return field(default=declared.default, kw_only=True, metadata={"parameter": declared})
 
@@ -195,8 +204,7 @@ def bind(definition: Definition, m: Machine) -> Cycle:
             raise fault(definition, parameter, f"is missing{neither}")
         if value is None:
             value = parameter.default
-        elif isinstance(value, int | float) and parameter.refuses(value):
-            raise fault(definition, parameter, f"must be {parameter.allowed}, got {value:g}")
+        check_value(definition, parameter, value)
         values[parameter.name] = value
     bound = cycle(**values)
     for name, sentence in bound.check(m):
@@ -205,12 +213,34 @@ def bind(definition: Definition, m: Machine) -> Cycle:
     return bound
 
 
+def check_value(definition: Definition, parameter: Parameter, value: Any) -> None:
+    """An Alarm when a number, or one of several, is outside what its parameter allows."""
+    for number in value if isinstance(value, tuple) else (value,):
+        if isinstance(number, int | float) and parameter.refuses(number):
+            raise fault(definition, parameter, f"must be {parameter.allowed}, got {number:g}")
+
+
 def fault(definition: Definition, parameter: Parameter | None, sentence: str) -> Alarm:
     """An alarm that names code, address and meaning, at the word or, when it is missing, at the cycle's own word."""
     word = definition.words.get(parameter.name) if parameter else None
     word = word or definition.head
     name = f" {parameter.address} ({parameter.meaning})" if parameter else ""
     return Alarm(f"{definition.code}{name} {sentence}", word.span if word else None)
+
+
+@contextmanager
+def own_feed(m: Machine, feed: float | None) -> Iterator[None]:
+    """Inside, moves run at the feed of a cycle, in the units of the modal feed (mm/min or mm/rev); None keeps that one.
+
+    The history does not see it: the feed of the program stays what it was.
+    """
+    kept = m.feed
+    if feed is not None:
+        m.feed, m._state = feed, None
+    try:
+        yield
+    finally:
+        m.feed, m._state = kept, None
 
 
 def help_table(cycle: type[Cycle]) -> str:

@@ -21,6 +21,7 @@ from mnclab.machine.recording import Recording, record
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
+from mnclab.machine.variables import Measured, Variables
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
@@ -37,30 +38,6 @@ if TYPE_CHECKING:
 INF = math.inf
 PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0)}  # first axis, second axis, normal
 _AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
-
-
-class Variables(dict[str, float]):
-    """Q parameters and the like; every change is logged."""
-
-    def __init__(self, machine: Machine) -> None:
-        super().__init__()
-        self._machine = machine
-
-    def __setitem__(self, name: str, value: float) -> None:
-        super().__setitem__(name, value)
-        self._machine.log(name, value)
-
-
-class Measured(dict[str, Any]):
-    """What probing found; every value is logged."""
-
-    def __init__(self, machine: Machine) -> None:
-        super().__init__()
-        self._machine = machine
-
-    def __setitem__(self, name: str, value: Any) -> None:
-        super().__setitem__(name, value)
-        self._machine.log(f"measured {name}", value)
 
 
 class Machine:
@@ -87,6 +64,7 @@ class Machine:
 
         self.modal: dict[str, str] = {}
         self.variables = Variables(self)
+        self.variable_unit = 1.0  # mm that a length of 1 in a variable stands for: 25.4 in a program in inches
         self.measured = Measured(self)
         self.plane = "XY"
         self.feed: float | None = None
@@ -186,7 +164,7 @@ class Machine:
             self._state = self.recorder.state(
                 State(
                     self.program, axis, self.rotary, per_rev, NAN, self.spindle_speed, self.tool.number, self.radius,
-                    self.side, self.corner_rule, self.exact, self.synchronous,
+                    self.side * self.orientation, self.corner_rule, self.exact, self.synchronous,
                 )
             )  # fmt: skip
         return self._state
@@ -222,8 +200,7 @@ class Machine:
         if self._shift is not None:
             dx, dy, dz = self._shift
             return x + dx, y + dy, z + dz
-        m = self._matrix
-        u, v, w = (m[:3, :3] @ (x, y, z) + m[:3, 3]).tolist()
+        u, v, w = frames.apply(self._matrix, (x, y, z)).tolist()
         return u, v, w
 
     def to_program(self, point: Iterable[float]) -> tuple[float, float, float]:
@@ -244,6 +221,12 @@ class Machine:
         """Write a row of a table ("tools", "datums", "presets"); the setup stays as it is."""
         getattr(self.tables, table)[row] = value
         self.log(f"{table} {row}", value)
+
+    def set_register(self, point: Iterable[float]) -> None:
+        """Give the programmed point exact values; the tip stays where it is."""
+        x, y, z = point
+        self.programmed = (float(x), float(y), float(z))
+        self.log("position", self.programmed)
 
     # --- verbs: motion -----------------------------------------------------------------------------------------------
 
@@ -341,12 +324,20 @@ class Machine:
             )
 
     def _arc_sense(self, word: Word | None) -> int:
-        """-1 under a mirror of the plane; an alarm when the frame would turn the circle into an ellipse."""
+        """The orientation; an alarm when the frame would turn the circle into an ellipse."""
         first, second, _ = PLANES[self.plane]
         u, v = self._matrix[:3, first], self._matrix[:3, second]
         if abs(np.linalg.norm(u) - np.linalg.norm(v)) > 1e-9 or abs(u @ v) > 1e-9:
             self.alarm("an arc under unequal scales of its plane would be an ellipse", word)
-        return 1 if np.dot(np.cross(u, v), self._turned_axis()) > 0 else -1
+        return self.orientation
+
+    @property
+    def orientation(self) -> int:
+        """-1 when the frame mirrors the plane: arcs and the side of the tool turn over; else 1."""
+        if self._shift is not None:
+            return 1
+        first, second, _ = PLANES[self.plane]
+        return 1 if np.dot(np.cross(self._matrix[:3, first], self._matrix[:3, second]), self._turned_axis()) > 0 else -1
 
     def at_block_end(self, undo: Callable[[], None]) -> None:
         """Do something when the running block is over."""
@@ -374,13 +365,13 @@ class Machine:
         )
 
     def mark_joint(self, joint: Any) -> bool:
-        """Put a joint on the last row, if it is a motion not settled yet; False if there is none."""
-        rows = self.recorder.rows
-        if not rows or rows[-1][0] > Kind.ARC:
-            return False
-        rows[-1] = (*rows[-1][:13], len(self.recorder.joints), rows[-1][14])
-        self.recorder.joints.append(joint)
-        return True
+        """Put a joint on the last motion not settled yet; False if there is none, or if it has one already."""
+        return self.recorder.mark(joint)
+
+    def heading(self) -> tuple[float, float, float] | None:
+        """The unit tangent at the end of the last motion not settled yet, in machine axes; None if there is none."""
+        travel = self.recorder.heading()
+        return None if travel is None else tuple(travel.tolist())
 
     # --- verbs: events -----------------------------------------------------------------------------------------------
 

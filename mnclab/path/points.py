@@ -28,6 +28,8 @@ def points(path: Toolpath, chord_error: float = 0.01) -> tuple[NDArray[np.float6
         return np.empty((0, 3)), np.empty(0, dtype=np.int64)
     start, end, axis = path.start[rows], path.end[rows], path.axis[rows]
     arc = path.kind[rows] == Kind.ARC
+    if not arc.any():
+        return np.concatenate([start[:1], end]), np.concatenate([rows[:1], rows])
     spoke = np.where(arc[:, None], start - path.centre[rows], 0.0)
     spoke -= np.einsum("ij,ij->i", spoke, axis)[:, None] * axis
     radius = np.linalg.norm(spoke, axis=1)

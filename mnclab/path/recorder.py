@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import COLUMNS, Toolpath, concatenate
 
 NAN = float("nan")
@@ -71,6 +72,49 @@ class Recorder:
         self._flush()
         self._done.append(columns)
 
+    def _last_motion(self) -> tuple[dict[str, NDArray[Any]], int] | None:
+        """The columns and the row in them of the last line, arc or rapid not yet taken."""
+        self._flush()
+        for chunk in reversed(self._done):
+            moves = np.flatnonzero(chunk["kind"] <= Kind.PROBE)
+            if len(moves):
+                row = int(moves[-1])
+                return None if chunk["kind"][row] == Kind.PROBE else (chunk, row)
+        return None
+
+    def mark(self, joint: Any) -> bool:
+        """Put a joint on the last motion; False if there is none, or if it has one already."""
+        last = self._last_motion()
+        if last is None:
+            return False
+        chunk, row = last
+        joints = np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape).copy()
+        if joints[row] >= 0:
+            return False
+        joints[row] = len(self.joints)
+        chunk["joint"] = joints
+        self.joints.append(joint)
+        return True
+
+    def heading(self) -> NDArray[np.float64] | None:
+        """The unit tangent (3,) at the end of the last motion; None if it has none."""
+        last = self._last_motion()
+        if last is None:
+            return None
+        chunk, row = last
+        end = chunk["end"][row]
+        if chunk["kind"][row] == Kind.ARC:
+            state = np.broadcast_to(chunk["state"], chunk["kind"].shape)[row]
+            axis = np.array(self.states[int(state)].axis)
+            spoke = end - chunk["centre"][row]
+            travel = np.cross(axis, spoke) * np.sign(chunk["sweep"][row])
+        else:
+            before = [np.array(self.start), *(c["end"][-1] for c in self._done)]
+            index = next(i for i, c in enumerate(self._done) if c is chunk)
+            travel = end - (chunk["end"][row - 1] if row else before[index])
+        length = float(np.linalg.norm(travel))
+        return travel / length if length > 0 else None
+
     def _flush(self) -> None:
         if not self.rows:
             return
@@ -107,6 +151,8 @@ class Recorder:
                 values = np.array([getattr(state, name) for state in self.states], dtype=COLUMNS[name][0])
                 same = bool((values == values[:1]).all() or (values != values).all())  # equal, or nothing but nan
                 columns[name] = np.broadcast_to(values[0], (len(which), *values.shape[1:])) if same else values[which]
+            if not np.isnan(columns["per_rev"]).all():  # what does not cut at a feed has none per revolution
+                columns["per_rev"] = np.where(np.isfinite(columns["feed"]), columns["per_rev"], NAN)
         else:
             columns = {"kind": np.empty(0, dtype=np.uint8)}
         return Toolpath.chain(vertices, columns, labels=tuple(self.labels), joints=tuple(self.joints))

@@ -36,7 +36,7 @@ COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
     "sweep": (np.float64, (), 0.0, "angle of an arc, right-handed about axis, rad; pitch lies in end"),
     "rotary": (np.float64, (3,), 0.0, "A, B, C at the end of the row, rad"),
     "feed": (np.float64, (), np.nan, "feed along the path, mm/min; inf for rapids"),
-    "per_rev": (np.float64, (), np.nan, "feed per revolution, mm/rev"),
+    "per_rev": (np.float64, (), np.nan, "feed per revolution of rows at feed, mm/rev"),
     "surface": (np.float64, (), np.nan, "constant cutting speed, m/min"),
     "time": (np.float64, (), np.nan, "time given by the program, s"),
     "spindle": (np.float64, (), 0.0, "rev/min, negative for counter-clockwise"),

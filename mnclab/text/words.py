@@ -12,6 +12,7 @@ The text is worked in pieces of some 256 KiB, which stay in the processor's cach
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,27 +73,50 @@ def characters(text: str) -> NDArray[np.uint8]:
     return np.frombuffer(text.encode("ascii", errors="replace"), dtype=np.uint8)
 
 
-def scan(text: str, leading_number: bool = False) -> Scan:
-    """Find the words of all clean lines; with ``leading_number`` digits may stand before the first letter."""
-    data = characters(text)
-    starts = line_starts(data)
-    most = sum(int(np.count_nonzero(_letters(data[k : k + PIECE]))) for k in range(0, len(data), PIECE))
-    # one allocation for all pieces: memory touched for the first time costs more than the work on it
-    columns = [np.empty(most, dtype=kind) for kind in (np.uint8, np.float64, np.int32, np.int16)]
-    count, clean = np.zeros(len(starts), dtype=np.int32), np.ones(len(starts), dtype=bool)
-    first = found = 0
-    while first < len(starts):
-        begin = int(starts[first])
-        after = int(np.searchsorted(starts, begin + PIECE, "right"))
-        last = max(after - 1, first + 1) if after < len(starts) else len(starts)
-        end = starts[last] if last < len(starts) else len(data)
-        lines = slice(first, last)
-        *words, count[lines], clean[lines] = _scan_piece(data[begin:end], starts[lines] - begin, begin, leading_number)
+def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
+    """Find the words of all clean lines.
+
+    ``leading_number``: digits may stand before the first letter. ``bare``: letters that may begin a line without a
+    number of their own (``L X+1``); such a word has the value 0.
+    """
+    # room for as many words as fit: memory that is never touched costs nothing, what is touched costs more than the work
+    most = len(text) // 2 + 1
+    columns: list[NDArray[Any]] = [np.empty(most, dtype=kind) for kind in (np.uint8, np.float64, np.int32, np.int16)]
+    starts: list[NDArray[np.int32]] = []
+    counts: list[NDArray[np.int64]] = []
+    cleans: list[NDArray[np.bool_]] = []
+    begin = found = 0
+    while begin < len(text) or not starts:
+        end = _end_of_piece(text, begin)
+        data = characters(text[begin:end])
+        local = line_starts(data)
+        if end < len(text):
+            local = local[:-1]  # the line that begins the next piece
+        *words, count, clean = _scan_piece(data, local, begin, leading_number, bare)
         for column, part in zip(columns, words, strict=True):
             column[found : found + len(part)] = part
-        found, first = found + len(words[0]), last
+        starts.append(local + begin)
+        counts.append(count)
+        cleans.append(clean)
+        found, begin = found + len(words[0]), end
     letter, value, offset, length = (column[:found] for column in columns)
-    return Scan(letter, value, offset, length, count, clean, starts)
+    return Scan(
+        letter, value, offset, length,
+        np.concatenate(counts).astype(np.int32), np.concatenate(cleans), np.concatenate(starts).astype(np.int32),
+    )  # fmt: skip
+
+
+def _end_of_piece(text: str, begin: int) -> int:
+    """Where the piece that begins at ``begin`` ends: behind the last line end within reach, or behind the first one."""
+    if begin + PIECE >= len(text):
+        return len(text)
+    last = max(text.rfind("\n", begin, begin + PIECE), text.rfind("\r", begin, begin + PIECE - 1))
+    if last < 0:
+        ends = [k for k in (text.find("\n", begin + PIECE), text.find("\r", begin + PIECE)) if k >= 0]
+        if not ends:
+            return len(text)
+        last = min(ends)
+    return last + 2 if text[last : last + 2] == "\r\n" else last + 1
 
 
 def _letters(data: NDArray[np.uint8]) -> NDArray[np.bool_]:
@@ -100,7 +124,7 @@ def _letters(data: NDArray[np.uint8]) -> NDArray[np.bool_]:
 
 
 def _scan_piece(
-    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, leading_number: bool
+    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, leading_number: bool, bare: str
 ) -> tuple[NDArray, ...]:
     marks = np.flatnonzero(_letters(data) | (data == 10) | (data == 13))
     marked = data[marks]
@@ -120,8 +144,12 @@ def _scan_piece(
     if (marked == 13).any():
         line = np.searchsorted(starts, at, "right") - 1
     else:
-        line = np.cumsum(~is_letter)[is_letter]
+        line = np.cumsum(~is_letter).astype(np.int64)[is_letter]
     # a line is clean when all its words are good and no other character stands before the first of them
+    if bare:
+        alone = (begin_of == end_of) & (np.diff(line, prepend=-1) != 0)
+        alone &= np.isin(data[at] & 0xDF, [ord(letter) for letter in bare])
+        value, good, end_of = np.where(alone, 0.0, value), good | alone, np.where(alone, at + 1, end_of)
     clean = np.ones(len(starts), dtype=bool)
     clean[line[~good]] = False
     ends = np.append(starts[1:], len(data))

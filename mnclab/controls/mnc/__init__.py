@@ -6,7 +6,7 @@ Still to come are polar motion, transformations, the other cycles and probing; t
 
 from __future__ import annotations
 
-from mnclab.controls.mnc import compensation, drilling, language
+from mnclab.controls.mnc import compensation, drilling, language, polar, transforms
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -27,9 +27,8 @@ SETTINGS = (
 
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
-    {f"G{n}": _LATER for n in (4, 9, 10, 11, 12, 13, 15, 16, 25, 26, 36, 37, 38, 39, 50, 51, 61, 64, 94, 95, 147)}
-    | {f"G{n}": _LATER for n in (84, 85, 161, 162, *range(301, 308), 309, 320, 321, 343, 344)}
-    | {f"G{n}": _LATER for n in (201, 202, 203, 204, 208, 241, 247)}  # other names, table 1.2 and 2.5
+    {f"G{n}": _LATER for n in (84, 85, 161, 162, *range(301, 308), 309, 320, 321, 343, 344)}
+    | {f"G{n}": _LATER for n in (201, 202, 203, 204, 208, 241)}  # other names, table 1.2 and 2.5
     | {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
     | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
@@ -41,11 +40,11 @@ CONTROL = Control(
     title="Mechatronics MNC (2015)",
     suffixes=(".mnc",),
     read=reader("mnc"),
-    functions=language.FUNCTIONS | compensation.FUNCTIONS | drilling.FUNCTIONS,
+    functions=language.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | compensation.FUNCTIONS | drilling.FUNCTIONS,
     cycles=drilling.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
-    frames=("datum", "local"),
+    frames=("datum", "local", "rotation", "mirror", "scaling"),
     compensation=Compensation(approach="corner"),
     refused=REFUSED,
     bulk=PlainWords(

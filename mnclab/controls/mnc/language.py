@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.machine.setup import Datum
 
 FUNCTIONS = FunctionTable()
 PLANES = {"G17": "XY", "G18": "ZX", "G19": "YZ"}
@@ -60,13 +61,6 @@ def dimension(m: Machine, words: Words) -> None:
     """Coordinates of the selected system, or distances from the last programmed point."""
 
 
-@FUNCTIONS("G54 G55 G56 G57 G58 G59", "Work offset", group="datum", phase="frames", source="2.7")
-def work_offset(m: Machine, words: Words) -> None:
-    """Rows 1 to 6 of the datum table; cancels G92. No motion."""
-    m.frames.set("local", None)
-    m.select_datum(m.tables.datums.get(int(words.code[1:]) - 53, Datum()))
-
-
 @FUNCTIONS("G53", "Machine coordinates", group="datum", phase="frames", power_on="G53", modal=False, source="2.6")
 def machine_coordinates(m: Machine, words: Words) -> None:
     """In this block only, work offset and G92 count as zero; active at power-on until a work offset is selected."""
@@ -90,20 +84,22 @@ def set_position(m: Machine, words: Words) -> None:
         m.alarm("G92 cannot stand under radius compensation", first_word(words), hint="write G40 first")
     if "machine coordinates" in m.memory:
         m.alarm("G92 and G53 stand in one block: G53 moves, G92 does not", first_word(words), hint="write two blocks")
-    move = [0.0, 0.0, 0.0]
-    register = list(m.programmed)
+    point, local = list(m.programmed), m.frames["local"][:3, 3].copy()
+    inner = m.frames["rotation"] @ m.frames["mirror"] @ m.frames["scaling"]
     for k, (axis, increment) in enumerate(zip(AXES, "UVW", strict=True)):
         if axis in words and increment in words:
             m.alarm(f"{axis} and {increment} stand in one G92 block", words[increment], hint="keep one of them")
         if axis in words:
-            register[k] = m.value(words[axis])
-            move[k] = m.programmed[k] - register[k]
+            point[k] = m.value(words[axis])
         elif increment in words:
-            move[k] = m.value(words[increment])
-            register[k] -= move[k]
-    m.set_frame("local", frames.shift(*(m.frames["local"][:3, 3] + move)))
-    m.programmed = (register[0], register[1], register[2])  # exactly as written
-    m.log("position", m.programmed)
+            point[k] -= m.value(words[increment])
+    # shift = tip - datum - q(p), for the axes written (2.5, MNC-G92-XFORM)
+    shift = np.array(m.tip) - m.frames["datum"][:3, 3] - frames.apply(inner, point)
+    for k, (axis, increment) in enumerate(zip(AXES, "UVW", strict=True)):
+        if axis in words or increment in words:
+            local[k] = shift[k]
+    m.set_frame("local", frames.shift(*local), keep="programmed")
+    m.set_register(point)  # exactly as written
 
 
 FUNCTIONS("F", "Feed", phase="feed", source="4.1")(motion.feed)
@@ -147,3 +143,46 @@ def coolant(m: Machine, words: Words) -> None:
     """Before the motion of the block."""
     m.warn(f"{words.code}: {OUTSIDE}", first_word(words))
     m.coolant()
+
+
+@FUNCTIONS("G4", "Dwell", group="dwell", phase="dwell", takes="P", still=True, modal=False, source="8")
+def dwell(m: Machine, words: Words) -> None:
+    """A pause of P seconds, in steps of 0.01 s."""
+    if "P" not in words:
+        m.alarm("G4 P (dwell) is missing", first_word(words))
+    seconds = m.value(words["P"])
+    if not 0.01 <= seconds <= 99999.999:
+        m.alarm(f"G4 P (dwell) must be at least 0.01 and at most 99999.999 s, got {seconds:g}", words["P"])
+    m.dwell(round(seconds, 2))
+
+
+@FUNCTIONS("G9", "Exact stop in this block", group="dwell", phase="plane", modal=False, source="3.5.3")
+def exact_stop_here(m: Machine, words: Words) -> None:
+    """The motion of this block ends with exact positioning."""
+    m.exact_here = True
+
+
+STOPS = {"G61": "Exact stop between blocks", "G64": "Block blending"}
+
+
+@FUNCTIONS("G61 G64", STOPS, group="blending", phase="plane", power_on="G64", source="3.5")
+def exact_stop(m: Machine, words: Words) -> None:
+    """Whether every motion ends with exact positioning; the path is the same."""
+    m.change("exact", words.code == "G61")
+
+
+FEED = {"G94": "Feed per minute", "G95": "Feed per revolution"}
+
+
+@FUNCTIONS("G94 G95", FEED, group="feed mode", phase="plane", power_on="G94", source="4.2")
+def feed_mode(m: Machine, words: Words) -> None:
+    """The number of F is kept and read anew."""
+    m.change("per_rev", words.code == "G95")
+
+
+SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
+
+
+@FUNCTIONS("G25 G26", SUPERVISION, group="supervision", phase="plane", power_on="G26", source="7")
+def supervision(m: Machine, words: Words) -> None:
+    """Whether the control waits until the spindle has its speed; a matter of time, not of the path."""

@@ -1,0 +1,126 @@
+"""Polar coordinates (MNC 2.8): G16 sets a pole, G10 to G13 move like G0 to G3 to a radius R and an angle A.
+
+R and A are kept from block to block; under G91 they are added to those of the last position. In the plane of G17, G18 or
+G19 the angle counts from the first axis to the second: XY from +X, ZX from +Z, YZ from +Y.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from mnclab.controls.mnc.language import absolute
+from mnclab.controls.word_address.motion import AXES, first_word
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.machine import PLANES, Machine
+
+FUNCTIONS = FunctionTable()
+CARTESIAN = {"G10": "G0", "G11": "G1", "G12": "G2", "G13": "G3"}
+ON_CENTRE = 0.01  # mm within which the pole is the centre of an arc (MNC-G12-K)
+
+
+def polar_of(m: Machine, pole: tuple[float, float]) -> tuple[float, float]:
+    """Radius and angle (degrees, in (-180, 180]) of the programmed point about a pole; angle 0 at the pole."""
+    first, second, _ = PLANES[m.plane]
+    u, v = m.programmed[first] - pole[0], m.programmed[second] - pole[1]
+    return math.hypot(u, v), math.degrees(math.atan2(v, u)) if u or v else 0.0
+
+
+@FUNCTIONS("G16", "Polar coordinates on", group="polar", phase="frames", takes="X Y Z", still=True, source="2.8.5")
+def polar_on(m: Machine, words: Words) -> None:
+    """X Y Z are the pole, absolute; a coordinate not written is 0. No motion."""
+    if m.side:
+        m.alarm("G16 cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    first, second, normal = PLANES[m.plane]
+    if AXES[normal] in words:
+        m.alarm(f"{AXES[normal]} is no coordinate of the plane {m.plane}", words[AXES[normal]])
+    pole = tuple(m.value(words[AXES[k]]) if AXES[k] in words else 0.0 for k in (first, second))
+    m.pole = (pole[0], pole[1])
+    m.memory["polar"] = polar_of(m, m.pole)
+
+
+@FUNCTIONS("G15", "Polar coordinates off", group="polar", phase="frames", power_on="G15", source="2.8.5")
+def polar_off(m: Machine, words: Words) -> None:
+    """The pole is forgotten; a modal polar motion falls back to the Cartesian one (MNC-POLAR-CART)."""
+    m.pole = None
+    m.memory.pop("polar", None)
+    motion = m.modal["motion"]
+    m.set_modal("motion", CARTESIAN.get(motion, motion))
+
+
+def target(m: Machine, words: Words) -> dict[str, Any]:
+    """The end of a polar block as arguments of a verb; an Alarm without a pole."""
+    head = first_word(words)
+    if m.pole is None:
+        m.alarm(f"{m.modal['motion']} needs a pole", head, hint="write G16 first")
+    radius, angle = m.memory["polar"]
+    if "R" in words:
+        radius = m.value(words["R"]) + (0.0 if absolute(m) else radius)
+        if radius < 0:
+            m.alarm(f"R (polar radius) must be at least 0, got {radius:g}", words["R"])
+    if "A" in words:
+        angle = m.value(words["A"]) + (0.0 if absolute(m) else angle)
+    m.memory["polar"] = radius, angle
+    first, second, normal = PLANES[m.plane]
+    turned = math.radians(angle)
+    to = {
+        AXES[first].lower(): m.pole[0] + radius * math.cos(turned),
+        AXES[second].lower(): m.pole[1] + radius * math.sin(turned),
+    }
+    third = AXES[normal]
+    if third in words:
+        value = m.value(words[third])
+        to[third.lower()] = value if absolute(m) else m.programmed[normal] + value
+    for k in (first, second):
+        if AXES[k] in words:
+            m.alarm(f"{m.modal['motion']} does not take {AXES[k]}: its end is given by R and A", words[AXES[k]])
+    return to
+
+
+@FUNCTIONS("G10", "Rapid positioning, polar", group="motion", takes="R A X Y Z", moves=True, source="2.8.5")
+def polar_rapid(m: Machine, words: Words) -> None:
+    """Like G0, to radius R and angle A about the pole."""
+    if has_target(words):
+        m.rapid(**target(m, words))
+
+
+@FUNCTIONS("G11", "Linear interpolation, polar", group="motion", takes="R A X Y Z", moves=True, source="2.8.5")
+def polar_line(m: Machine, words: Words) -> None:
+    """Like G1: a straight line, not a spiral."""
+    if has_target(words):
+        m.line(**target(m, words), word=first_word(words))
+
+
+def has_target(words: Words) -> bool:
+    """Whether a block moves."""
+    return any(address in words for address in ("R", "A", "X", "Y", "Z", "K"))
+
+
+ARCS = {"G12": "Circular interpolation clockwise, polar", "G13": "Circular interpolation counter-clockwise, polar"}
+
+
+@FUNCTIONS("G12 G13", ARCS, group="motion", takes="R A K X Y Z", moves=True, source="2.8.5")
+def polar_arc(m: Machine, words: Words) -> None:
+    """An arc of radius K: about the pole if that fits, else below 180 degrees for K > 0 and above for K < 0.
+
+    Without K a straight line, as G2 and G3 without a centre (MNC-G12-NOK).
+    """
+    if not has_target(words):
+        return
+    begin = polar_of(m, m.pole or (0.0, 0.0))[0]
+    to = target(m, words)
+    if "K" not in words:
+        m.line(**to, word=first_word(words))
+        return
+    assert m.pole is not None
+    word, sense = words["K"], -1 if words.code == "G12" else 1
+    radius, (first, second, normal) = m.value(word), PLANES[m.plane]
+    if radius == 0:
+        m.alarm("K (radius of the arc) must not be 0", word)
+    if AXES[normal] in words:
+        m.warn(f"{AXES[normal]} in an arc of the plane {m.plane} makes a helix, which the manual does not describe", words[AXES[normal]])
+    end = m.memory["polar"][0]
+    if max(abs(begin - abs(radius)), abs(end - abs(radius))) <= ON_CENTRE:
+        m.arc(**to, sense=sense, centre={first: m.pole[0], second: m.pole[1]}, word=word, tolerance=2 * ON_CENTRE)
+    else:
+        m.arc(**to, sense=sense, radius=radius, word=word)

@@ -1,0 +1,230 @@
+"""Reading frames: one word a frame, one frame a line; frames tied by ``*`` become one block.
+
+A frame is ``N<number> <address><integer> <marks>``. Marks stand after the integer in any order, blanks before each;
+the mark of an increment may also stand before it (``Z@-1000``). Their glyphs on the panel are keys; here they are
+
+====  ==============================================================
+``*`` this frame and the next are one command
+``~`` at rapid
+``@`` increment (on some G frames a switch; the source lost its glyph)
+====  ==============================================================
+
+Frames without N count on from the one before, the first is 0; where a number so counted meets another, the later frame
+has it. ``;`` to the end of a line is a comment: an extension of this library, the control has none. Cyrillic letters
+that look like addresses are read as these, with a warning.
+"""
+
+from __future__ import annotations
+
+import re
+from string import ascii_lowercase
+
+from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Program, ProgramBuilder
+from mnclab.text.words import characters, line_starts
+
+COMMENT = ";"
+MARKS = {"*": GROUP_MARK, "~": RAPID_MARK, "@": INCREMENTAL}
+MARKED = "GXZ"  # addresses that ~ and @ may stand on
+ADDRESSES = "GXZFSPMT"
+DIGITS = 9
+BLANKS = " \t\ufeff"
+
+_LOOKS_LATIN = dict(zip("ХМРТСЗхмртсз", "XMPTCZ" * 2, strict=True))
+_FOLD = str.maketrans(_LOOKS_LATIN | {c: c.upper() for c in ascii_lowercase})
+_WORD = re.compile(r"([A-Z])[ \t]*(@?)[ \t]*([+-]?[0-9]+)")
+_CHAMFER = re.compile(r"[+-][ \t]*45(?![0-9])")
+_FRAME = re.compile(rf"\s*(N\s*[0-9]+)?\s*[{ADDRESSES}]\s*@?\s*[+-]?[0-9]+((?:\s*[*~@])*)\s*(;.*)?")
+
+
+def read(text: str, name: str = "program") -> Program:
+    """A program of frames; faults are collected in its alarms."""
+    builder = ProgramBuilder(text, name, "nc-31", line_starts(characters(text)), COMMENT)
+    frames = _Frames(builder)
+    starts = builder.line_starts.tolist()
+    for begin, end in zip(starts, [*starts[1:], len(text)], strict=True):
+        frames.read_line(begin, end)
+    frames.close()
+    return builder.build()
+
+
+def looks_like(text: str) -> bool:
+    """Whether every line is a frame and some carry marks."""
+    lines = [line for line in text.translate(_FOLD).splitlines() if line.partition(COMMENT)[0].strip()]
+    found = [_FRAME.fullmatch(line) for line in lines]
+    return all(found) and any(match and match[2] for match in found)
+
+
+class _Frames:
+    """The frames of a program as they come: their numbers, the group that is open, the faults."""
+
+    def __init__(self, builder: ProgramBuilder) -> None:
+        self.builder, self.text = builder, builder.text.translate(_FOLD)
+        self.group = -1  # offset of the block that the frame belongs to
+        self.group_mark = -1  # where the mark stands that keeps it open, -1 when it is closed
+        self.last = -1  # number of the frame before
+        self.last_written = -1
+        self.blocks: dict[int, int] = {}  # number of a frame -> offset of its block
+        self.shadowed: set[int] = set()  # blocks with a frame whose number another one has
+
+    def read_line(self, begin: int, end: int) -> None:
+        """One line: a frame, a comment, or nothing."""
+        text = self.text
+        comment = text.find(COMMENT, begin, end)
+        stop = end if comment < 0 else comment
+        while stop > begin and text[stop - 1] in BLANKS + "\r\n":
+            stop -= 1
+        at = self.skip(begin, stop)
+        if at >= stop:
+            return
+        self.report_cyrillic(at, stop)
+        inside = self.group_mark >= 0
+        if not inside:
+            self.builder.block(at)
+            self.group = at
+        self.group_mark = self.read_frame(at, stop, inside)
+
+    def close(self) -> None:
+        """The end of the program: no group may be open; numbers become labels."""
+        if self.group_mark >= 0:
+            self.alarm("the program ends inside a group: its last frame has no mark *", self.group_mark)
+        for number, block in self.blocks.items():
+            if block not in self.shadowed:
+                self.builder.labels[str(number)] = block
+
+    def alarm(self, message: str, at: int, length: int = 1, hint: str = "") -> None:
+        self.builder.alarm(message, at, length, hint)
+
+    def skip(self, at: int, stop: int) -> int:
+        while at < stop and self.text[at] in BLANKS:
+            at += 1
+        return at
+
+    def report_cyrillic(self, at: int, stop: int) -> None:
+        for i in range(at, stop):
+            original = self.builder.text[i]
+            if original in _LOOKS_LATIN:
+                latin = self.text[i]
+                self.builder.alarm(f"{original!r} is a Cyrillic letter, read as {latin}", i, severity="warning")
+
+    # --- one frame ---------------------------------------------------------------------------------------------------
+
+    def read_frame(self, at: int, stop: int, inside: bool) -> int:
+        """Number, word and marks; where the mark * stands, or -1. After a fault any * of the line will do."""
+        any_mark = self.text.find("*", at, stop)
+        at = self.read_number(at, stop)
+        match = _WORD.match(self.text, at, stop) if at >= 0 else None
+        if match is None:
+            if at >= 0:
+                self.refuse(at, stop)
+            return any_mark
+        address, digits = match[1], match[3]
+        length = match.end() - at
+        if match.end() < stop and self.text[match.end()] in ".,":
+            self.refuse_point(address, at, match.end(), stop)
+        elif len(digits.lstrip("+-")) > DIGITS:
+            self.alarm(f"{address} has more than {DIGITS} digits", at, length)
+        elif address not in ADDRESSES:
+            what = "N stands twice in this line" if address == "N" else f"{address} is no address of this control"
+            hint = "a line holds one frame" if address == "N" else f"its addresses: N {' '.join(ADDRESSES)}"
+            self.alarm(what, at, length, hint)
+        elif inside and address == "G":
+            message = f"{match[0]} stands inside a group: G is the first frame of its group"
+            self.alarm(message, at, length, "the mark * of the frame before ties it to this one")
+        else:
+            return self.read_marks(match, stop, any_mark)
+        return any_mark
+
+    def read_number(self, at: int, stop: int) -> int:
+        """The number of the frame; where its word begins, -1 after a fault."""
+        begin, number = at, self.last + 1
+        if self.text[at] == "N":
+            at = self.skip(at + 1, stop)
+            digits = at
+            while at < stop and self.text[at] in "0123456789":
+                at += 1
+            if not 0 < at - digits <= DIGITS or self.text[at : at + 1] in tuple(".,"):
+                self.alarm(f"N needs a whole number of at most {DIGITS} digits", begin, at - begin)
+                self.last = number
+                return -1
+            number, length = int(self.text[digits:at]), at - begin
+            if number == self.last_written:
+                self.alarm(f"N{number} numbers two frames", begin, length)
+            elif number < self.last_written:
+                hint = "frames are carried out in the order of their numbers"
+                self.alarm(f"N{number} stands after N{self.last_written}: numbers must rise", begin, length, hint)
+            self.last_written = max(number, self.last_written)
+            at = self.skip(at, stop)
+            if at >= stop:
+                self.alarm(f"frame N{number} has no word", begin, length)
+                at = -1
+        if number in self.blocks:
+            self.shadowed.add(self.blocks.pop(number))
+        self.blocks[number], self.last = self.group, number
+        return at
+
+    def read_marks(self, match: re.Match[str], stop: int, any_mark: int) -> int:
+        """The marks behind the integer, and the word with them; where the mark * stands, or -1."""
+        address, at = match[1], match.end()
+        flag = INCREMENTAL if match[2] else 0
+        places = {"@": match.start(2)} if match[2] else {}
+        while (at := self.skip(at, stop)) < stop:
+            mark = self.text[at]
+            if mark not in MARKS:
+                self.refuse_after(match, at, stop)
+                return any_mark
+            if flag & MARKS[mark]:
+                self.alarm(f"the mark {mark} is written twice on {match[0]}", at)
+                return any_mark
+            flag |= MARKS[mark]
+            places[mark] = at
+            at += 1
+        for mark in "~@":
+            if mark in places and address not in MARKED:
+                where = f"it belongs to {', '.join(MARKED)}"
+                self.alarm(f"the mark {mark} has no meaning on {address}", places[mark], 1, where)
+                return any_mark
+        self.builder.word(address, float(match[3]), match.start(), match.end() - match.start(), flag)
+        return places.get("*", -1)
+
+    # --- faults with their names -------------------------------------------------------------------------------------
+
+    def refuse(self, at: int, stop: int) -> None:
+        """The fault where a word should begin."""
+        c, following = self.text[at], self.text[at + 1 : stop].lstrip(" \t")[:1]
+        if c in MARKS:
+            self.alarm(f"the mark {c} stands before its word", at, hint="write it after the number")
+        elif "A" <= c <= "Z" and following == "O":
+            self.alarm(f"{c} needs a whole number", at, hint="the letter O stands where the digit 0 was meant")
+        elif "A" <= c <= "Z":
+            self.alarm(f"{c} needs a whole number" + (f", found {following!r}" if following else ""), at)
+        elif c in "0123456789":
+            self.alarm(f"{c!r} needs an address letter before it", at)
+        elif "\u0400" <= c <= "\u04ff":
+            self.alarm(f"{self.builder.text[at]!r} is a Cyrillic letter and no address", at)
+        else:
+            self.alarm(f"{c!r} has no meaning here", at)
+
+    def refuse_point(self, address: str, begin: int, at: int, stop: int) -> None:
+        """A decimal point or comma; what the number would be in discretes."""
+        digits = re.compile(r"[+-]?[0-9]{1,9}[.,]?[0-9]{0,9}").search(self.text, begin + 1, stop)
+        hint = "numbers are whole, in discretes"
+        if digits and address in "XZ":
+            whole = float(digits[0].replace(",", ".")) * 100
+            hint = f"{address} counts 0.01 mm: write {address}{whole:.0f} for {digits[0].replace(',', '.')}"
+        self.alarm(f"{address} has a decimal {'point' if self.text[at] == '.' else 'comma'}", at, hint=hint)
+
+    def refuse_after(self, match: re.Match[str], at: int, stop: int) -> None:
+        """The fault behind a word: a second word, a mark of another control, a stray character."""
+        c = self.text[at]
+        second = _WORD.match(self.text, at, stop)
+        if _CHAMFER.match(self.text, at, stop):
+            self.alarm(f"the mark {c}45 (chamfer of 45 degrees) is not built yet", at, 3)
+        elif second and second[1] == "N":
+            self.alarm(f"{second[0]} begins a second frame in this line", at, len(second[0]), "a line holds one frame")
+        elif second:
+            hint = "write it into the next line; the mark * ties frames of one command"
+            self.alarm(f"{second[0]} is a second word: a frame holds one", at, len(second[0]), hint)
+        elif c in "0123456789":
+            self.alarm(f"{c!r} needs an address letter before it", at, hint="a blank inside a number splits it")
+        else:
+            self.refuse(at, stop)

@@ -1,0 +1,209 @@
+"""SL cycles (TNC 620, chapter 8): contours from labels, their data, and clearing them.
+
+A contour is read from its labels when a cycle that machines it is called; ``pockets.rings`` does the geometry.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.machine import INF, Machine
+from mnclab.machining.depths import infeeds
+from mnclab.machining.pockets import rings
+from mnclab.path.outline import outline
+
+CYCLES = CycleTable()
+FEEDS = ("FAUTO", "FU", "FZ")
+WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
+MOST_LABELS = 12
+
+
+@CYCLES("CYCL DEF 14", "Contour geometry", runs="definition", source="TNC 8.2")
+class ContourGeometry(Cycle):
+    """The labels whose contours together are the pocket; no motion."""
+
+    labels: tuple[float, ...] = param(
+        "LBL", "label numbers of the contour", "count", type="integer", several=True, at_least=1, at_most=65535, modal=True,
+        note="1/2/3, up to 12",
+    )  # fmt: skip
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """Numbers that are labels of the program."""
+        if len(self.labels) > MOST_LABELS:
+            yield "labels", f"must be at most {MOST_LABELS} labels, got {len(self.labels)}"
+        for number in self.labels:
+            if f"{number:g}" not in m.flow.program.labels:
+                yield "labels", f"names label {number:g}, which does not exist"
+
+    def moves(self, m: Machine) -> None:
+        """Keep the list until the next one."""
+        m.memory["contour labels"] = tuple(f"{number:g}" for number in self.labels)
+
+
+@CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="TNC 8.4")
+class ContourData(Cycle):
+    """Depths, allowances and the sense of milling for the cycles that follow; no motion."""
+
+    depth: float = param("Q1", "milling depth from the surface to the floor", modal=True, incremental=True, **WIDE)
+    overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True)
+    side_allowance: float = param("Q3", "finishing allowance for side", modal=True, incremental=True, **WIDE)
+    floor_allowance: float = param("Q4", "finishing allowance for floor", modal=True, incremental=True, **WIDE)
+    surface: float = param("Q5", "coordinate of the workpiece surface", modal=True, **WIDE)
+    clearance: float = param("Q6", "set-up clearance", at_least=0, at_most=99999.9999, modal=True, incremental=True)
+    height: float = param("Q7", "clearance height", modal=True, **WIDE)
+    corner: float = param("Q8", "radius at inside corners", at_least=0, at_most=99999.9999, modal=True)
+    sense: float = param(
+        "Q9", "direction of machining", "choice", choices={-1: "up-cut milling", 1: "climb milling"}, modal=True
+    )
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """The floor lies below its allowance, the clearance height above the set-up clearance."""
+        if abs(self.depth) < self.floor_allowance:
+            yield "depth", f"must be at least Q4 = {self.floor_allowance:g} deep, got {self.depth:g}"
+        if self.height < self.surface + self.clearance:
+            yield "height", f"must not lie below Q5 + Q6 = {self.surface + self.clearance:g}, got {self.height:g}"
+
+    def moves(self, m: Machine) -> None:
+        """Keep the data; they are read again when a cycle is called, since Q parameters may have changed."""
+        m.memory["contour data"] = self
+
+
+def contour_data(m: Machine) -> ContourData:
+    """The data of cycle 20 with the Q parameters as they stand now."""
+    data = m.memory["contour data"]
+    assert isinstance(data, ContourData)
+    now: dict[str, Any] = {p.name: m.variables[p.address] for p in data.parameters() if p.address in m.variables}
+    return replace(data, **now)
+
+
+def contour_region(m: Machine) -> Region:
+    """The area that the labels of cycle 14 describe (TNC 8.3).
+
+    The path inside its contour is a pocket: clockwise with RR, counter-clockwise with RL; else an island. A further
+    pocket is united with the area, or intersected with it if the first pocket begins inside it; islands are taken away.
+    """
+    pockets: list[tuple[Contour, tuple[float, float]]] = []
+    islands: list[Contour] = []
+    for label in m.memory["contour labels"]:
+        recording = m.record(label)
+        if not len(recording.path):
+            m.alarm(f"label {label} describes no contour")
+        if (abs(recording.path.end[:, 2] - recording.start[2]) > 1e-9).any():
+            m.alarm(f"the contour of label {label} moves along the tool axis")
+        if not recording.side:
+            m.alarm(f"the contour of label {label} has no RL or RR: pocket or island cannot be told apart")
+        contour = outline(recording.path)
+        if contour.area * recording.side > 0:
+            pockets.append((contour, recording.start[:2]))
+        else:
+            islands.append(contour)
+    if not pockets:
+        m.alarm("the contour has no pocket", hint="a pocket is clockwise with RR or counter-clockwise with RL")
+    try:
+        (first, begin), *others = pockets
+        region = Region.of(first)
+        for contour, _ in others:
+            other = Region.of(contour)
+            region = region.intersection(other) if other.contains([begin])[0] else region.union(other)
+        for contour in islands:
+            region = region.difference(Region.of(contour))
+    except ValueError as error:
+        m.alarm(f"the contour is no area: {error}")
+    return region
+
+
+@CYCLES("CYCL DEF 22", "Rough-out", runs="call", source="TNC 8.6")
+class RoughOut(Cycle):
+    """Clears the contour level by level, each from the inside outward, islands first."""
+
+    infeed: float = param("Q10", "infeed per cut", modal=True, incremental=True, **WIDE)
+    plunge_feed: float = param("Q11", "feed rate for plunging", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True)
+    feed: float = param("Q12", "feed rate for roughing", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True)
+    coarse_tool: float = param(
+        "Q18", "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
+    )
+    swing_feed: float = param("Q19", "feed rate for reciprocation", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True)
+    retract_feed: float | str = param(
+        "Q208", "retraction feed rate", "mm/min", default=INF, default_means="FMAX", at_least=0, also=("FMAX", "FAUTO"), modal=True
+    )
+    factor: float = param("Q401", "feed rate factor at full engagement", "ratio", default=100, at_least=0.0001, at_most=100, modal=True)
+    fine_strategy: float = param(
+        "Q404", "fine roughing strategy", "choice", default=0, modal=True,
+        choices={0: "along the contour at depth", 1: "retract between the areas"},
+    )  # fmt: skip
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """Contour and data are there, the infeed is not zero; what is not built is refused."""
+        if "contour labels" not in m.memory:
+            yield "", "needs a contour: CYCL DEF 14 comes before it"
+        if "contour data" not in m.memory:
+            yield "", "needs its contour data: CYCL DEF 20 comes before it"
+        if self.infeed == 0:
+            yield "infeed", "must not be 0"
+        if self.coarse_tool:
+            yield "coarse_tool", "other than 0, fine roughing, is not built yet"
+        if self.factor != 100:
+            yield "factor", f"other than 100 is not built yet, got {self.factor:g}"
+        if self.swing_feed and not m.tool.plunge_angle:
+            yield "swing_feed", "needs the plunge angle (ANGLE) of the tool in its table"
+        if self.swing_feed and m.tool.plunge_angle != 90:
+            yield "swing_feed", "other than 0, a helical or reciprocating plunge, is not built yet"
+        if m.radius <= 0:
+            yield "", f"needs a tool with a radius, got {m.radius:g}"
+
+    def moves(self, m: Machine) -> None:
+        """Every level, every piece of the area, every ring."""
+        data, region = contour_data(m), contour_region(m)
+        down = -1 if data.depth < 0 else 1
+        floor = data.surface + down * (abs(data.depth) - data.floor_allowance)
+        try:
+            clearing = rings(
+                region, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=data.sense > 0,
+                corner_radius=data.corner,
+            )  # fmt: skip
+        except ValueError as error:
+            m.alarm(f"{self.code}: {error}", hint="take a smaller tool")
+        above, plunge = data.surface + data.clearance, self.swing_feed or self.plunge_feed
+        levels = infeeds(data.surface, floor, abs(self.infeed))
+        for number, level in enumerate(levels, 1):
+            m.label = f"22 level {number} of {len(levels)}"
+            for piece in clearing.pieces:
+                self.enter(m, piece.passes[0], data.height, above, level, plunge)
+                for k, ring in enumerate(piece.passes):
+                    if k and piece.linked[k - 1]:
+                        m.line(*_start(ring), f=self.feed)
+                    elif k:
+                        m.rapid(z=above)
+                        self.enter(m, ring, above, above, level, plunge)
+                    follow(m, ring, self.feed)
+        m.label = "22 retract"
+        feed = self.retract_feed
+        m.line(z=data.height, f=INF if isinstance(feed, str) else feed or self.feed)
+
+    def enter(self, m: Machine, ring: Contour, height: float, above: float, level: float, plunge: float) -> None:
+        """Over the start of a ring, then down to its level."""
+        m.rapid(z=height)
+        m.rapid(*_start(ring))
+        m.rapid(z=above)
+        m.line(z=level, f=plunge)
+
+
+def _start(ring: Contour) -> tuple[float, float]:
+    return float(ring.points[0, 0]), float(ring.points[0, 1])
+
+
+def follow(m: Machine, ring: Contour, feed: float) -> None:
+    """Run along a contour at a feed, arcs as arcs."""
+    sweeps, centres, ends = ring.sweeps, ring.centres, ring.ends
+    for k in range(len(ends)):
+        x, y = float(ends[k, 0]), float(ends[k, 1])
+        if sweeps[k]:
+            centre = {0: float(centres[k, 0]), 1: float(centres[k, 1])}
+            m.arc(x, y, sense=1 if sweeps[k] > 0 else -1, centre=centre, f=feed)
+        else:
+            m.line(x, y, f=feed)

@@ -1,0 +1,88 @@
+"""Presetting cycles (TNC 620, chapter 15): a touch says where the datum lies.
+
+Programmed positions are those of the south pole of the ball; the nominal point of a touch in the plane and its measuring
+height are those of the ball's centre.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.machine import Machine
+from mnclab.machine.setup import Datum
+
+CYCLES = CycleTable()
+WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
+
+
+@CYCLES("TCH PROBE 419", "Preset in one axis", runs="definition", source="TNC 15.13")
+class PresetInOneAxis(Cycle):
+    """One touch along an axis; the touched point gets the coordinate Q333."""
+
+    x: float = param("Q263", "first touch point, reference axis", modal=True, **WIDE)
+    y: float = param("Q264", "first touch point, minor axis", modal=True, **WIDE)
+    z: float = param("Q261", "measuring height of the ball's centre", modal=True, **WIDE)
+    clearance: float = param("Q320", "set-up clearance", at_least=0, at_most=99999.9999, incremental=True, modal=True)
+    height: float = param("Q260", "clearance height", modal=True, **WIDE)
+    axis: float = param(
+        "Q272", "measuring axis", "choice", modal=True,
+        choices={1: "reference axis", 2: "minor axis", 3: "touch probe axis"},
+    )  # fmt: skip
+    direction: float = param("Q267", "traverse direction", "choice", choices={-1: "negative", 1: "positive"}, modal=True)
+    row: float = param("Q305", "number in table", "count", at_least=0, at_most=9999, type="integer", modal=True)
+    datum: float = param("Q333", "new coordinate of the touched point", default=0, modal=True, **WIDE)
+    transfer: float = param(
+        "Q303", "measured value transfer", "choice", modal=True,
+        choices={-1: "do not use", 0: "datum table", 1: "preset table"},
+    )  # fmt: skip
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A probe in the spindle, no transformation, a table to write to."""
+        if not m.tool.number:
+            yield "", "needs a tool call before it, which names the probe and its axis"
+        active = [name for name, _ in m.frames if name != "preset" and name in m.frames]
+        if active:
+            yield "", f"cannot run while a {active[0]} is active"
+        if self.transfer == -1 and self.row:
+            yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
+
+    def moves(self, m: Machine) -> None:
+        """Position, touch, back, up; then the preset."""
+        k, ball, probe = int(self.axis) - 1, m.radius, m.setup.probe
+        away = probe.clearance + self.clearance + ball
+        start = [self.x, self.y, self.z]  # of the ball's centre
+        start[k] -= self.direction * away
+        pole = start[2] - ball
+        if m.programmed[2] < self.height:
+            m.rapid(z=self.height)
+        m.rapid(start[0], start[1])
+        m.rapid(z=pole)
+        goal = [start[0], start[1], pole]
+        goal[k] += self.direction * probe.reach
+        m.label = "419 touch"
+        touched = m.touch(*goal, f=probe.feed, ball=ball, word=None)
+        m.label = "419 back"
+        m.rapid(start[0], start[1], pole)
+        m.rapid(z=self.height)
+        self.preset(m, k, touched.point[k] + self.direction * ball)
+
+    def preset(self, m: Machine, k: int, found: float) -> None:
+        """Write the row, and activate it where it is row 0 or the active one (TNC 15.1)."""
+        active = int(m.memory.get("preset", m.settings["preset"]))
+        before = m.tables.presets.get(active, Datum())
+        if self.transfer == 0 and self.row:
+            row = m.tables.datums.get(int(self.row), Datum())
+            m.write_table("datums", int(self.row), _with(row, k, found - self.datum))
+            return
+        base = before if self.row == 0 or self.row == active else m.tables.presets.get(int(self.row), Datum())
+        m.write_table("presets", int(self.row), _with(base, k, before[k] + found - self.datum))
+        if self.row in (0, active):
+            m.memory["preset"] = int(self.row)
+            m.select_datum(m.tables.presets[int(self.row)], "preset")
+
+
+def _with(datum: Datum, axis: int, value: float) -> Datum:
+    """A row with one of its linear axes replaced."""
+    return datum._replace(**{"xyz"[axis]: value})

@@ -1,0 +1,36 @@
+"""A path in its plane as a contour of lines and arcs, for what works on areas."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour
+from mnclab.path.plane import PlaneView
+from mnclab.path.toolpath import Toolpath
+
+
+def outline(path: Toolpath) -> Contour:
+    """The closed contour along the moves of a path in the plane of its first row; a gap is closed by a straight line.
+
+    Arcs of more than half a turn become two, since a bulge tan(sweep / 4) has no whole circle.
+    """
+    view = PlaneView(path)
+    points: list[tuple[float, float]] = []
+    bulges: list[float] = []
+    for row in np.flatnonzero(view.moves):
+        sweep, start = float(view.sweep[row]) if view.arc[row] else 0.0, view.start[row, :2]
+        parts = 2 if abs(sweep) > np.pi else 1
+        for k in range(parts):
+            points.append(tuple((start if k == 0 else _turned(start, view.centre[row], sweep / 2)).tolist()))
+            bulges.append(float(np.tan(sweep / parts / 4)))
+    end = view.end[np.flatnonzero(view.moves)[-1], :2]
+    if np.hypot(*(end - points[0])) > 1e-6:
+        points.append((float(end[0]), float(end[1])))
+        bulges.append(0.0)
+    return Contour(np.array(points), np.array(bulges))
+
+
+def _turned(point: np.ndarray, centre: np.ndarray, angle: float) -> np.ndarray:
+    c, s = np.cos(angle), np.sin(angle)
+    x, y = point - centre
+    return centre + np.array([c * x - s * y, s * x + c * y])

@@ -1,0 +1,122 @@
+"""A run as a file: pictures (svg, pdf, png), the table of moves (csv), everything for other programs (json).
+
+The suffix says what is written, and exactly one file is. The same run gives the same bytes; text is UTF-8 with plain
+line ends on every system. A new kind of file is a function here and a line in :data:`WRITERS`.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import COLUMNS, Toolpath
+from mnclab.text.alarm import Alarm
+
+
+def save(run: Any, path: str | Path) -> Path:
+    """Write a run to one file and return its path; an Alarm when nothing of this suffix can be written."""
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix in LATER:
+        raise Alarm(f"{suffix} files are not built yet", hint=f"{LATER[suffix]}; today: {', '.join(WRITERS)}")
+    if suffix not in WRITERS:
+        what = f"cannot write {suffix} files" if suffix else f"{path.name!r} has no suffix to say what to write"
+        raise Alarm(what, hint=f"known: {', '.join(WRITERS)}")
+    try:
+        WRITERS[suffix](run, path)
+    except OSError as error:
+        raise Alarm(f"{path} cannot be written: {error.strerror or error}") from None
+    return path
+
+
+def write_figure(run: Any, path: Path) -> None:
+    """The views of the path."""
+    from mnclab.show.plot.path import plot_run
+    from mnclab.show.plot.picture import write
+
+    write(plot_run(run), path)
+
+
+def write_csv(run: Any, path: Path) -> None:
+    """The columns of the toolpath under their names; ``kind`` and ``label`` as text, numbers with all their digits."""
+    columns = {name: _texts(column) for name, column in run.toolpath.columns().items()}
+    columns |= {"kind": _kinds(run.toolpath), "label": _labels(run.toolpath)}
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*columns.values()))
+
+
+def write_json(run: Any, path: Path) -> None:
+    """The run as one JSON object, see :func:`document`."""
+    with path.open("w", encoding="utf-8", newline="\n") as file:
+        json.dump(document(run), file, allow_nan=False)
+        file.write("\n")
+
+
+def document(run: Any) -> dict[str, Any]:
+    """Summary, alarms and columns of a run, ready for JSON: nan (no value) and inf (rapid feed) are null."""
+    path = run.toolpath
+    columns: dict[str, Any] = {name: _plain(column) for name, column in path.columns().items()}
+    columns |= {"kind": _kinds(path), "label": _labels(path)}
+    return {
+        "summary": {
+            name: round(value, 6) if isinstance(value, float) else value for name, value in run.summary().items()
+        },
+        "ok": run.ok,
+        "alarms": [alarm.as_dict() for alarm in run.alarms],
+        "lathe": path.lathe,
+        "origin": path.origin.tolist(),
+        "meaning": {name: meaning for name, (_, _, _, meaning) in COLUMNS.items()},
+        "columns": columns,
+    }
+
+
+def _kinds(path: Toolpath) -> list[str]:
+    """RAPID, LINE, … for every row."""
+    names = {kind.value: kind.name for kind in Kind}
+    return [names[kind] for kind in path.kind.tolist()]
+
+
+def _labels(path: Toolpath) -> list[str]:
+    return [path.labels[label] for label in path.label.tolist()]
+
+
+def _texts(column: NDArray[Any]) -> Iterable[str]:
+    """A column as text; ``repr`` of a float is the shortest text that reads back as the same number."""
+    if column.dtype == np.bool_:
+        column = column.astype(np.uint8)
+    if len(column) and column.strides == (0,):  # a constant
+        return [repr(column[0].item())] * len(column)
+    return map(repr, column.tolist())
+
+
+def _plain(column: NDArray[Any]) -> list[Any]:
+    if column.dtype.kind != "f" or np.isfinite(column).all():
+        return column.tolist()
+    values = column.astype(object)
+    values[~np.isfinite(column)] = None
+    return values.tolist()
+
+
+WRITERS: dict[str, Callable[[Any, Path], None]] = {
+    ".svg": write_figure,
+    ".pdf": write_figure,
+    ".png": write_figure,
+    ".csv": write_csv,
+    ".json": write_json,
+}
+#: What is to come, and what it will need.
+LATER = {
+    ".dxf": "drawings will come with mnclab[dxf]",
+    ".stl": "the cut part will come with the stock simulation",
+    ".gltf": "scenes will come with pyvista",
+    ".html": "the player will come with the animation",
+}

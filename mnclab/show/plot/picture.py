@@ -1,0 +1,250 @@
+"""A figure that shows itself in Jupyter, and how views of equal scale stand in it.
+
+A matplotlib ``Figure`` made without pyplot is not shown by Jupyter (its formatter is registered when pyplot is
+imported; tried in JupyterLab 4.6), so :class:`Picture` says itself how it is shown. Sizes are inches, as in matplotlib.
+"""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Sequence
+from html import escape
+from io import BytesIO
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, MaxNLocator
+from numpy.typing import NDArray
+
+from mnclab.show.plot import colours
+
+SIZE = (7.0, 6.0)  # the greatest width and height, unless something else is said
+LEAST = (4.6, 2.4)
+SMALL = 8.0  # points: ticks, legend, alarm
+GAP, BELOW, RIGHT, ROW = 0.14, 0.52, 0.18, 0.22
+
+
+class View(NamedTuple):
+    """Which coordinates (0 X, 1 Y, 2 Z) go to the right and up; ``diameter`` shows the upward one doubled."""
+
+    right: int
+    up: int
+    diameter: bool = False
+
+    @property
+    def labels(self) -> tuple[str, str]:
+        """What is written at the axes."""
+        return f"{'XYZ'[self.right]}, mm", f"{'XYZ'[self.up]}{' (diameter)' if self.diameter else ''}, mm"
+
+
+class Foot(NamedTuple):
+    """One line of text below the views."""
+
+    text: str
+    colour: str = colours.INK
+
+
+VIEWS = {"XY": View(0, 1), "XZ": View(0, 2), "YZ": View(1, 2), "ZX": View(2, 0, diameter=True)}
+
+
+class Picture(Figure):
+    """A figure with a description in words (``alt``), shown by Jupyter as a picture that has this name."""
+
+    def __init__(self, size: tuple[float, float] = SIZE, alt: str = "picture") -> None:
+        super().__init__(figsize=size, facecolor=colours.PAPER)
+        FigureCanvasAgg(self)
+        self.alt = alt
+
+    def png(self, scale: float = 1.0) -> bytes:
+        """The picture as PNG; at ``scale`` 1 an inch has 100 pixels."""
+        data = BytesIO()
+        self.savefig(data, format="png", dpi=100 * scale)
+        return data.getvalue()
+
+    def html(self, scale: float = 1.0) -> str:
+        """The picture as an HTML image with its name."""
+        return self._image(base64.b64encode(self.png(scale)).decode())
+
+    def _image(self, data: str) -> str:
+        width = round(100 * self.get_figwidth())
+        style = f"width:{width}px;max-width:100%"
+        return f'<img alt="{escape(self.alt)}" style="{style}" src="data:image/png;base64,{data}">'
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
+        data = base64.b64encode(self.png(2.0)).decode()
+        return {"text/html": self._image(data), "image/png": data, "text/plain": repr(self)}
+
+    def __repr__(self) -> str:
+        return f"<Picture: {self.alt}>"
+
+
+def write(figure: Figure, path: Path) -> None:
+    """Save a figure; the same figure gives the same bytes, and text in an SVG stays text."""
+    steady: Any = {"svg.hashsalt": "mnclab", "svg.fonttype": "none"}
+    undated = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(path.suffix.lower())
+    with mpl.rc_context(steady):
+        figure.savefig(path, dpi=200, metadata=undated)
+
+
+# --- layout ----------------------------------------------------------------------------------------------------------
+
+
+def arrange(
+    views: Sequence[View],
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    names: Sequence[str] = (),
+    foot: Foot | None = None,
+    alt: str = "picture",
+    size: tuple[float, float] = SIZE,
+) -> tuple[Picture, list[Axes]]:
+    """A picture of at most ``size`` with one axes a view, all at one scale, around the box ``low`` to ``high`` (3,) mm.
+
+    Two views stand one above the other when they share what goes to the right, or side by side, whichever is larger.
+    ``names`` get room for a legend above, ``foot`` is one line of text below.
+    """
+    low, high = roomy(low, high)
+    span = high - low
+    digits = max(len(f"{value:.{_decimals(side)}f}") for value, side in zip((*low, *high), (*span, *span)))
+    left = 0.42 + 0.068 * digits
+    rights, ups = [float(span[v.right]) for v in views], [float(span[v.up]) for v in views]
+    bottom, (most_wide, most_high) = BELOW + (ROW if foot else 0), size
+
+    def top(width: float) -> float:
+        return 0.12 + ROW * math.ceil(len(names) / columns(names, width))
+
+    n = len(views)
+    free_width, free_height = most_wide - left - RIGHT, most_high - bottom - top(most_wide)
+    stack = min(free_width / max(rights), (free_height - (n - 1) * GAP) / sum(ups))
+    beside = min((most_wide - n * (left + RIGHT)) / sum(rights), free_height / max(ups))
+    stacked = n == 1 or (len({v.right for v in views}) == 1 and stack >= beside)
+    scale = stack if stacked else beside
+
+    # boxes in inches; what a box has beyond its data widens the view
+    if stacked:
+        width = min(most_wide, max(LEAST[0], left + RIGHT + scale * max(rights)))
+        inner = width - left - RIGHT
+        share = max(1.0, (LEAST[1] - bottom - top(width)) / (scale * sum(ups) + (n - 1) * GAP))
+        heights = [scale * up * share for up in ups]
+        floor = [bottom + sum(heights[k + 1 :]) + GAP * (n - 1 - k) for k in range(n)]
+        boxes = [(left, floor[k], inner, heights[k]) for k in range(n)]
+    else:
+        width = min(most_wide, max(LEAST[0], n * (left + RIGHT) + scale * sum(rights)))
+        share = (width - n * (left + RIGHT)) / (scale * sum(rights))
+        widths = [scale * right * share for right in rights]
+        tall = max(scale * max(ups), LEAST[1] - bottom - top(width))
+        begin = [left * (k + 1) + RIGHT * k + sum(widths[:k]) for k in range(n)]
+        boxes = [(begin[k], bottom, widths[k], tall) for k in range(n)]
+    height = bottom + top(width) + (max(box[1] + box[3] for box in boxes) - bottom)
+
+    picture = Picture((width, height), alt)
+    axes = []
+    for k, (view, (x, y, w, h)) in enumerate(zip(views, boxes)):
+        ax = picture.add_axes((x / width, y / height, w / width, h / height))
+        dress(ax, view, (w, h), digits)
+        middle = (low + high) / 2
+        ax.set_xlim(middle[view.right] - w / scale / 2, middle[view.right] + w / scale / 2)
+        ax.set_ylim(middle[view.up] - h / scale / 2, middle[view.up] + h / scale / 2)
+        if stacked and k < n - 1:
+            ax.set_xlabel("")
+            ax.tick_params(labelbottom=False)
+        axes.append(ax)
+    if foot:
+        write_foot(picture, foot)
+    return picture, axes
+
+
+def _decimals(span: float) -> int:
+    """How many decimals ticks need at most on an axis of this length."""
+    return max(0, math.ceil(-math.log10(span / 9)))
+
+
+def roomy(low: NDArray[np.float64], high: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A box with a margin around it, and no side much thinner than the others."""
+    span = high - low
+    largest = max(float(span.max()), 1e-3, 1e-6 * float(np.abs([low, high]).max()))
+    if span.max() == 0:
+        largest = max(largest, 10.0)
+    margin = np.maximum(0.06 * largest, (0.22 * largest - span) / 2)
+    return low - margin, high + margin
+
+
+def dress(ax: Axes, view: View, box: tuple[float, float] | None = None, digits: int = 4) -> None:
+    """Labels, ticks, grid and equal scales of one view; ``box`` is its size in inches, if it is known."""
+    ax.set_aspect("equal", adjustable="datalim")
+    for axis, label, doubled, length, room in (
+        (ax.xaxis, view.labels[0], False, box and box[0], 0.3 + 0.08 * digits),
+        (ax.yaxis, view.labels[1], view.diameter, box and box[1], 0.32),
+    ):
+        axis.set_label_text(label, fontsize=SMALL + 1)
+        axis.set_major_formatter(FuncFormatter(_doubled if doubled else _plain))
+        if length:
+            axis.set_major_locator(MaxNLocator(nbins=max(1, min(9, int(length / room))), steps=[1, 2, 5, 10]))
+    ax.tick_params(labelsize=SMALL)
+    ax.set_axisbelow(True)
+    ax.grid(True, color=colours.FAINT, linewidth=0.6)
+    for side in ax.spines.values():
+        side.set_color("#9a9a9a")
+
+
+def _plain(value: float, _: int | None = None) -> str:
+    return f"{round(value, 9) + 0.0:.10g}".replace("-", "\N{MINUS SIGN}")
+
+
+def _doubled(value: float, _: int | None = None) -> str:
+    return _plain(2 * value)
+
+
+def columns(names: Sequence[str], width: float) -> int:
+    """How many columns of a legend fit into a width; it is filled column by column."""
+    for count in range(len(names), 1, -1):
+        rows, taller = divmod(len(names), count)  # the first columns get what is left over
+        begin = [k * rows + min(k, taller) for k in range(count + 1)]
+        longest = [max(map(len, names[a:b])) for a, b in pairwise(begin)]
+        if sum(0.54 + 0.062 * letters for letters in longest) < width - 0.1:
+            return count
+    return 1
+
+
+def write_legend(picture: Picture, artists: Sequence[Line2D]) -> None:
+    """The names of lines and marks in the room above the views."""
+    if artists:
+        names = [str(artist.get_label()) for artist in artists]
+        picture.legend(
+            handles=list(artists),
+            loc="upper left",
+            bbox_to_anchor=(0.06 / picture.get_figwidth(), 1 - 0.03 / picture.get_figheight()),
+            ncols=columns(names, picture.get_figwidth()),
+            fontsize=SMALL,
+            frameon=False,
+            borderaxespad=0,
+            borderpad=0.2,
+            handlelength=2.6,
+            columnspacing=1.2,
+        )
+
+
+def write_foot(picture: Picture, foot: Foot) -> None:
+    """One line of text below the views, cut where the picture ends."""
+    width, sentence = picture.get_figwidth(), foot.text
+    line = picture.text(
+        0.1 / width,
+        0.07 / picture.get_figheight(),
+        sentence,
+        fontsize=SMALL,
+        color=foot.colour,
+        va="bottom",
+        parse_math=False,
+    )
+    room = (width - 0.2) * picture.dpi
+    while len(sentence) > 1 and (taken := line.get_window_extent().width) > room:
+        sentence = sentence[: min(len(sentence) - 1, int(len(sentence) * room / taken))]
+        line.set_text(sentence.rstrip() + "…")
