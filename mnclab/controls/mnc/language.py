@@ -50,6 +50,8 @@ def arc(m: Machine, words: Words) -> None:
 )  # fmt: skip
 def plane(m: Machine, words: Words) -> None:
     """The plane of arcs and of radius compensation."""
+    if m.pole is not None and PLANES[words.code] != m.plane:
+        m.alarm("the plane cannot change while polar coordinates are on", first_word(words), hint="write G15 first")
     motion.set_plane(m, PLANES[words.code], first_word(words))
 
 
