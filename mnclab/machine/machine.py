@@ -308,7 +308,7 @@ class Machine:
         if shortage > tolerance:
             chord, address = 2 * (float(shortage) + abs(radius)), word.address if word else "R"
             self.alarm(
-                f"{address}{abs(radius):g} is too small for the distance {chord:.4f} mm between start and end: "
+                f"{address}{abs(radius):g} is too small for the distance {chord:.7g} mm between start and end: "
                 f"at least {chord / 2:.4f} is needed",
                 word,
                 hint=f"{shortage:.4g} mm are missing",
@@ -368,6 +368,8 @@ class Machine:
         state = self.state()
         if self.exact_here and not self.exact:
             state = recorder.state(recorder.states[state]._replace(exact=True))
+        if self.per_rev and feed != (self.feed or 0.0) * abs(self.speed):  # a rapid, or a feed in mm/min of a cycle
+            state = recorder.state(recorder.states[state]._replace(per_rev=NAN))
         recorder.rows.append(
             (int(kind), self.source_line, self.step, recorder.label(self.label), *tip, *centre, angle, feed, time, number, state)
         )

@@ -151,7 +151,8 @@ class Planner:
                 if self.owner[i] and self.owner[i] != function.code:
                     if function.moves and self.owner[i] in self.control.cycles:
                         break  # a second one is a repeated address, no motion
-                    if self.owner[i] in self.control.functions and word.address not in self.control.codes:
+                    claimed = function.still and self.owner[i] in self.control.cycles
+                    if claimed or (self.owner[i] in self.control.functions and word.address not in self.control.codes):
                         self.alarm(f"{self.owner[i]} and {function.code} both take {word}", i, "write them in two blocks")
                     continue
                 if not self.owner[i]:

@@ -14,7 +14,9 @@ from mnclab.machine.setup import Setting
 from mnclab.path.compensation import Compensation
 
 #: Order inside a block (adopted reading MNC-BLOCK-ORDER).
-PHASES = ("plane", "feed", "spindle", "tool", "auxiliary", "frames", "compensation", "dwell", "motion", "call", "end")
+PHASES = (
+    "plane", "feed", "spindle", "tool", "auxiliary", "frames", "local", "compensation", "dwell", "motion", "call", "end"
+)  # fmt: skip
 
 SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "1.5"),

@@ -50,6 +50,8 @@ def arc(m: Machine, words: Words) -> None:
 )  # fmt: skip
 def plane(m: Machine, words: Words) -> None:
     """The plane of arcs and of radius compensation."""
+    if m.pole is not None and PLANES[words.code] != m.plane:
+        m.alarm("the plane cannot change while polar coordinates are on", first_word(words), hint="write G15 first")
     motion.set_plane(m, PLANES[words.code], first_word(words))
 
 
@@ -77,11 +79,13 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     m.at_block_end(restore)
 
 
-@FUNCTIONS("G92", "Set position", phase="frames", takes="X Y Z U V W", still=True, modal=False, source="2.5")
+@FUNCTIONS("G92", "Set position", phase="local", takes="X Y Z U V W", still=True, modal=False, source="2.5")
 def set_position(m: Machine, words: Words) -> None:
     """The present point gets the coordinates X Y Z; U V W move the origin by that much. No motion."""
     if m.side:
         m.alarm("G92 cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    if "machine coordinates" in m.memory:
+        m.alarm("G92 and G53 stand in one block: G53 moves, G92 does not", first_word(words), hint="write two blocks")
     point, local = list(m.programmed), m.frames["local"][:3, 3].copy()
     inner = m.frames["rotation"] @ m.frames["mirror"] @ m.frames["scaling"]
     for k, (axis, increment) in enumerate(zip(AXES, "UVW", strict=True)):

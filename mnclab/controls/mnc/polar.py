@@ -53,6 +53,9 @@ def target(m: Machine, words: Words) -> dict[str, Any]:
     head = first_word(words)
     if m.pole is None:
         m.alarm(f"{m.modal['motion']} needs a pole", head, hint="write G16 first")
+    codes = [word for word in m.flow.program[m.flow.current].words if word.address == "G"]
+    if len(codes) > 1:
+        m.alarm(f"{codes[1]} stands with {codes[0]} in a polar block: only one G function is allowed there", codes[1])
     radius, angle = m.memory["polar"]
     if "R" in words:
         radius = m.value(words["R"]) + (0.0 if absolute(m) else radius)
