@@ -3,6 +3,7 @@
 A block is a number, a statement and its words; ``/`` before or after the number marks a block that may be passed over,
 ``;`` begins a comment, ``*`` a structure block. A block goes on over several lines when a line ends in ``~``, in a
 definition whose further lines carry no number, and in the sub-blocks n.0, n.1, … of older cycles, which become one block.
+So ``Q200=5`` without a number below a definition is a parameter of it; with a number it is an assignment.
 
 Plain straight lines (``12 L X+1.5 Y-2 F500 R0``) are found for the whole text at once; every other line is read one by
 one, and a fault ends the reading of its block alone.
