@@ -10,6 +10,7 @@ text for one fault. The pieces grow while all is well and start small again afte
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -135,12 +136,8 @@ class Bulk:
             moves |= written
             points[1:, k] = words[axis] if absolute else np.where(written, words[axis], 0.0)
             points[:, k] = _filled(points[:, k]) if absolute else np.cumsum(points[:, k])
-        if machine._shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed:
-            tips = points  # no copy: memory costs more than the work on it
-        else:
-            turned = machine._shift is None
-            tips = frames.apply(machine._matrix, points) if turned else points + np.array(machine._shift)
-            tips[0] = machine.tip  # not the register turned there and back
+        same = machine._shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed
+        tips = points if same else self.to_machine(points)  # no copy: memory costs more than the work on it
 
         feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
         motion, unknown = self.motions(words["G"], n)
@@ -149,14 +146,22 @@ class Bulk:
         shaped = centred[:, 0] | centred[:, 1] | centred[:, 2] | by_radius
         arc = (np.abs(motion) == 2) & shaped
         moves |= arc
+        go = int(np.argmax(moves)) if moves.any() else n  # until then the tool stands where it stood
+        begin, tips[: go + 1] = tips[0].tolist(), machine.tip
 
         without_feed = moves & (motion != 0) & np.isnan(feed)
         fault = unknown | (words["F"] <= 0) | without_feed | (shaped & (np.abs(motion) != 2))
         run = _Run(points, tips, motion, feed, moves, fault, np.full((n, 3), np.nan), np.zeros(n), arc)
         if arc.any():
             self.arcs(run, words, centred, by_radius)
+            run.fault[go] |= arc[go] and math.dist(begin, machine.tip) > rule.tolerance(machine)
         run.moves = moves & (_differ(tips[1:], tips[:-1]) | arc)
         return run
+
+    def to_machine(self, points: Array) -> Array:
+        """Program coordinates (n, 3) to machine coordinates."""
+        shift = self.machine._shift
+        return frames.apply(self.machine._matrix, points) if shift is None else points + np.array(shift)
 
     def motions(self, g: Array, n: int) -> tuple[NDArray[np.int64], Mask]:
         """The sense of each block's motion, and which G words are none."""
@@ -199,10 +204,9 @@ class Bulk:
         centre = run.points[k].copy()
         centre[:, [first, second]] = c
         if machine._shift is None:
-            run.fault[k] = True  # turned planes are rare: one by one
-        else:
-            centre = centre + np.array(machine._shift)
-        run.centre[k], run.angle[k] = centre, angle
+            run.fault[k] |= not machine.keeps_circles
+            angle = angle * machine.orientation
+        run.centre[k], run.angle[k] = self.to_machine(centre), angle
 
     # --- doing it ----------------------------------------------------------------------------------------------------
 

@@ -200,7 +200,7 @@ class Machine:
         if self._shift is not None:
             dx, dy, dz = self._shift
             return x + dx, y + dy, z + dz
-        u, v, w = frames.apply(self._matrix, (x, y, z)).tolist()
+        u, v, w = (a * x + b * y + c * z + d for a, b, c, d in self._matrix[:3].tolist())  # exactly as frames.apply
         return u, v, w
 
     def to_program(self, point: Iterable[float]) -> tuple[float, float, float]:
@@ -280,6 +280,9 @@ class Machine:
         """
         feed = self.feed_of(f, word)
         point = self.target(x, y, z)
+        if (away := math.dist(self.to_machine(self.programmed), self.tip)) > tolerance:
+            fault = f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move"
+            self.alarm(fault, word, hint="lead the tool to the start of the arc by a straight move first")
         first, second, _ = PLANES[self.plane]
         s = np.array([self.programmed[first], self.programmed[second]])
         e = np.array([point[first], point[second]])
@@ -303,9 +306,9 @@ class Machine:
             self.alarm("a full circle cannot be given by its radius", word, hint="write the centre with I J K")
         c, shortage = centre_from_radius(s, e, radius, sense)
         if shortage > tolerance:
-            chord = 2 * (float(shortage) + abs(radius))
+            chord, address = 2 * (float(shortage) + abs(radius)), word.address if word else "R"
             self.alarm(
-                f"R{abs(radius):g} is too small for the distance {chord:.7g} mm between start and end: "
+                f"{address}{abs(radius):g} is too small for the distance {chord:.4f} mm between start and end: "
                 f"at least {chord / 2:.4f} is needed",
                 word,
                 hint=f"{shortage:.4g} mm are missing",
@@ -325,11 +328,16 @@ class Machine:
 
     def _arc_sense(self, word: Word | None) -> int:
         """The orientation; an alarm when the frame would turn the circle into an ellipse."""
-        first, second, _ = PLANES[self.plane]
-        u, v = self._matrix[:3, first], self._matrix[:3, second]
-        if abs(np.linalg.norm(u) - np.linalg.norm(v)) > 1e-9 or abs(u @ v) > 1e-9:
+        if not self.keeps_circles:
             self.alarm("an arc under unequal scales of its plane would be an ellipse", word)
         return self.orientation
+
+    @property
+    def keeps_circles(self) -> bool:
+        """Whether circles of the plane stay circles on the machine."""
+        first, second, _ = PLANES[self.plane]
+        u, v = self._matrix[:3, first], self._matrix[:3, second]
+        return bool(abs(np.linalg.norm(u) - np.linalg.norm(v)) <= 1e-9 and abs(u @ v) <= 1e-9)
 
     @property
     def orientation(self) -> int:

@@ -59,17 +59,75 @@ def test_runs_with_other_blocks_between(blocks):
     assert_equal(*both(HEAD + "\n".join(blocks) + "\n"))
 
 
-def test_a_long_run_is_really_obeyed_in_bulk():
-    """10 000 blocks of a helix of lines; the flow counts what went one by one."""
-    angle = np.arange(10_000) / 50
-    lines = [f"X{20 * np.cos(a):.3f} Y{20 * np.sin(a):.3f} Z{-a / 10:.4f}" for a in angle]
-    program = mnclab.read(HEAD + "\n".join(lines) + "\n", "mnc")
+TURNED = [
+    *("G39 X3 Y-2 A35", "G51 X4", "G51 Z1", "G37 X2 Y2 Z0.5"),
+    *("G37 X2 Y2\nG51 X1 Y2\nG39 A-110", "G51 Y0\nG39 X5 A20"),
+]
+switch = st.sampled_from(["G39 A20", "G38", "G51 X3", "G50", "G37 X0.5 Y0.5", "G36", "G53 X4", "G55"])
+near = st.tuples(st.sampled_from(["G2", "G3"]), st.sampled_from(["X{} R-30", "Y{} R30", "I{} J4", "X{} Y3 R40"])).flatmap(
+    lambda t: st.integers(1, 20).map(lambda n: f"{t[0]} {t[1].format(n)}")
+)
+
+
+@given(
+    st.sampled_from([*TURNED, "G37 X2 Y3"]), st.booleans(),
+    st.lists(st.one_of(plain, plain, near, arc, full), min_size=2 * SHORTEST, max_size=90),
+)  # fmt: skip
+def test_runs_under_a_transformation(head, incremental, blocks):
+    """Points, arcs and whole circles; the run begins while the tool still stands where it was before the switch."""
+    assert_equal(*both(HEAD + head + ("\nG91\n" if incremental else "\n") + "\n".join(blocks) + "\n"))
+
+
+@given(st.lists(st.one_of(*[plain] * 15, near, switch), min_size=2 * SHORTEST, max_size=120))
+def test_runs_with_switches_between(blocks):
+    assert_equal(*both(HEAD + "\n".join(blocks) + "\n"))
+
+
+@pytest.mark.parametrize("head", [*TURNED, "G18 G39 Z1 X2 A50", "G19 G51 Y3"])
+@pytest.mark.parametrize("first", ["G1 X1 Y2 Z3", "", "F150", "a whole circle"])
+def test_circles_stay_circles_in_bulk(head, first):
+    """Only a few blocks go one by one; an arc that would not begin at the tool stops both tiers alike."""
+    u, v = {"G18": "ZX", "G19": "YZ"}.get(head[:3], "XY")
+    first = first.replace("a whole circle", f"G2 {'IJK'['XYZ'.index(u)]}5")
+    turns = [f"G{2 + k % 2} {u}{k % 7}.5 R20\n{v}{k % 5} R30" for k in range(200)]
+    text = HEAD + f"X20 Y10 Z5\n{head}\n{first}\n" + "\n".join(turns) + "\n"
+    bulk, single = both(text)
+    assert_equal(bulk, single)
+    if first.startswith("G1"):
+        assert bulk.ok and (bulk.toolpath.kind == mnclab.Kind.ARC).sum() > 300
+        assert executed(text) < 60
+    else:
+        assert not bulk.ok and bulk.alarms[-1].message.startswith("the arc begins")
+
+
+@pytest.mark.parametrize("still", ["", "F150\nF160"])
+def test_the_tool_stands_where_it_was_until_a_block_moves(still):
+    """A switch keeps the programmed point: the first block moves although its coordinates are the old ones.
+
+    The machine starts at 0, which G92 calls X3 Y-2.5, so that X0 Y0 lies at -3, 2.5; X10 turned by 90 degrees is Y10.
+    """
+    text = HEAD + "X10\nG39 A90\n" + still + "\nX10\n" + "X10\n" * 40 + "F100\n" * 10
+    bulk, single = both(text)
+    assert_equal(bulk, single)
+    assert (bulk.toolpath.end[-1] + bulk.toolpath.origin).tolist() == pytest.approx([-3, 2.5 + 10, 3])
+    assert bulk.toolpath.kind[-2:].tolist() == [mnclab.Kind.LINE] * 2
+
+
+def executed(text):
+    """How many blocks went one by one."""
     from mnclab.machine.interpreter import Interpreter
     from mnclab.machine.machine import Machine
 
     machine = Machine(mnclab.controls["mnc"], Setup())
-    Interpreter(mnclab.controls["mnc"], machine, program).run()
-    assert machine.flow.executed < 100
+    Interpreter(mnclab.controls["mnc"], machine, mnclab.read(text, "mnc")).run()
+    return machine.flow.executed
+
+
+def test_a_long_run_is_really_obeyed_in_bulk():
+    """10 000 blocks of a helix of lines; the flow counts what went one by one."""
+    angle = np.arange(10_000) / 50
+    lines = [f"X{20 * np.cos(a):.3f} Y{20 * np.sin(a):.3f} Z{-a / 10:.4f}" for a in angle]
+    assert executed(HEAD + "\n".join(lines) + "\n") < 100
     assert_equal(*both(HEAD + "\n".join(lines[:500]) + "\n"))
 
 

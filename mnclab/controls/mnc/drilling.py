@@ -40,6 +40,8 @@ def call_cycle(m: Machine, words: Words) -> None:
         m.alarm(f"M99 stands in the block that prepares {m.cycle.code}", head, hint="write it at the first hole")
     if m.side:
         m.alarm("a cycle cannot run under radius compensation", head, hint="write G40 first")
+    if "machine coordinates" in m.memory:
+        m.alarm("M99 and G53 stand in one block: the cycle counts from the workpiece", head, hint="write two blocks")
     run_cycle(m, m.cycle)
 
 
@@ -91,11 +93,13 @@ class DeepHoleDrilling(Cycle):
         return values
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The bottom lies below level R; no radius compensation."""
+        """The bottom lies below level R; no radius compensation, no machine coordinates."""
         if not self.z < self.r:
             yield "z", f"must lie below level R, got bottom {self.z:g} and R {self.r:g}"
         if m.side:
             yield "", "cannot run under radius compensation"
+        if "machine coordinates" in m.memory:
+            yield "", "and G53 stand in one block: the cycle counts from the workpiece"
 
     def moves(self, m: Machine) -> None:
         """Position, level R, pecks, dwell, and up."""

@@ -152,7 +152,9 @@ class _Lines:
             self.check_order(statement, begin, cursor.at - begin)
             if statement.part > 0:
                 raise Fault(
-                    f"{statement.keyword}.{statement.part} stands without {statement.keyword}.0 before it", begin, cursor.at - begin
+                    f"{statement.keyword}.{statement.part} stands without {statement.keyword}.0 before it",
+                    begin,
+                    cursor.at - begin,
                 )
         statement.read(cursor)
         self.close(cursor)

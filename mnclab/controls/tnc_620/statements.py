@@ -216,7 +216,7 @@ def cycle_parameters(cursor: Cursor) -> None:
             value = cursor.value()
         if value is None:
             raise Fault(f"{name} needs a number", begin, found.end() - begin)
-        builder.word(name, value, begin, cursor.at - begin)  # type: ignore[arg-type]
+        builder.word(name, value, begin, cursor.at - begin)
 
 
 def _addresses(cursor: Cursor) -> list[str]:
@@ -351,5 +351,3 @@ def _cycle(cursor: Cursor, found: re.Match[str]) -> Statement:
         raise Fault(f"{word} needs the number of a cycle", cursor.at)
     part = -1 if found.group(3) is None else int(found.group(3))
     return definition(f"{word} {int(found.group(2))}", part)
-
-

@@ -110,7 +110,12 @@ def test_positive_depth_where_it_is_allowed(inside, drilled) -> None:
 
 def test_definition_alone_moves_nothing(tnc) -> None:
     """The definition of 3.1, with a positive depth and a decimal comma: legal until it is called."""
-    text = DEFINITION.replace("Q201=-15", "Q201=3").replace("Q211=0", "Q211=0,25").replace("Q204=20", "Q204=50").replace("250", "150")
+    text = (
+        DEFINITION.replace("Q201=-15", "Q201=3")
+        .replace("Q211=0", "Q211=0,25")
+        .replace("Q204=20", "Q204=50")
+        .replace("250", "150")
+    )
     run = tnc(f"7 {text}Q395=0\n")
     assert run.ok and len(run.toolpath) == 0
     expected = {"Q200": 2, "Q201": 3, "Q206": 150, "Q202": 5, "Q210": 0, "Q203": 0, "Q204": 50, "Q211": 0.25, "Q395": 0}

@@ -52,7 +52,10 @@ SPELLINGS = {
     "decimal comma": PROGRAM.replace("2.5", "2,5").replace("0.25", "0,25"),
     "plus signs left out": PROGRAM.replace("+", ""),
     "lines that end in ~": with_tilde(),
-    "blanks, tabs, comments, O for 0": PROGRAM.replace(" ", "  ").replace("  Y-", "\tY - ").replace(" R0", " RO").replace("\n", " ; x\n"),
+    "blanks, tabs, comments, O for 0": PROGRAM.replace(" ", "  ")
+    .replace("  Y-", "\tY - ")
+    .replace(" R0", " RO")
+    .replace("\n", " ; x\n"),
 }
 
 
@@ -99,7 +102,9 @@ def test_plain_lines_and_others_are_read_alike() -> None:
     assert (one[0].number, one[0].keyword, one[0].span) == ("7", "L", other[0].span)
 
 
-@pytest.mark.parametrize("line", ["L +5", "L  ", "L", "LX+5", "L X+1 X+2", "L X", "L X+1E5", "L R5", "L X+99999999999", "L IX+5", "X+5"])
+@pytest.mark.parametrize(
+    "line", ["L +5", "L  ", "L", "LX+5", "L X+1 X+2", "L X", "L X+1E5", "L R5", "L X+99999999999", "L IX+5", "X+5"]
+)
 def test_what_is_no_plain_line(line: str) -> None:
     assert not mnc.read(line + "\n", "tnc-620").plain.any()
 

@@ -23,9 +23,15 @@ FAR = 99999.9999  # mm
 class DatumShift(Cycle):
     """Moves the datum; IX counts from the shift that was valid before, an axis that is not named keeps its shift."""
 
-    x: float | None = param("X", "datum shift along X", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True)
-    y: float | None = param("Y", "datum shift along Y", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True)
-    z: float | None = param("Z", "datum shift along Z", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True)
+    x: float | None = param(
+        "X", "datum shift along X", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True
+    )
+    y: float | None = param(
+        "Y", "datum shift along Y", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True
+    )
+    z: float | None = param(
+        "Z", "datum shift along Z", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True
+    )
 
     @classmethod
     def prepare(cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]) -> dict[str, Any]:
@@ -56,7 +62,9 @@ def shift(m: Machine) -> tuple[float, float, float]:
 class Rotation(Cycle):
     """Turns the coordinates of the working plane about the active datum; cancels a radius compensation."""
 
-    angle: float = param("ROT", "rotation angle", "deg", at_least=-360, at_most=360, modal=True, note="IROT adds to the active angle")
+    angle: float = param(
+        "ROT", "rotation angle", "deg", at_least=-360, at_most=360, modal=True, note="IROT adds to the active angle"
+    )
 
     @classmethod
     def prepare(cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]) -> dict[str, Any]:

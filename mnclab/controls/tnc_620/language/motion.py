@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import INF, Machine
 from mnclab.path.corners import Rounding
@@ -15,9 +17,9 @@ NAMES = {0: "R0", 1: "RL", -1: "RR"}
 TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue: C)
 
 
-def coordinates(m: Machine, words: Words, axes: str = AXES) -> dict[str, float]:
+def coordinates(m: Machine, words: Words, axes: str = AXES) -> dict[str, Any]:
     """Targets of the axes that are written, as arguments of a verb (``x=``, …); IX counts from the register."""
-    found = {}
+    found: dict[str, Any] = {}
     for k, axis in enumerate(AXES):
         if axis in axes and axis in words:
             value = m.value(words[axis])

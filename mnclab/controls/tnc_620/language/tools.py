@@ -16,7 +16,9 @@ FUNCTIONS = FunctionTable()
 def tool_call(m: Machine, words: Words) -> None:
     """Puts the tool into the spindle with its deltas; without a tool only speed, feed and deltas change."""
     if m.side:
-        m.alarm("TOOL CALL cannot change the tool under radius compensation", words.words[0] if len(words) else None, "write R0 first")
+        m.alarm(
+            "TOOL CALL cannot change the tool under radius compensation", words.words[0] if len(words) else None, "write R0 first"
+        )
     if "axis" in words and words["axis"].value != "Z":
         m.alarm(f"TOOL CALL: the tool axis {words['axis'].value} is not built yet, Z is", words["axis"])
     if "DR2" in words:
