@@ -78,7 +78,8 @@ class Planner:
         self.word_functions()
         if self.control.one_command and self.actions:
             self.refuse_strangers(self.actions[0])
-        self.modal_motion([f for f, _ in functions])
+        if not (cycle and self.control.cycles[cycle[0]].runs == "call"):  # preparing a cycle moves nothing
+            self.modal_motion([f for f, _ in functions])
         self.refuse_leftovers([f for f, _ in functions])
         self.refuse_repeated()
         order = sorted(self.actions, key=lambda action: action.phase)

@@ -40,7 +40,15 @@ def call_cycle(m: Machine, words: Words) -> None:
         m.alarm(f"M99 stands in the block that prepares {m.cycle.code}", head, hint="write it at the first hole")
     if m.side:
         m.alarm("a cycle cannot run under radius compensation", head, hint="write G40 first")
+    if "machine coordinates" in m.memory:
+        m.alarm("M99 and G53 stand in one block: the cycle counts from the workpiece", head, hint="write two blocks")
     run_cycle(m, m.cycle)
+
+
+def initial_level(m: Machine, kept: dict[str, Any]) -> float:
+    """Z of the program where the tool stood when the cycle was first called."""
+    x, y, _ = m.tip
+    return m.to_program((x, y, kept["initial"]))[2]
 
 
 @CYCLES("G83", "Deep-hole drilling", runs="position", source="MNC 9.1", triggers="X Y U V Z W R")
@@ -65,7 +73,8 @@ class DeepHoleDrilling(Cycle):
             if one in given and other in given:
                 m.alarm(f"G83 {given[one].address} and {given[other].address} stand in one block", given[other])
         absolute = m.modal["dimension"] == "G90"
-        initial = kept.setdefault("initial", m.programmed[2])
+        kept.setdefault("initial", m.tip[2])  # of the machine: a new datum does not move it
+        initial = initial_level(m, kept)
         for axis, (one, other) in enumerate((("x", "u"), ("y", "v"))):
             if other in given:
                 values[one] = m.programmed[axis] + values[other]
@@ -91,11 +100,13 @@ class DeepHoleDrilling(Cycle):
         return values
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The bottom lies below level R; no radius compensation."""
+        """The bottom lies below level R; no radius compensation, no machine coordinates."""
         if not self.z < self.r:
             yield "z", f"must lie below level R, got bottom {self.z:g} and R {self.r:g}"
         if m.side:
             yield "", "cannot run under radius compensation"
+        if "machine coordinates" in m.memory:
+            yield "", "and G53 stand in one block: the cycle counts from the workpiece"
 
     def moves(self, m: Machine) -> None:
         """Position, level R, pecks, dwell, and up."""
@@ -113,7 +124,7 @@ class DeepHoleDrilling(Cycle):
         m.label = "G83 retract"
         m.rapid(z=self.r)
         if m.modal["return"] == "G98":
-            m.rapid(z=m.position_cycle.extra["initial"] if m.position_cycle else None)
+            m.rapid(z=initial_level(m, m.position_cycle.extra) if m.position_cycle else None)
 
 
 @CYCLES("G300, G200", "Drilling", runs="call", source="MNC 9.4")
