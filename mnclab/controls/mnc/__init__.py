@@ -1,7 +1,8 @@
 """The MNC milling control (Mechatronics, 2015): the namesake.
 
-``language`` holds motion, offsets and words, ``compensation`` the radius functions, ``drilling`` the cycles of chapter 9.
-Still to come are polar motion, transformations, the other cycles and probing; their codes are refused by name.
+``language`` holds motion, offsets and words, ``polar`` polar motion, ``transforms`` scaling, mirror image, rotation and
+datums, ``compensation`` the radius functions, ``drilling`` the cycles of chapter 9. Still to come are the other cycles and
+probing; their codes are refused by name.
 """
 
 from __future__ import annotations
@@ -43,6 +44,7 @@ CONTROL = Control(
     frames=("datum", "local", "rotation", "mirror", "scaling"),
     compensation=Compensation(approach="corner"),
     refused=REFUSED,
+    together=language.together,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=lambda m: m.modal.get("motion") in ("G0", "G1", "G2", "G3"),

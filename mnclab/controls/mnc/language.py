@@ -9,10 +9,22 @@ from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
+from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
 PLANES = {"G17": "XY", "G18": "ZX", "G19": "YZ"}
 OUTSIDE = "the manual does not list it; it is taken in its ISO meaning"
+
+
+def together(m: Machine, words: list[Word]) -> None:
+    """Alarms for G functions that may not stand in one block (1.6, 2.6, 2.8.5)."""
+    codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
+    if m.pole is not None and len(codes) > 1:
+        message = "more than one G function stands in a block while polar coordinates are active"
+        m.alarm(message, [*codes.values()][1], hint="write two blocks, or G15 first")
+    for code, word in codes.items():
+        if "G53" in codes and code in m.control.functions and m.control.functions[code].still:
+            m.alarm(f"{code} stands in a block without motion, G53 in one with motion", word, hint="write two blocks")
 
 
 def absolute(m: Machine) -> bool:
@@ -49,7 +61,9 @@ def arc(m: Machine, words: Words) -> None:
     group="plane", phase="plane", power_on="G17", source="2.4",
 )  # fmt: skip
 def plane(m: Machine, words: Words) -> None:
-    """The plane of arcs and of radius compensation."""
+    """The plane of arcs, radius compensation, polar coordinates and rotation."""
+    if m.pole is not None and PLANES[words.code] != m.plane:
+        m.alarm("the plane cannot change while polar coordinates are active", first_word(words), hint="write G15 first")
     motion.set_plane(m, PLANES[words.code], first_word(words))
 
 
