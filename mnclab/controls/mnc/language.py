@@ -98,6 +98,8 @@ def set_position(m: Machine, words: Words) -> None:
         m.alarm("G92 cannot stand under radius compensation", first_word(words), hint="write G40 first")
     point, local = list(m.programmed), m.frames["local"][:3, 3].copy()
     inner = m.frames["rotation"] @ m.frames["mirror"] @ m.frames["scaling"]
+    if not np.array_equal(inner, frames.IDENTITY):
+        m.warn("G92 under scaling, mirror image or rotation: its values are programmed coordinates", first_word(words))
     for k, (axis, increment) in enumerate(zip(AXES, "UVW", strict=True)):
         if axis in words and increment in words:
             m.alarm(f"{axis} and {increment} stand in one G92 block", words[increment], hint="keep one of them")
