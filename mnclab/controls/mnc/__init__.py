@@ -15,7 +15,10 @@ from mnclab.machine.setup import Setting
 from mnclab.path.compensation import Compensation
 
 #: Order inside a block (adopted reading MNC-BLOCK-ORDER).
-PHASES = ("plane", "feed", "spindle", "tool", "auxiliary", "frames", "compensation", "dwell", "motion", "call", "end")
+PHASES = (
+    *("plane", "feed", "spindle", "tool", "corrector", "auxiliary", "frames", "compensation", "dwell", "motion"),
+    *("call", "end"),
+)
 
 SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "1.5"),
@@ -29,7 +32,6 @@ REFUSED = (
     {f"G{n}": _LATER for n in (84, 85, 161, 162, *range(301, 308), 309, 320, 321, 343, 344)}
     | {f"G{n}": _LATER for n in (201, 202, 203, 204, 208, 241)}  # other names, table 1.2 and 2.5
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
-    | {"D": "the tool corrector is not built yet"}
 )
 
 CONTROL = Control(

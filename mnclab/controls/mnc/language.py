@@ -119,6 +119,7 @@ def set_position(m: Machine, words: Words) -> None:
 FUNCTIONS("F", "Feed", phase="feed", source="4.1")(motion.feed)
 FUNCTIONS("S", "Spindle speed", phase="spindle", source="1.2")(motion.spindle_speed)
 FUNCTIONS("T", "Tool call", phase="tool", source="5.1")(motion.tool)
+FUNCTIONS("D", "Tool corrector", phase="corrector", source="1.2")(motion.corrector)
 
 SPINDLE = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise", "M5": "Spindle stop"}
 
