@@ -45,6 +45,7 @@ __all__ = [
     "controls",
     "form",
     "help",
+    "panel",
     "read",
     "run",
 ]
@@ -55,3 +56,10 @@ def form(code: str, control: str) -> object:
     from mnclab.show.forms import form as build
 
     return build(code, control)
+
+
+def panel(template: str, control: str | None = None, /, **numbers: object) -> object:
+    """Number boxes for the places {name} of a program, with a live picture (needs ipywidgets and matplotlib)."""
+    from mnclab.show.forms import panel as build
+
+    return build(template, control, **numbers)  # type: ignore[arg-type]

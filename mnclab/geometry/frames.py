@@ -52,8 +52,13 @@ def around(matrix: Matrix, point: ArrayLike) -> Matrix:
 
 
 def apply(matrix: Matrix, points: ArrayLike) -> NDArray[np.float64]:
-    """Points (..., 3) in outer coordinates."""
-    return np.asarray(points, dtype=np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    """Points (..., 3) in outer coordinates.
+
+    Summed term by term and not as a matrix product, whose last digit depends on how many points there are: one point
+    and a million give the same figures.
+    """
+    x, y, z = np.moveaxis(np.asarray(points, dtype=np.float64), -1, 0)
+    return np.stack([a * x + b * y + c * z + d for a, b, c, d in matrix[:3].tolist()], axis=-1)
 
 
 def inverse(matrix: Matrix) -> Matrix:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry import frames
 from mnclab.geometry.arcs import centre_from_radius, sweep
 from mnclab.path.kinds import Kind
 from mnclab.text.program import Program
@@ -145,7 +146,10 @@ class Bulk:
         arc = (np.abs(motion) == 2) & shaped
         moves |= arc
         go = int(np.argmax(moves)) if moves.any() else n  # until then the tool stands where it stood
-        begin, tips[: go + 1] = tips[0].tolist(), machine.tip
+        begin = tuple(tips[0].tolist())
+        if begin != machine.tip:  # a transformation was switched, or the register was turned there and back
+            tips = tips.copy() if tips is points else tips
+            tips[: go + 1] = machine.tip
 
         without_feed = moves & (motion != 0) & np.isnan(feed)
         fault = unknown | (words["F"] <= 0) | without_feed | (shaped & (np.abs(motion) != 2))
@@ -157,12 +161,11 @@ class Bulk:
         return run
 
     def to_machine(self, points: Array) -> Array:
-        """Program coordinates (n, 3) to machine coordinates, a new table."""
+        """Program coordinates (n, 3) to machine coordinates; without any shift no copy, for memory costs time."""
         machine = self.machine
-        if machine._shift is not None:
-            return points + np.array(machine._shift) if any(machine._shift) else points.copy()
-        x, y, z = points.T
-        return np.stack([a * x + b * y + c * z + d for a, b, c, d in machine._matrix[:3].tolist()], axis=1)
+        if machine._shift is None:
+            return frames.apply(machine._matrix, points)
+        return points + np.array(machine._shift) if any(machine._shift) else points
 
     def motions(self, g: Array, n: int) -> tuple[NDArray[np.int64], Mask]:
         """The sense of each block's motion, and which G words are none."""

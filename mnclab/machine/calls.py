@@ -36,7 +36,7 @@ class Flow:
         self.programs = [program]
         self.obey, self.bulk = obey, bulk
         self.machine: Machine
-        self.depth, self.executed = 0, 0
+        self.depth, self.calls, self.executed = 0, 0, 0  # calls: subprograms alone, without repeats
         self.returning = False
         self.current = 0  # block being obeyed
         self._jump: int | None = None
@@ -72,7 +72,9 @@ class Flow:
         """Run from a label to the end of its subprogram."""
         self.enter(span)
         here = self.current
+        self.calls += 1
         self.section(self.index_of(label, span) + 1, len(self.program))
+        self.calls -= 1
         self.depth, self.returning, self.current = self.depth - 1, False, here
 
     def repeat(self, first: int, stop: int, times: int, span: Span | None = None) -> None:
@@ -93,7 +95,7 @@ class Flow:
 
     def leave(self) -> None:
         """End the running subprogram; nothing in the main program."""
-        self.returning = self.depth > 0
+        self.returning = self.calls > 0
 
     def jump(self, label: str, span: Span | None = None) -> None:
         """Go on at a label."""

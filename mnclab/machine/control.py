@@ -81,11 +81,14 @@ class FunctionTable(dict[str, Function]):
         ends_cycle: bool = False,
         source: str = "",
     ) -> Callable[[AnyObey], AnyObey]:
-        """Register one function for several codes (separated by commas or blanks); ``title`` may differ by code."""
+        """Register one function for several codes; ``title`` may differ by code.
+
+        Codes are separated by blanks, or by commas where one holds a blank: ``"CALL LBL,"`` is one code.
+        """
 
         def register(obey: AnyObey) -> AnyObey:
             split = codes.split(",") if "," in codes else codes.split()
-            for code in (part.strip() for part in split):
+            for code in filter(None, (part.strip() for part in split)):
                 self[code] = Function(
                     code=code,
                     title=title if isinstance(title, str) else title[code],
@@ -117,11 +120,13 @@ class FunctionTable(dict[str, Function]):
 class Control:
     """A control as one value; nothing is inherited, two controls that agree share a function.
 
-    ``codes`` are the addresses whose value makes a code (G and M); ``motion`` is the group whose modal function runs when
+    ``codes`` are the addresses whose value makes a code (G and M); ``word_functions``: an address may be a function by itself
+    (F, S, T), which a control of keywords does not want, where C is a statement and an axis; ``motion`` is the group whose modal function runs when
     axis words are left over; ``storage`` says where cycle parameters live until the call ("instance" or "variables").
     ``together`` raises alarms for words that may not stand in one block; it is asked once for each kind of block.
     ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
+    ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself.
     """
 
     name: str
@@ -133,6 +138,7 @@ class Control:
     suffixes: tuple[str, ...] = ()
     axes: str = "XYZ"
     codes: tuple[str, ...] = ("G", "M")
+    word_functions: bool = True
     motion: str = "motion"
     settings: tuple[Setting, ...] = ()
     storage: str = "instance"
@@ -145,6 +151,7 @@ class Control:
     together: Callable[[Machine, list[Word]], None] | None = None
     bulk: Any = None
     one_command: bool = False
+    named: Callable[[Machine, Word], float | str] | None = None
     lathe: bool = False
 
     def power_on(self) -> dict[str, str]:

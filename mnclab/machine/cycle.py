@@ -49,6 +49,7 @@ class Parameter:
     predef: bool = False
     note: str = ""
     mark: int = 0
+    several: bool = False
 
     @property
     def allowed(self) -> str:
@@ -56,7 +57,7 @@ class Parameter:
         if self.choices:
             return "one of " + ", ".join(f"{choice:g}" for choice in self.choices)
         parts = [
-            f"{words} {limit:g}"
+            f"{words} {limit:.10g}"
             for words, limit in (
                 ("greater than", self.above),
                 ("at least", self.at_least),
@@ -101,17 +102,18 @@ def param(
     predef: bool = False,
     note: str = "",
     mark: int = 0,
+    several: bool = False,
 ) -> Any:
     """Declare one parameter of a cycle in one line of its class.
 
     No ``default`` means required, unless ``instead`` of it another is given (a parameter by its name); ``default_means`` says in words what a
-    default of None stands for. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …).
+    default of None stands for. ``several``: the address may be repeated, and the value is a tuple. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …).
     """
     first, *others = (address,) if isinstance(address, str) else address
     required = default is MISSING
     declared = Parameter(
         first, meaning, unit, "", tuple(others), required, None if required else default, default_means, choices, above,
-        at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note, mark,
+        at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note, mark, several,
     )  # fmt: skip
     return field(default=declared.default, kw_only=True, metadata={"parameter": declared})
 
@@ -202,14 +204,20 @@ def bind(definition: Definition, m: Machine) -> Cycle:
             raise fault(definition, parameter, f"is missing{neither}")
         if value is None:
             value = parameter.default
-        elif isinstance(value, int | float) and parameter.refuses(value):
-            raise fault(definition, parameter, f"must be {parameter.allowed}, got {value:g}")
+        check_value(definition, parameter, value)
         values[parameter.name] = value
     bound = cycle(**values)
     for name, sentence in bound.check(m):
         named = next((p for p in cycle.parameters() if p.name == name), None)
         raise fault(definition, named, sentence)
     return bound
+
+
+def check_value(definition: Definition, parameter: Parameter, value: Any) -> None:
+    """An Alarm when a number, or one of several, is outside what its parameter allows."""
+    for number in value if isinstance(value, tuple) else (value,):
+        if isinstance(number, int | float) and parameter.refuses(number):
+            raise fault(definition, parameter, f"must be {parameter.allowed}, got {number:g}")
 
 
 def fault(definition: Definition, parameter: Parameter | None, sentence: str) -> Alarm:

@@ -7,37 +7,21 @@ is then a walk through its plan, in the order of the control's phases.
 
 from __future__ import annotations
 
-from difflib import get_close_matches
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from mnclab.machine.bulk import Bulk
 from mnclab.machine.calls import Flow
 from mnclab.machine.control import Control, Function, Words
-from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, fault
+from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault
 from mnclab.machine.machine import Machine
+from mnclab.machine.planner import Plan, Planner
 from mnclab.text.alarm import ALARM, Span
-from mnclab.text.program import NONE, NUMBER, Program, Word, digits
+from mnclab.text.expression import Expression
+from mnclab.text.program import NONE, NUMBER, Program, Word
 
 WINDOW = 4096  # blocks whose words are held as lists
-
-
-class Action(NamedTuple):
-    """One part of a plan: a function or a cycle, the word that called it (or -1), and the words it takes."""
-
-    phase: int
-    what: Function | type[Cycle]
-    code: str
-    head: int
-    takes: tuple[int, ...]
-
-
-class Plan(NamedTuple):
-    """What to do with a kind of block, in order, and remarks about it."""
-
-    actions: tuple[Action, ...]
-    remarks: tuple[tuple[int, str, str], ...]  # word, sentence, hint
 
 
 class Stop(Exception):
@@ -154,7 +138,7 @@ class Interpreter:
         key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None)
         plan = self.plans.get(key)
         if plan is None:
-            plan = self.plans[key] = _Planner(self.control, machine, self.phases, keyword, words, active).plan()
+            plan = self.plans[key] = Planner(self.control, machine, self.phases, keyword, words, active).plan()
         return plan
 
     # --- cycles --------------------------------------------------------------------------------------------------------
@@ -174,6 +158,8 @@ class Interpreter:
         else:
             definition = Definition(cycle, code, values, words, head)
         definition.values = cycle.prepare(values, words, machine, definition.extra)
+        if self.control.storage == "variables":
+            store(machine, definition)
         if cycle.runs == "definition":
             self.execute(definition)
             return
@@ -196,36 +182,59 @@ class Interpreter:
         values: dict[str, Any] = {}
         words: dict[str, Word] = {}
         for word in given:
-            parameter = next(p for p in cycle.parameters() if word.address in (p.address, *p.aliases) and p.name not in words)
-            words[parameter.name] = word
-            values[parameter.name] = self.value_of(parameter, code, word)
+            fitting = (p for p in cycle.parameters() if word.address in (p.address, *p.aliases))
+            parameter = next(p for p in fitting if p.several or p.name not in words)
+            value = self.value_of(parameter, code, word)
+            words.setdefault(parameter.name, word)
+            values[parameter.name] = (*values.get(parameter.name, ()), value) if parameter.several else value
         return values, words
 
     def value_of(self, parameter: Parameter, code: str, word: Word) -> Any:
         """The number of a parameter; a word in place of a number only where it is allowed."""
         if isinstance(word.value, str) and parameter.type != "text":
-            if word.value not in parameter.also:
+            if word.value.rstrip("0123456789.") not in parameter.also:
                 allowed = f"a number{', ' + ', '.join(parameter.also) if parameter.also else ''}"
                 self.machine.alarm(f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word)
-            return word.value
+            return self.control.named(self.machine, word) if self.control.named else word.value
         if word.value is None or isinstance(word.value, str):
             return word.value
         value = self.machine.value(word)
-        if self.control.storage == "variables":
-            self.machine.variables[parameter.address] = value
-        return value
+        if self.control.storage == "variables" and is_variable(parameter):
+            self.machine.variables[parameter.address] = value  # exactly as written
+        return value * unit_of(self.machine, parameter)
 
     def execute(self, definition: Definition) -> None:
         """Bind a definition and make its moves."""
         run_cycle(self.machine, definition)
 
 
+def unit_of(machine: Machine, parameter: Parameter) -> float:
+    """What a number of a parameter that lives in a variable is multiplied with: 25.4 for lengths and feeds in inches."""
+    return machine.variable_unit if is_variable(parameter) and parameter.unit in ("mm", "mm/min", "mm/rev") else 1.0
+
+
+def is_variable(parameter: Parameter) -> bool:
+    """Whether a parameter is a variable of the program (Q200), not an address (X)."""
+    return parameter.address[0] == "Q" and parameter.address[1:].isdigit()
+
+
+def store(machine: Machine, definition: Definition) -> None:
+    """Write what was not given as a number (defaults, FAUTO) into its variable; FMAX and texts have none."""
+    for parameter in filter(is_variable, definition.cycle.parameters()):
+        word, value = definition.words.get(parameter.name), definition.values.get(parameter.name, parameter.default)
+        if word is not None and isinstance(word.value, float | Expression):
+            continue
+        if isinstance(value, int | float):
+            machine.variables[parameter.address] = float(value) / unit_of(machine, parameter)
+        else:
+            machine.variables.pop(parameter.address, None)
+
+
 def verify(definition: Definition) -> None:
     """Range and presence of the parameters, where a cycle is defined."""
     for parameter in definition.cycle.parameters():
         value = definition.values.get(parameter.name)
-        if isinstance(value, int | float) and parameter.refuses(value):
-            raise fault(definition, parameter, f"must be {parameter.allowed}, got {value:g}")
+        check_value(definition, parameter, value)
         if value is None and parameter.required and definition.values.get(parameter.instead) is None:
             raise fault(definition, parameter, "is missing")
 
@@ -234,9 +243,9 @@ def run_cycle(machine: Machine, definition: Definition) -> None:
     """Bind a definition with the values as they stand now, check it, and make its moves."""
     if machine.control.storage == "variables":
         numbers = {
-            p.name: machine.variables[p.address]
+            p.name: machine.variables[p.address] * unit_of(machine, p)
             for p in definition.cycle.parameters()
-            if isinstance(definition.values.get(p.name), float) and p.address in machine.variables
+            if is_variable(p) and p.address in machine.variables
         }
         definition = Definition(
             definition.cycle, definition.code, definition.values | numbers, definition.words, definition.head, definition.extra
@@ -244,195 +253,3 @@ def run_cycle(machine: Machine, definition: Definition) -> None:
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
     bind(definition, machine).moves(machine)
     machine.label = label
-
-
-class _Planner:
-    """Hands the words of one block out."""
-
-    def __init__(
-        self, control: Control, machine: Machine, phases: dict[str, int], keyword: str, words: list[Word],
-        active: type[Cycle] | None,
-    ) -> None:  # fmt: skip
-        self.control, self.machine, self.phases, self.words, self.active = control, machine, phases, words, active
-        self.keyword = keyword
-        self.owner: list[str] = [""] * len(words)  # who takes a word
-        self.actions: list[Action] = []
-        self.remarks: list[tuple[int, str, str]] = []
-
-    def alarm(self, message: str, index: int, hint: str = "") -> None:
-        self.machine.alarm(message, self.words[index] if index >= 0 else None, hint)
-
-    def plan(self) -> Plan:
-        if self.control.together:
-            self.control.together(self.machine, self.words)
-        codes = self.codes()
-        cycle = next(((c, i) for c, i in codes if c in self.control.cycles), None)
-        if cycle:
-            self.claim(self.control.cycles[cycle[0]], cycle[0], cycle[1])
-            codes = [(c, i) for c, i in codes if i < 0 or self.owner[i] == ""]
-            codes = [(c, i) for c, i in codes if i != cycle[1]]
-            for code, index in codes:
-                other = self.control.functions.get(code)
-                if code in self.control.cycles or (other and other.ends_cycle):
-                    self.alarm(f"{code} and {cycle[0]} are of one group: only one of it may stand in a block", index)
-        functions = [(self.function(code, index), index) for code, index in codes]
-        self.check_groups([f for f, _ in functions], [i for _, i in functions])
-        for function, index in functions:
-            if index >= 0:
-                self.owner[index] = function.code
-        for function, index in functions:
-            if not function.moves:
-                self.hand_out(function, index)
-        ending = any(f.ends_cycle for f, _ in functions)
-        if self.active and not cycle and not ending:
-            self.claim_again([f for f, _ in functions if f.moves])
-        for function, index in functions:
-            if function.moves:
-                self.hand_out(function, index)
-        self.refuse_motion([f for f, _ in functions])
-        self.word_functions()
-        if self.control.one_command and self.actions:
-            self.refuse_strangers(self.actions[0])
-        self.modal_motion([f for f, _ in functions])
-        self.refuse_leftovers([f for f, _ in functions])
-        self.refuse_repeated()
-        order = sorted(self.actions, key=lambda action: action.phase)
-        return Plan(tuple(order), tuple(self.remarks))
-
-    def codes(self) -> list[tuple[str, int]]:
-        """The codes of a block: its keyword, and its G and M words."""
-        found = [(self.keyword, -1)] if self.keyword else []
-        for i, word in enumerate(self.words):
-            if word.address in self.control.codes and type(word.value) is float:
-                found.append((f"{word.address}{digits(word.value)}", i))
-        return found
-
-    def function(self, code: str, index: int) -> Function:
-        found = self.control.functions.get(code)
-        if found is None:
-            if code in self.control.refused:
-                self.alarm(f"{code} is refused: {self.control.refused[code]}", index)
-            near = get_close_matches(code, [*self.control.functions, *self.control.cycles], 3, 0.6)
-            self.alarm(f"{code} is not a function of this control", index, f"near: {', '.join(near)}" if near else "")
-        assert found is not None
-        return found
-
-    def check_groups(self, functions: list[Function], indices: list[int]) -> None:
-        seen: dict[str, Function] = {}
-        for function, index in zip(functions, indices, strict=True):
-            if function.group and function.group in seen:
-                other = seen[function.group].code
-                what = "is written twice" if other == function.code else f"and {other} are of one group"
-                self.alarm(f"{function.code} {what}: only one function of a group may stand in a block", index)
-            if function.group:
-                seen[function.group] = function
-
-    def claim(self, cycle: type[Cycle], code: str, index: int) -> None:
-        """A cycle takes its addresses before any function sees them."""
-        room: dict[str, int] = {}
-        for parameter in cycle.parameters():
-            for address in (parameter.address, *parameter.aliases):
-                room[address] = room.get(address, 0) + 1
-        taken = []
-        for i, word in enumerate(self.words):
-            if i != index and not self.owner[i] and room.get(word.address, 0):
-                room[word.address] -= 1
-                self.owner[i] = code
-                taken.append(i)
-        if index >= 0:
-            self.owner[index] = code
-        self.actions.append(Action(self.phases["motion"], cycle, code, index, tuple(taken)))
-
-    def claim_again(self, moving: list[Function]) -> None:
-        """An active cycle runs again where one of its trigger addresses stands."""
-        assert self.active is not None
-        if any(not owner and word.address in self.active.triggers for word, owner in zip(self.words, self.owner, strict=True)):
-            self.claim(self.active, self.active.code, -1)
-            action = self.actions.pop()
-            self.actions.append(action._replace(head=-1))
-            for function in moving:
-                index = next(i for i, owner in enumerate(self.owner) if owner == function.code)
-                sentence = f"{function.code} is kept for later: {self.active.code} is active and runs at this position"
-                self.remarks.append((index, sentence, "write G80 first to end the cycle"))
-
-    def hand_out(self, function: Function, index: int) -> None:
-        taken = []
-        for address in function.takes:
-            several, address = address.endswith("*"), address.rstrip("*")
-            for i, word in enumerate(self.words):
-                if word.address != address or i == index:
-                    continue
-                if self.owner[i] and self.owner[i] != function.code:
-                    if function.moves and self.owner[i] in self.control.cycles:
-                        continue
-                    if self.owner[i] in self.control.functions and word.address not in self.control.codes:
-                        self.alarm(f"{self.owner[i]} and {function.code} both take {word}", i, "write them in two blocks")
-                    continue
-                if not self.owner[i]:
-                    self.owner[i] = function.code
-                    taken.append(i)
-                    if not several:
-                        break
-        self.actions.append(Action(self.phases[function.phase], function, function.code, index, tuple(taken)))
-
-    def word_functions(self) -> None:
-        """F, S, T and the like: addresses that are functions by themselves."""
-        for i, word in enumerate(self.words):
-            if not self.owner[i] and word.address not in self.control.codes and word.address in self.control.functions:
-                function = self.control.functions[word.address]
-                if any(a.what is function for a in self.actions):
-                    continue  # a second one is a repeated address
-                self.owner[i] = function.code
-                self.hand_out(function, i)
-
-    def refuse_strangers(self, command: Action) -> None:
-        """Where a block is one command: words that it does not take."""
-        own = {command.head, *command.takes}
-        for i, word in enumerate(self.words):
-            if i in own:
-                continue
-            alike = sum(self.words[k].address == word.address for k in own)
-            if alike:
-                times = "once" if alike == 1 else f"{alike} times"
-                self.alarm(f"{command.code} takes {word.address} {times}: {word} is one too many", i)
-            what = command.what
-            takes = what.takes if isinstance(what, Function) else [p.address for p in what.parameters() if not p.mark]
-            whose = f", which takes {' '.join(takes).replace('*', '')}" if takes else ""
-            self.alarm(f"{word} does not belong to the command {command.code}{whose}", i)
-
-    def modal_motion(self, functions: list[Function]) -> None:
-        """Axis words that are left belong to the modal motion."""
-        code = self.machine.modal.get(self.control.motion)
-        function = self.control.functions.get(code) if code else None
-        if function is None or self.keyword or any(f.still or f.moves for f in functions):
-            return
-        if any(not owner and word.address in function.takes for word, owner in zip(self.words, self.owner, strict=True)):
-            self.hand_out(function, -1)
-
-    def refuse_motion(self, functions: list[Function]) -> None:
-        """A function that moves nothing beside one that moves: words of the motion."""
-        still = next((f.code for f in functions if f.still), None)
-        moved = next((a.takes[0] for a in self.actions if a.takes and isinstance(a.what, Function) and a.what.moves), -1)
-        if still and moved >= 0:
-            word = self.words[moved]
-            self.alarm(f"{still} stands in a block without motion, {word} does not belong to it", moved, "write two blocks")
-
-    def refuse_leftovers(self, functions: list[Function]) -> None:
-        still = next((f.code for f in functions if f.still), None)
-        for i, word in enumerate(self.words):
-            if self.owner[i] or any(w.address == word.address and self.owner[k] for k, w in enumerate(self.words)):
-                continue
-            code = f"{word.address}{digits(word.value)}" if type(word.value) is float else ""
-            if code in self.control.refused:
-                self.alarm(self.control.refused[code], i)
-            if word.address in self.control.refused:
-                self.alarm(f"{word.address} is refused: {self.control.refused[word.address]}", i)
-            if still and word.address in self.control.axes:
-                self.alarm(f"{still} stands in a block without motion, {word} does not belong to it", i, "write two blocks")
-            actors = " ".join(dict.fromkeys(a.code for a in self.actions if a.phase == self.phases["motion"]))
-            self.alarm(f"{word} has no meaning in this block" + (f" ({actors} does not take {word.address})" if actors else ""), i)
-
-    def refuse_repeated(self) -> None:
-        for i, word in enumerate(self.words):
-            if not self.owner[i]:
-                self.alarm(f"{word.address} is written twice in this block", i, "keep one of them")

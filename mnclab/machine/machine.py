@@ -64,6 +64,7 @@ class Machine:
 
         self.modal: dict[str, str] = {}
         self.variables = Variables(self)
+        self.variable_unit = 1.0  # mm that a length of 1 in a variable stands for: 25.4 in a program in inches
         self.measured = Measured(self)
         self.plane = "XY"
         self.feed: float | None = None
@@ -127,11 +128,15 @@ class Machine:
         self.logs.add(name, max(self.step, 0), value)
 
     def change(self, name: str, value: Any) -> None:
-        """Set an attribute that rows carry (feed, side, plane, …) and note it in the history."""
+        """Set an attribute that rows carry (feed, side, plane, …) and note it in the history.
+
+        Where a modal group has the same name (plane), the history holds its codes.
+        """
         if getattr(self, name) != value:
             setattr(self, name, value)
             self._state = None
-            self.log(name, value)
+            if name not in self.modal:
+                self.log(name, value)
 
     def set_modal(self, group: str, code: str) -> None:
         """A function of a group is active from now on."""
@@ -195,7 +200,7 @@ class Machine:
         if self._shift is not None:
             dx, dy, dz = self._shift
             return x + dx, y + dy, z + dz
-        u, v, w = (a * x + b * y + c * z + d for a, b, c, d in self._matrix[:3].tolist())  # exactly as in Bulk
+        u, v, w = frames.apply(self._matrix, (x, y, z)).tolist()
         return u, v, w
 
     def to_program(self, point: Iterable[float]) -> tuple[float, float, float]:
@@ -368,13 +373,13 @@ class Machine:
         )
 
     def mark_joint(self, joint: Any) -> bool:
-        """Put a joint on the last row, if it is a motion not settled yet; False if there is none."""
-        rows = self.recorder.rows
-        if not rows or rows[-1][0] > Kind.ARC:
-            return False
-        rows[-1] = (*rows[-1][:13], len(self.recorder.joints), rows[-1][14])
-        self.recorder.joints.append(joint)
-        return True
+        """Put a joint on the last motion not settled yet; False if there is none, or if it has one already."""
+        return self.recorder.mark(joint)
+
+    def heading(self) -> tuple[float, float, float] | None:
+        """The unit tangent at the end of the last motion not settled yet, in machine axes; None if there is none."""
+        travel = self.recorder.heading()
+        return None if travel is None else tuple(travel.tolist())
 
     # --- verbs: events -----------------------------------------------------------------------------------------------
 

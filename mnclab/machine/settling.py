@@ -49,7 +49,7 @@ def settle(m: Machine, unfinished: bool = False) -> None:
 
 
 def _passes(m: Machine, piece: Toolpath, unfinished: bool) -> Toolpath:
-    return compensation.apply(corners.apply(piece), m.control.compensation, unfinished)
+    return compensation.apply(corners.apply(piece, unfinished), m.control.compensation, unfinished)
 
 
 def _before(m: Machine, piece: Toolpath) -> Toolpath:

@@ -33,10 +33,11 @@ class Compensation:
     """How a control enters and leaves the equidistant.
 
     "perpendicular": the entry ends, and the exit begins, square to the contour. "corner": outside, the first and last
-    corners are built like any other (MNC tables 7.1 and 7.3).
+    corners are built like any other (MNC tables 7.1 and 7.3). ``rapid``: entry and exit may run at rapid.
     """
 
     approach: str = "perpendicular"
+    rapid: bool = False
 
 
 def apply(path: Toolpath, rules: Compensation | None, unfinished: bool = False) -> Toolpath:
@@ -54,7 +55,7 @@ def apply(path: Toolpath, rules: Compensation | None, unfinished: bool = False) 
     if not on.any():
         return path
     equidistant = _Equidistant(path, view, rows, on)
-    equidistant.check_entries()
+    equidistant.check_entries(rules)
     equidistant.close_corners(rules)
     equidistant.check_elements()
     return equidistant.result()
@@ -85,14 +86,15 @@ class _Equidistant:
             k = int(np.flatnonzero(bad)[0])
             raise PathFault(message.format(R=self.R[k], r=self.view.radius[self.rows[k]]), int(self.path.step[self.rows[k]]), hint)
 
-    def check_entries(self) -> None:
+    def check_entries(self, rules: Compensation) -> None:
         kind = self.path.kind[self.rows]
+        straight = (kind == Kind.LINE) | (rules.rapid & (kind == Kind.RAPID))
         self.fault(
-            self.entry & (kind != Kind.LINE),
+            self.entry & ~straight,
             "radius compensation begins only in a straight line at feed",
             "write the entry as a linear move, then the contour",
         )
-        self.fault(self.exit & (kind != Kind.LINE), "radius compensation ends only in a straight line at feed")
+        self.fault(self.exit & ~straight, "radius compensation ends only in a straight line at feed")
         changed = self.on[1:] & self.on[:-1] & (self.s[1:] != self.s[:-1])
         self.fault(np.concatenate([[False], changed]), "a change of the compensation side on the way is not built yet")
 

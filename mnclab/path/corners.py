@@ -34,19 +34,24 @@ class Approach(NamedTuple):
     step: int
 
 
-def apply(path: Toolpath) -> Toolpath:
-    """The path with its joints replaced; itself when it has none. Raises PathFault."""
+def apply(path: Toolpath, unfinished: bool = False) -> Toolpath:
+    """The path with its joints replaced; itself when it has none. Raises PathFault.
+
+    ``unfinished``: the program broke off, so the end of a last row that waits for its joint is unknown and the row is
+    left out.
+    """
     rows = np.flatnonzero(path.joint >= 0)
     if not len(rows):
         return path
     work = _Work(path)
-    for row in rows:
+    waiting = unfinished and not path.is_motion[rows[-1] + 1 :].any()
+    for row in rows[:-1] if waiting else rows:
         joint = path.joints[path.joint[row]]
         if isinstance(joint, Rounding):
             work.round(int(row), joint)
         elif isinstance(joint, Approach):
             work.approach(int(row), joint)
-    return work.result()
+    return work.result()[: rows[-1] + len(work.inserted)] if waiting else work.result()
 
 
 class _Work:
@@ -77,7 +82,7 @@ class _Work:
         if not self.view.moves[row]:
             raise PathFault(f"{what} needs a path element before it", joint.step)
         follow = self.next_of(row, joint.step, what)
-        for k in (row, follow):
+        for k in range(row, follow + 1):
             if abs(self.view.end[k, 2] - self.view.start[k, 2]) > 1e-9:
                 raise PathFault(f"{what} needs both its elements in the working plane", joint.step)
         turn = cross(self.view.tangent_end[row], self.view.tangent_start[follow])
@@ -142,8 +147,8 @@ class _Work:
     def result(self) -> Toolpath:
         order = sorted(self.inserted, key=lambda item: item[0])
         path, view = self.path, self.view
-        like = np.array([item[1] for item in order])
-        where = np.array([item[0] for item in order])
+        like = np.array([item[1] for item in order], dtype=np.int64)
+        where = np.array([item[0] for item in order], dtype=np.int64)
         labels = list(dict.fromkeys([*path.labels, *(item[2]["label"] for item in order)]))
         everything = np.arange(len(path))
         ends = view.to_space(everything, self.end)
@@ -160,7 +165,7 @@ class _Work:
                     made[name][k] = value
             if changes["kind"] == Kind.LINE:
                 made["centre"][k] = np.nan
-        new_ends = view.to_space(like, np.array([item[2]["end"] for item in order]))
+        new_ends = view.to_space(like, np.array([item[2]["end"] for item in order]).reshape(-1, 3))
         columns = {name: np.insert(column, where, made[name], axis=0) for name, column in columns.items()}
         vertices = np.concatenate([path.start[:1], np.insert(ends, where, new_ends, axis=0)])
         return Toolpath.chain(

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import COLUMNS, Toolpath, concatenate
 
 NAN = float("nan")
@@ -70,6 +71,49 @@ class Recorder:
         """Rows (n,) as columns: ``kind`` and ``end`` (n, 3), and what differs from :data:`PLAIN`; one value stands for all."""
         self._flush()
         self._done.append(columns)
+
+    def _last_motion(self) -> tuple[dict[str, NDArray[Any]], int] | None:
+        """The columns and the row in them of the last line, arc or rapid not yet taken."""
+        self._flush()
+        for chunk in reversed(self._done):
+            moves = np.flatnonzero(chunk["kind"] <= Kind.PROBE)
+            if len(moves):
+                row = int(moves[-1])
+                return None if chunk["kind"][row] == Kind.PROBE else (chunk, row)
+        return None
+
+    def mark(self, joint: Any) -> bool:
+        """Put a joint on the last motion; False if there is none, or if it has one already."""
+        last = self._last_motion()
+        if last is None:
+            return False
+        chunk, row = last
+        joints = np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape).copy()
+        if joints[row] >= 0:
+            return False
+        joints[row] = len(self.joints)
+        chunk["joint"] = joints
+        self.joints.append(joint)
+        return True
+
+    def heading(self) -> NDArray[np.float64] | None:
+        """The unit tangent (3,) at the end of the last motion; None if it has none."""
+        last = self._last_motion()
+        if last is None:
+            return None
+        chunk, row = last
+        end = chunk["end"][row]
+        if chunk["kind"][row] == Kind.ARC:
+            state = np.broadcast_to(chunk["state"], chunk["kind"].shape)[row]
+            axis = np.array(self.states[int(state)].axis)
+            spoke = end - chunk["centre"][row]
+            travel = np.cross(axis, spoke) * np.sign(chunk["sweep"][row])
+        else:
+            before = [np.array(self.start), *(c["end"][-1] for c in self._done)]
+            index = next(i for i, c in enumerate(self._done) if c is chunk)
+            travel = end - (chunk["end"][row - 1] if row else before[index])
+        length = float(np.linalg.norm(travel))
+        return travel / length if length > 0 else None
 
     def _flush(self) -> None:
         if not self.rows:

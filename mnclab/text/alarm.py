@@ -87,7 +87,7 @@ class Alarm(Exception):
         head = f'<span style="color:{colour};font-weight:600">{escape(self.severity)}</span> '
         body = f"{escape(self.place)}: {escape(self.message)}"
         hint = f"<br><em>{escape(self.hint)}</em>" if self.hint else ""
-        shown = f'<pre style="margin:.2em 0 .6em 1.5em">{escape(text)}\n{escape(caret)}</pre>' if caret else ""
+        shown = f'<pre style="margin:.2em 0 .6em 1.5em;font-family:monospace">{escape(text)}\n{escape(caret)}</pre>' if caret else ""
         return f'<div role="alert">{head}{body}{hint}{shown}</div>'
 
     def as_dict(self) -> dict[str, Any]:

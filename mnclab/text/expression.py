@@ -1,8 +1,8 @@
 """Arithmetic and variables inside words: ``Q1``, ``-Q2``, ``3 * (Q5 + 1)``.
 
 An expression is kept as it was written, with the place of every part, and evaluated when its block runs.
-The notation here is the one that conversational controls share: numbers, variables, ``+ - * / DIV ^``, brackets and
-a few named functions in degrees. A reader that needs less simply refuses what it does not know.
+The notation here is the one that conversational controls share: numbers, variables, ``+ - * / DIV % ^``, brackets, PI
+and named functions in degrees. A reader that needs less simply refuses what it does not know.
 """
 
 from __future__ import annotations
@@ -15,16 +15,26 @@ from typing import NamedTuple
 
 from mnclab.text.alarm import Alarm, Span
 
-_TOKEN = re.compile(r"\s*(?:(\d+[.,]?\d*|[.,]\d+)|(Q[LR]?\d+)|(DIV|[A-Z]+)|([-+*/^()]))", re.IGNORECASE)
+_TOKEN = re.compile(r"\s*(?:(\d+[.,]?\d*|[.,]\d+)|(Q[LR]?\d+)|(DIV|[A-Z]+)|([-+*/^()%]))", re.IGNORECASE | re.ASCII)
 
 #: Functions of one argument, angles in degrees.
 FUNCTIONS: dict[str, Callable[[float], float]] = {
+    "SQ": lambda a: a * a,
     "SQRT": math.sqrt,
     "SIN": lambda a: math.sin(math.radians(a)),
     "COS": lambda a: math.cos(math.radians(a)),
     "TAN": lambda a: math.tan(math.radians(a)),
+    "ASIN": lambda a: math.degrees(math.asin(a)),
+    "ACOS": lambda a: math.degrees(math.acos(a)),
+    "ATAN": lambda a: math.degrees(math.atan(a)),
+    "LN": math.log,
+    "LOG": math.log10,
+    "EXP": math.exp,
+    "NEG": lambda a: -a,
     "ABS": abs,
     "INT": math.trunc,
+    "FRAC": lambda a: math.fmod(a, 1.0),
+    "SGN": lambda a: float((a > 0) - (a < 0)),
 }
 
 
@@ -42,13 +52,14 @@ class Expression:
 
     tokens: tuple[Token, ...]
     text: str
+    scale: float = 1.0  # turns the result into the unit of its word: 25.4 in a program in inches
 
     def __repr__(self) -> str:
         return f"Expression({self.text})"
 
     def evaluate(self, variables: Mapping[str, float]) -> float:
         """The value with these variables; an Alarm at the part that has none."""
-        return _Evaluation(self.tokens, variables).whole()
+        return self.scale * _Evaluation(self.tokens, variables).whole()
 
 
 def parse(text: str, span: Span) -> Expression:
@@ -112,13 +123,15 @@ class _Evaluation:
 
     def product(self) -> float:
         value = self.power()
-        while self.peek() in ("*", "/", "DIV"):
+        while self.peek() in ("*", "/", "DIV", "%"):
             operator = self.take()
             other = self.power()
             if operator.text == "*":
                 value = self.finite(value * other, operator)
             elif other == 0 and not self.reading:
                 self.refuse("division by zero at", operator)
+            elif operator.text == "%":
+                value = math.fmod(value, other or 1.0)
             else:
                 value = self.finite(value / (other or 1.0), operator)
         return value
@@ -165,6 +178,8 @@ class _Evaluation:
             if closing.text != ")":
                 self.refuse("')' was expected before", closing)
             return value
+        if token.text == "PI":
+            return math.pi
         if token.text in FUNCTIONS:
             return self.function(token)
         self.refuse("a number or a variable was expected, found", token)
@@ -176,7 +191,7 @@ class _Evaluation:
             return 1.0
         try:
             return self.finite(FUNCTIONS[token.text](argument), token)
-        except ValueError:
+        except (ValueError, OverflowError):
             raise Alarm(f"{token.text} of {argument:g} has no real value", token.span) from None
 
     def finite(self, value: float, token: Token) -> float:

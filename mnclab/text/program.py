@@ -46,7 +46,10 @@ class Word(NamedTuple):
     def __str__(self) -> str:
         value = self.value
         shown = digits(value) if isinstance(value, float) else getattr(value, "text", value)
-        return f"{'I' if self.incremental else ''}{self.address}{'' if shown is None else shown}"
+        if self.address.islower():  # a value that stands without an address in the text
+            return f"{shown}"
+        equals = "=" if self.address[:1] == "Q" and self.address[-1].isdigit() else ""
+        return f"{'I' if self.incremental else ''}{self.address}{equals}{'' if shown is None else shown}"
 
 
 @dataclass(frozen=True)
@@ -196,9 +199,15 @@ def decode(data: bytes) -> tuple[str, str]:
 _BY_FREQUENCY = "ъёфэщцюшжхйчбзгьыяупдмклврстниаео"  # Russian letters, the rarest first
 
 
+_LIKE_LATIN = "АВЕЗКМНОРСТХУ"
+
+
 def _russian(text: str) -> int:
-    """How much a text looks like Russian."""
-    return sum(map(_BY_FREQUENCY.find, text.lower())) - 40 * len(re.findall("[а-яё][А-ЯЁ]", text))
+    """How much a text looks like Russian; a letter by itself is a slip for a Latin one, and looks like it."""
+    words = re.findall("[а-яёА-ЯЁ]+", text)
+    letters = sum(sum(map(_BY_FREQUENCY.find, word.lower())) for word in words if len(word) > 1)
+    slips = sum(len(word) == 1 and word.upper() in _LIKE_LATIN for word in words)
+    return letters + 40 * (slips - len(re.findall("[а-яё][А-ЯЁ]", text)))
 
 
 class ProgramBuilder:
@@ -259,7 +268,8 @@ class ProgramBuilder:
             names = np.array([self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses], dtype=np.int16)
             key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
             zero, n = np.zeros(len(bulk.value), dtype=np.uint8), len(bulk.start)
-            more = [names[bulk.address], bulk.value, zero, zero, bulk.offset, bulk.length]
+            form = zero if bulk.form is None else bulk.form
+            more = [names[bulk.address], bulk.value, form, zero, bulk.offset, bulk.length]
             more_heads = [bulk.start, np.full(n, key, dtype=np.int16), np.zeros(n, dtype=bool), bulk.plain, bulk.size]
             if self.blocks:
                 more, more_heads = _merged(columns, more, 4), _merged(heads, more_heads, 0)
@@ -298,7 +308,10 @@ def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
 
 
 class BulkBlocks(NamedTuple):
-    """Blocks found for a whole text at once: words (w,) with ``address`` into ``addresses``, blocks (b,)."""
+    """Blocks found for a whole text at once: words (w,) with ``address`` into ``addresses``, blocks (b,).
+
+    ``form`` (w,) may say that some words have no value; without it all are numbers.
+    """
 
     addresses: tuple[str, ...]
     address: NDArray[np.integer[Any]]
@@ -309,3 +322,4 @@ class BulkBlocks(NamedTuple):
     start: NDArray[np.int32]
     size: NDArray[np.int32]
     plain: NDArray[np.bool_]
+    form: NDArray[np.uint8] | None = None

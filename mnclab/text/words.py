@@ -73,8 +73,12 @@ def characters(text: str) -> NDArray[np.uint8]:
     return np.frombuffer(text.encode("ascii", errors="replace"), dtype=np.uint8)
 
 
-def scan(text: str, leading_number: bool = False) -> Scan:
-    """Find the words of all clean lines; with ``leading_number`` digits may stand before the first letter."""
+def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
+    """Find the words of all clean lines.
+
+    ``leading_number``: digits may stand before the first letter. ``bare``: letters that may begin a line without a
+    number of their own (``L X+1``); such a word has the value 0.
+    """
     # room for as many words as fit: memory that is never touched costs nothing, what is touched costs more than the work
     most = len(text) // 2 + 1
     columns: list[NDArray[Any]] = [np.empty(most, dtype=kind) for kind in (np.uint8, np.float64, np.int32, np.int16)]
@@ -88,7 +92,7 @@ def scan(text: str, leading_number: bool = False) -> Scan:
         local = line_starts(data)
         if end < len(text):
             local = local[:-1]  # the line that begins the next piece
-        *words, count, clean = _scan_piece(data, local, begin, leading_number)
+        *words, count, clean = _scan_piece(data, local, begin, leading_number, bare)
         for column, part in zip(columns, words, strict=True):
             column[found : found + len(part)] = part
         starts.append(local + begin)
@@ -120,7 +124,7 @@ def _letters(data: NDArray[np.uint8]) -> NDArray[np.bool_]:
 
 
 def _scan_piece(
-    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, leading_number: bool
+    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, leading_number: bool, bare: str
 ) -> tuple[NDArray, ...]:
     marks = np.flatnonzero(_letters(data) | (data == 10) | (data == 13))
     marked = data[marks]
@@ -142,6 +146,10 @@ def _scan_piece(
     else:
         line = np.cumsum(~is_letter).astype(np.int64)[is_letter]
     # a line is clean when all its words are good and no other character stands before the first of them
+    if bare:
+        alone = (begin_of == end_of) & (np.diff(line, prepend=-1) != 0)
+        alone &= np.isin(data[at] & 0xDF, [ord(letter) for letter in bare])
+        value, good, end_of = np.where(alone, 0.0, value), good | alone, np.where(alone, at + 1, end_of)
     clean = np.ones(len(starts), dtype=bool)
     clean[line[~good]] = False
     ends = np.append(starts[1:], len(data))

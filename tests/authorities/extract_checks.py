@@ -1,4 +1,4 @@
-"""Example programs and parameters of the MNC manual, copied from a catalogue of it: writes the files of catalogue/.
+"""Examples, codes and parameters of the MNC manual, copied from a catalogue of it: writes the files of catalogue/.
 
     python3 tests/authorities/extract_checks.py FOLDER
 
@@ -27,8 +27,9 @@ EXAMPLES = {
     "mnc-drilling": ["drilling cycles G83-G85", "G80", "G98", "G99", "G83", "prepared cycles", "G300"],
 }
 
-#: Files whose cycles give their parameters.
+#: Files whose cycles give their parameters, and those whose G and M codes are listed.
 CYCLES = ["mnc-drilling", "mnc-milling"]
+CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
 KEYS = ("address", "meaning", "unit", "type", "range", "choices", "default", "required", "modal", "incremental")
 
 
@@ -57,6 +58,15 @@ def parameters(folder, names):
                 yield {"code": code, "title": entry["title"], "aliases": entry.get("aliases", []), "parameters": rows}
 
 
+def listed(folder, names):
+    """Every G and M code of the manual."""
+    for name in names:
+        for code, entry in entries(folder, name).items():
+            if entry["kind"] in ("function", "cycle"):
+                kept = {key: entry.get(key) for key in ("kind", "title", "group", "modal", "power_on", "aliases")}
+                yield {"code": code, **kept}
+
+
 def save(name, records):
     """One record a line and one parameter a line, so that changes can be read."""
     lines = []
@@ -75,6 +85,7 @@ def main(folder):
     for name, codes in EXAMPLES.items():
         save(name, examples(folder, name.partition(".")[0], codes))
     save("parameters", parameters(folder, CYCLES))
+    save("codes", listed(folder, CODES))
 
 
 if __name__ == "__main__":

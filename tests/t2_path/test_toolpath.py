@@ -102,3 +102,11 @@ def test_listing():
         "   2 arc     X10 Y0 Z5 centre X0 Y0 Z0 sweep 720 F100",
     ]
     assert isinstance(path, Toolpath)
+
+
+def test_only_rows_at_feed_have_a_feed_per_revolution():
+    recorder = Recorder((0.0, 0.0, 0.0))
+    state = recorder.state(State(per_rev=0.2))
+    for kind, feed in ((Kind.RAPID, np.inf), (Kind.LINE, 60.0), (Kind.DWELL, NAN)):
+        recorder.rows.append((int(kind), 1, 0, 0, 1.0, 0.0, 0.0, *NOWHERE, 0.0, feed, NAN, -1, state))
+    assert np.array_equal(recorder.take().per_rev, [np.nan, 0.2, np.nan], equal_nan=True)

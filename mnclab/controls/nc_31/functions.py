@@ -39,7 +39,7 @@ def move(m: Machine, words: Words, rapid: bool) -> None:
     ends = targets(m, words)
     if rapid:
         m.rapid(**ends)
-    else:
+    elif ends:  # a conditional move may have M alone: it needs no feed
         m.line(**ends, word=words.words[0])
 
 

@@ -129,7 +129,7 @@ class _Frames:
             self.alarm(what, at, length, hint)
         elif inside and address == "G":
             message = f"{match[0]} stands inside a group: G is the first frame of its group"
-            self.alarm(message, at, length, "the last frame of the group before it has no mark *")
+            self.alarm(message, at, length, "the mark * of the frame before ties it to this one")
         else:
             return self.read_marks(match, stop, any_mark)
         return any_mark
@@ -165,7 +165,7 @@ class _Frames:
     def read_marks(self, match: re.Match[str], stop: int, any_mark: int) -> int:
         """The marks behind the integer, and the word with them; where the mark * stands, or -1."""
         address, at = match[1], match.end()
-        flag, group_mark = (INCREMENTAL if match[2] else 0), -1
+        flag = INCREMENTAL if match[2] else 0
         places = {"@": match.start(2)} if match[2] else {}
         while (at := self.skip(at, stop)) < stop:
             mark = self.text[at]
@@ -183,9 +183,8 @@ class _Frames:
                 where = f"it belongs to {', '.join(MARKED)}"
                 self.alarm(f"the mark {mark} has no meaning on {address}", places[mark], 1, where)
                 return any_mark
-        group_mark = places.get("*", -1)
         self.builder.word(address, float(match[3]), match.start(), match.end() - match.start(), flag)
-        return group_mark
+        return places.get("*", -1)
 
     # --- faults with their names -------------------------------------------------------------------------------------
 

@@ -29,6 +29,7 @@ class Line(NamedTuple):
             "color": self.colour,
             "linestyle": self.dashes,
             "linewidth": self.width,
+            "solid_capstyle": "round",
             "zorder": self.order,
             "label": self.name,
         }

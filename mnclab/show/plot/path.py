@@ -19,7 +19,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
-from mnclab.show.plot.picture import VIEWS, Foot, View, arrange, dress, roomy, write_legend
+from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, View, arrange, dress, roomy, write_legend
 from mnclab.text.alarm import ALARM, Alarm
 
 LINES = {Kind.RAPID: colours.RAPID, Kind.LINE: colours.FEED, Kind.ARC: colours.FEED, Kind.PROBE: colours.PROBING}
@@ -36,6 +36,7 @@ def plot_path(
     view: str = "auto",
     *,
     frame: str = "auto",
+    size: tuple[float, float] = SIZE,
     programmed: Toolpath | None = None,
     alarms: Sequence[Alarm] = (),
 ) -> Figure:
@@ -43,9 +44,9 @@ def plot_path(
 
     ``view``: "XY" from above, "XZ" or "YZ" from the side, "ZX" of a lathe; "auto" takes what the path needs. With
     ``ax`` one view is drawn into it. ``frame``: "all" shows every move, "cuts" the moves at feed and cuts rapids off at
-    the border, "auto" does so when the rapids come from far away. ``programmed`` is the contour before compensation,
-    drawn thin and grey where it differs. The first of ``alarms`` that stopped the program is marked where the tool
-    stands and named below.
+    the border, "auto" does so when the rapids come from far away. ``size``: the greatest width and height in inches, at
+    100 pixels an inch. ``programmed`` is the contour before compensation, drawn thin and grey where it differs. The
+    first of ``alarms`` that stopped the program is marked where the tool stands and named below.
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     pieces = _lines(path, programmed)
@@ -66,7 +67,7 @@ def plot_path(
     names = [line.name for line, _ in pieces] + [mark.name for mark, _ in places]
     if any(len(_plunges(path, each)) for each in views):
         names.append(colours.PLUNGE.name)
-    picture, axes = arrange(views, low, high, names, _foot(stop, beyond), _in_words(path, low, high, stop))
+    picture, axes = arrange(views, low, high, names, _foot(stop, beyond), _in_words(path, low, high, stop), size)
     artists: dict[str, Line2D] = {}
     for one, which in zip(axes, views):
         for artist in _draw(one, which, path, pieces, places):
@@ -77,10 +78,17 @@ def plot_path(
     return picture
 
 
-def plot_run(run: Any, ax: Axes | None = None, view: str = "auto", *, frame: str = "auto") -> Figure:
+def plot_run(run: Any, ax: Axes | None = None, view: str = "auto", **options: Any) -> Figure:
     """Views of the path of a run (see :func:`plot_path`), with its programmed contour and the place of its alarm."""
     programmed = None if run.programmed is run.toolpath else run.programmed
-    return plot_path(run.toolpath, ax, view, frame=frame, programmed=programmed, alarms=run.alarms)
+    return plot_path(run.toolpath, ax, view, **options, programmed=programmed, alarms=run.alarms)
+
+
+def image(run: Any, view: str = "auto", size: tuple[float, float] = (6.4, 4.4)) -> str:
+    """The views of a run as an HTML image with a name, for those who show pictures but do not draw."""
+    picture = plot_run(run, view=view, size=size)
+    assert isinstance(picture, Picture)
+    return picture.html()
 
 
 # --- what is drawn ---------------------------------------------------------------------------------------------------

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from mnclab.show.plot import colours
 
-SIZE = (7.0, 6.0)  # the greatest width and height
+SIZE = (7.0, 6.0)  # the greatest width and height, unless something else is said
 LEAST = (4.6, 2.4)
 SMALL = 8.0  # points: ticks, legend, alarm
 GAP, BELOW, RIGHT, ROW = 0.14, 0.52, 0.18, 0.22
@@ -104,8 +104,9 @@ def arrange(
     names: Sequence[str] = (),
     foot: Foot | None = None,
     alt: str = "picture",
+    size: tuple[float, float] = SIZE,
 ) -> tuple[Picture, list[Axes]]:
-    """A picture with one axes a view, all at one scale, around the box from ``low`` (3,) to ``high`` (3,) mm.
+    """A picture of at most ``size`` with one axes a view, all at one scale, around the box ``low`` to ``high`` (3,) mm.
 
     Two views stand one above the other when they share what goes to the right, or side by side, whichever is larger.
     ``names`` get room for a legend above, ``foot`` is one line of text below.
@@ -115,28 +116,28 @@ def arrange(
     digits = max(len(f"{value:.{_decimals(side)}f}") for value, side in zip((*low, *high), (*span, *span)))
     left = 0.42 + 0.068 * digits
     rights, ups = [float(span[v.right]) for v in views], [float(span[v.up]) for v in views]
-    bottom, most = BELOW + (ROW if foot else 0), SIZE[1]
+    bottom, (most_wide, most_high) = BELOW + (ROW if foot else 0), size
 
     def top(width: float) -> float:
         return 0.12 + ROW * math.ceil(len(names) / columns(names, width))
 
     n = len(views)
-    free_width, free_height = SIZE[0] - left - RIGHT, most - bottom - top(SIZE[0])
+    free_width, free_height = most_wide - left - RIGHT, most_high - bottom - top(most_wide)
     stack = min(free_width / max(rights), (free_height - (n - 1) * GAP) / sum(ups))
-    beside = min((SIZE[0] - n * (left + RIGHT)) / sum(rights), free_height / max(ups))
+    beside = min((most_wide - n * (left + RIGHT)) / sum(rights), free_height / max(ups))
     stacked = n == 1 or (len({v.right for v in views}) == 1 and stack >= beside)
     scale = stack if stacked else beside
 
     # boxes in inches; what a box has beyond its data widens the view
     if stacked:
-        width = min(SIZE[0], max(LEAST[0], left + RIGHT + scale * max(rights)))
+        width = min(most_wide, max(LEAST[0], left + RIGHT + scale * max(rights)))
         inner = width - left - RIGHT
         share = max(1.0, (LEAST[1] - bottom - top(width)) / (scale * sum(ups) + (n - 1) * GAP))
         heights = [scale * up * share for up in ups]
         floor = [bottom + sum(heights[k + 1 :]) + GAP * (n - 1 - k) for k in range(n)]
         boxes = [(left, floor[k], inner, heights[k]) for k in range(n)]
     else:
-        width = min(SIZE[0], max(LEAST[0], n * (left + RIGHT) + scale * sum(rights)))
+        width = min(most_wide, max(LEAST[0], n * (left + RIGHT) + scale * sum(rights)))
         share = (width - n * (left + RIGHT)) / (scale * sum(rights))
         widths = [scale * right * share for right in rights]
         tall = max(scale * max(ups), LEAST[1] - bottom - top(width))

@@ -27,22 +27,22 @@ MOST_LABELS = 12
 class ContourGeometry(Cycle):
     """The labels whose contours together are the pocket; no motion."""
 
-    labels: str = param("LBL", "label numbers of the contour", "count", type="text", modal=True, note="1/2/3, up to 12")
+    labels: tuple[float, ...] = param(
+        "LBL", "label numbers of the contour", "count", type="integer", several=True, at_least=1, at_most=65535, modal=True,
+        note="1/2/3, up to 12",
+    )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Numbers that are labels of the program."""
-        numbers = self.labels.split("/")
-        if len(numbers) > MOST_LABELS:
-            yield "labels", f"must be at most {MOST_LABELS} labels, got {len(numbers)}"
-        for number in numbers:
-            if not number.isdigit() or not 1 <= int(number) <= 65535:
-                yield "labels", f"must be whole numbers from 1 to 65535, got {number!r}"
-            elif str(int(number)) not in m.flow.program.labels:
-                yield "labels", f"names label {int(number)}, which does not exist"
+        if len(self.labels) > MOST_LABELS:
+            yield "labels", f"must be at most {MOST_LABELS} labels, got {len(self.labels)}"
+        for number in self.labels:
+            if f"{number:g}" not in m.flow.program.labels:
+                yield "labels", f"names label {number:g}, which does not exist"
 
     def moves(self, m: Machine) -> None:
         """Keep the list until the next one."""
-        m.memory["contour labels"] = tuple(str(int(number)) for number in self.labels.split("/"))
+        m.memory["contour labels"] = tuple(f"{number:g}" for number in self.labels)
 
 
 @CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="TNC 8.4")
@@ -128,7 +128,7 @@ class RoughOut(Cycle):
         "Q18", "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
     )
     swing_feed: float = param("Q19", "feed rate for reciprocation", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True)
-    retract_feed: float = param(
+    retract_feed: float | str = param(
         "Q208", "retraction feed rate", "mm/min", default=INF, default_means="FMAX", at_least=0, also=("FMAX", "FAUTO"), modal=True
     )
     factor: float = param("Q401", "feed rate factor at full engagement", "ratio", default=100, at_least=0.0001, at_most=100, modal=True)
@@ -140,9 +140,9 @@ class RoughOut(Cycle):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Contour and data are there, the infeed is not zero; what is not built is refused."""
         if "contour labels" not in m.memory:
-            yield "", "needs a contour", 
+            yield "", "needs a contour: CYCL DEF 14 comes before it"
         if "contour data" not in m.memory:
-            yield "", "needs its contour data"
+            yield "", "needs its contour data: CYCL DEF 20 comes before it"
         if self.infeed == 0:
             yield "infeed", "must not be 0"
         if self.coarse_tool:
@@ -182,11 +182,12 @@ class RoughOut(Cycle):
                         self.enter(m, ring, above, above, level, plunge)
                     follow(m, ring, self.feed)
         m.label = "22 retract"
-        m.line(z=data.height, f=self.retract_feed or self.feed)
+        feed = self.retract_feed
+        m.line(z=data.height, f=INF if isinstance(feed, str) else feed or self.feed)
 
     def enter(self, m: Machine, ring: Contour, height: float, above: float, level: float, plunge: float) -> None:
         """Over the start of a ring, then down to its level."""
-        m.rapid(z=max(height, m.programmed[2]) if m.programmed[2] < height else height)
+        m.rapid(z=height)
         m.rapid(*_start(ring))
         m.rapid(z=above)
         m.line(z=level, f=plunge)

@@ -70,7 +70,7 @@ class PresetInOneAxis(Cycle):
 
     def preset(self, m: Machine, k: int, found: float) -> None:
         """Write the row, and activate it where it is row 0 or the active one (TNC 15.1)."""
-        active = int(m.memory.get("preset", 0))
+        active = int(m.memory.get("preset", m.settings["preset"]))
         before = m.tables.presets.get(active, Datum())
         if self.transfer == 0 and self.row:
             row = m.tables.datums.get(int(self.row), Datum())

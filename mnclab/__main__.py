@@ -1,0 +1,206 @@
+"""mnclab from a shell: check, run, plot, help, lab; ``python -m mnclab`` is the same as ``mnclab``.
+
+Exit status: 0 clean, 1 alarms, 2 a command line that makes no sense. Alarms go to stderr, one line each, in the form
+that editors understand: ``FILE:LINE:COLUMN: alarm: message (hint)``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+import mnclab
+from mnclab.machine.setup_file import FORMAT, load
+from mnclab.text.alarm import ALARM, Alarm
+
+Result = TypeVar("Result")
+CLEAN, ALARMS, USAGE = 0, 1, 2
+FIRST_LESSON = "00_first_path.ipynb"
+
+EPILOG = f"""\
+exit status: 0 clean, 1 alarms (or an unreadable file), 2 a wrong command line
+warnings are shown too, but leave the status at 0
+
+a setup file (--setup) looks like this:
+
+{FORMAT}"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Do what a command line says and return the exit status."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):  # a Windows code page lacks letters that an alarm may quote
+            stream.reconfigure(errors="replace")
+    commands = parser()
+    chosen, rest = commands.parse_known_args(arguments)
+    if rest and chosen.do is not lab:
+        commands.error(f"unrecognized arguments: {' '.join(rest)}")
+    chosen.rest = rest
+    try:
+        status: int = chosen.do(chosen)
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:  # the reader (head, less) has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return CLEAN
+
+
+def parser() -> argparse.ArgumentParser:
+    """The commands and their options."""
+    top = argparse.ArgumentParser(
+        prog="mnclab",
+        description="Reads CNC part programs of real controls and shows what the machine would do.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    top.add_argument("--version", action="version", version=f"mnclab {mnclab.__version__}")
+    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    def command(name: str, do: Any, does: str, **more: Any) -> argparse.ArgumentParser:
+        sub = commands.add_parser(name, help=does, description=f"{does[0].upper()}{does[1:]}.", **more)
+        sub.set_defaults(do=do)
+        return sub
+
+    def options(sub: argparse.ArgumentParser, json_says: str = "") -> None:
+        sub.add_argument("--control", choices=list(mnclab.controls), help="default: from the file's suffix or its text")
+        sub.add_argument("--setup", metavar="S.toml", help="tools, datums, start, settings (mnclab --help shows one)")
+        if json_says:
+            sub.add_argument("--json", action="store_true", help=json_says)
+
+    sub = command("check", check, "run programs and report their alarms")
+    sub.add_argument("files", nargs="+", metavar="FILE")
+    options(sub, "a list of files with their alarms on stdout instead")
+    sub = command("run", run, "run a program and print its moves, one a line")
+    sub.add_argument("file", metavar="FILE")
+    options(sub, "summary, alarms and columns of the path on stdout instead")
+    sub = command("plot", plot, "run a program and save what it does")
+    sub.add_argument("file", metavar="FILE")
+    sub.add_argument(
+        "-o", "--output", required=True, metavar="OUT", help="the suffix says what: svg, pdf, png, csv, json"
+    )
+    options(sub)
+    sub = command("help", explain, "show the parameters of a cycle or the meaning of a function")
+    sub.add_argument("code", nargs="+", metavar="CODE", help="such as G83 or CYCL DEF 200")
+    sub.add_argument("--control", choices=list(mnclab.controls), required=True)
+    command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow")
+    return top
+
+
+def say(alarm: Alarm, file: str = "") -> None:
+    """One line for an alarm; ``file`` is what it is about when it stands in no program."""
+    line = alarm.headline
+    if alarm.source is None and alarm.span is None:
+        hint = f" ({alarm.hint})" if alarm.hint else ""
+        line = f"{file or 'mnclab'}: {alarm.severity}: {alarm.message.removeprefix(f'{file} ')}{hint}"
+    print(" ".join(line.split("\n")), file=sys.stderr)
+
+
+def describe(alarm: Alarm, file: str) -> dict[str, Any]:
+    """An alarm for programs that read JSON."""
+    return alarm.as_dict() if alarm.source else alarm.as_dict() | {"file": file}
+
+
+def sensible(do: Callable[..., Result], *arguments: Any) -> Result:
+    """The result of what a command line asks for beside its programs; a fault in that is a wrong command line."""
+    try:
+        return do(*arguments)
+    except Alarm as alarm:
+        say(alarm)
+        sys.exit(USAGE)
+
+
+def obey(chosen: argparse.Namespace) -> mnclab.Run | None:
+    """Run a file as the command line says; None, and a line on stderr, if there is no program in it."""
+    setup = sensible(load, chosen.setup) if chosen.setup else None
+    try:
+        return mnclab.run(Path(chosen.file), chosen.control, setup)
+    except Alarm as alarm:
+        say(alarm, chosen.file)
+        return None
+
+
+def check(chosen: argparse.Namespace) -> int:
+    """Report the alarms of several programs."""
+    status, report = CLEAN, []
+    setup = sensible(load, chosen.setup) if chosen.setup else None
+    for file in chosen.files:
+        try:
+            alarms = mnclab.run(Path(file), chosen.control, setup).alarms
+        except Alarm as unreadable:
+            alarms = (unreadable,)
+        if any(alarm.severity == ALARM for alarm in alarms):
+            status = ALARMS
+        report.append({"file": file, "alarms": [describe(alarm, file) for alarm in alarms]})
+        for alarm in () if chosen.json else alarms:
+            say(alarm, file)
+    if chosen.json:
+        print(json.dumps(report, indent=1))
+    return status
+
+
+def run(chosen: argparse.Namespace) -> int:
+    """Print the moves of a program."""
+    result = obey(chosen)
+    if result is None:
+        return ALARMS
+    if chosen.json:
+        from mnclab.show.export import document
+
+        print(json.dumps(document(result), allow_nan=False))
+    elif len(result.toolpath):
+        print(result.toolpath)
+    return verdict(result, quiet=chosen.json)
+
+
+def plot(chosen: argparse.Namespace) -> int:
+    """Save a picture of what a program does, or its table of moves."""
+    result = obey(chosen)
+    if result is None:
+        return ALARMS
+    sensible(result.save, chosen.output)
+    return verdict(result)
+
+
+def verdict(result: mnclab.Run, quiet: bool = False) -> int:
+    """Report the alarms of a run and return the exit status."""
+    for alarm in () if quiet else result.alarms:
+        say(alarm)
+    return CLEAN if result.ok else ALARMS
+
+
+def explain(chosen: argparse.Namespace) -> int:
+    """Print what a code means."""
+    print(sensible(mnclab.help, " ".join(chosen.code), chosen.control))
+    return CLEAN
+
+
+def lab(chosen: argparse.Namespace) -> int:
+    """Start JupyterLab on the first lesson, with the Python that runs this."""
+    if importlib.util.find_spec("jupyterlab") is None:
+        print('mnclab: JupyterLab is not installed here; pip install "mnclab[lab]" brings it', file=sys.stderr)
+        return USAGE
+    places = (Path(__file__).resolve().parent.parent, Path.cwd())
+    home = next((place for place in places if (place / "notebooks" / FIRST_LESSON).is_file()), None)
+    if home is None:
+        print("mnclab: the lessons are not here; start this in the folder that holds notebooks/", file=sys.stderr)
+        return USAGE
+    options = [f"--LabApp.default_url=/lab/tree/notebooks/{FIRST_LESSON}"]
+    if hasattr(os, "geteuid") and os.geteuid() == 0:
+        options.append("--allow-root")
+    command = subprocess.Popen([sys.executable, "-m", "jupyterlab", *options, *chosen.rest], cwd=home)
+    while True:
+        try:
+            return command.wait()
+        except KeyboardInterrupt:
+            pass  # Ctrl-C is for JupyterLab to answer
+
+
+if __name__ == "__main__":
+    sys.exit(main())

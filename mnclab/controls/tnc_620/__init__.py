@@ -1,0 +1,57 @@
+"""The HEIDENHAIN TNC 620 milling control (NC software 81760x-06, 2018), conversational programs.
+
+``reader`` makes blocks of lines, ``statements`` and ``words`` say how each is written, ``language`` obeys statements and M
+functions, ``cycles`` holds the fixed cycles by chapter of the manual, ``later`` names what is not built yet.
+"""
+
+from __future__ import annotations
+
+import re
+
+from mnclab.controls.tnc_620 import later, reader
+from mnclab.controls.tnc_620.cycles import contours, drilling, transformations
+from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
+from mnclab.controls.tnc_620.probing import presets
+from mnclab.machine.bulk import PlainWords
+from mnclab.machine.control import Control
+from mnclab.machine.setup import Setting
+from mnclab.path.compensation import Compensation
+
+#: Order inside a block: M functions that act at its start, the statement, calls, M functions that act at its end.
+PHASES = ("start", "motion", "call", "end", "last")
+
+SETTINGS = (
+    Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
+    Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
+    Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
+    Setting("bulk", True, "obey long runs of plain blocks at once", ""),
+)
+
+FUNCTIONS = (
+    motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
+    | auxiliary.FUNCTIONS | calls.FUNCTIONS
+)  # fmt: skip
+CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
+
+_KLARTEXT = re.compile(r"^[ \t\ufeff]*\d*[ \t]*(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M)
+
+CONTROL = Control(
+    name="tnc-620",
+    title="HEIDENHAIN TNC 620 (2018)",
+    suffixes=(".h",),
+    read=reader.read,
+    functions=FUNCTIONS,
+    cycles=CYCLES,
+    phases=PHASES,
+    codes=("M",),
+    word_functions=False,
+    settings=SETTINGS,
+    storage="variables",
+    frames=("preset",),
+    compensation=Compensation(approach="perpendicular", rapid=True),
+    start=program.start,
+    looks_like=lambda text: _KLARTEXT.search(text) is not None,
+    refused=later.refused(FUNCTIONS, CYCLES),
+    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", neutral=("R0",), ready=lambda m: m.side == 0),
+    named=motion.named,
+)

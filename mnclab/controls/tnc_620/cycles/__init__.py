@@ -1,0 +1,1 @@
+"""The fixed cycles (CYCL DEF), a file a chapter of the manual."""

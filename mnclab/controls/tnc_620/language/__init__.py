@@ -1,0 +1,1 @@
+"""The statements and M functions of the conversational language, a file a subject."""

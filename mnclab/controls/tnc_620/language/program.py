@@ -1,0 +1,120 @@
+"""Begin and end of a program, the blank, stops (catalogue: BEGIN PGM, END PGM, BLK FORM, STOP, M0 to M30)."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from mnclab.controls.tnc_620.cycles.transformations import cancel
+from mnclab.controls.tnc_620.words import INCH
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.machine import Machine
+from mnclab.machine.setup import Datum
+
+FUNCTIONS = FunctionTable()
+
+Corner = tuple[float, float, float]
+
+
+class Blank(NamedTuple):
+    """The cuboid of BLK FORM, mm in program coordinates, and its tool axis; the greatest corner comes with 0.2."""
+
+    axis: str
+    minimum: Corner
+    maximum: Corner | None = None
+
+
+def start(m: Machine) -> None:
+    """The active preset is the datum of the program (setting "preset")."""
+    row = m.settings["preset"]
+    preset = m.tables.presets.get(row, Datum())
+    if any((preset.a, preset.b, preset.c, preset.rotation)):
+        m.alarm(f"preset {row} carries a rotation, which is not built yet")
+    m.select_datum(preset, "preset")
+
+
+@FUNCTIONS("BEGIN PGM,", "Program begin", takes="name unit", source="BEGIN PGM")
+def begin(m: Machine, words: Words) -> None:
+    """Names the program and its unit; lengths and feeds of an INCH program become mm where they are read."""
+    m.memory["name"], m.memory["unit"] = words["name"].value if "name" in words else "", words["unit"].value
+    m.variable_unit = INCH if words["unit"].value == "INCH" else 1.0
+
+
+@FUNCTIONS("END PGM,", "Program end", takes="name unit", phase="last", source="END PGM")
+def end(m: Machine, words: Words) -> None:
+    """The last block of a program."""
+    name, unit = words["name"].value if "name" in words else "", words["unit"]
+    if "unit" in m.memory and unit.value != m.memory["unit"]:
+        m.alarm(f"END PGM says {unit.value}, BEGIN PGM {m.memory['unit']}", unit)
+    if "name" in m.memory and name != m.memory["name"]:
+        m.warn(f"END PGM names {name}, BEGIN PGM {m.memory['name']}", words.words[0])
+    finish(m)
+
+
+def finish(m: Machine) -> None:
+    """The end of the run: spindle off, transformations cancelled (11.1)."""
+    m.spindle(turning=0)
+    cancel(m)
+    m.ended = True
+
+
+@FUNCTIONS("BLK FORM 0.1,", "Blank: least corner", takes="axis X Y Z", source="BLK FORM")
+def least_corner(m: Machine, words: Words) -> None:
+    """Tool axis and the corner with the least coordinates; for pictures only, no motion."""
+    if "axis" not in words:
+        m.alarm("BLK FORM 0.1 needs the tool axis", None, hint="for example BLK FORM 0.1 Z X+0 Y+0 Z-20")
+    axis = str(words["axis"].value)
+    if axis != "Z":
+        m.alarm(f"BLK FORM 0.1: the tool axis {axis} is not built yet, Z is", words["axis"])
+    keep(m, Blank(axis, corner(m, words, None)))
+
+
+@FUNCTIONS("BLK FORM 0.2,", "Blank: greatest corner", takes="X Y Z", source="BLK FORM")
+def greatest_corner(m: Machine, words: Words) -> None:
+    """The corner with the greatest coordinates; IX IY IZ count from the least corner."""
+    blank: Blank | None = m.memory.get("stock")
+    if blank is None or blank.maximum is not None:
+        m.alarm("BLK FORM 0.2 needs BLK FORM 0.1 before it", words.words[0] if len(words) else None)
+    greatest = corner(m, words, blank.minimum)
+    for axis, low, high in zip("XYZ", blank.minimum, greatest, strict=True):
+        if not high > low:
+            m.alarm(f"BLK FORM 0.2 {axis} (greatest corner) must be greater than {low:g}, got {high:g}", words[axis])
+    keep(m, blank._replace(maximum=greatest))
+
+
+def corner(m: Machine, words: Words, least: Corner | None) -> Corner:
+    """The three coordinates of a corner."""
+    found = []
+    for k, axis in enumerate("XYZ"):
+        if axis not in words:
+            m.alarm(f"{words.code} {axis} (coordinate of the corner) is missing", words.words[0] if len(words) else None)
+        value = m.value(words[axis])
+        if words[axis].incremental:
+            if least is None:
+                m.alarm(f"{words.code} {axis} (coordinate of the corner) must be absolute", words[axis])
+            value += least[k]
+        found.append(value)
+    return found[0], found[1], found[2]
+
+
+def keep(m: Machine, blank: Blank) -> None:
+    """Remember the blank."""
+    m.memory["stock"] = blank
+    m.log("stock", blank)
+
+
+@FUNCTIONS("STOP", "Program stop", phase="end", source="STOP")
+def stop(m: Machine, words: Words) -> None:
+    """Wait for the operator."""
+    m.stop()
+
+
+@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="M0")
+def program_stop(m: Machine, words: Words) -> None:
+    """Wait for the operator after the motion of the block."""
+    m.stop()
+
+
+@FUNCTIONS("M2 M30", "Program end", phase="last", modal=False, source="M2")
+def program_end(m: Machine, words: Words) -> None:
+    """The run ends after this block; subprograms may follow it."""
+    finish(m)

@@ -1,0 +1,147 @@
+"""A setup written in a file (TOML), for the command line and for machines that several programs share."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import fields
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from mnclab.machine.setup import Datum, Probe, Setup
+from mnclab.path.limits import Limits
+from mnclab.path.tool import Tool
+from mnclab.text.alarm import Alarm, Span
+
+#: The format, as the help of the command line shows it.
+FORMAT = """\
+start = [0, 0, 300]            # machine position of the spindle before the program, mm
+
+[tools.1]                      # the row of the tool table; every key may be left out
+radius = 5                     # mm; also length, name, corner, dl, dr, teeth, kind, cutting_length,
+length = 80                    # and in degrees angle (of the point) and plunge_angle
+
+[datums]                       # work offsets: machine coordinates of the zero points, mm
+1 = [100, 50, -200]
+2 = { x = 300, y = 50, z = -200, rotation = 30 }
+
+[presets]                      # written like datums, where a control has them
+[limits]                       # rapid, acceleration, jerk, corner_tolerance
+[probe]                        # clearance, reach, feed, rapid
+[settings]                     # choices of the control, as mnclab.controls[name].settings lists them
+[files]                        # names that programs call -> files, seen from this one
+"""
+
+ROWS = {"tools": Tool, "datums": Datum, "presets": Datum}
+RECORDS = {"limits": Limits, "probe": Probe}
+KNOWN = ("start", *ROWS, *RECORDS, "settings", "files")
+
+
+class _File:
+    """The text of a setup file, so that an alarm can show a line of it."""
+
+    def __init__(self, name: str, text: str) -> None:
+        self.name, self._lines = name, text.splitlines()
+
+    @property
+    def end(self) -> Span:
+        """Just behind the last character."""
+        return Span(len(self._lines), len(self._lines[-1]) + 1) if self._lines else Span(1, 1)
+
+    def line_text(self, line: int) -> str:
+        return self._lines[line - 1] if 0 < line <= len(self._lines) else ""
+
+
+def load(path: str | Path) -> Setup:
+    """The setup of a file; an Alarm names what is wrong in it."""
+    path = Path(path)
+    try:
+        text = path.read_text("utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
+        raise Alarm(f"the setup cannot be read: {reason}", source=_File(str(path), "")) from None
+    file = _File(str(path), text)
+    try:
+        return _setup(tomllib.loads(text), path.parent)
+    except tomllib.TOMLDecodeError as error:
+        place = re.search(r"line (\d+), column (\d+)", str(error))
+        span = Span(int(place[1]), int(place[2])) if place else file.end
+        raise Alarm(re.sub(r" \(at .*\)", "", str(error)), span, source=file) from None
+    except Alarm as alarm:
+        alarm.source = file
+        raise
+
+
+def _setup(table: Mapping[str, Any], folder: Path) -> Setup:
+    _check_names(table, KNOWN, "a setup")
+    found: dict[str, Any] = {}
+    if "start" in table:
+        found["start"] = _point(table["start"], "start")
+    for name, kind in ROWS.items():
+        if name in table:
+            rows = _table(table[name], name)
+            found[name] = {_row(number, name): _record(kind, row, f"{name}.{number}") for number, row in rows.items()}
+    for name, kind in RECORDS.items():
+        if name in table:
+            found[name] = _record(kind, table[name], name)
+    if "settings" in table:
+        found["settings"] = _table(table["settings"], "settings")
+    if "files" in table:
+        found["files"] = {name: folder / str(file) for name, file in _table(table["files"], "files").items()}
+    return Setup(**found)
+
+
+def _record(kind: Any, value: Any, where: str) -> Any:
+    """A Tool, Datum, Limits or Probe from a table of its fields, or a datum from a list."""
+    if kind is Datum and isinstance(value, list):
+        return Datum(*_point(value, where))
+    names = kind._fields if hasattr(kind, "_fields") else [field.name for field in fields(kind)]
+    _check_names(_table(value, where), names, where)
+    return kind(**{name: _field(item, f"{where}.{name}", name) for name, item in value.items()})
+
+
+def _field(value: Any, where: str, name: str) -> Any:
+    if name in ("name", "kind"):
+        if not isinstance(value, str):
+            raise Alarm(f"{where} must be a text, got {value!r}")
+        return value
+    if isinstance(value, list):
+        return tuple(
+            _number(item, where) if not isinstance(item, list) else _field(item, where, name) for item in value
+        )
+    return _number(value, where)
+
+
+def _number(value: Any, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise Alarm(f"{where} must be a number, got {value!r}")
+    return value
+
+
+def _point(value: Any, where: str) -> tuple[float, float, float]:
+    if not isinstance(value, list) or len(value) != 3:
+        raise Alarm(f"{where} must be three numbers [x, y, z], got {value!r}")
+    x, y, z = (float(_number(item, where)) for item in value)
+    return x, y, z
+
+
+def _row(number: str, where: str) -> int:
+    if not number.isdigit():
+        raise Alarm(f"a row of {where} must be a whole number, got {number!r}")
+    return int(number)
+
+
+def _table(value: Any, where: str) -> Mapping[str, Any]:
+    if not isinstance(value, dict):
+        raise Alarm(f"{where} must be a table, got {value!r}", hint=f"write [{where}] on a line of its own")
+    return value
+
+
+def _check_names(table: Mapping[str, Any], known: Any, where: str) -> None:
+    for name in table:
+        if name not in known:
+            near = get_close_matches(name, list(known), 1)
+            hint = f"near: {near[0]}" if near else f"known: {', '.join(known)}"
+            raise Alarm(f"{where} has no {name!r}", hint=hint)

@@ -1,0 +1,97 @@
+"""A short program around one cycle, so that a form can show what the cycle does on its own.
+
+How a cycle stands in a program is each control's way, so there is one function a control, in :data:`PROGRAMS`. Values
+to begin with are guessed from what a parameter means and allows; they are a start to play from, not advice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from mnclab.path.listing import figure
+
+#: A piece of a meaning -> a first value, mm where it is a length; the first that fits and is allowed counts.
+FIRST = (
+    ("diameter of the finished", 30.0),
+    ("end of the passes", -20.0),
+    ("stock removed", 2.0),
+    ("position along X", 20.0),
+    ("position along Y", 10.0),
+    ("along X", 20.0),
+    ("along Y", 10.0),
+    ("second set-up clearance", 20.0),
+    ("2nd set-up clearance", 20.0),
+    ("clearance", 2.0),
+    ("peck", 5.0),
+    ("infeed", 5.0),
+    ("plunging depth", 5.0),
+    ("depth", -20.0),
+    ("depth", 20.0),
+    ("surface", 0.0),
+    ("level", 2.0),
+    ("bottom", -20.0),
+    ("", 0.0),
+    ("", 5.0),
+    ("", -5.0),
+)
+#: What may be left out, but is worth seeing at first.
+WRITTEN = ("position along", "peck", "infeed")
+BY_UNIT = {"mm/min": 120.0, "s": 0.0, "rev/min": 1000.0, "0.0001 mm/rev": 2000.0}
+SCALE = {"0.01 mm": 100.0}
+
+
+def number(value: float) -> str:
+    """A number as programs write it: without exponent and trailing zeros."""
+    return figure(value, 6)
+
+
+def first_value(parameter: Any) -> float:
+    """A value to begin with: the default, or a likely one that the limits of the parameter allow."""
+    if parameter.default is not None:
+        return float(parameter.default)
+    if parameter.choices:
+        return float(next(iter(parameter.choices)))
+    meaning, scale = parameter.meaning.lower(), SCALE.get(parameter.unit, 1.0)
+    likely = [BY_UNIT[parameter.unit]] if parameter.unit in BY_UNIT else []
+    likely += [value * scale for piece, value in FIRST if piece.lower() in meaning]
+    return next((value for value in likely if not parameter.refuses(value)), 0.0)
+
+
+def written_first(parameter: Any) -> bool:
+    """Whether a word that may be left out is written to begin with."""
+    return any(piece in parameter.meaning.lower() for piece in WRITTEN)
+
+
+def program(control: str, cycle: Any, values: Mapping[str, float]) -> str | None:
+    """The text of a program that runs a cycle with some ``values`` (by parameter name); None if nobody knows how."""
+    words = [(p.address, values[p.name]) for p in cycle.parameters() if p.name in values]
+    return PROGRAMS[control](cycle, words) if control in PROGRAMS else None
+
+
+def _mnc(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+    block = " ".join([cycle.code, *(address + number(value) for address, value in words)])
+    call = "G80" if cycle.runs == "position" else "G0 X20 Y10 M99"
+    return f"G17 G90 G54\nT2 S1000 M3\nG0 X0 Y0 Z20 F100\n{block}\n{call}\n"
+
+
+def _tnc_620(cycle: Any, words: Sequence[tuple[str, float]]) -> str | None:
+    if not words or not all(address.startswith("Q") for address, _ in words):
+        return None  # the old cycles stand in blocks of their own kind
+    lines = [f"{cycle.code} {cycle.title.upper()}", *(f"  {address}={value:+.6g}" for address, value in words)]
+    call = ["L X+20 Y+10 R0 FMAX M99"] if cycle.runs == "call" else []
+    start = ["BEGIN PGM TRIAL MM", "TOOL CALL 2 Z S1000", "L X+0 Y+0 Z+50 R0 FMAX M3"]
+    return "\n".join([*start, " ~\n".join(lines), *call, "END PGM TRIAL MM", ""])
+
+
+def _nc_31(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+    marks = [address for address, value in words if address in "~@" and value]
+    frames = [" ".join([cycle.code, *marks]), *(a + number(value) for a, value in words if a not in "~@")]
+    return "\n".join(["S800", "M3", "F20", "X4000 ~ *", "Z200 ~", " *\n".join(frames), ""])
+
+
+PROGRAMS: dict[str, Callable[[Any, Sequence[tuple[str, float]]], str | None]] = {
+    "mnc": _mnc,
+    "tnc-620": _tnc_620,
+    "nc-31": _nc_31,
+}

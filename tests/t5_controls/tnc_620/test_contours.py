@@ -1,0 +1,191 @@
+"""SL cycles 14, 20, 22: which area the labels describe, its levels, and that clearing it covers it and nothing else."""
+
+import numpy as np
+import pytest
+from shapely import LineString, MultiPolygon, Point, Polygon, union_all
+
+import mnclab
+from mnclab import Kind, Setup, Tool
+from mnclab.controls.tnc_620.cycles.contours import contour_region
+from mnclab.machine.interpreter import Interpreter
+from mnclab.machine.machine import Machine
+
+CIRCLE_A = "LBL 1\nL X+{a} Y+50 RR\nCC X+35 Y+50\nC X+{a} Y+50 DR-\nLBL 0\n"
+CIRCLE_B = "LBL 2\nL X+{b} Y+50 {side}\nCC X+65 Y+50\nC X+{b} Y+50 DR-\nLBL 0\n"
+
+#: tnc620-contour, overlapping contours: start of A, start of B, side of B -> area and perimeter [text and derived].
+OVERLAPPING = {
+    "inclusion": (10, 90, "RR", 3367.872, 221.430),
+    "exclusion": (10, 40, "RL", 1404.376, 157.080),
+    "intersection": (60, 90, "RR", 559.119, 92.730),
+}
+
+
+def machine_after(text):
+    """A machine that has obeyed a program."""
+    control = mnclab.controls["tnc-620"]
+    program = mnclab.read(text, "tnc-620")
+    machine = Machine(control, Setup())
+    Interpreter(control, machine, program).run()
+    return machine
+
+
+@pytest.mark.parametrize("name", OVERLAPPING)
+def test_overlapping_contours(name):
+    a, b, side, area, perimeter = OVERLAPPING[name]
+    labels = CIRCLE_A.format(a=a) + CIRCLE_B.format(b=b, side=side)
+    machine = machine_after(f"CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1/2\nM2\n{labels}")
+    machine.ended = False
+    region = contour_region(machine)
+    assert region.area == pytest.approx(area, abs=1e-3)
+    assert sum(loop.length for loop in region.loops) == pytest.approx(perimeter, abs=1e-3)
+    assert machine.tip == (0, 0, 0) and not machine.recorder.rows  # nothing has moved
+
+
+def data(**changes):
+    """Cycle 20 and 22 blocks with some values changed."""
+    values = dict(Q1=-10, Q2=0.8, Q3=0.5, Q4=0.2, Q5=0, Q6=2, Q7=50, Q8=0, Q9=1, Q10=5, Q11=100, Q12=350, Q19=0, Q208=9999)
+    values |= changes
+    first = "\n".join(f"Q{k}={values[f'Q{k}']:+g}" for k in range(1, 10))
+    second = "\n".join(f"{k}={values[k]:+g}" for k in values if int(k[1:]) >= 10)
+    return f"CYCL DEF 20 CONTOUR DATA\n{first}\nCYCL DEF 22 ROUGH-OUT\n{second}\n"
+
+
+#: A pocket 80 x 80 with one rounded corner (R15), an island of radius 15 in its middle.
+LABELS = """LBL 1
+L X+10 Y+10 RR
+L Y+90
+RND R15
+L X+90
+L Y+10
+L X+10
+LBL 0
+LBL 2
+L X+35 Y+50 RL
+CC X+50 Y+50
+C X+35 Y+50 DR-
+LBL 0
+"""
+
+
+def pocket(labels="1/2", head="TOOL CALL 1 Z S2000\nL Z+100 R0 FMAX M3\n", between="", **changes):
+    contour = f"CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL {labels}\n"
+    return f"{head}{contour}{data(**changes)}{between}CYCL CALL\nL Z+100 R0 FMAX M2\n{LABELS}"
+
+
+def drawn(island=True):
+    """The pocket as a fine polygon, from its numbers."""
+    corner = [(25 + 15 * np.cos(a), 75 + 15 * np.sin(a)) for a in np.linspace(np.pi, np.pi / 2, 400)]
+    area = Polygon([(10, 10), *corner, (90, 90), (90, 10)])
+    return area - Point(50, 50).buffer(15, 400) if island else area
+
+
+def swept(path, level, radius):
+    """What the tool covers at a depth."""
+    at = (np.abs(path.end[:, 2] - level) < 1e-9) & (np.abs(path.start[:, 2] - level) < 1e-9) & path.is_motion
+    discs = []
+    for row in np.flatnonzero(at):
+        xyz, _ = path[row : row + 1].points(1e-4)
+        discs.append(LineString(xyz[:, :2]).buffer(radius, 64))
+    return union_all(discs)
+
+
+def test_pocket_with_an_island_is_cleared_at_every_level():
+    run = mnclab.run(pocket(), "tnc-620", Setup(tools={1: Tool(radius=5)}))
+    assert run.ok, run.alarms
+    path = run.toolpath
+    # levels z = Q5 - min(k Q10, |Q1| - Q4): -5 and -9.8
+    plunges = path[(path.kind == Kind.LINE) & (path.feed == 100)]
+    assert sorted(set(np.round(plunges.end[:, 2], 9))) == [-9.8, -5]
+    reachable = drawn().buffer(-5.5, 64).buffer(5, 64)  # the tool, less the allowance for side
+    for level in (-5, -9.8):
+        cut = swept(path, level, 5)
+        assert cut.intersection(reachable).area >= 0.999 * reachable.area
+        assert cut.difference(drawn().buffer(-0.5 + 1e-3, 64)).area < 1e-2  # allowance left to a micrometre
+        assert cut.hausdorff_distance(reachable) < 5e-3
+    assert path.end[-3, 2] == 50  # Q7 at the end, then the block after the call
+    feeds = set(np.round(path.feed[path.kind == Kind.ARC], 6))
+    assert feeds == {350}
+
+
+def test_walls_are_climbed_or_cut_up():
+    """Q9 = +1 climb: along the wall counter-clockwise, round the island clockwise; -1 the reverse."""
+    for sense in (1, -1):
+        path = mnclab.run(pocket(Q9=sense), "tnc-620", Setup(tools={1: Tool(radius=5)})).toolpath
+        arcs = path[(path.kind == Kind.ARC) & (np.hypot(*(path.centre - (50, 50, 0))[:, :2].T) < 1e-6)]
+        assert (np.sign(arcs.sweep) == -sense).all()
+
+
+def test_one_level_where_the_infeed_is_deeper():
+    path = mnclab.run(pocket(Q10=20, Q4=0), "tnc-620", Setup(tools={1: Tool(radius=5)})).toolpath
+    assert path.end[:, 2].min() == -10 and len(set(path.end[path.feed == 100][:, 2])) == 1
+
+
+def test_q_parameters_count_at_the_call():
+    """Q1 between definition and call: the depth is that of the call."""
+    path = mnclab.run(pocket(between="9 Q1 = -4\n", Q4=0), "tnc-620", Setup(tools={1: Tool(radius=5)})).toolpath
+    assert path.end[:, 2].min() == -4
+
+
+def test_a_recorded_contour_may_compute_and_the_tool_does_not_move():
+    """Q writes of the label stay; the first row of the cycle starts where the tool stood."""
+    labels = LABELS.replace("LBL 1\n", "LBL 1\nQ50 = 7\n")
+    text = pocket().replace(LABELS, labels)
+    run = mnclab.run(text, "tnc-620", Setup(tools={1: Tool(radius=5)}))
+    assert run.variables["Q50"] == 7
+    first = run.toolpath[run.toolpath.is_motion][1]
+    assert first.start.tolist() == [0, 0, 100] and first.end.tolist() == [0, 0, 50]
+    positions = {tuple(p) for p in run.history["position"]}
+    assert (10.0, 90.0, 0.0) not in positions
+
+
+def test_the_contour_turns_with_the_frame():
+    """Cycle 7 and 10 before the call: the same area, shifted and turned."""
+    turned = "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 X+200\nCYCL DEF 10.0 ROT\nCYCL DEF 10.1 ROT+30\n"
+    plain, moved = (
+        mnclab.run(pocket(between=text), "tnc-620", Setup(tools={1: Tool(radius=5)})).toolpath for text in ("", turned)
+    )
+    c, s = np.cos(np.radians(30)), np.sin(np.radians(30))
+    at = (plain.kind == Kind.LINE) | (plain.kind == Kind.ARC)
+    expected = plain.end[at][:, :2] @ np.array([[c, s], [-s, c]]) + (200, 0)
+    assert np.allclose(moved.end[at][1:-1, :2], expected[1:-1], atol=1e-9)
+    assert np.allclose(plain.sweep[at], moved.sweep[at], atol=1e-9)
+
+
+REFUSED = [
+    (dict(labels="1/9"), "CYCL DEF 14 LBL (label numbers of the contour) names label 9, which does not exist"),
+    (dict(Q2=0), "CYCL DEF 20 Q2 (path overlap factor) must be at least 0.0001 and at most 1.9999, got 0"),
+    (dict(Q7=1), "CYCL DEF 20 Q7 (clearance height) must not lie below Q5 + Q6 = 2, got 1"),
+    (dict(Q9=0), "CYCL DEF 20 Q9 (direction of machining) must be one of -1, 1, got 0"),
+    (dict(Q10=0), "CYCL DEF 22 Q10 (infeed per cut) must not be 0"),
+    (dict(Q19=100), "CYCL DEF 22 Q19 (feed rate for reciprocation) other than 0"),
+    (dict(labels="2"), "the contour has no pocket"),
+]
+
+
+@pytest.mark.parametrize(("changes", "message"), REFUSED, ids=[m[:40] for _, m in REFUSED])
+def test_refused(changes, message):
+    run = mnclab.run(pocket(**changes), "tnc-620")
+    alarms = [alarm for alarm in run.alarms if alarm.severity == "alarm"]
+    assert message in alarms[0].message and alarms[0].span is not None
+
+
+def test_a_tool_too_large_is_refused():
+    run = mnclab.run(pocket(), "tnc-620", Setup(tools={1: Tool(radius=40)}))
+    assert "does not fit" in run.alarms[0].message and run.alarms[0].hint == "take a smaller tool"
+
+
+def test_a_call_without_contour_is_refused():
+    run = mnclab.run("TOOL CALL 1 Z S100\nL Z+9 FMAX M3\n" + data() + "CYCL CALL\n", "tnc-620")
+    assert "needs a contour: CYCL DEF 14" in run.alarms[0].message
+
+
+def test_multipolygons_are_two_plunges():
+    """A 20 mm neck is too narrow for a tool of radius 15: two pieces, each with its own plunge (PGM C20, coarse tool)."""
+    neck = "LBL 1\nL X+0 Y+0 RL\nL X+60\nL Y+20\nL X+100\nL Y+0\nL X+160\nL Y+60\nL X+100\nL Y+40\nL X+60\nL Y+60\nL X+0\nL Y+0\nLBL 0\n"
+    text = pocket(labels="1", Q3=0, Q4=0, Q10=20).replace(LABELS, neck)
+    run = mnclab.run(text, "tnc-620", Setup(tools={1: Tool(radius=15)}))
+    assert run.ok, run.alarms
+    plunges = run.toolpath[(run.toolpath.kind == Kind.LINE) & (run.toolpath.feed == 100)]
+    assert len(plunges) == 2 and isinstance(swept(run.toolpath, -10, 15), MultiPolygon | Polygon)
+    assert sorted(x < 80 for x in plunges.end[:, 0]) == [False, True]

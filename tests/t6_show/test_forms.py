@@ -1,0 +1,131 @@
+"""Boxes whose picture follows; without a browser, a value set in Python does what a person's typing does."""
+
+import base64
+import re
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+import ipywidgets
+import numpy as np
+import pytest
+
+import mnclab
+from mnclab import Alarm
+from mnclab.show import forms
+from mnclab.show.plot import path as plot_of_path
+
+TEMPLATE = "G90 G54\nG0 X0 Y0 Z5\nG1 X{side} F{feed}\nY{side}\nX0\nY0\n"
+
+
+def picture(live):
+    """The pixels that are shown, and what they are called."""
+    found = re.fullmatch(r'<img alt="([^"]+)" style="[^"]*" src="data:image/png;base64,([^"]+)">', live.picture.value)
+    data = base64.b64decode(found[2])
+    assert data.startswith(b"\x89PNG")
+    return data, found[1]
+
+
+def widgets(parent):
+    """A widget and all below it."""
+    yield parent
+    for child in getattr(parent, "children", ()):
+        yield from widgets(child)
+
+
+def test_a_panel_follows_its_boxes_at_once():
+    live = mnclab.panel(TEMPLATE, "mnc", side=40.0, feed=100)
+    before, name = picture(live)
+    assert "X 0 to 40" in name and "no alarms; cutting 160.000 mm" in live.alarms.value
+    live.boxes["side"].value = 12.5
+    after, name = picture(live)
+    assert after != before and "X 0 to 12.5, Y 0 to 12.5" in name
+    assert np.array_equal(live.run.toolpath.bounds[1], [12.5, 12.5, 5])
+
+
+def test_a_number_that_the_control_refuses_is_told_and_the_picture_stops_there():
+    live = mnclab.panel(TEMPLATE, "mnc", side=40.0, feed=100)
+    live.boxes["feed"].value = 0
+    assert '<div role="alert">' in live.alarms.value
+    assert "F (feed rate) must be greater than 0, got 0" in live.alarms.value
+    assert "stopped in line 3" in picture(live)[1]
+    live.boxes["feed"].value = 50
+    assert "alert" not in live.alarms.value and "stopped" not in picture(live)[1]
+
+
+def test_numbers_decide_the_kind_of_box_and_are_written_as_programs_write_them():
+    live = mnclab.panel("G0 X{a} Y{b} Z{c}\n", "mnc", a=3, b=1e-5, c=(2.0, 0.0, 9.0))
+    kinds = [type(live.boxes[name]) for name in "abc"]
+    assert kinds == [ipywidgets.IntText, ipywidgets.FloatText, ipywidgets.BoundedFloatText]
+    assert live.run.program.text == "G0 X3 Y0.00001 Z2\n"
+    live.boxes["c"].value = 20
+    assert live.boxes["c"].value == 9
+
+
+@pytest.mark.parametrize(
+    ("numbers", "sentence"),
+    [({"side": 1}, "{feed} has no number"), ({"side": 1, "feed": 2, "fed": 3}, "{fed} has no place.*near: feed")],
+)
+def test_places_and_numbers_must_match(numbers, sentence):
+    with pytest.raises(Alarm) as caught:
+        mnclab.panel(TEMPLATE, "mnc", **numbers)
+    assert re.search(sentence, caught.value.headline)
+
+
+def test_all_figures_are_drawn_in_one_thread(monkeypatch):
+    threads, draw = set(), plot_of_path.image
+
+    def watch(*arguments):
+        threads.add(threading.current_thread().name)
+        return draw(*arguments)
+
+    monkeypatch.setattr(plot_of_path, "image", watch)
+    live = mnclab.panel(TEMPLATE, "mnc", side=40.0, feed=100)
+    with ThreadPoolExecutor(3) as several:  # as JupyterLab calls from a thread of its own
+        list(several.map(lambda side: setattr(live.boxes["side"], "value", side), [10.0, 20.0, 30.0]))
+    assert len(threads) == 1 and threads.pop().startswith("drawing")
+
+
+def test_a_form_is_made_from_the_declaration_of_its_cycle():
+    live = mnclab.form("G83", "mnc")
+    assert set(live.boxes) == {p.name for p in mnclab.controls["mnc"].cycles["G83"].parameters()}
+    assert live.boxes["k"].description == "K depth of one peck [mm]"
+    assert "greater than 0" in live.boxes["k"].tooltip
+    assert list(live.boxes)[:2] == ["z", "r"]  # required ones first
+    assert not any(isinstance(widget, ipywidgets.FloatSlider | ipywidgets.IntSlider) for widget in widgets(live))
+
+
+def test_a_form_runs_its_cycle():
+    live = mnclab.form("G83", "mnc")
+    live.boxes["z"].value, live.boxes["r"].value, live.boxes["k"].value = -20, 2, 4
+    assert live.run.ok and live.run.toolpath.bounds[0, 2] == -20
+    levels = live.run.toolpath[live.run.toolpath.kind == mnclab.Kind.LINE].end[:, 2]
+    assert levels == pytest.approx([-2, -6, -10, -14, -18, -20])  # from level R in steps of 4
+    live.ticks["k"].value = False
+    assert live.boxes["k"].disabled
+    assert "K" not in live.run.program.text.splitlines()[3]
+    assert (live.run.toolpath.kind == mnclab.Kind.LINE).sum() == 1
+
+
+def test_a_form_shows_the_alarm_of_its_cycle():
+    live = mnclab.form("G300", "mnc")
+    live.boxes["infeed"].value = 0
+    assert 'role="alert"' in live.alarms.value and "G300 P" in live.alarms.value
+
+
+EVERY = [(name, code) for name in mnclab.controls for code in mnclab.controls[name].cycles]
+
+
+@pytest.mark.parametrize(("control", "code"), EVERY, ids=[" ".join(pair) for pair in EVERY])
+def test_every_cycle_has_a_form(control, code):
+    live = mnclab.form(code, control)
+    declared = mnclab.controls[control].cycles[code].parameters()
+    for parameter in declared:
+        box = live.boxes[parameter.name]
+        assert parameter.address in box.description and parameter.meaning in box.description
+        assert not parameter.refuses(box.value), "the first value is outside what is allowed"
+    assert live.run is not None or "no picture yet" in live.picture.value
+
+
+def test_a_function_has_no_form():
+    with pytest.raises(Alarm, match="G1 has no parameters"):
+        forms.form("G1", "mnc")

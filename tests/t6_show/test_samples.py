@@ -1,0 +1,22 @@
+"""The sample programs: each says where it comes from, and runs clean on the control of its folder."""
+
+from pathlib import Path
+
+import pytest
+
+import mnclab
+
+PROGRAMS = sorted(path for path in Path(__file__).parents[2].glob("data/programs/*/*") if path.is_file())
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: "/".join(path.parts[-2:]))
+def test_a_sample_runs_clean(path):
+    run = mnclab.run(path)  # its suffix says which control
+    assert run.control.name == path.parent.name
+    assert run.alarms == () and len(run.toolpath)
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: "/".join(path.parts[-2:]))
+def test_a_sample_names_its_origin_in_its_first_line(path):
+    first = path.read_text("utf-8").splitlines()[0]
+    assert first.rstrip().endswith("Made for this project.") or "Source:" in first

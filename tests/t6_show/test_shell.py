@@ -1,0 +1,165 @@
+"""The commands of the shell: what is printed where, and the exit status."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from mnclab import __main__ as shell
+
+GOOD = "G90 G54\nG0 X0 Y0 Z5\nG1 X10.5 F100\n"
+COMMA = "G90 G54\nG0 X0 Y0 Z5\nG1 X10,5 F100\n"
+ALARM_LINE = re.compile(r"[^:]+:\d+:\d+: (alarm|warning): .+")
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """A folder with a good and a faulty program, in which commands run."""
+    (tmp_path / "good.mnc").write_text(GOOD)
+    (tmp_path / "comma.mnc").write_text(COMMA)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def mnclab(*arguments):
+    """The exit status of a command line."""
+    try:
+        return shell.main(arguments)
+    except SystemExit as end:
+        return end.code
+
+
+def test_check_of_good_programs_says_nothing(folder, capsys):
+    assert mnclab("check", "good.mnc", "good.mnc") == 0
+    assert capsys.readouterr() == ("", "")
+
+
+def test_check_names_file_line_and_column_on_stderr(folder, capsys):
+    assert mnclab("check", "good.mnc", "comma.mnc") == 1
+    out, err = capsys.readouterr()
+    assert out == "" and ALARM_LINE.fullmatch(err.strip())
+    assert err.startswith("comma.mnc:3:7: alarm: ")  # the comma is the 7th character of line 3
+
+
+def test_a_warning_leaves_the_status_at_zero(folder, capsys):
+    (folder / "end.mnc").write_text(GOOD + "M30\n")
+    assert mnclab("check", "end.mnc") == 0
+    assert capsys.readouterr().err.startswith("end.mnc:4:1: warning: M30")
+
+
+def test_check_goes_on_after_a_file_that_is_not_there(folder, capsys):
+    assert mnclab("check", "none.mnc", "comma.mnc") == 1
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 2 and lines[0].startswith("none.mnc: alarm: cannot be read")
+
+
+def test_check_as_json(folder, capsys):
+    assert mnclab("check", "--json", "good.mnc", "comma.mnc", "none.mnc") == 1
+    out, err = capsys.readouterr()
+    good, comma, none = json.loads(out)
+    assert err == "" and good == {"file": "good.mnc", "alarms": []}
+    assert [comma["alarms"][0][key] for key in ("file", "line", "column")] == ["comma.mnc", 3, 7]
+    assert none["alarms"][0]["file"] == "none.mnc" and none["alarms"][0]["line"] is None
+
+
+def test_run_prints_one_move_a_line(folder, capsys):
+    assert mnclab("run", "good.mnc") == 0
+    first, second = capsys.readouterr().out.splitlines()
+    assert "rapid" in first and "X10.5" in second and "F100" in second
+    assert mnclab("run", "comma.mnc") == 1
+    out, err = capsys.readouterr()
+    assert out.splitlines() == [first] and ALARM_LINE.fullmatch(err.strip())
+
+
+def test_run_as_json(folder, capsys):
+    assert mnclab("run", "good.mnc", "--json", "--control", "mnc") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["columns"]["end_x"] == [0, 10.5] and found["summary"]["cutting length"] == 10.5
+
+
+def test_a_setup_file_is_used(folder, capsys):
+    (folder / "s.toml").write_text("start = [0, 0, 90]\n[tools.1]\nradius = 3\nlength = 50\n")
+    (folder / "tool.mnc").write_text("T1\n" + GOOD)
+    assert mnclab("run", "tool.mnc", "--setup", "s.toml") == 0
+    assert "T1 radius 3 tip X0 Y0 Z40" in capsys.readouterr().out  # 90 less the length of 50
+
+
+def test_plot_writes_the_file_that_was_asked_for(folder, capsys):
+    assert mnclab("plot", "comma.mnc", "-o", "out.svg") == 1  # a picture up to the alarm
+    assert (folder / "out.svg").read_text("utf-8").startswith("<?xml")
+    assert mnclab("plot", "good.mnc", "--output", "out.csv") == 0
+    assert len((folder / "out.csv").read_text("utf-8").splitlines()) == 3
+
+
+def test_help_shows_the_parameters(capsys):
+    assert mnclab("help", "G83", "--control", "mnc") == 0
+    assert re.search(r"^K +depth of one peck +mm +greater than 0", capsys.readouterr().out, re.M)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["check"],
+        ["frobnicate"],
+        ["run", "good.mnc", "--control", "none"],
+        ["run", "good.mnc", "--setup", "none.toml"],
+        ["plot", "good.mnc"],
+        ["plot", "good.mnc", "-o", "out.dxf"],
+        ["help", "G83"],
+        ["help", "G999", "--control", "mnc"],
+    ],
+    ids=" ".join,
+)
+def test_a_senseless_command_line_is_status_two(folder, capsys, arguments):
+    assert mnclab(*arguments) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err and "Traceback" not in err
+    assert sorted(path.name for path in folder.iterdir()) == ["comma.mnc", "good.mnc"]
+
+
+def test_the_module_runs_and_its_output_may_be_cut_off(folder):
+    command = [sys.executable, "-m", "mnclab"]
+    place = {"cwd": Path(shell.__file__).parent.parent, "capture_output": True, "text": True}
+    result = subprocess.run([*command, "check", str(folder / "comma.mnc")], **place)
+    assert result.returncode == 1 and result.stderr.count("\n") == 1
+    (folder / "long.mnc").write_text("G90 F100\n" + "".join(f"G1 X{k}\n" for k in range(1, 20_000)))
+    with subprocess.Popen([*command, "run", str(folder / "long.mnc")], cwd=place["cwd"], stdout=-1, stderr=-1) as child:
+        child.stdout.readline()
+        child.stdout.close()
+        assert child.stderr.read() == b""
+
+
+def test_a_code_page_without_the_letter_does_not_stop_the_message(folder):
+    (folder / "name.mnc").write_text("G90\nG1 X1 F1 Ж5\n", encoding="utf-8")
+    result = subprocess.run(
+        [sys.executable, "-m", "mnclab", "check", str(folder / "name.mnc")],
+        cwd=Path(shell.__file__).parent.parent, capture_output=True, env={"PYTHONIOENCODING": "cp1252", "PATH": ""},
+    )  # fmt: skip
+    assert result.returncode == 1 and b":2:10: alarm: " in result.stderr and b"Traceback" not in result.stderr
+
+
+def test_lab_needs_jupyterlab(capsys, monkeypatch):
+    monkeypatch.setattr(shell.importlib.util, "find_spec", lambda name: None)
+    assert mnclab("lab") == 2
+    assert 'pip install "mnclab[lab]"' in capsys.readouterr().err
+
+
+def test_lab_starts_on_the_first_lesson_with_this_python(monkeypatch):
+    started = []
+
+    class Child:
+        def __init__(self, command, cwd):
+            started.append((command, cwd))
+
+        def wait(self):
+            return 0
+
+    monkeypatch.setattr(shell.subprocess, "Popen", Child)
+    assert mnclab("lab", "--port", "9000") == 0
+    ((command, cwd),) = started
+    assert command[:3] == [sys.executable, "-m", "jupyterlab"] and command[-2:] == ["--port", "9000"]
+    assert (cwd / "notebooks" / command[3].rsplit("/", 1)[1]).is_file()
