@@ -147,7 +147,10 @@ class Bulk:
         arc = (np.abs(motion) == 2) & shaped
         moves |= arc
         go = int(np.argmax(moves)) if moves.any() else n  # until then the tool stands where it stood
-        begin, tips[: go + 1] = tips[0].tolist(), machine.tip
+        begin = tuple(tips[0].tolist())
+        if begin != machine.tip:  # a transformation was switched, or the register was turned there and back
+            tips = tips.copy() if tips is points else tips
+            tips[: go + 1] = machine.tip
 
         without_feed = moves & (motion != 0) & np.isnan(feed)
         fault = unknown | (words["F"] <= 0) | without_feed | (shaped & (np.abs(motion) != 2))

@@ -135,7 +135,7 @@ class Interpreter:
         machine, codes = self.machine, self.control.codes
         active = machine.position_cycle.cycle if machine.position_cycle else None
         kinds = tuple([w[0] if w[0] not in codes else (w[0], w[1]) for w in words])
-        key = (keyword, kinds, machine.modal.get(self.control.motion), active)
+        key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None)
         plan = self.plans.get(key)
         if plan is None:
             plan = self.plans[key] = Planner(self.control, machine, self.phases, keyword, words, active).plan()

@@ -200,7 +200,7 @@ class Machine:
         if self._shift is not None:
             dx, dy, dz = self._shift
             return x + dx, y + dy, z + dz
-        u, v, w = (a * x + b * y + c * z + d for a, b, c, d in self._matrix[:3].tolist())  # exactly as frames.apply
+        u, v, w = frames.apply(self._matrix, (x, y, z)).tolist()
         return u, v, w
 
     def to_program(self, point: Iterable[float]) -> tuple[float, float, float]:

@@ -49,6 +49,8 @@ class Planner:
         self.machine.alarm(message, self.words[index] if index >= 0 else None, hint)
 
     def plan(self) -> Plan:
+        if self.control.together:
+            self.control.together(self.machine, self.words)
         codes = self.codes()
         cycle = next(((c, i) for c, i in codes if c in self.control.cycles), None)
         if cycle:
@@ -75,6 +77,7 @@ class Planner:
         for function, index in functions:
             if function.moves:
                 self.hand_out(function, index)
+        self.refuse_motion([f for f, _ in functions])
         self.word_functions()
         if self.control.one_command and self.actions:
             self.refuse_strangers(self.actions[0])
@@ -198,6 +201,14 @@ class Planner:
             return
         if any(not owner and word.address in function.takes for word, owner in zip(self.words, self.owner, strict=True)):
             self.hand_out(function, -1)
+
+    def refuse_motion(self, functions: list[Function]) -> None:
+        """A function that moves nothing beside one that moves: words of the motion."""
+        still = next((f.code for f in functions if f.still), None)
+        moved = next((a.takes[0] for a in self.actions if a.takes and isinstance(a.what, Function) and a.what.moves), -1)
+        if still and moved >= 0:
+            word = self.words[moved]
+            self.alarm(f"{still} stands in a block without motion, {word} does not belong to it", moved, "write two blocks")
 
     def refuse_leftovers(self, functions: list[Function]) -> None:
         still = next((f.code for f in functions if f.still), None)

@@ -1,7 +1,8 @@
 """The MNC milling control (Mechatronics, 2015): the namesake.
 
-``language`` holds motion, offsets and words, ``compensation`` the radius functions, ``drilling`` the cycles of chapter 9.
-Still to come are polar motion, transformations, the other cycles and probing; their codes are refused by name.
+``language`` holds motion, offsets and words, ``polar`` polar motion, ``transforms`` scaling, mirror image, rotation and
+datums, ``compensation`` the radius functions, ``drilling`` the cycles of chapter 9. Still to come are the other cycles and
+probing; their codes are refused by name.
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ from mnclab.path.compensation import Compensation
 
 #: Order inside a block (adopted reading MNC-BLOCK-ORDER).
 PHASES = (
-    "plane", "feed", "spindle", "tool", "auxiliary", "frames", "local", "compensation", "dwell", "motion", "call", "end"
-)  # fmt: skip
+    *("plane", "feed", "spindle", "tool", "corrector", "auxiliary", "frames", "local", "compensation", "dwell"),
+    *("motion", "call", "end"),
+)
 
 SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "1.5"),
@@ -32,7 +34,6 @@ REFUSED = (
     | {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
     | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
-    | {"D": "the tool corrector is not built yet"}
 )
 
 CONTROL = Control(
@@ -47,6 +48,7 @@ CONTROL = Control(
     frames=("datum", "local", "rotation", "mirror", "scaling"),
     compensation=Compensation(approach="corner"),
     refused=REFUSED,
+    together=language.together,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=lambda m: m.modal.get("motion") in ("G0", "G1", "G2", "G3"),

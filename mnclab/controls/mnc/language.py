@@ -9,10 +9,22 @@ from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
+from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
 PLANES = {"G17": "XY", "G18": "ZX", "G19": "YZ"}
 OUTSIDE = "the manual does not list it; it is taken in its ISO meaning"
+
+
+def together(m: Machine, words: list[Word]) -> None:
+    """Alarms for G functions that may not stand in one block (1.6, 2.6, 2.8.5)."""
+    codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
+    if m.pole is not None and len(codes) > 1:
+        message = "more than one G function stands in a block while polar coordinates are active"
+        m.alarm(message, [*codes.values()][1], hint="write two blocks, or G15 first")
+    for code, word in codes.items():
+        if "G53" in codes and code in m.control.functions and m.control.functions[code].still:
+            m.alarm(f"{code} stands in a block without motion, G53 in one with motion", word, hint="write two blocks")
 
 
 def absolute(m: Machine) -> bool:
@@ -49,7 +61,7 @@ def arc(m: Machine, words: Words) -> None:
     group="plane", phase="plane", power_on="G17", source="2.4",
 )  # fmt: skip
 def plane(m: Machine, words: Words) -> None:
-    """The plane of arcs and of radius compensation."""
+    """The plane of arcs, radius compensation, polar coordinates and rotation."""
     if m.pole is not None and PLANES[words.code] != m.plane:
         m.alarm("the plane cannot change while polar coordinates are on", first_word(words), hint="write G15 first")
     motion.set_plane(m, PLANES[words.code], first_word(words))
@@ -84,10 +96,10 @@ def set_position(m: Machine, words: Words) -> None:
     """The present point gets the coordinates X Y Z; U V W move the origin by that much. No motion."""
     if m.side:
         m.alarm("G92 cannot stand under radius compensation", first_word(words), hint="write G40 first")
-    if "machine coordinates" in m.memory:
-        m.alarm("G92 and G53 stand in one block: G53 moves, G92 does not", first_word(words), hint="write two blocks")
     point, local = list(m.programmed), m.frames["local"][:3, 3].copy()
     inner = m.frames["rotation"] @ m.frames["mirror"] @ m.frames["scaling"]
+    if not np.array_equal(inner, frames.IDENTITY):
+        m.warn("G92 under scaling, mirror image or rotation: its values are programmed coordinates", first_word(words))
     for k, (axis, increment) in enumerate(zip(AXES, "UVW", strict=True)):
         if axis in words and increment in words:
             m.alarm(f"{axis} and {increment} stand in one G92 block", words[increment], hint="keep one of them")
@@ -107,6 +119,7 @@ def set_position(m: Machine, words: Words) -> None:
 FUNCTIONS("F", "Feed", phase="feed", source="4.1")(motion.feed)
 FUNCTIONS("S", "Spindle speed", phase="spindle", source="1.2")(motion.spindle_speed)
 FUNCTIONS("T", "Tool call", phase="tool", source="5.1")(motion.tool)
+FUNCTIONS("D", "Tool corrector", phase="corrector", source="1.2")(motion.corrector)
 
 SPINDLE = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise", "M5": "Spindle stop"}
 

@@ -1,7 +1,8 @@
 """Polar coordinates (MNC 2.8): G16 sets a pole, G10 to G13 move like G0 to G3 to a radius R and an angle A.
 
-R and A are kept from block to block; under G91 they are added to those of the last position. In the plane of G17, G18 or
-G19 the angle counts from the first axis to the second: XY from +X, ZX from +Z, YZ from +Y.
+R and A are kept from block to block; under G91 they are added to those of the last position, which a Cartesian block may
+have made. In the plane of G17, G18 or G19 the angle counts from the first axis to the second: XY from +X, ZX from +Z, YZ
+from +Y.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ def polar_on(m: Machine, words: Words) -> None:
         m.alarm(f"{AXES[normal]} is no coordinate of the plane {m.plane}", words[AXES[normal]])
     pole = tuple(m.value(words[AXES[k]]) if AXES[k] in words else 0.0 for k in (first, second))
     m.pole = (pole[0], pole[1])
-    m.memory["polar"] = polar_of(m, m.pole)
+    m.memory["polar"] = polar_of(m, m.pole), m.programmed
 
 
 @FUNCTIONS("G15", "Polar coordinates off", group="polar", phase="frames", power_on="G15", source="2.8.5")
@@ -53,17 +54,17 @@ def target(m: Machine, words: Words) -> dict[str, Any]:
     head = first_word(words)
     if m.pole is None:
         m.alarm(f"{m.modal['motion']} needs a pole", head, hint="write G16 first")
-    codes = [word for word in m.flow.program[m.flow.current].words if word.address == "G"]
-    if len(codes) > 1:
-        m.alarm(f"{codes[1]} stands with {codes[0]} in a polar block: only one G function is allowed there", codes[1])
-    radius, angle = m.memory["polar"]
+    if "machine coordinates" in m.memory:
+        m.alarm("G53 takes X Y Z, not a radius and an angle", head)
+    (radius, angle), place = m.memory["polar"]
+    if not absolute(m) and m.programmed != place:  # the last position was not given by R and A
+        radius, angle = polar_of(m, m.pole)
     if "R" in words:
         radius = m.value(words["R"]) + (0.0 if absolute(m) else radius)
         if radius < 0:
             m.alarm(f"R (polar radius) must be at least 0, got {radius:g}", words["R"])
     if "A" in words:
         angle = m.value(words["A"]) + (0.0 if absolute(m) else angle)
-    m.memory["polar"] = radius, angle
     first, second, normal = PLANES[m.plane]
     turned = math.radians(angle)
     to = {
@@ -77,6 +78,7 @@ def target(m: Machine, words: Words) -> dict[str, Any]:
     for k in (first, second):
         if AXES[k] in words:
             m.alarm(f"{m.modal['motion']} does not take {AXES[k]}: its end is given by R and A", words[AXES[k]])
+    m.memory["polar"] = (radius, angle), m.target(**{axis: to.get(axis) for axis in "xyz"})
     return to
 
 
@@ -122,8 +124,10 @@ def polar_arc(m: Machine, words: Words) -> None:
         m.alarm("K (radius of the arc) must not be 0", word)
     if AXES[normal] in words:
         m.warn(f"{AXES[normal]} in an arc of the plane {m.plane} makes a helix, which the manual does not describe", words[AXES[normal]])
-    end = m.memory["polar"][0]
+    end = m.memory["polar"][0][0]
     if max(abs(begin - abs(radius)), abs(end - abs(radius))) <= ON_CENTRE:
         m.arc(**to, sense=sense, centre={first: m.pole[0], second: m.pole[1]}, word=word, tolerance=2 * ON_CENTRE)
+    elif m.memory["polar"][1] == m.programmed:
+        m.alarm("a full circle needs K equal to the polar radius", word)
     else:
         m.arc(**to, sense=sense, radius=radius, word=word)

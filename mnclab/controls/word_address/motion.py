@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from mnclab.machine.control import Words
 from mnclab.machine.machine import PLANES, Machine
+from mnclab.path.tool import Tool
 from mnclab.text.program import Word
 
 AXES = "XYZ"
@@ -88,13 +90,27 @@ def spindle_speed(m: Machine, words: Words) -> None:
 
 def tool(m: Machine, words: Words) -> None:
     """T: the tool from the table is active at once; no axis moves."""
-    word = words["T"]
-    number = m.value(word)
+    m.change_tool(tool_row(m, words["T"], "tool"))
+
+
+def corrector(m: Machine, words: Words) -> None:
+    """D: until the next T, corrections and radius come from another row of the tool table; no axis moves."""
+    row = tool_row(m, words["D"], "corrector")
+    corrected = replace(m.tables.tools[m.tool.number], radius=row.radius, dr=row.dr, dl=row.dl)
+    if corrected.effective_length != m.tool.effective_length:
+        m.change_tool(corrected)
+    else:
+        m.change("tool", corrected)
+
+
+def tool_row(m: Machine, word: Word, name: str) -> Tool:
+    """The row of the tool table that a word T or D names."""
+    number, letter = m.value(word), word.address
     if number != int(number) or not 0 <= number <= 99:
-        m.alarm(f"T (tool number) must be a whole number from 0 to 99, got {number:g}", word)
+        m.alarm(f"{letter} ({name} number) must be a whole number from 0 to 99, got {number:g}", word)
     if int(number) not in m.tables.tools:
-        known = ", ".join(f"T{n}" for n in sorted(m.tables.tools))
-        m.alarm(f"T{int(number)} has no row in the tool table", word, hint=f"tools: {known}")
+        known = ", ".join(f"{letter}{n}" for n in sorted(m.tables.tools))
+        m.alarm(f"{letter}{int(number)} has no row in the tool table", word, hint=f"tools: {known}")
     if m.side:
-        m.alarm("the tool cannot change while radius compensation is active", word, hint="write G40 first")
-    m.change_tool(m.tables.tools[int(number)])
+        m.alarm(f"the {name} cannot change while radius compensation is active", word, hint="write G40 first")
+    return m.tables.tools[int(number)]
