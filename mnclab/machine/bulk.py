@@ -190,18 +190,15 @@ class Bulk:
         k = np.flatnonzero(run.arc)
         s, e = run.points[k][:, [first, second]], run.points[k + 1][:, [first, second]]
         sense = np.sign(run.motion[k])
-        radius = words["R"][k]
-        round_ = by_radius[k]
-        offset = np.nan_to_num(np.stack([words["IJK"[first]][k], words["IJK"[second]][k]], axis=1))
-        c, shortage = centre_from_radius(s, e, np.where(round_, radius, 1.0), sense)
-        c = np.where(round_[:, None], c, s + offset)
+        tolerance = rule.tolerance(machine)
+        c = s + np.nan_to_num(np.stack([words["IJK"[first]][k], words["IJK"[second]][k]], axis=1))
         at_start, at_end = np.hypot(*(s - c).T), np.hypot(*(e - c).T)
-        chord = np.hypot(*(e - s).T)
-        run.fault[k] |= np.where(
-            round_,
-            (shortage > rule.tolerance(machine)) | (chord < 1e-3) | (radius == 0) | centred[k].any(axis=1),
-            (at_start < 1e-9) | (np.abs(at_start - at_end) > rule.tolerance(machine)) | centred[k, normal],
-        )
+        fault = (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance) | centred[k, normal]
+        if (by := np.flatnonzero(by_radius[k])).size:
+            radius, chord = words["R"][k][by], np.hypot(*(e - s)[by].T)
+            c[by], shortage = centre_from_radius(s[by], e[by], radius, sense[by])
+            fault[by] = (shortage > tolerance) | (chord < 1e-3) | (radius == 0) | centred[k][by].any(axis=1)
+        run.fault[k] |= fault
         run.fault[k] |= run.points[k, normal] != run.points[k + 1, normal]  # a helix: the other tier remarks on it
         angle = sweep(s, e, c, sense)
         centre = run.points[k].copy()

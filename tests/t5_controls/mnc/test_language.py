@@ -288,3 +288,9 @@ def test_polar_arcs(program, centre, degrees):
     arc = run("G16\n" + program).toolpath[-1]
     assert arc.centre[:2].tolist() == pytest.approx(centre, abs=1e-9)
     assert math.degrees(arc.sweep) == pytest.approx(degrees, abs=1e-6)
+
+
+def test_a_block_seen_before_the_pole_is_refused_after_it():
+    """The handing out of words is planned once for each kind of block; the pole is part of the kind."""
+    run = mnclab.run("F100\nG90 G1 X1\nG16\nG90 G1 X1\n", "mnc")
+    assert [a.span[:2] for a in run.alarms if a.severity == "alarm"] == [(4, 5)]
