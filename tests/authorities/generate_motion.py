@@ -1,5 +1,7 @@
 """Random programs in what MNC and RS-274 have in common, with LinuxCNC's motion: writes motion.json.
 
+generate_more.py builds on it.
+
     python3 tests/authorities/generate_motion.py
 
 Every program is written twice, in MNC and in RS-274. The generator keeps its own account of where each block
@@ -81,6 +83,8 @@ class Spelling:
 class Program:
     """One program growing in both languages, and the account of the motion that it must make."""
 
+    families = FAMILIES
+
     def __init__(self, rng, family):
         self.rng, self.family = rng, family
         self.spelling = Spelling(rng)
@@ -100,14 +104,14 @@ class Program:
 
     # Writing.
 
-    def write(self, words):
-        """One block in both texts."""
+    def write(self, words, rs274=None):
+        """One block in both texts; `rs274` where the other language writes it differently."""
         text = self.spelling.block(words)
         if self.spelling.numbered:
             label = "N" + str(5 * len(self.mnc) + 5)
             text = (label.lower() if self.spelling.lower else label) + self.spelling.blank + text
         self.mnc.append(text)
-        self.rs274.append(text)
+        self.rs274.append(rs274 or text)
         self.line_of[len(self.rs274)] = len(self.mnc)
         if self.rng.random() < 0.05:
             self.mnc[-1] += " // a remark"
@@ -119,7 +123,7 @@ class Program:
             head.append(("G", PLANE_CODE[self.plane]))
         if self.rng.random() < 0.8:
             head.append(("G", 90))
-        if "work_offset" in FAMILIES[self.family]:
+        if "work_offset" in self.families[self.family]:
             for row in sorted(self.rng.sample(range(1, 7), 3)):
                 self.datums[row] = [self.somewhere(300) for _ in range(3)]
                 words = " ".join(a + decimal(v) for a, v in zip("XYZ", self.datums[row], strict=True))
@@ -137,7 +141,7 @@ class Program:
 
     def step(self):
         """One more block of the family's kinds."""
-        does = FAMILIES[self.family]
+        does = self.families[self.family]
         getattr(self, self.rng.choices(list(does), list(does.values()))[0])()
 
     # Random values.
@@ -269,45 +273,58 @@ class Program:
             if target[axis] == self.at[axis] and self.rng.random() < 0.5:
                 continue  # a coordinate that stays may be left out
             zero = self.datum[axis] + self.shift[axis] if self.absolute else self.at[axis]
-            words.append(("XYZ"[axis], target[axis] - zero))
-        words += arc
+            words.append(("XYZ"[axis], round(target[axis] - zero)))
+        self.write([*words, *arc, *self.new_feed(code)])
+        self.plan(code, arc, [target.get(axis, self.at[axis]) for axis in range(3)])
+
+    def new_feed(self, code):
+        """The word F where a block needs it, and now and then."""
         if code and (self.feed is None or self.rng.random() < 0.2):
             self.feed = self.rng.choice([60, 100, 250, 400, 1000, 80.5, 312.25])
-            words.append(("F", round(self.feed * TICKS)))
-        self.write(words)
-        end = [target.get(axis, self.at[axis]) for axis in range(3)]
-        self.planned.append((len(self.mnc), code, dict(arc), self.at, end, self.plane, self.feed))
+            return [("F", round(self.feed * TICKS))]
+        return []
+
+    def plan(self, code, arc, end):
+        """Note what the block just written must do: it leads to `end`."""
+        place = self.placing()
+        row = (len(self.mnc), code, dict(arc), self.at, end, self.plane, self.feed, place)
+        self.planned.append(row)
         self.at = end
+
+    def placing(self):
+        """How a point of the account (ticks) stands on the machine (mm)."""
+        return lambda point: [v / TICKS for v in point]
 
     def check(self, rows):
         """Stop unless the recorded motion is the planned one."""
-        for row, (line, code, arc, start, end, plane, feed) in zip(rows, self.planned, strict=True):
+        for row, (line, code, arc, start, end, plane, feed, place) in zip(rows, self.planned, strict=True):
             assert row["line"] == line
             assert row["kind"] == ("rapid", "line", "arc", "arc")[code]
-            assert math.dist(row["to"], [v / TICKS for v in end]) < 1e-9
+            assert math.dist(row["to"], place(end)) < 1e-9
             assert code == 0 or math.isclose(row["feed"], feed)
             if code < 2:
                 continue
             assert (row["sweep"] > 0) == (code == 3)
-            assert row["axis"].index(1) == AXES[plane][2]
+            normal = AXES[plane][2]
+            above = [v + TICKS * (axis == normal) for axis, v in enumerate(start)]
+            assert math.dist(row["axis"], [a - b for a, b in zip(place(above), place(start), strict=True)]) < 1e-9
             if "R" in arc:
-                normal = AXES[plane][2]
-                middle = [c for axis, c in enumerate(row["centre"]) if axis != normal]
-                for point in (start, end):
-                    flat = [v / TICKS for axis, v in enumerate(point) if axis != normal]
-                    assert abs(math.dist(flat, middle) - abs(arc["R"]) / TICKS) < 1e-9
+                level = [start[axis] if axis == normal else v for axis, v in enumerate(end)]
+                for point in (start, level):
+                    assert abs(math.dist(place(point), row["centre"]) - abs(arc["R"]) / TICKS) < 1e-9
                 assert (abs(row["sweep"]) < math.pi) == (arc["R"] > 0)
             else:
-                centre = [(v + arc.get(address, 0)) / TICKS for v, address in zip(start, "IJK", strict=True)]
-                assert math.dist(row["centre"], centre) < 1e-9
+                centre = [v + arc.get(address, 0) for v, address in zip(start, "IJK", strict=True)]
+                assert math.dist(row["centre"], place(centre)) < 1e-9
 
 
-def main():
-    rng = random.Random(SEED)
+def generate(name, seed, kind, each):
+    """Write a file of `each` programs of every family of a kind of Program."""
+    rng = random.Random(seed)
     records = []
-    for family in FAMILIES:
-        for number in range(1, EACH + 1):
-            program = Program(rng, family)
+    for family in kind.families:
+        for number in range(1, each + 1):
+            program = kind(rng, family)
             rs274 = "\n".join(program.rs274) + "\n"
             answer = ask(rs274)
             assert answer["ok"], (answer, rs274)
@@ -317,8 +334,8 @@ def main():
             if program.datums:
                 record["datums"] = {row: [v / TICKS for v in at] for row, at in program.datums.items()}
             records.append(record | {"motion": rows})
-    save("motion.json", SEED, records)
+    save(name, seed, records)
 
 
 if __name__ == "__main__":
-    main()
+    generate("motion.json", SEED, Program, EACH)

@@ -12,6 +12,7 @@ one JSON object: `ok`, `error` and `line` of a refused program, and `motion`, a 
     centre   [x, y, z] of arcs; along the normal of the plane it has the end point's coordinate
     turns    of arcs: + counter-clockwise, - clockwise, 1 up to one full turn, 2 up to two turns ...
     plane    of arcs: "XY", "ZX" or "YZ"
+    rotation of arcs: rad about Z by which G10 has turned the system, if it has
 
 Nothing imports this file: it is a program to be called. Tool changes must stay out of PROGRAM.ngc (`T.. M6`
 crashes the module); write the cutter diameter as `G41.1 D..` or `G42.1 D..`.
@@ -106,6 +107,7 @@ class Canon:
             centre=self.machine(*centre),
             turns=turns,
             plane=self.plane,
+            **({"rotation": self.rotation} if self.rotation else {}),
         )
 
     def machine(self, x, y, z):

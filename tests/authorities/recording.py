@@ -59,10 +59,17 @@ def sweep(start, end, centre, turns, plane):
     return math.copysign(turned, turns)
 
 
+def turned(point, angle):
+    """A point turned about the Z axis by an angle in rad."""
+    (x, y, z), c, s = point, math.cos(angle), math.sin(angle)
+    return [x * c - y * s, x * s + y * c, z]
+
+
 def motion(answer, line_of):
     """The rows of LinuxCNC's answer in our terms; `line_of` leads from its lines to those of the MNC text.
 
-    The centre of an arc is start + I J K, so along the normal of the plane it has the start's coordinate.
+    The centre of an arc is start + I J K, so along the normal of the plane it has the start's coordinate. Under a
+    rotation the plane is turned with it.
     """
     rows, start = [], [0.0, 0.0, 0.0]
     for move in answer["motion"]:
@@ -70,12 +77,15 @@ def motion(answer, line_of):
         if "feed" in move:
             row["feed"] = move["feed"]
         if row["kind"] == "arc":
-            normal = AXES[move["plane"]][2]
-            centre = list(move["centre"])
-            centre[normal] = start[normal]
-            row["centre"] = centre
-            row["axis"] = [int(axis == normal) for axis in range(3)]
-            row["sweep"] = sweep(start, move["to"], centre, move["turns"], move["plane"])
+            normal, angle = AXES[move["plane"]][2], move.get("rotation", 0)
+            begin, end, centre = start, move["to"], list(move["centre"])
+            if angle:
+                begin, end, centre = (turned(point, -angle) for point in (begin, end, centre))
+            centre[normal] = begin[normal]
+            axis = [int(k == normal) for k in range(3)]
+            row["centre"] = turned(centre, angle) if angle else centre
+            row["axis"] = turned(axis, angle) if angle and normal != 2 else axis
+            row["sweep"] = sweep(begin, end, centre, move["turns"], move["plane"])
         rows.append(row)
         start = move["to"]
     return rows
