@@ -48,7 +48,9 @@ class Log:
 
     def close(self, last: int) -> tuple[NDArray[np.integer[Any]], Values]:
         """All changes up to step ``last``."""
-        chunks = [chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])]
+        chunks = [
+            chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])
+        ]
         if not chunks:
             return np.empty(0, dtype=np.int64), []
         steps = np.concatenate([chunk[0] for chunk in chunks])

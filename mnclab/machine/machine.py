@@ -281,7 +281,9 @@ class Machine:
         feed = self.feed_of(f, word)
         point = self.target(x, y, z)
         if (away := math.dist(self.to_machine(self.programmed), self.tip)) > tolerance:
-            fault = f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move"
+            fault = (
+                f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move"
+            )
             self.alarm(fault, word, hint="lead the tool to the start of the arc by a straight move first")
         first, second, _ = PLANES[self.plane]
         s = np.array([self.programmed[first], self.programmed[second]])
@@ -371,7 +373,19 @@ class Machine:
         if self.per_rev and feed != (self.feed or 0.0) * abs(self.speed):  # a rapid, or a feed in mm/min of a cycle
             state = recorder.state(recorder.states[state]._replace(per_rev=NAN))
         recorder.rows.append(
-            (int(kind), self.source_line, self.step, recorder.label(self.label), *tip, *centre, angle, feed, time, number, state)
+            (
+                int(kind),
+                self.source_line,
+                self.step,
+                recorder.label(self.label),
+                *tip,
+                *centre,
+                angle,
+                feed,
+                time,
+                number,
+                state,
+            )
         )
 
     def mark_joint(self, joint: Any) -> bool:

@@ -42,7 +42,12 @@ class Alarm(Exception):
     """
 
     def __init__(
-        self, message: str, span: Span | None = None, severity: str = ALARM, hint: str = "", source: Source | None = None
+        self,
+        message: str,
+        span: Span | None = None,
+        severity: str = ALARM,
+        hint: str = "",
+        source: Source | None = None,
     ) -> None:
         super().__init__(message)
         self.message, self.span, self.severity, self.hint, self.source = message, span, severity, hint, source
@@ -87,7 +92,11 @@ class Alarm(Exception):
         head = f'<span style="color:{colour};font-weight:600">{escape(self.severity)}</span> '
         body = f"{escape(self.place)}: {escape(self.message)}"
         hint = f"<br><em>{escape(self.hint)}</em>" if self.hint else ""
-        shown = f'<pre style="margin:.2em 0 .6em 1.5em;font-family:monospace">{escape(text)}\n{escape(caret)}</pre>' if caret else ""
+        shown = (
+            f'<pre style="margin:.2em 0 .6em 1.5em;font-family:monospace">{escape(text)}\n{escape(caret)}</pre>'
+            if caret
+            else ""
+        )
         return f'<div role="alert">{head}{body}{hint}{shown}</div>'
 
     def as_dict(self) -> dict[str, Any]:

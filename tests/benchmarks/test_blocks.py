@@ -116,7 +116,9 @@ def test_blocks(kind, tmp_path):
         assert len(found.toolpath) >= blocks - 1
 
     middle = {name: np.median(times, axis=0) for name, times in rounds.items()}
-    print(f"\n{kind}: {blocks} blocks, {len(text) / 1e6:.0f} MB, median of {ROUNDS} rounds; {peak / blocks:.0f} bytes a block")
+    print(
+        f"\n{kind}: {blocks} blocks, {len(text) / 1e6:.0f} MB, median of {ROUNDS} rounds; {peak / blocks:.0f} bytes a block"
+    )
     print(f"{'':26s}{'cpu s':>8s}{'wall s':>8s}{'blocks/s':>12s}{'bulk is':>9s}")
     for name, (cpu, wall) in middle.items():
         print(f"{name:26s}{cpu:8.2f}{wall:8.2f}{blocks / cpu:12.0f}{cpu / middle['bulk tier'][0]:8.1f}x")

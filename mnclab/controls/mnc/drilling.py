@@ -64,10 +64,14 @@ class DeepHoleDrilling(Cycle):
     r: float = param("R", "level R", modal=True, note="under G91 from the initial level, signed")
     k: float | None = param("K", "depth of one peck", default=None, default_means="one pass", above=0, incremental=True)
     p: float = param("P", "dwell at the bottom", "s", default=0, at_least=0)
-    f: float | None = param("F", "feed rate", "mm/min", default=None, default_means="the modal feed", above=0, modal=True)
+    f: float | None = param(
+        "F", "feed rate", "mm/min", default=None, default_means="the modal feed", above=0, modal=True
+    )
 
     @classmethod
-    def prepare(cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]) -> dict[str, Any]:
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
         """Levels are worked out when they are programmed: z becomes the bottom, r the level, x and y the hole."""
         for one, other in (("x", "u"), ("y", "v"), ("z", "w")):
             if one in given and other in given:
@@ -95,7 +99,11 @@ class DeepHoleDrilling(Cycle):
         if "f" in given and values["f"] > 0:
             m.change("feed", values["f"])  # stays the modal feed afterwards (9.1)
         if "k" not in given and kept.get("pecked"):
-            m.warn("G83 K (depth of one peck) is not modal: this hole is drilled in one pass", None, "write K for each hole")
+            m.warn(
+                "G83 K (depth of one peck) is not modal: this hole is drilled in one pass",
+                None,
+                "write K for each hole",
+            )
         kept["pecked"] = kept.get("pecked", False) or "k" in given
         return values
 
@@ -133,7 +141,9 @@ class Drilling(Cycle):
 
     clearance: float = param("Q", "clearance above the surface", above=0, incremental=True)
     depth: float = param("H", "depth from the surface to the bottom", below=0, incremental=True)
-    infeed: float | None = param("P", "depth of each infeed", default=None, default_means="one pass", above=0, incremental=True)
+    infeed: float | None = param(
+        "P", "depth of each infeed", default=None, default_means="one pass", above=0, incremental=True
+    )
     surface: float = param("Z", "workpiece surface", note="always absolute")
     feed: float | None = param("F", "plunging feed", "mm/min", default=None, default_means="the modal feed", above=0)
     dwell_top: float = param("E", "dwell at the clearance level", "s", default=0, at_least=0)

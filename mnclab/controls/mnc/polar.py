@@ -123,7 +123,10 @@ def polar_arc(m: Machine, words: Words) -> None:
     if radius == 0:
         m.alarm("K (radius of the arc) must not be 0", word)
     if AXES[normal] in words:
-        m.warn(f"{AXES[normal]} in an arc of the plane {m.plane} makes a helix, which the manual does not describe", words[AXES[normal]])
+        m.warn(
+            f"{AXES[normal]} in an arc of the plane {m.plane} makes a helix, which the manual does not describe",
+            words[AXES[normal]],
+        )
     end = m.memory["polar"][0][0]
     if max(abs(begin - abs(radius)), abs(end - abs(radius))) <= ON_CENTRE:
         m.arc(**to, sense=sense, centre={first: m.pole[0], second: m.pole[1]}, word=word, tolerance=2 * ON_CENTRE)

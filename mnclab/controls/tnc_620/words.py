@@ -164,8 +164,12 @@ class Cursor:
             hint = "the axis letter is missing" if c in "+-" else "a blank inside a number splits it"
             return Fault(f"{c!r} needs an address before it", self.at, hint=hint)
         if c in "Gg":
-            return Fault("G has no meaning here", self.at, hint="G words belong to DIN/ISO programs; write L, C, CR or CYCL DEF")
-        hint = "the letter O stands where the digit 0 was meant" if c in "Oo" and self.text[self.at - 1].isdigit() else ""
+            return Fault(
+                "G has no meaning here", self.at, hint="G words belong to DIN/ISO programs; write L, C, CR or CYCL DEF"
+            )
+        hint = (
+            "the letter O stands where the digit 0 was meant" if c in "Oo" and self.text[self.at - 1].isdigit() else ""
+        )
         return Fault(f"{c!r} has no meaning here", self.at, hint=hint)
 
     def without_number(self, found: re.Match[str]) -> Fault:

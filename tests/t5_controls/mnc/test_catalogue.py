@@ -312,9 +312,7 @@ def exact(case):
     return not re.search(r"\.\d{4}", json.dumps([case["start"], case["contour"]]))
 
 
-@pytest.mark.parametrize(
-    ("example", "case"), [c for c in COMPENSATED if "G160" in c.values[1]["tool_centre_path"]]
-)
+@pytest.mark.parametrize(("example", "case"), [c for c in COMPENSATED if "G160" in c.values[1]["tool_centre_path"]])
 def test_tool_centre_path(example, case):
     """G160: every corner of tables 7.1, 7.2 and 7.3."""
     known = {"R", "side", "start", "entry_to", "contour", "exit_to", "tool_centre_path"} | REMARKS

@@ -8,7 +8,9 @@ from mnclab.controls.tnc_620 import CONTROL, later
 
 
 def test_subprogram_and_repeat(inside) -> None:
-    run = inside('2 CALL LBL "S"\n3 LBL 5\n4 L IY+1\n5 CALL LBL 5 REP 2/2\n6 CALL LBL "S"\n7 M30\n8 LBL "S"\n9 L IX+10\n10 LBL 0')
+    run = inside(
+        '2 CALL LBL "S"\n3 LBL 5\n4 L IY+1\n5 CALL LBL 5 REP 2/2\n6 CALL LBL "S"\n7 M30\n8 LBL "S"\n9 L IX+10\n10 LBL 0'
+    )
     # S once, three passes of the section, S again
     assert run.toolpath.motion.end[:, :2].tolist() == [[10, 0], [10, 1], [10, 2], [10, 3], [20, 3]]
 

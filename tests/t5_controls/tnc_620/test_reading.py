@@ -40,7 +40,9 @@ def without_numbers() -> str:
 
 def with_tilde() -> str:
     lines = PROGRAM.splitlines()
-    return "\n".join(line + " ~" if after.startswith(" ") else line for line, after in zip(lines, [*lines[1:], ""], strict=True))
+    return "\n".join(
+        line + " ~" if after.startswith(" ") else line for line, after in zip(lines, [*lines[1:], ""], strict=True)
+    )
 
 
 SPELLINGS = {
@@ -130,7 +132,9 @@ def test_sub_blocks_become_one_block() -> None:
     assert [(str(w), w.span.line, w.span.column) for w in program[0].words] == [("X60", 2, 17), ("IY40", 3, 17)]
 
 
-@pytest.mark.parametrize("line", ["CONTUR1/2/3/4", "ETICH. CONTUR 1/2/3/4", "CONTOUR LABEL1 /2 /3 /4", "ETICH.\nCONTUR1/2/3/4"])
+@pytest.mark.parametrize(
+    "line", ["CONTUR1/2/3/4", "ETICH. CONTUR 1/2/3/4", "CONTOUR LABEL1 /2 /3 /4", "ETICH.\nCONTUR1/2/3/4"]
+)
 def test_contour_labels(line: str) -> None:
     """Printed in many ways (seed lines 5107, 5108): the numbers count."""
     program = block(f"12 CYCL DEF 14.0 CONTUR\n13 CYCL DEF 14.1 {line}")
@@ -152,7 +156,9 @@ def test_a_long_name_may_be_broken() -> None:
 
 
 def test_inches_become_millimetres(tnc) -> None:
-    run = tnc("0 BEGIN PGM I INCH\n1 TOOL CALL 1 Z F10\n2 L X+1 Y-0.5 R0\n3 Q1 = 2\n4 L X+Q1 Y+0 F20 ;\n5 END PGM I INCH\n")
+    run = tnc(
+        "0 BEGIN PGM I INCH\n1 TOOL CALL 1 Z F10\n2 L X+1 Y-0.5 R0\n3 Q1 = 2\n4 L X+Q1 Y+0 F20 ;\n5 END PGM I INCH\n"
+    )
     assert run.ok
     moves = run.toolpath.motion
     assert moves.end.ravel().tolist() == pytest.approx([25.4, -12.7, 0, 50.8, 0, 0])

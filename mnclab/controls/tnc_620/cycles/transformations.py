@@ -34,7 +34,9 @@ class DatumShift(Cycle):
     )
 
     @classmethod
-    def prepare(cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]) -> dict[str, Any]:
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
         """Increments are added to the shift as it is."""
         for name, before in zip("xyz", shift(m), strict=True):
             if name in given and given[name].incremental:
@@ -48,7 +50,9 @@ class DatumShift(Cycle):
 
     def moves(self, m: Machine) -> None:
         """No motion: the register is read anew from where the tip stands."""
-        x, y, z = (before if new is None else new for new, before in zip((self.x, self.y, self.z), shift(m), strict=True))
+        x, y, z = (
+            before if new is None else new for new, before in zip((self.x, self.y, self.z), shift(m), strict=True)
+        )
         m.set_frame("shift", frames.shift(x, y, z) if (x, y, z) != (0, 0, 0) else None, keep="tip")
 
 
@@ -67,7 +71,9 @@ class Rotation(Cycle):
     )
 
     @classmethod
-    def prepare(cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]) -> dict[str, Any]:
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
         """An increment within its range is added to the active angle; the sum has no limit and counts modulo a whole turn."""
         if "angle" in given and given["angle"].incremental and abs(values["angle"]) <= 360:
             values["angle"] = math.fmod(m.memory.get("rotation", 0.0) + values["angle"], 360)

@@ -70,7 +70,11 @@ def side(m: Machine, words: Words, begins: bool) -> None:
         wanted = SIDES[word.address]
         if wanted != m.side and not begins:
             verb = "end" if wanted == 0 else "begin"
-            m.alarm(f"{word} cannot {verb} the radius compensation in {words.code}", word, hint="write it in a straight line L")
+            m.alarm(
+                f"{word} cannot {verb} the radius compensation in {words.code}",
+                word,
+                hint="write it in a straight line L",
+            )
         m.change("side", wanted)
 
 
@@ -96,7 +100,9 @@ def centre(m: Machine, words: Words) -> None:
 def sense(m: Machine, words: Words) -> int:
     """DR+ counter-clockwise (1), DR- clockwise (-1)."""
     if "DR" not in words:
-        m.alarm(f"{words.code} needs the sense of rotation", None, hint="write DR+ (counter-clockwise) or DR- (clockwise)")
+        m.alarm(
+            f"{words.code} needs the sense of rotation", None, hint="write DR+ (counter-clockwise) or DR- (clockwise)"
+        )
     word = words["DR"]
     if word.value not in ("+", "-"):
         m.alarm(f"{words.code} DR (sense of rotation) must be DR+ or DR-, got {word}", word)
