@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 from matplotlib.path import Path
-from matplotlib.transforms import Affine2D
+from matplotlib.transforms import Affine2D, IdentityTransform
 from numpy.typing import NDArray
 
 from mnclab.show.plot import colours
@@ -34,6 +34,7 @@ def draw(ax: Axes, view: View, drawn: Strokes, found: Classes, low: Array, high:
             heads, sizes=[SIZE**2], offsets=at, offset_transform=ax.transData, facecolors=shades,
             edgecolors=colours.PAPER, linewidths=0.5, zorder=3.3, label="_arrows",
         )  # fmt: skip
+        artist.set_transform(IdentityTransform())
         ax.add_collection(artist, autolim=False)
     return at
 

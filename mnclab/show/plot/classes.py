@@ -7,7 +7,7 @@ lighter with the value, so that grey print keeps the order.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib import colormaps
@@ -28,7 +28,7 @@ TITLES = {"feed": "feed, mm/min", "tool": "tool", "line": "line", "z": "Z, mm"}
 NAMES = {"feed": "{} mm/min", "tool": "tool {}", "line": "line {}", "z": "Z {} mm"}
 
 Array = NDArray[np.float64]
-Values = NDArray[np.floating] | NDArray[np.integer]
+Values = NDArray[Any]
 
 
 class Scale(NamedTuple):
@@ -105,8 +105,11 @@ def _divide(values: Values, colour: str) -> tuple[NDArray[np.int16], list[Line],
         return group, looks, None
     missing = ~np.isfinite(values)
     known = values[~missing] if missing.any() else values
-    nice = MaxNLocator(BINS, steps=[1, 2, 2.5, 5, 10], integer=colour in ("tool", "line"))
-    limits = np.round(nice.tick_values(float(known.min()), float(known.max())), 9)
+    nice = MaxNLocator(BINS - 1, steps=[1, 2, 2.5, 5, 10], integer=colour in ("tool", "line"))
+    limits = np.asarray(nice.tick_values(float(known.min()), float(known.max())))
+    if known.max() >= limits[-1]:  # a bin holds its lower limit, not its upper one
+        limits = np.append(limits, 2 * limits[-1] - limits[-2])
+    limits = np.round(limits, 9)
     shades = ramp(len(limits) - 1)
     names = [f"{number(a)} to {number(b)}" for a, b in zip(limits[:-1], limits[1:])]
     looks = [_look(NAMES[colour].format(name), shade, k) for k, (name, shade) in enumerate(zip(names, shades))]

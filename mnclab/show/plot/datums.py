@@ -25,7 +25,7 @@ ORIGINS = {"datum": "", "preset": "preset", "local": "G92", "shift": "datum shif
 NEAR = 1.5  # places that would make the box longer than this many times are not shown
 MANY = 8  # places beyond which only zero points have names
 LOOKED_AT = 20_000  # strokes that a name avoids
-OFF = (6.0, 11.0)  # points from a cross to its name, tried one after the other
+OFF = (8.0, 13.0)  # points from a cross to its name, tried one after the other
 SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1))
 
 Array = NDArray[np.float64]
@@ -133,12 +133,14 @@ def write_names(ax: Axes, view: View, places: Sequence[Place], occupied: Array, 
     figure: Any = ax.get_figure(root=True)
     unit = figure.dpi / 72
     begin, end = _segments(ax, view, drawn)
+    around = 6 * unit
     crowd = ax.transData.transform(np.concatenate([occupied, [at for _, _, at in spots]]))
-    taken = [np.array([x - 5 * unit, y - 5 * unit, x + 5 * unit, y + 5 * unit]) for x, y in crowd]
+    taken = [np.array([x - around, y - around, x + around, y + around]) for x, y in crowd]
     inner = np.array([ax.bbox.x0, ax.bbox.y0, ax.bbox.x1, ax.bbox.y1]) + np.array([2, 2, -2, -2]) * unit
     for name, mark, at in spots:
         text = ax.annotate(
-            name, (float(at[0]), float(at[1])), (0, 0), textcoords="offset points", fontsize=SMALL, color=mark.colour, zorder=4.5,
+            name, (float(at[0]), float(at[1])), (0, 0), textcoords="offset points", fontsize=SMALL,
+            color=mark.colour, zorder=4.5,
             parse_math=False, bbox={"boxstyle": "square,pad=0.1", "fc": colours.PAPER, "ec": "none", "alpha": 0.75},
         )  # fmt: skip
         best = None
@@ -162,7 +164,7 @@ def _put(text: Annotation, side: tuple[int, int], off: float) -> None:
     right, up = side
     text.set_horizontalalignment("left" if right > 0 else "right" if right else "center")
     text.set_verticalalignment("bottom" if up > 0 else "top" if up else "center")
-    both = 0.7 if right and up else 1.0
+    both = 0.8 if right and up else 1.0
     text.set_position((both * off * right, both * off * up))
 
 

@@ -43,6 +43,7 @@ class Drawing(NamedTuple):
     lines: list[tuple[Line, Array]]
     marks: list[tuple[Mark, Array]]
     places: list[Place]
+    plunge: Mark
     arrows: bool
 
 
@@ -85,7 +86,8 @@ def plot_path(
     shown = near(places, low, high) if marks else []
     low, high = _with(shown, low, high)
     views = _views(view, path, low, high, single=ax is not None)
-    drawing = Drawing(path, drawn, found, lines, _marks(path, stop is not None), shown, arrows)
+    plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
+    drawing = Drawing(path, drawn, found, lines, _marks(path, stop is not None), shown, plunge, arrows)
     if ax is not None:
         _draw(ax, views[0], drawing)
         dress(ax, views[0])
@@ -225,7 +227,7 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     artists = [Line2D(xyz[:, view.right], xyz[:, view.up], **line.style()) for line, xyz in drawing.lines]
     plunges = _plunges(drawing.path, view)
     if len(plunges):
-        artists.append(Line2D(plunges[:, 0], plunges[:, 1], **colours.PLUNGE.style()))
+        artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style()))
     artists += [Line2D(xyz[:, view.right], xyz[:, view.up], **mark.style()) for mark, xyz in drawing.marks]
     artists += crosses(drawing.places, view)
     for artist in artists:
