@@ -219,3 +219,9 @@ def test_what_is_far_away_or_unwanted_has_no_cross():
     assert crosses(far.plot(frame="cuts").axes[0]) == {}
     assert np.ptp(far.plot(frame="cuts").axes[0].get_xlim()) < 60
     assert crosses(run(TWO).plot(marks=False).axes[0]) == {}
+
+
+def test_the_deepest_cut_lies_on_top_from_above():
+    text = "G90 G54\nG0 X0 Y0 Z5\nG1 Z-3 F100\nX20\nZ-1\nX0\n"
+    shown = divided(run(text).plot(colour="z").axes[0])
+    assert max(shown, key=lambda name: shown[name].get_zorder()) == "Z −3 mm"

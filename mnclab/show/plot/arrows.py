@@ -14,7 +14,7 @@ from mnclab.show.plot.classes import Classes
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strokes import Strokes
 
-MANY = 300  # moves beyond which arrows say nothing
+MANY = 300  # moves of a path beyond which arrows say nothing and are not drawn
 MOST = 16  # arrows in one view
 LONG, APART, CLEAR = 0.1, 0.4, 0.06  # of the view's greatest side: a move with an arrow, way between two, distance
 HEAD = Path([(0.55, 0.0), (-0.45, 0.4), (-0.2, 0.0), (-0.45, -0.4), (0.55, 0.0)], closed=True)
@@ -49,7 +49,7 @@ def places(
     size = float((high - low).max())
     limits = np.append(np.flatnonzero(np.diff(row, prepend=-1) != 0), len(row))
     moves = np.stack([limits[:-1], limits[1:]], axis=1)[row[limits[:-1]] >= 0]
-    if size > 0 and len(moves) <= MANY:
+    if size > 0:
         last, since = -1, 0.0
         for first, after in moves.tolist():
             steps = np.diff(xy[first - 1 : after], axis=0)

@@ -95,7 +95,7 @@ def _divide(values: Values, colour: str) -> tuple[NDArray[np.int16], list[Line],
     if few is not None:
         known = few[np.isfinite(few)]
         names = [NAMES[colour].format(number(value)) for value in known]
-        looks = [_look(name, shade, k) for k, (name, shade) in enumerate(zip(names, ramp(len(known))))]
+        looks = _looks(names, colour)
         if len(known) < len(few):
             looks.append(colours.FEED._replace(name=f"no {colour}", colour=colours.PROGRAMMED.colour))
         group = np.zeros(len(values), np.int16)
@@ -110,9 +110,9 @@ def _divide(values: Values, colour: str) -> tuple[NDArray[np.int16], list[Line],
     if known.max() >= limits[-1]:  # a bin holds its lower limit, not its upper one
         limits = np.append(limits, 2 * limits[-1] - limits[-2])
     limits = np.round(limits, 9)
-    shades = ramp(len(limits) - 1)
-    names = [f"{number(a)} to {number(b)}" for a, b in zip(limits[:-1], limits[1:])]
-    looks = [_look(NAMES[colour].format(name), shade, k) for k, (name, shade) in enumerate(zip(names, shades))]
+    names = [NAMES[colour].format(f"{number(a)} to {number(b)}") for a, b in zip(limits[:-1], limits[1:])]
+    looks = _looks(names, colour)
+    shades = tuple(look.colour for look in looks)
     looks.append(colours.FEED._replace(name=f"no {colour}", colour=colours.PROGRAMMED.colour))
     share = (np.where(missing, limits[0], values) - limits[0]) / (limits[1] - limits[0])
     group = np.clip(share, 0, len(shades) - 1).astype(np.int16)
@@ -128,9 +128,14 @@ def _few(values: Values, most: int) -> Values | None:
     return found if len(found) <= most else None
 
 
-def _look(name: str, shade: str, k: int) -> Line:
-    """A cut of class k: classes of greater values are drawn later, but below rapids."""
-    return colours.FEED._replace(name=name, colour=shade, order=colours.FEED.order + 0.01 * k)
+def _looks(names: list[str], colour: str) -> list[Line]:
+    """Cuts of rising values: the greater are drawn later, but the deeper where the colour shows Z."""
+    order = range(len(names), 0, -1) if colour == "z" else range(len(names))
+    base = colours.FEED
+    return [
+        base._replace(name=name, colour=shade, order=base.order + 0.01 * k)
+        for name, shade, k in zip(names, ramp(len(names)), order)
+    ]
 
 
 def ramp(count: int) -> tuple[str, ...]:

@@ -43,6 +43,7 @@ class Drawing(NamedTuple):
     lines: list[tuple[Line, Array]]
     marks: list[tuple[Mark, Array]]
     places: list[Place]
+    plunges: dict[View, Array]
     plunge: Mark
     arrows: bool
 
@@ -87,7 +88,9 @@ def plot_path(
     low, high = _with(shown, low, high)
     views = _views(view, path, low, high, single=ax is not None)
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
-    drawing = Drawing(path, drawn, found, lines, _marks(path, stop is not None), shown, plunge, arrows)
+    plunges = {each: _plunges(path, each) for each in views}
+    arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
+    drawing = Drawing(path, drawn, found, lines, _marks(path, stop is not None), shown, plunges, plunge, arrows)
     if ax is not None:
         _draw(ax, views[0], drawing)
         dress(ax, views[0])
@@ -103,7 +106,7 @@ def plot_path(
         return figure
     names = [line.name for line, _ in lines] if not found.scale else [line.name for line, _ in lines if _fixed(line)]
     names += [mark.name for mark, _ in drawing.marks]
-    if any(len(_plunges(path, each)) for each in views):
+    if any(map(len, drawing.plunges.values())):
         names.append(colours.PLUNGE.name)
     if any(line.get_label() == colours.POLE.name for each in views for line in crosses(shown, each)):
         names.append(colours.POLE.name)
@@ -174,9 +177,9 @@ def _marks(path: Toolpath, stopped: bool) -> list[tuple[Mark, Array]]:
 
 def _plunges(path: Toolpath, view: View) -> Array:
     """Where cuts run along the tool and the line of sight, and would be invisible (m, 2)."""
-    rows = path.kind == Kind.LINE
-    for k in (view.right, view.up):
-        rows &= (np.abs(path.axis[:, k]) < 1e-9) & (path.start[:, k] == path.end[:, k])
+    rows = np.flatnonzero(path.start[:, view.right] == path.end[:, view.right])
+    rows = rows[(path.start[rows, view.up] == path.end[rows, view.up]) & (path.kind[rows] == Kind.LINE)]
+    rows = rows[(np.abs(path.axis[rows][:, [view.right, view.up]]) < 1e-9).all(axis=1)]
     return np.unique(path.end[rows][:, [view.right, view.up]], axis=0)
 
 
@@ -184,8 +187,9 @@ def _box(path: Toolpath, pieces: Sequence[tuple[Line, Array]], frame: str) -> tu
     """The corners (3,) of the box that is shown, and whether rapids go beyond it; a lathe's holds the centre line."""
     if frame not in ("auto", "all", "cuts"):
         raise ValueError(f"frame must be auto, all or cuts, got {frame!r}")
-    everything = corners([*(points for _, points in pieces), path.start[:1], path.end[-1:]], path.lathe)
     cuts = corners([points for line, points in pieces if line is not colours.RAPID], path.lathe)
+    rest = [points for line, points in pieces if line is colours.RAPID] + [path.start[:1], path.end[-1:]]
+    everything = corners([*rest, np.array(cuts).reshape(-1, 3)] if cuts else rest, path.lathe)
     if everything is None:
         return np.zeros(3), np.zeros(3), False
     if cuts is None or frame == "all":
@@ -225,7 +229,7 @@ def _views(view: str, path: Toolpath, low: Array, high: Array, single: bool) -> 
 def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     """Add lines, marks and crosses to an axes; returns those that a legend names."""
     artists = [Line2D(xyz[:, view.right], xyz[:, view.up], **line.style()) for line, xyz in drawing.lines]
-    plunges = _plunges(drawing.path, view)
+    plunges = drawing.plunges[view]
     if len(plunges):
         artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style()))
     artists += [Line2D(xyz[:, view.right], xyz[:, view.up], **mark.style()) for mark, xyz in drawing.marks]
