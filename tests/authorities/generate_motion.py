@@ -284,10 +284,9 @@ class Program:
             return [("F", round(self.feed * TICKS))]
         return []
 
-    def plan(self, code, arc, end):
+    def plan(self, code, arc, end, place=None):
         """Note what the block just written must do: it leads to `end`."""
-        place = self.placing()
-        row = (len(self.mnc), code, dict(arc), self.at, end, self.plane, self.feed, place)
+        row = (len(self.mnc), code, dict(arc), self.at, end, self.plane, self.feed, place or self.placing())
         self.planned.append(row)
         self.at = end
 

@@ -8,6 +8,7 @@ import pytest
 
 import mnclab
 from mnclab import Kind, Setup, Tool
+from mnclab.machine import bulk
 
 AUTHORITIES = Path(__file__).parents[2] / "authorities"
 KINDS = {"rapid": Kind.RAPID, "line": Kind.LINE, "arc": Kind.ARC}
@@ -19,19 +20,23 @@ def records(name):
 
 
 def compare(path, motion, tolerance=EXACT):
-    """Every motion row against the recorded one: line, kind, end, centre, sweep."""
+    """Every motion row against the recorded one: line, kind, end, feed, centre, sweep."""
     origin, moves = path.origin, path.motion
     assert [(int(k), int(n)) for k, n in zip(moves.kind, moves.line)] == [(KINDS[m["kind"]], m["line"]) for m in motion]
     assert np.abs(moves.end + origin - np.array([m["to"] for m in motion])).max() <= tolerance
+    assert moves.feed.tolist() == pytest.approx([m.get("feed", np.inf) for m in motion], rel=1e-12)
     arcs = [i for i, m in enumerate(motion) if m["kind"] == "arc"]
     for i in arcs:
         assert np.abs(moves.centre[i] + origin - motion[i]["centre"]).max() <= tolerance
         assert moves.sweep[i] == pytest.approx(motion[i]["sweep"], abs=1e-9)
-        assert np.array_equal(moves.axis[i], motion[i].get("axis", [0, 0, 1]))
+        assert np.abs(moves.axis[i] - motion[i].get("axis", [0, 0, 1])).max() <= 1e-12
 
 
-@pytest.mark.parametrize("record", records("motion.json"), ids=lambda r: r["name"])
-def test_motion(record):
+@pytest.mark.parametrize("shortest", [bulk.SHORTEST, 2])
+@pytest.mark.parametrize("record", records("motion.json") + records("motion_more.json"), ids=lambda r: r["name"])
+def test_motion(record, shortest, monkeypatch):
+    """Most programs are too short for the bulk tier; then it takes every two plain blocks."""
+    monkeypatch.setattr(bulk, "SHORTEST", shortest)
     datums = {int(row): tuple(offset) for row, offset in record.get("datums", {}).items()}
     run = mnclab.run(record["mnc"], "mnc", Setup(datums=datums))
     assert run.ok, run.alarms

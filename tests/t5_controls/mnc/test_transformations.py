@@ -1,7 +1,7 @@
-"""Scaling, mirror, rotation, work offsets and G92 in every order against plain 4x4 matrices that are made here (2.5 to 2.10).
+"""Scaling, mirror, rotation, work offsets and G92 in every order against plain 4x4 matrices made here (2.5 to 2.10).
 
-A programmed point p is scaled, mirrored, turned; then come G92 and the work offset. `Model` is the account of one machine
-kept with these matrices; nothing of mnclab.geometry takes part in it.
+A programmed point p is scaled, mirrored, turned; then come G92 and the work offset. `Model` is the account of one
+machine kept with these matrices; nothing of mnclab.geometry takes part in it.
 """
 
 import json
@@ -278,7 +278,7 @@ def test_random_programs(plane, todo):
         assert np.abs(end - tip).max() <= 10 * EXACT * size
 
 
-# --- what the manual says in words -------------------------------------------------------------------------------------
+# --- what the manual says in words -----------------------------------------------------------------------------------
 
 
 def ends(text, **setup):
@@ -335,7 +335,7 @@ def test_the_last_function_of_a_kind_counts():
     assert ends(text) == [[-2, -1, 0]]  # 3, 2 -> -1, 2 -> -2, -1
 
 
-# --- radius compensation -------------------------------------------------------------------------------------------------
+# --- radius compensation ---------------------------------------------------------------------------------------------
 
 CONTOURS = json.loads(COMPENSATION.read_text(encoding="utf-8"))["records"]
 FRAMES = {  # head, matrix, factor of the tool radius for which the compensated path is the image of the recorded one
@@ -353,7 +353,7 @@ FRAMES = {  # head, matrix, factor of the tool radius for which the compensated 
 @pytest.mark.parametrize("frame", FRAMES)
 @pytest.mark.parametrize("record", CONTOURS, ids=lambda r: r["name"])
 def test_a_compensated_contour_is_the_image_of_the_recorded_one(frame, record):
-    """G41 of a mirrored contour is the mirror image of G41; a scaled one needs a scaled tool, its radius is not scaled."""
+    """G41 of a mirrored contour is the mirror image of G41. The tool is not scaled: for the image take a scaled one."""
     head, matrix, factor = FRAMES[frame]
     text = f"{head}\n{record['mnc']}"
     found = mnclab.run(text, "mnc", Setup(tools={1: Tool(radius=record["radius"] * factor)}))
