@@ -37,6 +37,7 @@ class Flow:
         self.obey, self.bulk = obey, bulk
         self.machine: Machine
         self.depth, self.calls, self.executed = 0, 0, 0  # calls: subprograms alone, without repeats
+        self.limit = LONGEST + len(program)
         self.returning = False
         self.current = 0  # block being obeyed
         self._jump: int | None = None
@@ -114,7 +115,7 @@ class Flow:
     def begin(self, block: int) -> int:
         """Note the execution of a block; the number of its step."""
         self.executed += 1
-        if self.executed > LONGEST + len(self.program):
+        if self.executed > self.limit:
             raise Alarm(f"repeats and calls ran {LONGEST} blocks without an end", self.program.span_of_block(block))
         self._blocks.append(block)
         return self._counted + len(self._blocks) - 1

@@ -32,7 +32,7 @@ class Words(dict[str, Word]):
     """
 
     def __init__(self, words: tuple[Word, ...], code: str = "") -> None:
-        super().__init__((word[0], word) for word in reversed(words))
+        super().__init__([(word[0], word) for word in reversed(words)])
         self.words, self.code = words, code
 
     def all(self, address: str) -> list[Word]:

@@ -3,6 +3,10 @@
 A defined cycle is a :class:`Definition` (values and the words they came from); it is *bound* to a frozen instance of
 its class when it is called, and checked there. ``runs`` says when: "definition" (as soon as it is read), "call" (by M99,
 CYCL CALL, …) or "position" (at each following position while it is active).
+
+One line a parameter, and one address a parameter: a coordinate that may be written as X or as an increment U was meant to
+be one declaration with two addresses, but then neither help nor the comparison with the manual's table showed U. Such a
+pair is two parameters, ``instead`` ties them, and :meth:`Cycle.prepare` makes one level of both where they are written.
 """
 
 from __future__ import annotations
@@ -275,4 +279,6 @@ def help_html(cycle: type[Cycle]) -> str:
         rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
     head = "".join(f"<th>{name}</th>" for name in ("address", "meaning", "unit", "allowed", "default", "note"))
     about = f"<p>{escape(cycle.__doc__ or '')} ({escape(cycle.source)})</p>"
-    return f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4>{about}<table><tr>{head}</tr>{''.join(rows)}</table>"
+    return (
+        f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4>{about}<table><tr>{head}</tr>{''.join(rows)}</table>"
+    )

@@ -2,7 +2,8 @@
 
 What a block means depends on its keyword, its addresses, its G and M words, and on little of the machine's state: the
 modal motion and an active cycle. So the handing out is *planned* once for each kind of block and kept; obeying a block
-is then a walk through its plan, in the order of the control's phases.
+is then a walk through its plan, in the order of the control's phases. Handing words out anew for every block took more
+time than obeying them.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from mnclab.text.alarm import ALARM, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import NONE, NUMBER, Program, Word
 
-WINDOW = 4096  # blocks whose words are held as lists
+WINDOW = 256  # blocks whose words are made at once; more would keep the garbage collector busy
 
 
 class Stop(Exception):
@@ -37,8 +38,7 @@ class Interpreter:
         self.plans: dict[Any, Plan] = {}
         self.window, self.bounds = (0, 0), [0]
         self.lines: list[int] = []
-        self.line_bounds: list[tuple[int, int]] = []
-        self.rows: list[tuple[int, float, int, int, int, int]] = []
+        self.words: list[Word] = []
         self.faulty = self._faulty_blocks()
         self.bulk = Bulk(control, machine, program, self.faulty)
         machine.flow = Flow(program, self.obey, self.bulk.obey)
@@ -77,17 +77,17 @@ class Interpreter:
         if index in self.faulty:
             raise Stop
         before = machine.programmed
-        words = self.words_of(index)
+        at = index - self.window[0]
+        words = self.words[self.bounds[at] : self.bounds[at + 1]]
         plan = self.plan_for(program.keywords[program.keyword[index]], words)
-        for at, sentence, hint in plan.remarks:
-            machine.warn(sentence, words[at], hint)
-        for action in plan.actions:
-            head = words[action.head] if action.head >= 0 else None
-            given = tuple(words[k] for k in action.takes)
-            if isinstance(action.what, Function):
-                self.call(action.what, head, given)
+        for which, sentence, hint in plan.remarks:
+            machine.warn(sentence, words[which], hint)
+        for _, what, code, head, takes in plan.actions:
+            given = tuple([words[k] for k in takes])
+            if isinstance(what, Function):
+                self.call(what, words[head] if head >= 0 else None, given)
             else:
-                self.take_cycle(action.what, action.code, head, given)
+                self.take_cycle(what, code, words[head] if head >= 0 else None, given)
         machine.end_block()
         if machine.programmed != before:
             machine.log("position", machine.programmed)
@@ -98,34 +98,31 @@ class Interpreter:
             self.machine.set_modal(function.group, function.code)
         function.obey(self.machine, Words((head, *given) if head else given, function.code))
 
-    def words_of(self, index: int) -> list[Word]:
-        """The words of a block. Columns become lists for many blocks at a time: plain Python is faster on those."""
-        program, at = self.program, index - self.window[0]
-        a, b = self.bounds[at], self.bounds[at + 1]
-        line = self.lines[at]
-        begin, end = self.line_bounds[at]
-        words = []
-        for k in range(a, b):
-            address, number, form, flag, offset, length = self.rows[k]
-            value: Any = number
-            span = Span(line, offset - begin + 1, length) if offset < end else program.span(offset, length)
-            if form != NUMBER:
-                value = None if form == NONE else program.payload[int(number)]
-            words.append(Word(program.addresses[address], value, span, flag))
-        return words
-
     def open_window(self, index: int) -> None:
-        """Take the columns of the next blocks as lists."""
-        program = self.program
+        """Make the words of the next blocks: columns as lists, for plain Python is faster on those."""
+        program, new = self.program, tuple.__new__
         stop = min(index + WINDOW, len(program))
         a, b = int(program.first[index]), int(program.first[stop])
-        columns = (program.address, program.value, program.form, program.flag, program.offset, program.length)
-        self.rows = list(zip(*(column[a:b].tolist() for column in columns), strict=True))
+        offset = program.offset[a:b]
+        line = np.searchsorted(program.line_starts, offset, "right")
+        column = offset - program.line_starts[line - 1] + 1
+        columns = (program.address, program.value, program.form, program.flag, program.length)
+        rows = zip(*(part.tolist() for part in (*(c[a:b] for c in columns), line, column)), strict=True)
+        names, payload = program.addresses, program.payload
+        self.words = [
+            new(
+                Word,
+                (
+                    names[k],
+                    v if form == NUMBER else None if form == NONE else payload[int(v)],
+                    new(Span, (n, c, size, 0)),
+                    flag,
+                ),
+            )
+            for k, v, form, flag, size, n, c in rows
+        ]
         self.bounds = (program.first[index : stop + 1] - a).tolist()
-        ends = np.append(program.line_starts, 1 << 30)
-        lines = np.asarray(program.line_of(slice(index, stop)))
-        self.lines = lines.tolist()
-        self.line_bounds = list(zip(program.line_starts[lines - 1].tolist(), ends[lines].tolist(), strict=True))
+        self.lines = np.asarray(program.line_of(slice(index, stop))).tolist()
         self.window = (index, stop)
 
     # --- planning ----------------------------------------------------------------------------------------------------

@@ -346,21 +346,8 @@ class Machine:
             state = recorder.state(recorder.states[state]._replace(exact=True))
         if self.per_rev and feed != (self.feed or 0.0) * abs(self.speed):  # a rapid, or a feed in mm/min of a cycle
             state = recorder.state(recorder.states[state]._replace(per_rev=NAN))
-        recorder.rows.append(
-            (
-                int(kind),
-                self.source_line,
-                self.step,
-                recorder.label(self.label),
-                *tip,
-                *centre,
-                angle,
-                feed,
-                time,
-                number,
-                state,
-            )
-        )
+        label = recorder.label(self.label)
+        recorder.add((kind, self.source_line, self.step, label, *tip, *centre, angle, feed, time, number, state))
 
     def mark_joint(self, joint: Any) -> bool:
         """Put a joint on the last motion not settled yet; False if there is none, or if it has one already."""

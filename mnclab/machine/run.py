@@ -1,4 +1,8 @@
-"""Running a program: text and machine in, path, history and alarms out."""
+"""Running a program: text and machine in, path, history and alarms out.
+
+Frames were to be indices in the history; they change so seldom that the log holds the matrices themselves, one name for
+each frame of the chain ("frame datum"), and ``run.frames`` is the chain at the end.
+"""
 
 from __future__ import annotations
 

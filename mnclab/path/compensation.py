@@ -6,8 +6,8 @@ corner. The offsets end at A1 = P + R n1 and begin at A2 = P + R n2; an outside 
 inside corner is cut where the offsets meet. Everything is done for all corners at once.
 
 Here: lines and arcs, entry and exit by a straight line, outside corners by an arc (MNC: G160). Other corner rules, a
-change of side on the way and the look-ahead beyond neighbouring elements are refused or left to the pass that grows
-from this one.
+change of side on the way are refused. Every element is looked at with its neighbours; what comes near from farther
+along the contour is not seen yet.
 """
 
 from __future__ import annotations

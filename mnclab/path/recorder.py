@@ -39,6 +39,7 @@ PLAIN: dict[str, Any] = {
     "label": 0, "sweep": 0.0, "feed": NAN, "time": NAN, "joint": -1, "state": 0, "centre": np.array([NAN] * 3),
 }  # fmt: skip
 STATE = (np.int64,)
+MANY = 4096  # rows kept as tuples; as columns they do not keep the garbage collector busy
 ROW = ("kind", "line", "step", "label", "x", "y", "z", "cx", "cy", "cz", "sweep", "feed", "time", "joint", "state")
 
 
@@ -65,7 +66,16 @@ class Recorder:
 
     def label(self, text: str) -> int:
         """The index of a label."""
-        return self.labels.setdefault(text, len(self.labels))
+        index = self.labels.get(text)
+        if index is None:
+            index = self.labels[text] = len(self.labels)
+        return index
+
+    def add(self, row: tuple[Any, ...]) -> None:
+        """One row, the values in the order of :data:`ROW`."""
+        self.rows.append(row)
+        if len(self.rows) >= MANY:
+            self._flush()
 
     def bulk(self, columns: dict[str, NDArray[Any]]) -> None:
         """Rows (n,) as columns: ``kind`` and ``end`` (n, 3), and what differs from :data:`PLAIN`; one value stands for all."""

@@ -5,7 +5,7 @@ Positions are those of the tool tip along the machine's axes, relative to :attr:
 of the first work offset a program selects); a lathe's X is a radius.
 
 A column that is constant is a stride-0 broadcast and costs nothing. ``start`` and ``end`` of a whole path are two views
-of one array of vertices, so that every row begins where the one before ended.
+of one array of vertices, so that every row begins where the one before ended; a selection of rows has arrays of its own.
 """
 
 from __future__ import annotations

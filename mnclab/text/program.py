@@ -2,7 +2,9 @@
 
 A *word* is an address and a value; a *block* is what a control obeys at once. Words stand in columns of equal length,
 blocks point into them, and ``program[i]`` makes a :class:`Block` for people when asked. Lines and columns of words are
-found from their offset in the text, number and comment of a block are cut from the text on demand.
+found from their offset in the text, number and comment of a block are cut from the text on demand. Labels of blocks are no
+words: a reader checks them and keeps those that are jump targets by their place, so that blocks found in bulk can still
+be sorted in.
 """
 
 from __future__ import annotations
