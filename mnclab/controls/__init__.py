@@ -47,7 +47,9 @@ class Controls(Mapping[str, Control]):
         self._built.pop(name, None)
 
     def _foreign(self) -> dict[str, Control]:
-        return {point.name: point.load() for point in entry_points(group="mnclab.controls") if point.name not in MODULES}
+        return {
+            point.name: point.load() for point in entry_points(group="mnclab.controls") if point.name not in MODULES
+        }
 
     def __repr__(self) -> str:
         return "\n".join(f"{name:8s} {self[name].title}" for name in self)

@@ -64,7 +64,8 @@ def choose(control: str | None, name: str, text: str) -> Control:
         if control not in CONTROLS:
             near = get_close_matches(control, list(CONTROLS), 1, 0.3)
             raise Alarm(
-                f"there is no control {control!r}", hint=f"known: {', '.join(CONTROLS)}" + (f"; near: {near[0]}" if near else "")
+                f"there is no control {control!r}",
+                hint=f"known: {', '.join(CONTROLS)}" + (f"; near: {near[0]}" if near else ""),
             )
         return CONTROLS[control]
     everyone = [CONTROLS[known] for known in CONTROLS]
@@ -75,7 +76,11 @@ def choose(control: str | None, name: str, text: str) -> Control:
     fitting = [one for one in by_suffix or everyone if one.looks_like and one.looks_like(text)]
     if len(fitting) == 1:
         return fitting[0]
-    which = "more than one control fits" if fitting else "nothing in the text or the file's name says which control it is for"
+    which = (
+        "more than one control fits"
+        if fitting
+        else "nothing in the text or the file's name says which control it is for"
+    )
     raise Alarm(f"{which}: name it", hint=f"control= one of {', '.join(CONTROLS)}")
 
 

@@ -136,7 +136,8 @@ class Bulk:
             moves |= written
             points[1:, k] = words[axis] if absolute else np.where(written, words[axis], 0.0)
             points[:, k] = _filled(points[:, k]) if absolute else np.cumsum(points[:, k])
-        tips = self.to_machine(points)
+        same = machine._shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed
+        tips = points if same else self.to_machine(points)  # no copy: memory costs more than the work on it
 
         feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
         motion, unknown = self.motions(words["G"], n)
@@ -161,11 +162,9 @@ class Bulk:
         return run
 
     def to_machine(self, points: Array) -> Array:
-        """Program coordinates (n, 3) to machine coordinates; without any shift no copy, for memory costs time."""
-        machine = self.machine
-        if machine._shift is None:
-            return frames.apply(machine._matrix, points)
-        return points + np.array(machine._shift) if any(machine._shift) else points
+        """Program coordinates (n, 3) to machine coordinates."""
+        shift = self.machine._shift
+        return frames.apply(self.machine._matrix, points) if shift is None else points + np.array(shift)
 
     def motions(self, g: Array, n: int) -> tuple[NDArray[np.int64], Mask]:
         """The sense of each block's motion, and which G words are none."""
@@ -191,18 +190,15 @@ class Bulk:
         k = np.flatnonzero(run.arc)
         s, e = run.points[k][:, [first, second]], run.points[k + 1][:, [first, second]]
         sense = np.sign(run.motion[k])
-        radius = words["R"][k]
-        round_ = by_radius[k]
-        offset = np.nan_to_num(np.stack([words["IJK"[first]][k], words["IJK"[second]][k]], axis=1))
-        c, shortage = centre_from_radius(s, e, np.where(round_, radius, 1.0), sense)
-        c = np.where(round_[:, None], c, s + offset)
+        tolerance = rule.tolerance(machine)
+        c = s + np.nan_to_num(np.stack([words["IJK"[first]][k], words["IJK"[second]][k]], axis=1))
         at_start, at_end = np.hypot(*(s - c).T), np.hypot(*(e - c).T)
-        chord = np.hypot(*(e - s).T)
-        run.fault[k] |= np.where(
-            round_,
-            (shortage > rule.tolerance(machine)) | (chord < 1e-3) | (radius == 0) | centred[k].any(axis=1),
-            (at_start < 1e-9) | (np.abs(at_start - at_end) > rule.tolerance(machine)) | centred[k, normal],
-        )
+        fault = (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance) | centred[k, normal]
+        if (by := np.flatnonzero(by_radius[k])).size:
+            radius, chord = words["R"][k][by], np.hypot(*(e - s)[by].T)
+            c[by], shortage = centre_from_radius(s[by], e[by], radius, sense[by])
+            fault[by] = (shortage > tolerance) | (chord < 1e-3) | (radius == 0) | centred[k][by].any(axis=1)
+        run.fault[k] |= fault
         run.fault[k] |= run.points[k, normal] != run.points[k + 1, normal]  # a helix: the other tier remarks on it
         angle = sweep(s, e, c, sense)
         centre = run.points[k].copy()

@@ -45,7 +45,7 @@ class Function:
     """A preparatory, auxiliary or word function of a control.
 
     ``moves``: belongs to the motion of the block, and runs for later blocks while it is modal. ``still``: a block with it
-    moves nothing. ``reads``: addresses that count as motion only together with the function itself in the block.
+    moves nothing. ``ends_cycle``: an active cycle is over before the motion of the block.
     """
 
     code: str
@@ -120,10 +120,11 @@ class FunctionTable(dict[str, Function]):
 class Control:
     """A control as one value; nothing is inherited, two controls that agree share a function.
 
-    ``codes`` are the addresses whose value makes a code (G and M); ``word_functions``: an address may be a function by itself
-    (F, S, T), which a control of keywords does not want, where C is a statement and an axis; ``motion`` is the group whose modal function runs when
-    axis words are left over; ``storage`` says where cycle parameters live until the call ("instance" or "variables").
-    ``together`` raises alarms for words that may not stand in one block; it is asked once for each kind of block.
+    ``codes`` are the addresses whose value makes a code (G and M). ``word_functions``: an address may be a function by
+    itself (F, S, T), which a control of keywords does not want, where C is a statement and an axis. ``motion`` is the
+    group whose modal function runs when axis words are left over. ``storage`` says where cycle parameters live until
+    the call ("instance" or "variables"). ``together`` raises alarms for words that may not stand in one block; it is
+    asked once for each kind of block.
     ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself.
@@ -166,7 +167,9 @@ class Control:
             cells = (f"<code>{escape(code)}</code>", escape(title), escape(group), on, escape(source))
             return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
 
-        rows = [row(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.functions.values()]
+        rows = [
+            row(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.functions.values()
+        ]
         rows += [row(code, cycle.title, "cycle", "", cycle.source) for code, cycle in self.cycles.items()]
         head = "<tr><th>code</th><th>title</th><th>group</th><th>at power-on</th><th>source</th></tr>"
         return f"<h4>{escape(self.title)}</h4><table>{head}{''.join(rows)}</table>"

@@ -106,8 +106,9 @@ def param(
 ) -> Any:
     """Declare one parameter of a cycle in one line of its class.
 
-    No ``default`` means required, unless ``instead`` of it another is given (a parameter by its name); ``default_means`` says in words what a
-    default of None stands for. ``several``: the address may be repeated, and the value is a tuple. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …).
+    No ``default`` means required, unless ``instead`` of it another is given (a parameter by its name);
+    ``default_means`` says in words what a default of None stands for. ``several``: the address may be repeated, and the
+    value is a tuple. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …).
     """
     first, *others = (address,) if isinstance(address, str) else address
     required = default is MISSING
@@ -140,7 +141,9 @@ class Cycle:
         return tuple(declared)
 
     @classmethod
-    def prepare(cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]) -> dict[str, Any]:
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
         """Turn what a block wrote into what stays; for cycles that resolve levels when they are programmed.
 
         ``kept`` lives as long as the cycle is active.
@@ -261,8 +264,15 @@ def help_html(cycle: type[Cycle]) -> str:
     for p in cycle.parameters():
         default = "required" if p.required else p.default_means or ("" if p.default is None else f"{p.default:g}")
         choices = "; ".join(f"{k:g} {v}" for k, v in (p.choices or {}).items())
-        cells = (f"<code>{p.address}</code>", escape(p.meaning), p.unit, escape(choices or p.allowed), escape(default), escape(p.note))
+        cells = (
+            f"<code>{p.address}</code>",
+            escape(p.meaning),
+            p.unit,
+            escape(choices or p.allowed),
+            escape(default),
+            escape(p.note),
+        )
         rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
     head = "".join(f"<th>{name}</th>" for name in ("address", "meaning", "unit", "allowed", "default", "note"))
-    about = f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4><p>{escape(cycle.__doc__ or '')} ({escape(cycle.source)})</p>"
-    return f"{about}<table><tr>{head}</tr>{''.join(rows)}</table>"
+    about = f"<p>{escape(cycle.__doc__ or '')} ({escape(cycle.source)})</p>"
+    return f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4>{about}<table><tr>{head}</tr>{''.join(rows)}</table>"

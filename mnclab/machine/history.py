@@ -1,8 +1,8 @@
 """What changed at each step: a log per name, looked up by ``searchsorted``.
 
 A *step* is one execution of a block; a loop runs a block many times, each a step of its own. Names are modal groups
-("motion", "plane"), values ("feed", "speed", "spindle", "tool"), "position" (the programmed point), variables ("Q5"),
-measured values and table rows.
+("motion", "plane"), values ("feed", "speed", "spindle", "tool"), "position" (the programmed point), frames ("frame
+datum", 4x4), "pole" (both coordinates in the plane, mm), variables ("Q5"), measured values and table rows.
 """
 
 from __future__ import annotations
@@ -48,7 +48,9 @@ class Log:
 
     def close(self, last: int) -> tuple[NDArray[np.integer[Any]], Values]:
         """All changes up to step ``last``."""
-        chunks = [chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])]
+        chunks = [
+            chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])
+        ]
         if not chunks:
             return np.empty(0, dtype=np.int64), []
         steps = np.concatenate([chunk[0] for chunk in chunks])
@@ -113,6 +115,13 @@ class History(Mapping[str, Any]):
         at, values = self._log(name)
         index = int(np.searchsorted(at, step, "right")) - 1
         return _plain(values[index]) if index >= 0 else None
+
+    def changed(self, name: str) -> list[tuple[int, Any]]:
+        """The steps at which a name changed, and its value from there on; empty for a name without a log."""
+        if name not in self._open:
+            return []
+        at, values = self._log(name)
+        return [(int(step), _plain(value)) for step, value in zip(at, values)]
 
     def at(self, step: int) -> dict[str, Any]:
         """Everything that had a value after a step."""

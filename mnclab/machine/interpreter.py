@@ -194,7 +194,9 @@ class Interpreter:
         if isinstance(word.value, str) and parameter.type != "text":
             if word.value.rstrip("0123456789.") not in parameter.also:
                 allowed = f"a number{', ' + ', '.join(parameter.also) if parameter.also else ''}"
-                self.machine.alarm(f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word)
+                self.machine.alarm(
+                    f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word
+                )
             return self.control.named(self.machine, word) if self.control.named else word.value
         if word.value is None or isinstance(word.value, str):
             return word.value
@@ -248,7 +250,12 @@ def run_cycle(machine: Machine, definition: Definition) -> None:
             if is_variable(p) and p.address in machine.variables
         }
         definition = Definition(
-            definition.cycle, definition.code, definition.values | numbers, definition.words, definition.head, definition.extra
+            definition.cycle,
+            definition.code,
+            definition.values | numbers,
+            definition.words,
+            definition.head,
+            definition.extra,
         )
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
     bind(definition, machine).moves(machine)

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from mnclab.geometry import frames
-from mnclab.geometry.arcs import centre_from_radius, sweep
+from mnclab.geometry.arcs import sweep
 from mnclab.geometry.frames import FrameChain, Matrix
+from mnclab.machine.circles import centre_by_radius, check_radii
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
 from mnclab.machine.settling import end_of_settled, settle
@@ -281,16 +282,18 @@ class Machine:
         feed = self.feed_of(f, word)
         point = self.target(x, y, z)
         if (away := math.dist(self.to_machine(self.programmed), self.tip)) > tolerance:
-            fault = f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move"
+            fault = (
+                f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move"
+            )
             self.alarm(fault, word, hint="lead the tool to the start of the arc by a straight move first")
         first, second, _ = PLANES[self.plane]
         s = np.array([self.programmed[first], self.programmed[second]])
         e = np.array([point[first], point[second]])
         if radius is not None:
-            c = self._centre_by_radius(s, e, radius, sense, tolerance, word)
+            c = centre_by_radius(self, s, e, radius, sense, tolerance, word)
         else:
             c = np.array([(centre or {}).get(k, self.programmed[k]) for k in (first, second)])
-            self._check_radii(s, e, c, tolerance, word)
+            check_radii(self, s, e, c, tolerance, word)
         angle = float(sweep(s, e, c, sense))
         middle = list(self.programmed)
         middle[first], middle[second] = c.tolist()
@@ -298,33 +301,6 @@ class Machine:
             angle *= self._arc_sense(word)
         self._row(Kind.ARC, self.to_machine(point), self.to_machine(middle), angle, feed)
         self.programmed, self.tip = point, self.to_machine(point)
-
-    def _centre_by_radius(
-        self, s: np.ndarray, e: np.ndarray, radius: float, sense: int, tolerance: float, word: Word | None
-    ) -> np.ndarray:
-        if np.hypot(*(e - s)) < 1e-3:
-            self.alarm("a full circle cannot be given by its radius", word, hint="write the centre with I J K")
-        c, shortage = centre_from_radius(s, e, radius, sense)
-        if shortage > tolerance:
-            chord, address = 2 * (float(shortage) + abs(radius)), word.address if word else "R"
-            self.alarm(
-                f"{address}{abs(radius):g} is too small for the distance {chord:.4f} mm between start and end: "
-                f"at least {chord / 2:.4f} is needed",
-                word,
-                hint=f"{shortage:.4g} mm are missing",
-            )
-        return c
-
-    def _check_radii(self, s: np.ndarray, e: np.ndarray, c: np.ndarray, tolerance: float, word: Word | None) -> None:
-        at_start, at_end = float(np.hypot(*(s - c))), float(np.hypot(*(e - c)))
-        if at_start < 1e-9:
-            self.alarm("the centre of the arc lies on its start", word)
-        if abs(at_start - at_end) > tolerance:
-            self.alarm(
-                f"the end point is not on the circle: radius {at_start:.4f} at the start, {at_end:.4f} at the end, "
-                f"allowed difference {tolerance:g} mm",
-                word,
-            )
 
     def _arc_sense(self, word: Word | None) -> int:
         """The orientation; an alarm when the frame would turn the circle into an ellipse."""
@@ -368,8 +344,22 @@ class Machine:
         state = self.state()
         if self.exact_here and not self.exact:
             state = recorder.state(recorder.states[state]._replace(exact=True))
+        if self.per_rev and feed != (self.feed or 0.0) * abs(self.speed):  # a rapid, or a feed in mm/min of a cycle
+            state = recorder.state(recorder.states[state]._replace(per_rev=NAN))
         recorder.rows.append(
-            (int(kind), self.source_line, self.step, recorder.label(self.label), *tip, *centre, angle, feed, time, number, state)
+            (
+                int(kind),
+                self.source_line,
+                self.step,
+                recorder.label(self.label),
+                *tip,
+                *centre,
+                angle,
+                feed,
+                time,
+                number,
+                state,
+            )
         )
 
     def mark_joint(self, joint: Any) -> bool:

@@ -81,7 +81,8 @@ class Planner:
         self.word_functions()
         if self.control.one_command and self.actions:
             self.refuse_strangers(self.actions[0])
-        self.modal_motion([f for f, _ in functions])
+        if not (cycle and self.control.cycles[cycle[0]].runs == "call"):  # preparing a cycle moves nothing
+            self.modal_motion([f for f, _ in functions])
         self.refuse_leftovers([f for f, _ in functions])
         self.refuse_repeated()
         order = sorted(self.actions, key=lambda action: action.phase)
@@ -135,7 +136,10 @@ class Planner:
     def claim_again(self, moving: list[Function]) -> None:
         """An active cycle runs again where one of its trigger addresses stands."""
         assert self.active is not None
-        if any(not owner and word.address in self.active.triggers for word, owner in zip(self.words, self.owner, strict=True)):
+        if any(
+            not owner and word.address in self.active.triggers
+            for word, owner in zip(self.words, self.owner, strict=True)
+        ):
             self.claim(self.active, self.active.code, -1)
             action = self.actions.pop()
             self.actions.append(action._replace(head=-1))
@@ -154,8 +158,11 @@ class Planner:
                 if self.owner[i] and self.owner[i] != function.code:
                     if function.moves and self.owner[i] in self.control.cycles:
                         break  # a second one is a repeated address, no motion
-                    if self.owner[i] in self.control.functions and word.address not in self.control.codes:
-                        self.alarm(f"{self.owner[i]} and {function.code} both take {word}", i, "write them in two blocks")
+                    claimed = function.still and self.owner[i] in self.control.cycles
+                    if claimed or (self.owner[i] in self.control.functions and word.address not in self.control.codes):
+                        self.alarm(
+                            f"{self.owner[i]} and {function.code} both take {word}", i, "write them in two blocks"
+                        )
                     continue
                 if not self.owner[i]:
                     self.owner[i] = function.code
@@ -197,16 +204,22 @@ class Planner:
         function = self.control.functions.get(code) if code else None
         if function is None or self.keyword or any(f.still or f.moves for f in functions):
             return
-        if any(not owner and word.address in function.takes for word, owner in zip(self.words, self.owner, strict=True)):
+        if any(
+            not owner and word.address in function.takes for word, owner in zip(self.words, self.owner, strict=True)
+        ):
             self.hand_out(function, -1)
 
     def refuse_motion(self, functions: list[Function]) -> None:
         """A function that moves nothing beside one that moves: words of the motion."""
         still = next((f.code for f in functions if f.still), None)
-        moved = next((a.takes[0] for a in self.actions if a.takes and isinstance(a.what, Function) and a.what.moves), -1)
+        moved = next(
+            (a.takes[0] for a in self.actions if a.takes and isinstance(a.what, Function) and a.what.moves), -1
+        )
         if still and moved >= 0:
             word = self.words[moved]
-            self.alarm(f"{still} stands in a block without motion, {word} does not belong to it", moved, "write two blocks")
+            self.alarm(
+                f"{still} stands in a block without motion, {word} does not belong to it", moved, "write two blocks"
+            )
 
     def refuse_leftovers(self, functions: list[Function]) -> None:
         still = next((f.code for f in functions if f.still), None)
@@ -219,9 +232,15 @@ class Planner:
             if word.address in self.control.refused:
                 self.alarm(f"{word.address} is refused: {self.control.refused[word.address]}", i)
             if still and word.address in self.control.axes:
-                self.alarm(f"{still} stands in a block without motion, {word} does not belong to it", i, "write two blocks")
+                self.alarm(
+                    f"{still} stands in a block without motion, {word} does not belong to it", i, "write two blocks"
+                )
             actors = " ".join(dict.fromkeys(a.code for a in self.actions if a.phase == self.phases["motion"]))
-            self.alarm(f"{word} has no meaning in this block" + (f" ({actors} does not take {word.address})" if actors else ""), i)
+            self.alarm(
+                f"{word} has no meaning in this block"
+                + (f" ({actors} does not take {word.address})" if actors else ""),
+                i,
+            )
 
     def refuse_repeated(self) -> None:
         for i, word in enumerate(self.words):

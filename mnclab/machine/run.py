@@ -100,7 +100,13 @@ class Run:
     # --- doors -------------------------------------------------------------------------------------------------------
 
     def plot(self, **options: Any) -> Figure:
-        """Views of the path: from above and the side for a mill, X and Z for a lathe."""
+        """Views of the path: from above and the side for a mill, X and Z for a lathe.
+
+        ``colour`` "kind", "feed" (mm/min), "tool", "line" or "z" (mm) says what the colour of the cuts shows;
+        ``arrows=False`` and ``marks=False`` leave out arrowheads, and crosses at zero points and poles; ``view`` "XY",
+        "XZ", "YZ" or "ZX"; ``frame`` "all" or "cuts"; ``size`` in inches; ``ax`` axes of one's own. All of them are
+        explained in ``mnclab.show.plot.path.plot_path``.
+        """
         from mnclab.show.plot.path import plot_run
 
         return plot_run(self, **options)

@@ -84,7 +84,9 @@ class _Equidistant:
         """Raise for the first bad row, with R filled in."""
         if bad.any():
             k = int(np.flatnonzero(bad)[0])
-            raise PathFault(message.format(R=self.R[k], r=self.view.radius[self.rows[k]]), int(self.path.step[self.rows[k]]), hint)
+            raise PathFault(
+                message.format(R=self.R[k], r=self.view.radius[self.rows[k]]), int(self.path.step[self.rows[k]]), hint
+            )
 
     def check_entries(self, rules: Compensation) -> None:
         kind = self.path.kind[self.rows]
@@ -121,7 +123,9 @@ class _Equidistant:
 
         rule = self.path.corner_rule[self.rows][second]
         other = outside & ~off & (rule != ROUND)
-        self.fault(np.concatenate([[False], other]), "outside corners other than arcs are not built yet", "use arcs (G160)")
+        self.fault(
+            np.concatenate([[False], other]), "outside corners other than arcs are not built yet", "use arcs (G160)"
+        )
 
         rounded = outside & ~off
         if rules.approach == "perpendicular":
@@ -207,4 +211,6 @@ class _Equidistant:
             columns = {name: np.insert(column, like, made[name], axis=0) for name, column in columns.items()}
             ends = np.insert(ends, like, corner_ends, axis=0)
         vertices = np.concatenate([path.start[:1], ends])
-        return Toolpath.chain(vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe)
+        return Toolpath.chain(
+            vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe
+        )

@@ -1,7 +1,7 @@
 """A path as text, one row a line, for tests and people; and as a table for notebooks.
 
-Positions have four decimals (a tenth of a micrometre), angles are in degrees, rows of a lathe show X as a diameter is
-*not* done here: a listing shows what the columns hold.
+Positions have four decimals (a tenth of a micrometre), angles are in degrees; a listing shows what the columns hold, so
+the X of a lathe is a radius.
 """
 
 from __future__ import annotations
@@ -80,9 +80,26 @@ def table(path: Toolpath) -> str:
             body.append(f'<tr><td colspan="{len(columns)}">… {n - HEAD - TAIL} rows …</td></tr>')
             continue
         move = path[i]
-        feed = f"{figure(move.per_rev)}/rev" if np.isfinite(move.per_rev) else figure(move.feed) if np.isfinite(move.feed) else ""
+        feed = (
+            f"{figure(move.per_rev)}/rev"
+            if np.isfinite(move.per_rev)
+            else figure(move.feed)
+            if np.isfinite(move.feed)
+            else ""
+        )
         detail = move.label if move.kind <= Kind.PROBE else f"{words(move)} {move.label}".strip()
-        cells = (i, move.line, Kind(move.kind).name.lower(), *map(figure, move.end), feed, figure(move.spindle), move.tool, detail)
+        cells = (
+            i,
+            move.line,
+            Kind(move.kind).name.lower(),
+            *map(figure, move.end),
+            feed,
+            figure(move.spindle),
+            move.tool,
+            detail,
+        )
         body.append("<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in cells) + "</tr>")
     head = "".join(f"<th>{name}</th>" for name in columns)
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table><p>{n} rows, positions in mm</p>"
+    return (
+        f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table><p>{n} rows, positions in mm</p>"
+    )

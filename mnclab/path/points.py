@@ -26,10 +26,12 @@ def points(path: Toolpath, chord_error: float = 0.01) -> tuple[NDArray[np.float6
     rows = np.flatnonzero(path.is_motion)
     if not len(rows):
         return np.empty((0, 3)), np.empty(0, dtype=np.int64)
-    start, end, axis = path.start[rows], path.end[rows], path.axis[rows]
+    every = len(rows) == len(path)
+    end = path.end if every else path.end[rows]
     arc = path.kind[rows] == Kind.ARC
     if not arc.any():
-        return np.concatenate([start[:1], end]), np.concatenate([rows[:1], rows])
+        return np.concatenate([path.start[rows[:1]], end]), np.concatenate([rows[:1], rows])
+    start, axis = path.start[rows], path.axis[rows]
     spoke = np.where(arc[:, None], start - path.centre[rows], 0.0)
     spoke -= np.einsum("ij,ij->i", spoke, axis)[:, None] * axis
     radius = np.linalg.norm(spoke, axis=1)

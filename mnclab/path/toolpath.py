@@ -239,7 +239,10 @@ class Toolpath:
         return table(self)
 
     def plot(self, **options: Any) -> Figure:
-        """Views of the path; see ``mnclab.show.plot.path.plot_path``."""
+        """Views of the path, coloured by ``colour`` "kind", "feed", "tool", "line" or "z".
+
+        All options are explained in ``mnclab.show.plot.path.plot_path``; zero points and poles only a run knows.
+        """
         from mnclab.show.plot.path import plot_path
 
         return plot_path(self, **options)

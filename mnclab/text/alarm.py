@@ -42,14 +42,21 @@ class Alarm(Exception):
     """
 
     def __init__(
-        self, message: str, span: Span | None = None, severity: str = ALARM, hint: str = "", source: Source | None = None
+        self,
+        message: str,
+        span: Span | None = None,
+        severity: str = ALARM,
+        hint: str = "",
+        source: Source | None = None,
     ) -> None:
         super().__init__(message)
         self.message, self.span, self.severity, self.hint, self.source = message, span, severity, hint, source
 
     @property
     def place(self) -> str:
-        """``FILE:LINE:COLUMN``, or the file alone."""
+        """``FILE:LINE:COLUMN``, or the file alone; empty for a fault that stands in no program."""
+        if self.source is None and self.span is None:
+            return ""
         name = self.source.name if self.source else "program"
         return f"{name}:{self.span.line}:{self.span.column}" if self.span else name
 
@@ -57,7 +64,8 @@ class Alarm(Exception):
     def headline(self) -> str:
         """The alarm in one line, as editors read it."""
         hint = f" ({self.hint})" if self.hint else ""
-        return f"{self.place}: {self.severity}: {self.message}{hint}"
+        place = f"{self.place}: " if self.place else ""
+        return f"{place}{self.severity}: {self.message}{hint}"
 
     def lines(self) -> tuple[str, str]:
         """The line of the program and the carets under the faulty characters; two empty strings if there is none."""
@@ -85,9 +93,13 @@ class Alarm(Exception):
         text, caret = self.lines()
         colour = "#b3261e" if self.severity == ALARM else "#8a5a00"
         head = f'<span style="color:{colour};font-weight:600">{escape(self.severity)}</span> '
-        body = f"{escape(self.place)}: {escape(self.message)}"
+        body = escape(f"{self.place}: {self.message}" if self.place else self.message)
         hint = f"<br><em>{escape(self.hint)}</em>" if self.hint else ""
-        shown = f'<pre style="margin:.2em 0 .6em 1.5em;font-family:monospace">{escape(text)}\n{escape(caret)}</pre>' if caret else ""
+        shown = (
+            f'<pre style="margin:.2em 0 .6em 1.5em;font-family:monospace">{escape(text)}\n{escape(caret)}</pre>'
+            if caret
+            else ""
+        )
         return f'<div role="alert">{head}{body}{hint}{shown}</div>'
 
     def as_dict(self) -> dict[str, Any]:

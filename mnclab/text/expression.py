@@ -171,7 +171,7 @@ class _Evaluation:
                 self.refuse("no value was given to", token)
             return float(self.variables[token.text])
         if token.text in ("+", "-"):
-            return self.part() if token.text == "+" else -self.part()
+            return self.power() if token.text == "+" else -self.power()  # -2^2 is -(2^2)
         if token.text == "(":
             value = self.sum()
             closing = self.take()

@@ -265,7 +265,9 @@ class ProgramBuilder:
         columns = [words[:, k].astype(kind) for k, kind in enumerate(kinds)]
         heads = [column.astype(np.int32) for column in (*blocks[:, :4].T, count)]
         if bulk is not None and len(bulk.start):
-            names = np.array([self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses], dtype=np.int16)
+            names = np.array(
+                [self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses], dtype=np.int16
+            )
             key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
             zero, n = np.zeros(len(bulk.value), dtype=np.uint8), len(bulk.start)
             form = zero if bulk.form is None else bulk.form

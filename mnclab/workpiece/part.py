@@ -71,6 +71,7 @@ def box(corner: ArrayLike, opposite: ArrayLike) -> Part:
 
 
 def ball(centre: ArrayLike, radius: float) -> Part:
+    """A ball."""
     middle = np.asarray(centre, dtype=float)
     return Part(lambda p: np.linalg.norm(p - middle, axis=1) - radius)
 

@@ -11,9 +11,7 @@ from typing import NamedTuple
 from recording import TICKS
 
 UNIT = 325
-VECTORS = [
-    (a, b) for a in range(-UNIT, UNIT + 1) for b in range(-UNIT, UNIT + 1) if a * a + b * b == UNIT * UNIT
-]
+VECTORS = [(a, b) for a in range(-UNIT, UNIT + 1) for b in range(-UNIT, UNIT + 1) if a * a + b * b == UNIT * UNIT]
 
 
 class Element(NamedTuple):
@@ -36,9 +34,7 @@ class Element(NamedTuple):
     @property
     def sweep(self):
         """Angle of an arc in rad, positive."""
-        start, end = (
-            math.atan2(p[1] - self.centre[1], p[0] - self.centre[0]) for p in (self.start, self.end)
-        )
+        start, end = (math.atan2(p[1] - self.centre[1], p[0] - self.centre[0]) for p in (self.start, self.end))
         return self.turn * (end - start) % math.tau
 
     def tangent(self, share):

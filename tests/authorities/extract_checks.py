@@ -18,10 +18,11 @@ HERE = Path(__file__).parent / "catalogue"
 EXAMPLES = {
     "mnc-language": [
         *("words", "modal groups", "block execution", "G17", "G18", "G19", "G90", "G91", "G92", "G53"),
-        *("G54", "G55", "G56", "G57", "G58", "G59", "G0", "G1", "G2", "G3", "arc by radius", "arc by centre"),
-        *("F", "G94", "G95", "G4", "T", "tool length compensation", "cutter radius compensation", "G41", "G42"),
-        *("CRC entry (table 7.1)", "CRC travel (table 7.2)", "G40", "CRC exit (table 7.3)"),
-        *("M word", "M3", "M4", "M5", "M99"),
+        *("G54", "G55", "G56", "G57", "G58", "G59", "polar coordinates", "G16", "G15", "G10", "G11", "G12", "G13"),
+        *("G37", "G36", "G51", "G50", "G39", "G38", "G147", "G0", "G1", "G2", "G3", "arc by radius", "arc by centre"),
+        *("G61", "G64", "G9", "F", "G94", "G95", "G4", "T", "tool length compensation", "cutter radius compensation"),
+        *("G41", "G42", "CRC entry (table 7.1)", "CRC travel (table 7.2)", "G40", "CRC exit (table 7.3)"),
+        *("S", "G26", "G25", "M word", "M3", "M4", "M5", "M99"),
     ],
     "mnc-language.frames": ["G10", "G12", "G13", "G37", "G39", "G51", "G147"],
     "mnc-drilling": ["drilling cycles G83-G85", "G80", "G98", "G99", "G83", "prepared cycles", "G300"],

@@ -42,9 +42,7 @@ def ask(text):
         program = Path(home, "program.ngc")
         program.write_text(text)
         command = [DEBIAN_PYTHON, str(HERE / "linuxcnc_oracle.py"), str(program)]
-        done = subprocess.run(
-            command, check=True, capture_output=True, text=True, env=os.environ | {"HOME": home}
-        )
+        done = subprocess.run(command, check=True, capture_output=True, text=True, env=os.environ | {"HOME": home})
     return json.loads(done.stdout)
 
 

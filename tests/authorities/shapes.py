@@ -157,9 +157,7 @@ def narrow_bay(rng, side, radius):
     arc = tangent_arc(rng, (0, 0), after, rng.uniform(1.1, 3) * radius, side, least=1, most=2)
     if rng.random() < 0.5:
         return [line_to(moved((0, 0), along, -1000), (0, 0)), arc]
-    back = tangent_arc(
-        rng, (0, 0), moved((0, 0), along, -1), rng.uniform(1.1, 3) * radius, -side, least=1, most=2
-    )
+    back = tangent_arc(rng, (0, 0), moved((0, 0), along, -1), rng.uniform(1.1, 3) * radius, -side, least=1, most=2)
     return [Element(back.end, back.start, back.centre, side), arc]
 
 

@@ -44,7 +44,7 @@ def test_hint_and_severity():
 
 
 def test_without_a_place_there_is_no_caret():
-    assert str(Alarm("there is no part")) == "program: alarm: there is no part"
+    assert str(Alarm("there is no part")) == "alarm: there is no part"
     assert str(Alarm("there is no part", source=Text("X"))) == "demo.mnc: alarm: there is no part"
     assert str(Alarm("somewhere", Span(3, 4))) == "program:3:4: alarm: somewhere"
 

@@ -50,7 +50,9 @@ def test_points_keep_the_chord_error(radius, sweep, error):
 
 
 def test_events_have_no_length_and_no_points():
-    path = path_of((Kind.DWELL, (0, 0, 0), NOWHERE, 0), (Kind.LINE, (3, 4, 0), NOWHERE, 0), (Kind.SPINDLE, (3, 4, 0), NOWHERE, 0))
+    path = path_of(
+        (Kind.DWELL, (0, 0, 0), NOWHERE, 0), (Kind.LINE, (3, 4, 0), NOWHERE, 0), (Kind.SPINDLE, (3, 4, 0), NOWHERE, 0)
+    )
     assert path.lengths.tolist() == [0, 5, 0] and len(path.motion) == 1
     assert path.points()[0].tolist() == [[0, 0, 0], [3, 4, 0]]
 

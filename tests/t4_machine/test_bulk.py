@@ -41,11 +41,13 @@ axis_words = st.lists(st.tuples(st.sampled_from("XYZ"), number), max_size=3, uni
 feed = st.sampled_from(["", "", "", "", " F200", " F75.5", " F0"])
 motion = st.sampled_from(["", "", "G0 ", "G1 ", "G01 "])
 plain = st.tuples(motion, axis_words, feed).map(lambda t: t[0] + " ".join(a + v for a, v in t[1]) + t[2])
-arc = st.tuples(st.sampled_from(["G2", "G3"]), number, number, st.sampled_from(["R25", "R-40", "I5", "I3 J4", "R2", "J1 K1", ""])).map(
-    lambda t: f"{t[0]} X{t[1]} Y{t[2]} {t[3]}"
-)
+arc = st.tuples(
+    st.sampled_from(["G2", "G3"]), number, number, st.sampled_from(["R25", "R-40", "I5", "I3 J4", "R2", "J1 K1", ""])
+).map(lambda t: f"{t[0]} X{t[1]} Y{t[2]} {t[3]}")
 full = st.sampled_from(["G3 I5", "G2 J-4", "G2 I3 J-4 F150"])
-odd = st.sampled_from(["G91", "G90", "G54", "G92 X1", "M3 S100", "X1 X2", "G1 I5", "U3", "(", "X1,5", "", "// remark", "N5"])
+odd = st.sampled_from(
+    ["G91", "G90", "G54", "G92 X1", "M3 S100", "X1 X2", "G1 I5", "U3", "(", "X1,5", "", "// remark", "N5"]
+)
 
 
 @given(st.lists(st.one_of(plain, plain, plain, arc, full), min_size=2 * SHORTEST, max_size=90), st.booleans())
@@ -64,9 +66,9 @@ TURNED = [
     *("G37 X2 Y2\nG51 X1 Y2\nG39 A-110", "G51 Y0\nG39 X5 A20"),
 ]
 switch = st.sampled_from(["G39 A20", "G38", "G51 X3", "G50", "G37 X0.5 Y0.5", "G36", "G53 X4", "G55"])
-near = st.tuples(st.sampled_from(["G2", "G3"]), st.sampled_from(["X{} R-30", "Y{} R30", "I{} J4", "X{} Y3 R40"])).flatmap(
-    lambda t: st.integers(1, 20).map(lambda n: f"{t[0]} {t[1].format(n)}")
-)
+near = st.tuples(
+    st.sampled_from(["G2", "G3"]), st.sampled_from(["X{} R-30", "Y{} R30", "I{} J4", "X{} Y3 R40"])
+).flatmap(lambda t: st.integers(1, 20).map(lambda n: f"{t[0]} {t[1].format(n)}"))
 
 
 @given(

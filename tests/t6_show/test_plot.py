@@ -20,6 +20,27 @@ PLATE = "G90 G54 T1 S1000 M3\nG0 X-20 Y-20 Z20\nG1 Z-6 F100\nG41 X0 Y-12\nY60\nX
 DRILL = "G90 G54 T2\nG0 X0 Y0 Z5\nG83 X20 Y10 Z-30 R2 K5 F120 P1\nG80\n"
 STOPPED = "G90 G54\nG0 X0 Y0 Z5\nG1 X50 F100\nY30\nG2 X0 Y0 R3\nG1 X0\n"
 LONG_WAY = "G90 G54\nG0 X100000.5 Y-20000 Z5\nG1 X100003 F100\nX100000\n"
+OFFSETS = {"datums": {1: (100, 50, 10), 2: (160, 50, 10), 7: (160, 90, 12)}}
+SEVERAL = """G90 G54 F200 S500 M3 T1
+G0 X0 Y0 Z5
+G1 X20
+Y20
+G55
+G0 X0 Y0
+G1 X20
+Y10
+G147 Q7
+G0 X0 Y0
+G1 X10
+G92 X0 Y0
+G16 X15 Y15
+G10 R10 A0
+G11 A60 F400
+G15
+T2
+G1 X0 Y0 Z1
+"""
+WAVES = "G90 G54\n" + "".join(f"G1 X{k} Y{k * k % 11} Z{-(k % 9)} F{100 + 10 * (k % 8)}\n" for k in range(1, 60))
 FIRST = (Path(__file__).parents[2] / "data/programs/mnc/first_path.mnc").read_text("utf-8")
 
 
@@ -42,8 +63,9 @@ def lines(ax):
 
 
 def texts(picture):
-    """Every text that is seen: of ticks inside the views, at the axes, in the legend, below."""
+    """Every text that is seen: of ticks inside the views, at axes, in the legend, at the scale, below, at crosses."""
     yield from picture.texts
+    yield from (text for ax in picture.axes for text in ax.texts)
     yield from (text for legend in picture.legends for text in legend.get_texts())
     for axis in (axis for ax in picture.axes for axis in (ax.xaxis, ax.yaxis)):
         low, high = sorted(axis.get_view_interval())
@@ -129,22 +151,32 @@ def test_both_axes_of_a_view_have_one_scale(text):
 
 
 PICTURES = {
-    "square": SQUARE, "arc": ARC, "plate": PLATE, "drill": DRILL, "stopped": STOPPED, "far": LONG_WAY, "first": FIRST
+    "square": SQUARE, "arc": ARC, "plate": PLATE, "drill": DRILL, "stopped": STOPPED, "far": LONG_WAY, "first": FIRST,
+    "offsets": SEVERAL, "waves": WAVES,
 }  # fmt: skip
 
 
+@pytest.mark.parametrize("colour", ["kind", "feed", "tool", "line", "z"])
 @pytest.mark.parametrize("name", [*PICTURES, "lathe"])
-def test_no_text_covers_another(name):
-    picture = turned().plot() if name == "lathe" else run(PICTURES[name]).plot()
+def test_no_text_covers_another(name, colour):
+    path = turned() if name == "lathe" else run(PICTURES[name], **OFFSETS if name == "offsets" else {})
+    picture = path.plot(colour=colour)
     picture.png()
     boxes = [(text.get_text(), text.get_window_extent()) for text in texts(picture)]
     edge = picture.bbox
-    for name, box in boxes:
-        assert edge.x0 <= box.x0 and box.x1 <= edge.x1 and edge.y0 <= box.y0 and box.y1 <= edge.y1, name
+    for text, box in boxes:
+        assert edge.x0 <= box.x0 and box.x1 <= edge.x1 and edge.y0 <= box.y0 and box.y1 <= edge.y1, text
     for (one, a), (other, b) in itertools.combinations(boxes, 2):
         assert not a.overlaps(b), f"{one!r} and {other!r}"
-    views = [ax.bbox for ax in picture.axes]
-    assert not any(view.overlaps(box) for view in views for _, box in boxes)
+    for ax in picture.axes:
+        inside = [text.get_window_extent() for text in ax.texts]
+        assert all(ax.bbox.x0 <= box.x0 and box.x1 <= ax.bbox.x1 for box in inside)
+        assert all(ax.bbox.y0 <= box.y0 and box.y1 <= ax.bbox.y1 for box in inside)
+        names = {text.get_text() for other in picture.axes for text in other.texts}
+        assert not any(ax.bbox.overlaps(box) for text, box in boxes if text not in names), "text beside lies in a view"
+        for mark in (line for line in ax.lines if line.get_label() in ("start", "end", "_datum", "_pole")):
+            for x, y in ax.transData.transform(mark.get_xydata()):
+                assert not any(box.contains(x, y) for box in inside), mark.get_label()
 
 
 def test_the_place_of_an_alarm_is_marked_and_named():

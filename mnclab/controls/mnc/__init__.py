@@ -7,6 +7,8 @@ probing; their codes are refused by name.
 
 from __future__ import annotations
 
+import re
+
 from mnclab.controls.mnc import compensation, drilling, language, polar, transforms
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.bulk import PlainWords
@@ -16,8 +18,8 @@ from mnclab.path.compensation import Compensation
 
 #: Order inside a block (adopted reading MNC-BLOCK-ORDER).
 PHASES = (
-    *("plane", "feed", "spindle", "tool", "corrector", "auxiliary", "frames", "compensation", "dwell", "motion"),
-    *("call", "end"),
+    *("plane", "feed", "spindle", "tool", "corrector", "auxiliary", "frames", "local", "compensation", "dwell"),
+    *("motion", "call", "end"),
 )
 
 SETTINGS = (
@@ -36,6 +38,14 @@ REFUSED = (
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
 )
 
+_G_BLOCK = re.compile(r"^[ \t/\ufeff]*(N[ \t]*\d+[ \t]*)?G[ \t]*\d", re.IGNORECASE | re.MULTILINE)
+
+
+def looks_like(text: str) -> bool:
+    """Blocks of G words, and none of the marks by which other languages are known."""
+    return _G_BLOCK.search(text) is not None and re.search(r"[*~@;']|BEGIN[ \t]+PGM", text) is None
+
+
 CONTROL = Control(
     name="mnc",
     title="Mechatronics MNC (2015)",
@@ -47,6 +57,7 @@ CONTROL = Control(
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),
     compensation=Compensation(approach="corner"),
+    looks_like=looks_like,
     refused=REFUSED,
     together=language.together,
     bulk=PlainWords(

@@ -40,7 +40,15 @@ def call_cycle(m: Machine, words: Words) -> None:
         m.alarm(f"M99 stands in the block that prepares {m.cycle.code}", head, hint="write it at the first hole")
     if m.side:
         m.alarm("a cycle cannot run under radius compensation", head, hint="write G40 first")
+    if "machine coordinates" in m.memory:
+        m.alarm("M99 and G53 stand in one block: the cycle counts from the workpiece", head, hint="write two blocks")
     run_cycle(m, m.cycle)
+
+
+def initial_level(m: Machine, kept: dict[str, Any]) -> float:
+    """Z of the program where the tool stood when the cycle was first called."""
+    x, y, _ = m.tip
+    return m.to_program((x, y, kept["initial"]))[2]
 
 
 @CYCLES("G83", "Deep-hole drilling", runs="position", source="MNC 9.1", triggers="X Y U V Z W R")
@@ -56,16 +64,21 @@ class DeepHoleDrilling(Cycle):
     r: float = param("R", "level R", modal=True, note="under G91 from the initial level, signed")
     k: float | None = param("K", "depth of one peck", default=None, default_means="one pass", above=0, incremental=True)
     p: float = param("P", "dwell at the bottom", "s", default=0, at_least=0)
-    f: float | None = param("F", "feed rate", "mm/min", default=None, default_means="the modal feed", above=0, modal=True)
+    f: float | None = param(
+        "F", "feed rate", "mm/min", default=None, default_means="the modal feed", above=0, modal=True
+    )
 
     @classmethod
-    def prepare(cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]) -> dict[str, Any]:
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
         """Levels are worked out when they are programmed: z becomes the bottom, r the level, x and y the hole."""
         for one, other in (("x", "u"), ("y", "v"), ("z", "w")):
             if one in given and other in given:
                 m.alarm(f"G83 {given[one].address} and {given[other].address} stand in one block", given[other])
         absolute = m.modal["dimension"] == "G90"
-        initial = kept.setdefault("initial", m.programmed[2])
+        kept.setdefault("initial", m.tip[2])  # of the machine: a new datum does not move it
+        initial = initial_level(m, kept)
         for axis, (one, other) in enumerate((("x", "u"), ("y", "v"))):
             if other in given:
                 values[one] = m.programmed[axis] + values[other]
@@ -86,16 +99,22 @@ class DeepHoleDrilling(Cycle):
         if "f" in given and values["f"] > 0:
             m.change("feed", values["f"])  # stays the modal feed afterwards (9.1)
         if "k" not in given and kept.get("pecked"):
-            m.warn("G83 K (depth of one peck) is not modal: this hole is drilled in one pass", None, "write K for each hole")
+            m.warn(
+                "G83 K (depth of one peck) is not modal: this hole is drilled in one pass",
+                None,
+                "write K for each hole",
+            )
         kept["pecked"] = kept.get("pecked", False) or "k" in given
         return values
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The bottom lies below level R; no radius compensation."""
+        """The bottom lies below level R; no radius compensation, no machine coordinates."""
         if not self.z < self.r:
             yield "z", f"must lie below level R, got bottom {self.z:g} and R {self.r:g}"
         if m.side:
             yield "", "cannot run under radius compensation"
+        if "machine coordinates" in m.memory:
+            yield "", "and G53 stand in one block: the cycle counts from the workpiece"
 
     def moves(self, m: Machine) -> None:
         """Position, level R, pecks, dwell, and up."""
@@ -113,7 +132,7 @@ class DeepHoleDrilling(Cycle):
         m.label = "G83 retract"
         m.rapid(z=self.r)
         if m.modal["return"] == "G98":
-            m.rapid(z=m.position_cycle.extra["initial"] if m.position_cycle else None)
+            m.rapid(z=initial_level(m, m.position_cycle.extra) if m.position_cycle else None)
 
 
 @CYCLES("G300, G200", "Drilling", runs="call", source="MNC 9.4")
@@ -122,7 +141,9 @@ class Drilling(Cycle):
 
     clearance: float = param("Q", "clearance above the surface", above=0, incremental=True)
     depth: float = param("H", "depth from the surface to the bottom", below=0, incremental=True)
-    infeed: float | None = param("P", "depth of each infeed", default=None, default_means="one pass", above=0, incremental=True)
+    infeed: float | None = param(
+        "P", "depth of each infeed", default=None, default_means="one pass", above=0, incremental=True
+    )
     surface: float = param("Z", "workpiece surface", note="always absolute")
     feed: float | None = param("F", "plunging feed", "mm/min", default=None, default_means="the modal feed", above=0)
     dwell_top: float = param("E", "dwell at the clearance level", "s", default=0, at_least=0)

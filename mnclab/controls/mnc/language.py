@@ -63,7 +63,7 @@ def arc(m: Machine, words: Words) -> None:
 def plane(m: Machine, words: Words) -> None:
     """The plane of arcs, radius compensation, polar coordinates and rotation."""
     if m.pole is not None and PLANES[words.code] != m.plane:
-        m.alarm("the plane cannot change while polar coordinates are active", first_word(words), hint="write G15 first")
+        m.alarm("the plane cannot change while polar coordinates are on", first_word(words), hint="write G15 first")
     motion.set_plane(m, PLANES[words.code], first_word(words))
 
 
@@ -91,7 +91,7 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     m.at_block_end(restore)
 
 
-@FUNCTIONS("G92", "Set position", phase="frames", takes="X Y Z U V W", still=True, modal=False, source="2.5")
+@FUNCTIONS("G92", "Set position", phase="local", takes="X Y Z U V W", still=True, modal=False, source="2.5")
 def set_position(m: Machine, words: Words) -> None:
     """The present point gets the coordinates X Y Z; U V W move the origin by that much. No motion."""
     if m.side:

@@ -37,12 +37,15 @@ def polar_on(m: Machine, words: Words) -> None:
         m.alarm(f"{AXES[normal]} is no coordinate of the plane {m.plane}", words[AXES[normal]])
     pole = tuple(m.value(words[AXES[k]]) if AXES[k] in words else 0.0 for k in (first, second))
     m.pole = (pole[0], pole[1])
+    m.log("pole", m.pole)
     m.memory["polar"] = polar_of(m, m.pole), m.programmed
 
 
 @FUNCTIONS("G15", "Polar coordinates off", group="polar", phase="frames", power_on="G15", source="2.8.5")
 def polar_off(m: Machine, words: Words) -> None:
     """The pole is forgotten; a modal polar motion falls back to the Cartesian one (MNC-POLAR-CART)."""
+    if m.pole is not None:
+        m.log("pole", None)
     m.pole = None
     m.memory.pop("polar", None)
     motion = m.modal["motion"]
@@ -123,7 +126,10 @@ def polar_arc(m: Machine, words: Words) -> None:
     if radius == 0:
         m.alarm("K (radius of the arc) must not be 0", word)
     if AXES[normal] in words:
-        m.warn(f"{AXES[normal]} in an arc of the plane {m.plane} makes a helix, which the manual does not describe", words[AXES[normal]])
+        m.warn(
+            f"{AXES[normal]} in an arc of the plane {m.plane} makes a helix, which the manual does not describe",
+            words[AXES[normal]],
+        )
     end = m.memory["polar"][0][0]
     if max(abs(begin - abs(radius)), abs(end - abs(radius))) <= ON_CENTRE:
         m.arc(**to, sense=sense, centre={first: m.pole[0], second: m.pole[1]}, word=word, tolerance=2 * ON_CENTRE)

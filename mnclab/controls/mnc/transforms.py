@@ -101,5 +101,7 @@ def activate_datum(m: Machine, words: Words) -> None:
 
 def select_row(m: Machine, row: int) -> None:
     """Count from a row of the datum table; the local shift of G92 is gone."""
-    m.frames.set("local", None)
+    if "local" in m.frames:
+        m.set_frame("local", None)
+    m.log("datum row", row)
     m.select_datum(m.tables.datums.get(row, Datum()))

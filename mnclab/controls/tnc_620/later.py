@@ -99,7 +99,9 @@ WORDS = {
 
 def refused(functions: FunctionTable, cycles: Container[str]) -> dict[str, str]:
     """Codes and addresses that are not built, with the sentence that says so."""
-    known = {f"CYCL DEF {n}": title for n, title in CYCLES.items()} | {f"TCH PROBE {n}": title for n, title in PROBING.items()}
+    known = {f"CYCL DEF {n}": title for n, title in CYCLES.items()} | {
+        f"TCH PROBE {n}": title for n, title in PROBING.items()
+    }
     known |= STATEMENTS | {f"FN {n}": title for n, title in FN.items()} | {f"M{n}": title for n, title in M.items()}
     builder = {f"CYCL DEF {n}": BUILDER for n in range(300, 400)} | {f"TCH PROBE {n}": BUILDER for n in range(500, 600)}
     waiting = {code: title for code, title in known.items() if code not in functions and code not in cycles}

@@ -3,6 +3,7 @@
 A block is a number, a statement and its words; ``/`` before or after the number marks a block that may be passed over,
 ``;`` begins a comment, ``*`` a structure block. A block goes on over several lines when a line ends in ``~``, in a
 definition whose further lines carry no number, and in the sub-blocks n.0, n.1, … of older cycles, which become one block.
+So ``Q200=5`` without a number below a definition is a parameter of it; with a number it is an assignment.
 
 Plain straight lines (``12 L X+1.5 Y-2 F500 R0``) are found for the whole text at once; every other line is read one by
 one, and a fault ends the reading of its block alone.
@@ -45,7 +46,9 @@ def read(text: str, name: str = "program") -> Program:
 def _check_end(builder: ProgramBuilder, bulk: BulkBlocks, end: int | None) -> None:
     """Warn about blocks after END PGM."""
     if end is not None:
-        after = [block[0] for block in builder.blocks if block[0] > end and block[1]] + bulk.start[bulk.start > end][:1].tolist()
+        after = [block[0] for block in builder.blocks if block[0] > end and block[1]] + bulk.start[bulk.start > end][
+            :1
+        ].tolist()
         if after:
             builder.alarm("nothing after END PGM is obeyed", min(after), severity="warning")
 
@@ -152,7 +155,9 @@ class _Lines:
             self.check_order(statement, begin, cursor.at - begin)
             if statement.part > 0:
                 raise Fault(
-                    f"{statement.keyword}.{statement.part} stands without {statement.keyword}.0 before it", begin, cursor.at - begin
+                    f"{statement.keyword}.{statement.part} stands without {statement.keyword}.0 before it",
+                    begin,
+                    cursor.at - begin,
                 )
         statement.read(cursor)
         self.close(cursor)
@@ -189,7 +194,9 @@ class _Lines:
         first = " ".join(cursor.rest().upper().split()[:2])
         near = get_close_matches(first, [*WORDS, *KEYWORDS_ONLY, "CYCL DEF", "TCH PROBE"], 1, 0.7)
         near = near or get_close_matches(word, [*WORDS, *KEYWORDS_ONLY], 2, 0.6)
-        return Fault(f"{word} is no statement of this control", cursor.at, len(word), f"near: {', '.join(near)}" if near else "")
+        return Fault(
+            f"{word} is no statement of this control", cursor.at, len(word), f"near: {', '.join(near)}" if near else ""
+        )
 
 
 def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_], BulkBlocks]:
@@ -206,7 +213,9 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     bits = np.zeros(256, dtype=np.int32)
     bits[[ord(c) for c in _PLAIN]] = 1 << np.arange(len(_PLAIN))
     strange = (bits[found.letter] == 0) & ~first
-    strange |= (np.abs(found.value) >= LARGEST) | ((found.letter == ord("R")) & ((found.value != 0) | (found.length != 2)))
+    strange |= (np.abs(found.value) >= LARGEST) | (
+        (found.letter == ord("R")) & ((found.value != 0) | (found.length != 2))
+    )
     if len(heads):
         word = np.where(first, 0, bits[found.letter])
         good &= np.bitwise_or.reduceat(word, heads) == np.add.reduceat(word, heads)  # each address once

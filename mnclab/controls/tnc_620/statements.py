@@ -130,7 +130,9 @@ def program_name(cursor: Cursor) -> None:
     parts = cursor.rest().rsplit(None, 1)
     if not parts or parts[-1].upper() not in ("MM", "INCH"):
         cursor.at = cursor.stop
-        raise Fault("the unit of the program is missing: MM or INCH must follow its name", begin, max(1, len(" ".join(parts))))
+        raise Fault(
+            "the unit of the program is missing: MM or INCH must follow its name", begin, max(1, len(" ".join(parts)))
+        )
     unit_at = begin + cursor.rest().rindex(parts[-1])
     if len(parts) == 2:
         cursor.at = begin + len(parts[0])
@@ -153,7 +155,9 @@ def formula(cursor: Cursor, target: str, begin: int, shape: re.Pattern[str] | No
     """A Q parameter takes the value of a formula."""
     number = int(re.sub(r"\D", "", target))
     if number > (1999 if target[1].isdigit() else 499):
-        raise Fault(f"{target} does not exist: Q0 to Q1999, QL0 to QL499 and QR0 to QR499 are allowed", begin, len(target))
+        raise Fault(
+            f"{target} does not exist: Q0 to Q1999, QL0 to QL499 and QR0 to QR499 are allowed", begin, len(target)
+        )
     cursor.builder.word("target", target, begin, len(target))
     start = cursor.blanks()
     if cursor.done:
@@ -216,7 +220,7 @@ def cycle_parameters(cursor: Cursor) -> None:
             value = cursor.value()
         if value is None:
             raise Fault(f"{name} needs a number", begin, found.end() - begin)
-        builder.word(name, value, begin, cursor.at - begin)  # type: ignore[arg-type]
+        builder.word(name, value, begin, cursor.at - begin)
 
 
 def _addresses(cursor: Cursor) -> list[str]:
@@ -295,7 +299,9 @@ KEYWORDS_ONLY = {
 
 _ALL = sorted([*WORDS, *KEYWORDS_ONLY], key=len, reverse=True)
 _KEYWORD = re.compile(f"(?:{'|'.join(re.escape(k) for k in _ALL)})(?![A-Z_])".replace(r"\ ", r"[ \t]+"), FLAGS)
-_CYCLE = re.compile(r"(CYCL[ \t]+DEF|TCH[ \t]+PROBE|GLOBAL[ \t]+DEF)[ \t]*(?:(\d{1,5})(?:\.(\d{1,2}))?(?![.\d]))?", FLAGS)
+_CYCLE = re.compile(
+    r"(CYCL[ \t]+DEF|TCH[ \t]+PROBE|GLOBAL[ \t]+DEF)[ \t]*(?:(\d{1,5})(?:\.(\d{1,2}))?(?![.\d]))?", FLAGS
+)
 _FN = re.compile(r"FN[ \t]*(\d{1,3})[ \t]*:?", FLAGS)
 _TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})[ \t]*=", FLAGS)
 _M = re.compile(r"M[ \t]*\d", FLAGS)
@@ -351,5 +357,3 @@ def _cycle(cursor: Cursor, found: re.Match[str]) -> Statement:
         raise Fault(f"{word} needs the number of a cycle", cursor.at)
     part = -1 if found.group(3) is None else int(found.group(3))
     return definition(f"{word} {int(found.group(2))}", part)
-
-

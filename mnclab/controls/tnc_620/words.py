@@ -36,7 +36,9 @@ _ADDRESSES = (
 _NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=len, reverse=True))})", FLAGS)
 
 #: Addresses of lengths and of feeds along a path: inches in a program that begins with INCH.
-LENGTHS = frozenset("X Y Z U V W R LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY length".split())
+LENGTHS = frozenset(
+    "X Y Z U V W R LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY length".split()
+)
 
 _LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
 
@@ -162,8 +164,12 @@ class Cursor:
             hint = "the axis letter is missing" if c in "+-" else "a blank inside a number splits it"
             return Fault(f"{c!r} needs an address before it", self.at, hint=hint)
         if c in "Gg":
-            return Fault("G has no meaning here", self.at, hint="G words belong to DIN/ISO programs; write L, C, CR or CYCL DEF")
-        hint = "the letter O stands where the digit 0 was meant" if c in "Oo" and self.text[self.at - 1].isdigit() else ""
+            return Fault(
+                "G has no meaning here", self.at, hint="G words belong to DIN/ISO programs; write L, C, CR or CYCL DEF"
+            )
+        hint = (
+            "the letter O stands where the digit 0 was meant" if c in "Oo" and self.text[self.at - 1].isdigit() else ""
+        )
         return Fault(f"{c!r} has no meaning here", self.at, hint=hint)
 
     def without_number(self, found: re.Match[str]) -> Fault:
@@ -176,4 +182,3 @@ class Cursor:
             hint = "no = between an address and its number"
         what = f", found {after!r}" if after else ""
         return Fault(f"{name} needs a number{what}", self.at, found.end() - found.start(), hint)
-

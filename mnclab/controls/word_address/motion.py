@@ -51,7 +51,9 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
         m.alarm(f"{CENTRE[normal]} stands along the axis of the arc, {plane}", offsets[normal])
     third = AXES[normal]
     if third in words and to[third.lower()] != m.programmed[normal]:
-        m.warn(f"{third} in an arc of the plane {m.plane} makes a helix, which the manual does not describe", words[third])
+        m.warn(
+            f"{third} in an arc of the plane {m.plane} makes a helix, which the manual does not describe", words[third]
+        )
     tolerance = m.settings.get("arc_tolerance", 0.01)
     if "R" in words:
         radius = m.value(words["R"])

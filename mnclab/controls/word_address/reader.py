@@ -64,7 +64,11 @@ def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: list[tuple[int, 
 
 
 def _note_labels(
-    builder: ProgramBuilder, found: Scan, is_label: NDArray[np.bool_], begins: NDArray[np.int64], labels: list[tuple[int, int]]
+    builder: ProgramBuilder,
+    found: Scan,
+    is_label: NDArray[np.bool_],
+    begins: NDArray[np.int64],
+    labels: list[tuple[int, int]],
 ) -> None:
     """N must be first in its block, a positive whole number, and (checked at the end) unique."""
     first = np.zeros(len(is_label), dtype=bool)
@@ -105,7 +109,9 @@ def plain_blocks(
     return plain
 
 
-def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: re.Pattern[str], labels: list[tuple[int, int]]) -> None:
+def _read_line(
+    builder: ProgramBuilder, text: str, begin: int, mark: re.Pattern[str], labels: list[tuple[int, int]]
+) -> None:
     """One line that is not clean: comment, block skip, words, and the first fault."""
     end = min((k for k in (text.find("\n", begin), text.find("\r", begin)) if k >= 0), default=len(text))
     comment = mark.search(text, begin, end)

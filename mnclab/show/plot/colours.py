@@ -29,7 +29,7 @@ class Line(NamedTuple):
             "color": self.colour,
             "linestyle": self.dashes,
             "linewidth": self.width,
-            "solid_capstyle": "round",
+            "solid_capstyle": "butt",
             "zorder": self.order,
             "label": self.name,
         }
@@ -70,6 +70,8 @@ PLUNGE = Mark("plunge", "#1259a8", "+", 7, True, 3.2)
 DWELL = Mark("dwell", "#8a5a00", "d", 6, False, 3.4)
 TOOL = Mark("tool change", "#00695c", "^", 6, False, 3.4)
 STOP = Mark("stop", "#8a5a00", "D", 6, False, 3.4)
+DATUM = Mark("datum", INK, "+", 12, True, 3.6)
+POLE = Mark("pole", "#8a5a00", "+", 8, True, 3.5)
 START = Mark("start", INK, "o", 9, False, 4.0)
 END = Mark("end", INK, "s", 4, True, 4.1)
 ALARM = Mark("alarm", "#b3261e", "x", 9, True, 4.2)

@@ -6,8 +6,8 @@ line of a million points costs. Arcs are cut finely enough for the size of the p
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,17 +17,35 @@ from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
+from mnclab.show.plot import arrows as heads
 from mnclab.show.plot import colours
+from mnclab.show.plot.classes import Classes, classes
+from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
-from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, View, arrange, dress, roomy, write_legend
+from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
+from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, Picture, View, arrange, dress, roomy, write_legend
+from mnclab.show.plot.scale import write_scale
+from mnclab.show.plot.strokes import Strokes, corners, parted, strokes
 from mnclab.text.alarm import ALARM, Alarm
 
-LINES = {Kind.RAPID: colours.RAPID, Kind.LINE: colours.FEED, Kind.ARC: colours.FEED, Kind.PROBE: colours.PROBING}
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
-FINENESS = 10_000  # chord errors in the length of a path's box: about ten in a pixel
 FAR = 5  # a box of all moves this many times that of the cuts is not shown whole
 
 Array = NDArray[np.float64]
+
+
+class Drawing(NamedTuple):
+    """What is drawn of a path in every view: lines (m, 3) broken by nan, marks (m, 3), crosses with names."""
+
+    path: Toolpath
+    strokes: Strokes
+    classes: Classes
+    lines: list[tuple[Line, Array]]
+    marks: list[tuple[Mark, Array]]
+    places: list[Place]
+    plunges: dict[View, Array]
+    plunge: Mark
+    arrows: bool
 
 
 def plot_path(
@@ -35,53 +53,87 @@ def plot_path(
     ax: Axes | None = None,
     view: str = "auto",
     *,
+    colour: str = "kind",
+    arrows: bool = True,
+    marks: bool = True,
     frame: str = "auto",
     size: tuple[float, float] = SIZE,
     programmed: Toolpath | None = None,
     alarms: Sequence[Alarm] = (),
+    places: Sequence[Place] = (),
 ) -> Figure:
-    """Views of a path: rapids dashed red, cuts blue; start and end marked. Returns the figure, which Jupyter shows.
+    """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
-    ``view``: "XY" from above, "XZ" or "YZ" from the side, "ZX" of a lathe; "auto" takes what the path needs. With
-    ``ax`` one view is drawn into it. ``frame``: "all" shows every move, "cuts" the moves at feed and cuts rapids off at
-    the border, "auto" does so when the rapids come from far away. ``size``: the greatest width and height in inches, at
-    100 pixels an inch. ``programmed`` is the contour before compensation, drawn thin and grey where it differs. The
-    first of ``alarms`` that stopped the program is marked where the tool stands and named below.
+    - ``ax``: draw one view into these axes of one's own, without legend and scale.
+    - ``view``: "XY" from above, "XZ" or "YZ" from the side, "ZX" of a lathe; "auto" takes what the path needs.
+    - ``colour``: what the colour of the cuts shows: "kind" (all blue), "feed" (mm/min), "tool" (its number), "line" (of
+      the source) or "z" (lower end of each stroke, mm). Few values are named in the legend, many are put into at most
+      14 steps of a scale, dark to light. Rapids and probing look the same in all of them.
+    - ``arrows``: arrowheads on a few long moves; none on a path of more than 300 moves.
+    - ``marks``: crosses at zero points that the program selects and at poles, with their names, unless far from the
+      path; only :func:`plot_run` knows them.
+    - ``frame``: "all" shows every move, "cuts" the moves at feed and cuts rapids off at the border, "auto" does so when
+      the rapids come from far away.
+    - ``size``: the greatest width and height in inches, at 100 pixels an inch.
+    - ``programmed``: the contour before compensation, drawn thin and grey where it differs.
+    - ``alarms``: the first that stopped the program is marked where the tool stands and named below.
+    - ``places``: the crosses (see :func:`mnclab.show.plot.datums.places_of`).
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
-    pieces = _lines(path, programmed)
-    low, high, beyond = _box(path, pieces, frame)
+    drawn = strokes(path)
+    found = classes(path, drawn, colour)
+    lines = _programmed(programmed) + lines_of(drawn, found)
+    low, high, beyond = _box(path, lines, frame)
+    shown = near(places, low, high) if marks else []
+    low, high = _with(shown, low, high)
     views = _views(view, path, low, high, single=ax is not None)
-    places = _places(path, stop is not None)
+    plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
+    plunges = {each: _plunges(path, each) for each in views}
+    arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
+    drawing = Drawing(path, drawn, found, lines, _marks(path, stop is not None), shown, plunges, plunge, arrows)
     if ax is not None:
-        _draw(ax, views[0], path, pieces, places)
+        _draw(ax, views[0], drawing)
         dress(ax, views[0])
         if beyond:
-            low, high = roomy(low, high)
+            wide = roomy(low, high)
             right, up = views[0][:2]
-            ax.set(xlim=(low[right], high[right]), ylim=(low[up], high[up]))
+            ax.set(xlim=(wide[0][right], wide[1][right]), ylim=(wide[0][up], wide[1][up]))
         else:
             ax.autoscale_view()
+        ax.apply_aspect()
+        _write(ax, views[0], drawing, low, high)
         figure: Any = ax.get_figure(root=True)
         return figure
-    names = [line.name for line, _ in pieces] + [mark.name for mark, _ in places]
-    if any(len(_plunges(path, each)) for each in views):
+    names = [line.name for line, _ in lines] if not found.scale else [line.name for line, _ in lines if _fixed(line)]
+    names += [mark.name for mark, _ in drawing.marks]
+    if any(map(len, drawing.plunges.values())):
         names.append(colours.PLUNGE.name)
-    picture, axes = arrange(views, low, high, names, _foot(stop, beyond), _in_words(path, low, high, stop), size)
+    if any(line.get_label() == colours.POLE.name for each in views for line in crosses(shown, each)):
+        names.append(colours.POLE.name)
+    said = _in_words(path, low, high, stop)
+    picture, axes = arrange(views, low, high, names, _foot(stop, beyond), said, size, found.scale is not None)
     artists: dict[str, Line2D] = {}
     for one, which in zip(axes, views):
-        for artist in _draw(one, which, path, pieces, places):
+        for artist in _draw(one, which, drawing):
             artists.setdefault(str(artist.get_label()), artist)
+        _write(one, which, drawing, low, high)
     if not names:
         axes[0].text(0.5, 0.5, "no moves", transform=axes[0].transAxes, ha="center", color=colours.PROGRAMMED.colour)
-    write_legend(picture, list(artists.values()))
+    if found.scale:
+        write_scale(picture, found.scale)
+    write_legend(picture, [artists[name] for name in names], SCALE if found.scale else 0.0)
     return picture
 
 
-def plot_run(run: Any, ax: Axes | None = None, view: str = "auto", **options: Any) -> Figure:
-    """Views of the path of a run (see :func:`plot_path`), with its programmed contour and the place of its alarm."""
-    programmed = None if run.programmed is run.toolpath else run.programmed
-    return plot_path(run.toolpath, ax, view, **options, programmed=programmed, alarms=run.alarms)
+def plot_run(run: Any, ax: Axes | None = None, view: str = "auto", *, marks: bool = True, **options: Any) -> Figure:
+    """Views of the path of a run, with its programmed contour, zero points, poles and the place of its alarm.
+
+    The options are those of :func:`plot_path`.
+    """
+    given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
+    if marks:
+        given["places"] = places_of(run)
+    return plot_path(run.toolpath, ax, view, **{**given, **options}, marks=marks)
 
 
 def image(run: Any, view: str = "auto", size: tuple[float, float] = (6.4, 4.4)) -> str:
@@ -94,62 +146,23 @@ def image(run: Any, view: str = "auto", size: tuple[float, float] = (6.4, 4.4)) 
 # --- what is drawn ---------------------------------------------------------------------------------------------------
 
 
-def _lines(path: Toolpath, programmed: Toolpath | None) -> list[tuple[Line, Array]]:
-    """For each class of moves its points (m, 3), nan between runs of moves."""
-    found = _by_class(path, LINES)
-    if programmed is not None:
-        found = _by_class(programmed, {Kind.LINE: colours.PROGRAMMED, Kind.ARC: colours.PROGRAMMED}) + found
-    return found
-
-
-def _by_class(path: Toolpath, classes: Mapping[Kind, Line]) -> list[tuple[Line, Array]]:
-    rows = np.flatnonzero(path.is_motion)
-    if not len(rows):
+def _programmed(path: Toolpath | None) -> list[tuple[Line, Array]]:
+    """The cuts of the contour before compensation, if there is one."""
+    if path is None:
         return []
-    xyz, move = path.points(_size(path, rows) / FINENESS)
-    lines = list(dict.fromkeys(classes.values()))
-    number = np.full(max(Kind) + 1, -1)
-    for kind, line in classes.items():
-        number[kind] = lines.index(line)
-    group = number[path.kind[move]]  # of the stroke that ends at each point
-    jumps = rows[1:][(path.start[rows[1:]] != path.end[rows[:-1]]).any(axis=1)]
-    if len(jumps):  # between them stands a tool change, or what was left out: the move begins elsewhere
-        at = np.searchsorted(move, jumps)
-        xyz, group = np.insert(xyz, at, path.start[jumps], axis=0), np.insert(group, at, -1)
-    group[0] = -1
-    found = [(line, _strokes(xyz, np.flatnonzero(group == k))) for k, line in enumerate(lines)]
-    return [(line, points) for line, points in found if len(points)]
+    drawn = strokes(path)
+    cut = np.isin(path.kind, (Kind.LINE, Kind.ARC))
+    group = np.where((drawn.row >= 0) & cut[drawn.row], 0, -1) if len(drawn.row) else drawn.row
+    (points,) = parted(drawn.xyz, group, 1)
+    return [(colours.PROGRAMMED, points)] if len(points) else []
 
 
-def _strokes(xyz: Array, ends: NDArray[np.intp]) -> Array:
-    """The strokes to some of the points, each from the point before it, as one line broken by nan (m, 3)."""
-    breaks = np.flatnonzero(np.diff(ends, prepend=-1) != 1)  # where a stroke does not go on from the last
-    before = np.stack([np.full(len(breaks), -1), ends[breaks] - 1], axis=1)  # nan, and where the stroke begins
-    order = np.insert(ends, np.repeat(breaks, 2), before.ravel())
-    broken = xyz[order]
-    broken[order < 0] = np.nan
-    return broken[1:]
+def _fixed(line: Line) -> bool:
+    """Whether a class looks the same whatever the colour shows."""
+    return line in (colours.PROGRAMMED, colours.RAPID, colours.PROBING)
 
 
-def _size(path: Toolpath, rows: NDArray[np.intp]) -> float:
-    """The greatest side of a box around some rows, mm, not less than 1 µm."""
-    low, high = _extremes(path.end[rows])
-    begin = path.start[rows[0]]
-    size = float((np.maximum(high, begin) - np.minimum(low, begin)).max())
-    arc = path.kind == Kind.ARC
-    if arc.any():
-        radius = np.linalg.norm(path.start[arc] - path.centre[arc], axis=1)
-        size += float((np.minimum(2.0, np.abs(path.sweep[arc])) * radius).max())
-    return max(size, 1e-3)
-
-
-def _extremes(xyz: Array) -> tuple[Array, Array]:
-    """Least and greatest coordinates (3,) of points (m, 3), passing over nan; column by column, which is quicker."""
-    low = np.array([np.fmin.reduce(column) for column in xyz.T])
-    return low, np.array([np.fmax.reduce(column) for column in xyz.T])
-
-
-def _places(path: Toolpath, stopped: bool) -> list[tuple[Mark, Array]]:
+def _marks(path: Toolpath, stopped: bool) -> list[tuple[Mark, Array]]:
     """Marks and where they stand (m, 3)."""
     found = []
     for kind, mark in MARKS.items():
@@ -164,9 +177,9 @@ def _places(path: Toolpath, stopped: bool) -> list[tuple[Mark, Array]]:
 
 def _plunges(path: Toolpath, view: View) -> Array:
     """Where cuts run along the tool and the line of sight, and would be invisible (m, 2)."""
-    rows = path.kind == Kind.LINE
-    for k in (view.right, view.up):
-        rows &= (np.abs(path.axis[:, k]) < 1e-9) & (path.start[:, k] == path.end[:, k])
+    rows = np.flatnonzero(path.start[:, view.right] == path.end[:, view.right])
+    rows = rows[(path.start[rows, view.up] == path.end[rows, view.up]) & (path.kind[rows] == Kind.LINE)]
+    rows = rows[(np.abs(path.axis[rows][:, [view.right, view.up]]) < 1e-9).all(axis=1)]
     return np.unique(path.end[rows][:, [view.right, view.up]], axis=0)
 
 
@@ -174,8 +187,9 @@ def _box(path: Toolpath, pieces: Sequence[tuple[Line, Array]], frame: str) -> tu
     """The corners (3,) of the box that is shown, and whether rapids go beyond it; a lathe's holds the centre line."""
     if frame not in ("auto", "all", "cuts"):
         raise ValueError(f"frame must be auto, all or cuts, got {frame!r}")
-    everything = _corners([*(points for _, points in pieces), path.start[:1], path.end[-1:]], path.lathe)
-    cuts = _corners([points for line, points in pieces if line is not colours.RAPID], path.lathe)
+    cuts = corners([points for line, points in pieces if line is not colours.RAPID], path.lathe)
+    rest = [points for line, points in pieces if line is colours.RAPID] + [path.start[:1], path.end[-1:]]
+    everything = corners([*rest, np.array(cuts).reshape(-1, 3)] if cuts else rest, path.lathe)
     if everything is None:
         return np.zeros(3), np.zeros(3), False
     if cuts is None or frame == "all":
@@ -186,14 +200,10 @@ def _box(path: Toolpath, pieces: Sequence[tuple[Line, Array]], frame: str) -> tu
     return *everything, False
 
 
-def _corners(clouds: Sequence[Array], centre_line: bool) -> tuple[Array, Array] | None:
-    """Least and greatest coordinates (3,) of some points; None if there are none."""
-    found = [_extremes(points) for points in clouds if len(points)]
-    if not found:
-        return None
-    low, high = np.min([each[0] for each in found], axis=0), np.max([each[1] for each in found], axis=0)
-    if centre_line:
-        low[0], high[0] = min(low[0], 0.0), max(high[0], 0.0)
+def _with(places: Sequence[Place], low: Array, high: Array) -> tuple[Array, Array]:
+    """The box with the places in it."""
+    for place in places:
+        low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
     return low, high
 
 
@@ -216,24 +226,29 @@ def _views(view: str, path: Toolpath, low: Array, high: Array, single: bool) -> 
     return [VIEWS["XY"], VIEWS["YZ"] if span[0] == 0 and span[1] > 0 else VIEWS["XZ"]]
 
 
-def _draw(
-    ax: Axes,
-    view: View,
-    path: Toolpath,
-    pieces: Sequence[tuple[Line, Array]],
-    places: Sequence[tuple[Mark, Array]],
-) -> list[Line2D]:
-    """Add lines and marks to an axes; returns those that a legend names."""
-    artists = [Line2D(xyz[:, view.right], xyz[:, view.up], **line.style()) for line, xyz in pieces]
-    plunges = _plunges(path, view)
+def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
+    """Add lines, marks and crosses to an axes; returns those that a legend names."""
+    artists = [Line2D(xyz[:, view.right], xyz[:, view.up], **line.style()) for line, xyz in drawing.lines]
+    plunges = drawing.plunges[view]
     if len(plunges):
-        artists.append(Line2D(plunges[:, 0], plunges[:, 1], **colours.PLUNGE.style()))
-    artists += [Line2D(xyz[:, view.right], xyz[:, view.up], **mark.style()) for mark, xyz in places]
+        artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style()))
+    artists += [Line2D(xyz[:, view.right], xyz[:, view.up], **mark.style()) for mark, xyz in drawing.marks]
+    artists += crosses(drawing.places, view)
     for artist in artists:
         ax.add_line(artist)
     if view.diameter:
         ax.axhline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre line"})
     return artists
+
+
+def _write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> None:
+    """Add what depends on the scale: arrowheads and names."""
+    occupied = [xyz[:, [view.right, view.up]] for _, xyz in drawing.marks]
+    if drawing.arrows:
+        occupied.append(heads.draw(ax, view, drawing.strokes, drawing.classes, low, high))
+    if drawing.places:
+        around = np.concatenate([np.empty((0, 2)), *occupied])
+        write_names(ax, view, drawing.places, around, [xyz for _, xyz in drawing.lines])
 
 
 def _in_words(path: Toolpath, low: Array, high: Array, stop: Alarm | None) -> str:

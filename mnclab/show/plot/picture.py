@@ -29,7 +29,7 @@ from mnclab.show.plot import colours
 SIZE = (7.0, 6.0)  # the greatest width and height, unless something else is said
 LEAST = (4.6, 2.4)
 SMALL = 8.0  # points: ticks, legend, alarm
-GAP, BELOW, RIGHT, ROW = 0.14, 0.52, 0.18, 0.22
+GAP, BELOW, RIGHT, ROW, SCALE = 0.14, 0.52, 0.18, 0.22, 0.34
 
 
 class View(NamedTuple):
@@ -105,11 +105,13 @@ def arrange(
     foot: Foot | None = None,
     alt: str = "picture",
     size: tuple[float, float] = SIZE,
+    scale_above: bool = False,
 ) -> tuple[Picture, list[Axes]]:
     """A picture of at most ``size`` with one axes a view, all at one scale, around the box ``low`` to ``high`` (3,) mm.
 
     Two views stand one above the other when they share what goes to the right, or side by side, whichever is larger.
-    ``names`` get room for a legend above, ``foot`` is one line of text below.
+    ``names`` get room for a legend above, and ``scale_above`` keeps room for a scale of colours above that; ``foot``
+    is one line of text below.
     """
     low, high = roomy(low, high)
     span = high - low
@@ -119,7 +121,7 @@ def arrange(
     bottom, (most_wide, most_high) = BELOW + (ROW if foot else 0), size
 
     def top(width: float) -> float:
-        return 0.12 + ROW * math.ceil(len(names) / columns(names, width))
+        return 0.12 + (SCALE if scale_above else 0.0) + ROW * math.ceil(len(names) / columns(names, width))
 
     n = len(views)
     free_width, free_height = most_wide - left - RIGHT, most_high - bottom - top(most_wide)
@@ -214,14 +216,14 @@ def columns(names: Sequence[str], width: float) -> int:
     return 1
 
 
-def write_legend(picture: Picture, artists: Sequence[Line2D]) -> None:
-    """The names of lines and marks in the room above the views."""
+def write_legend(picture: Picture, artists: Sequence[Line2D], below: float = 0.0) -> None:
+    """The names of lines and marks in the room above the views, ``below`` inches from the top."""
     if artists:
         names = [str(artist.get_label()) for artist in artists]
         picture.legend(
             handles=list(artists),
             loc="upper left",
-            bbox_to_anchor=(0.06 / picture.get_figwidth(), 1 - 0.03 / picture.get_figheight()),
+            bbox_to_anchor=(0.06 / picture.get_figwidth(), 1 - (0.03 + below) / picture.get_figheight()),
             ncols=columns(names, picture.get_figwidth()),
             fontsize=SMALL,
             frameon=False,

@@ -43,14 +43,18 @@ def test_motion(record, shortest, monkeypatch):
     compare(run.toolpath, record["motion"])
 
 
-@pytest.mark.parametrize("record", [r for r in records("compensation.json") if not r.get("refused")], ids=lambda r: r["name"])
+@pytest.mark.parametrize(
+    "record", [r for r in records("compensation.json") if not r.get("refused")], ids=lambda r: r["name"]
+)
 def test_compensation(record):
     run = mnclab.run(record["mnc"], "mnc", Setup(tools={1: Tool(radius=record["radius"])}))
     assert run.ok, run.alarms
     compare(run.toolpath, record["motion"])
 
 
-@pytest.mark.parametrize("record", [r for r in records("compensation.json") if r.get("refused")], ids=lambda r: r["name"])
+@pytest.mark.parametrize(
+    "record", [r for r in records("compensation.json") if r.get("refused")], ids=lambda r: r["name"]
+)
 def test_gouging_is_refused_here_too(record):
     run = mnclab.run(record["mnc"], "mnc", Setup(tools={1: Tool(radius=record["radius"])}))
     assert not run.ok

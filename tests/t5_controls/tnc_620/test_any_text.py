@@ -54,8 +54,8 @@ PROGRAM = """\
 
 SCRAPS = st.sampled_from([
     "X", "+", "-", ".", ",", "9", "0", " ", "\t", "\n", "\r", ";", "~", "/", "\\", '"', "=", "(", ")", "^", "*", "%", "#", "Q1",
-    "RL", "R0", "FMAX", "DR-", "LBL 0\n", "CALL LBL 2\n", "CYCL DEF 7.1 ", "Q201=", "99999999", "\ufeff", "\0", "\u0425", "\u0661",
-    "\u017f", "DEP LT LEN5\n", "RND R1\n", "TOOL CALL ", "END PGM A MM\n", "1e9", "INCH", "M2\n", "L ", "C ", "CC ",
+    "RL", "R0", "FMAX", "DR-", "LBL 0\n", "CALL LBL 2\n", "CYCL DEF 7.1 ", "Q201=", "99999999", "\ufeff", "\0", "\u0425",
+    "\u0661", "\u017f", "DEP LT LEN5\n", "RND R1\n", "TOOL CALL ", "END PGM A MM\n", "1e9", "INCH", "M2\n", "L ", "C ", "CC ",
 ])  # fmt: skip
 
 

@@ -71,9 +71,16 @@ def test_departure_from_an_arc(inside) -> None:
     The approach: the tangent at (10, 50), clockwise, is +Y; 8 mm before it (10, 42), 5 mm to the right (15, 42). After a
     full turn the same tangent: 10 mm on from (15, 50) to (15, 60); L IX+5 IY-10 ends at (20, 50).
     """
-    run = inside("2 L X+35 Y+50\n3 APPR LT X+10 Y+50 LEN8 RR\n4 CC X+35 Y+50\n5 C X+10 Y+50 DR-\n6 DEP LT LEN10\n7 L IX+5 IY-10")
+    run = inside(
+        "2 L X+35 Y+50\n3 APPR LT X+10 Y+50 LEN8 RR\n4 CC X+35 Y+50\n5 C X+10 Y+50 DR-\n6 DEP LT LEN10\n7 L IX+5 IY-10"
+    )
     assert run.ok, run.alarms
-    assert [row[:2] for row in rows(run)] == [("LINE", [15, 42]), ("LINE", [15, 50]), ("ARC", [15, 50]), ("LINE", [15, 60])]
+    assert [row[:2] for row in rows(run)] == [
+        ("LINE", [15, 42]),
+        ("LINE", [15, 50]),
+        ("ARC", [15, 50]),
+        ("LINE", [15, 60]),
+    ]
     assert run.toolpath.end[-1].tolist() == pytest.approx([20, 50, 0])
 
 
@@ -120,3 +127,12 @@ def test_entry_and_exit_at_rapid(inside) -> None:
     assert [(m.kind.name, m.end[:2].tolist()) for m in run.toolpath.motion] == [
         ("RAPID", [10, 5]), ("LINE", [30, 5]), ("RAPID", [30, 40]),
     ]  # fmt: skip
+
+
+def test_island_of_section_8_3(inside) -> None:
+    """Clockwise about (65, 50) with radius 25 from (40, 50), RL outside: the tool runs on radius 30 from (35, 50)."""
+    run = inside("2 L X+20 Y+50\n3 L X+40 Y+50 RL\n4 CC X+65 Y+50\n5 C X+40 Y+50 DR-\n6 L X+20 Y+50 R0")
+    assert run.ok, run.alarms
+    arc = run.toolpath[run.toolpath.kind == mnc.Kind.ARC][0]
+    assert arc.start[:2].tolist() == pytest.approx([35, 50]) and arc.end[:2].tolist() == pytest.approx([35, 50])
+    assert arc.centre[:2].tolist() == [65, 50] and arc.sweep == pytest.approx(-2 * math.pi)

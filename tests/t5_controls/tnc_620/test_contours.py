@@ -44,7 +44,9 @@ def test_overlapping_contours(name):
 
 def data(**changes):
     """Cycle 20 and 22 blocks with some values changed."""
-    values = dict(Q1=-10, Q2=0.8, Q3=0.5, Q4=0.2, Q5=0, Q6=2, Q7=50, Q8=0, Q9=1, Q10=5, Q11=100, Q12=350, Q19=0, Q208=9999)
+    values = dict(
+        Q1=-10, Q2=0.8, Q3=0.5, Q4=0.2, Q5=0, Q6=2, Q7=50, Q8=0, Q9=1, Q10=5, Q11=100, Q12=350, Q19=0, Q208=9999
+    )
     values |= changes
     first = "\n".join(f"Q{k}={values[f'Q{k}']:+g}" for k in range(1, 10))
     second = "\n".join(f"{k}={values[k]:+g}" for k in values if int(k[1:]) >= 10)
@@ -182,7 +184,8 @@ def test_a_call_without_contour_is_refused():
 
 def test_multipolygons_are_two_plunges():
     """A 20 mm neck is too narrow for a tool of radius 15: two pieces, each with its own plunge (PGM C20, coarse tool)."""
-    neck = "LBL 1\nL X+0 Y+0 RL\nL X+60\nL Y+20\nL X+100\nL Y+0\nL X+160\nL Y+60\nL X+100\nL Y+40\nL X+60\nL Y+60\nL X+0\nL Y+0\nLBL 0\n"
+    corners = ("X+60", "Y+20", "X+100", "Y+0", "X+160", "Y+60", "X+100", "Y+40", "X+60", "Y+60", "X+0", "Y+0")
+    neck = "LBL 1\nL X+0 Y+0 RL\n" + "".join(f"L {corner}\n" for corner in corners) + "LBL 0\n"
     text = pocket(labels="1", Q3=0, Q4=0, Q10=20).replace(LABELS, neck)
     run = mnclab.run(text, "tnc-620", Setup(tools={1: Tool(radius=15)}))
     assert run.ok, run.alarms

@@ -74,7 +74,9 @@ Q395=0 ;REFERINCA ADANCIME
 
 def test_depth_of_the_cylindrical_part(tnc, drilled) -> None:
     """Q395=1, diameter 4.8, point angle 120: t = 2.4 / tan 60 = 1.3856; the tip goes to Z-26.3856 in six infeeds."""
-    definition = DEFINITION.replace("Q201=-15", "Q201=-25").replace("Q206=250", "Q206=150").replace("Q204=20", "Q204=10")
+    definition = (
+        DEFINITION.replace("Q201=-15", "Q201=-25").replace("Q206=250", "Q206=150").replace("Q204=20", "Q204=10")
+    )
     setup = mnc.Setup(tools={2: mnc.Tool(radius=2.4, angle=120)})
     run = tnc(f"1 TOOL CALL 2 Z S1000\n2 {definition}Q395=1\n3 CYCL CALL M3\n", setup)
     assert drilled(run) == [
@@ -110,7 +112,12 @@ def test_positive_depth_where_it_is_allowed(inside, drilled) -> None:
 
 def test_definition_alone_moves_nothing(tnc) -> None:
     """The definition of 3.1, with a positive depth and a decimal comma: legal until it is called."""
-    text = DEFINITION.replace("Q201=-15", "Q201=3").replace("Q211=0", "Q211=0,25").replace("Q204=20", "Q204=50").replace("250", "150")
+    text = (
+        DEFINITION.replace("Q201=-15", "Q201=3")
+        .replace("Q211=0", "Q211=0,25")
+        .replace("Q204=20", "Q204=50")
+        .replace("250", "150")
+    )
     run = tnc(f"7 {text}Q395=0\n")
     assert run.ok and len(run.toolpath) == 0
     expected = {"Q200": 2, "Q201": 3, "Q206": 150, "Q202": 5, "Q210": 0, "Q203": 0, "Q204": 50, "Q211": 0.25, "Q395": 0}
@@ -128,7 +135,9 @@ def test_parameters_are_read_at_the_call(assignment: str, plane: float, tnc, dri
 def test_a_parameter_out_of_its_range_at_the_call(inside) -> None:
     run = inside(f"2 {DEFINITION}3 Q210 = -1\n4 CYCL CALL M3")
     (alarm,) = [a for a in run.alarms if a.severity == "alarm"]
-    assert alarm.message == "CYCL DEF 200 Q210 (dwell at the set-up clearance) must be at least 0 and at most 3600, got -1"
+    assert (
+        alarm.message == "CYCL DEF 200 Q210 (dwell at the set-up clearance) must be at least 0 and at most 3600, got -1"
+    )
     assert alarm.span[:2] == (8, 1)  # the word of the definition
 
 
@@ -170,4 +179,7 @@ def test_a_transformation_between_definition_and_call_keeps_the_cycle(inside, dr
 
 def test_what_a_call_should_have_before_it(tnc) -> None:
     run = tnc(f"1 {DEFINITION}2 CYCL CALL\n")
-    assert run.ok and [a.message for a in run.alarms] == ["CYCL CALL: no tool was called", "CYCL CALL: the spindle does not turn"]
+    assert run.ok and [a.message for a in run.alarms] == [
+        "CYCL CALL: no tool was called",
+        "CYCL CALL: the spindle does not turn",
+    ]

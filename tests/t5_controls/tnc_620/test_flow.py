@@ -8,7 +8,9 @@ from mnclab.controls.tnc_620 import CONTROL, later
 
 
 def test_subprogram_and_repeat(inside) -> None:
-    run = inside('2 CALL LBL "S"\n3 LBL 5\n4 L IY+1\n5 CALL LBL 5 REP 2/2\n6 CALL LBL "S"\n7 M30\n8 LBL "S"\n9 L IX+10\n10 LBL 0')
+    run = inside(
+        '2 CALL LBL "S"\n3 LBL 5\n4 L IY+1\n5 CALL LBL 5 REP 2/2\n6 CALL LBL "S"\n7 M30\n8 LBL "S"\n9 L IX+10\n10 LBL 0'
+    )
     # S once, three passes of the section, S again
     assert run.toolpath.motion.end[:, :2].tolist() == [[10, 0], [10, 1], [10, 2], [10, 3], [20, 3]]
 
@@ -63,7 +65,9 @@ def test_pgm_model(tnc) -> None:
 
 def test_pgm_beams(tnc) -> None:
     """Seed lines 11876 to 11900 with the deviations that cycle 424 would leave."""
-    run = tnc("1 Q164 = 1.02\n2 Q165 = 0.97\n3 FN 0: Q1 = +81\n4 FN 0: Q2 = +61\n9 FN 2: Q1 = +Q1 - +Q164\n10 FN 2: Q2 = +Q2 - +Q165\n")
+    run = tnc(
+        "1 Q164 = 1.02\n2 Q165 = 0.97\n3 FN 0: Q1 = +81\n4 FN 0: Q2 = +61\n9 FN 2: Q1 = +Q1 - +Q164\n10 FN 2: Q2 = +Q2 - +Q165\n"
+    )
     assert run.variables["Q1"] == pytest.approx(79.98) and run.variables["Q2"] == pytest.approx(60.03)
 
 

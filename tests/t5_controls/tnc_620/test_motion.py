@@ -101,10 +101,16 @@ def test_end_of_program_stops_the_spindle_and_the_run(inside) -> None:
 def test_tool_call(tnc) -> None:
     """Number, name, speed alone, deltas: radius 5 - 0.1, length 80 + 0.2."""
     setup = mnc.Setup(tools={1: mnc.Tool(radius=5, length=80), 69: mnc.Tool(radius=2, length=100, name="TCH PROBE")})
-    run = tnc('3 TOOL CALL 1 Z S4500 DL+0.2 DR-0.1\n4 TOOL CALL 69 Z\n5 TOOL CALL "tch probe" Z\n6 TOOL CALL Z S200\n', setup)
+    run = tnc(
+        '3 TOOL CALL 1 Z S4500 DL+0.2 DR-0.1\n4 TOOL CALL 69 Z\n5 TOOL CALL "tch probe" Z\n6 TOOL CALL Z S200\n', setup
+    )
     assert run.ok
     rows = run.toolpath
-    assert [(m.tool, round(m.radius, 6), round(m.end[2], 6)) for m in rows] == [(1, 4.9, -80.2), (69, 2, -100), (69, 2, -100)]
+    assert [(m.tool, round(m.radius, 6), round(m.end[2], 6)) for m in rows] == [
+        (1, 4.9, -80.2),
+        (69, 2, -100),
+        (69, 2, -100),
+    ]
     assert [run.history.value("speed", step) for step in range(4)] == [4500, 4500, 4500, 200]
 
 

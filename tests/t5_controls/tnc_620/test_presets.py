@@ -8,7 +8,18 @@ from mnclab.workpiece.part import plane
 
 #: Active preset row 1, ball radius 2, SET_UP 2, DIST 10, south pole at Z100 before the cycle [checks].
 PRESET = (100, 200, -300)
-VALUES = {"Q263": 25, "Q264": 25, "Q261": 25, "Q320": 0, "Q260": 50, "Q272": 1, "Q267": 1, "Q305": 0, "Q333": 0, "Q303": 1}
+VALUES = {
+    "Q263": 25,
+    "Q264": 25,
+    "Q261": 25,
+    "Q320": 0,
+    "Q260": 50,
+    "Q272": 1,
+    "Q267": 1,
+    "Q305": 0,
+    "Q333": 0,
+    "Q303": 1,
+}
 
 
 def probing(part, after="", before="L Z+100 R0 FMAX\n", **changes):
@@ -59,7 +70,9 @@ def test_downwards():
     """Q272 = 3, Q267 = -1, surface Z25.07: row 0 Z -274.93, from a start at south pole 27."""
     run = probing(((0, 0, 25.07), (0, 0, 1)), Q272=3, Q267=-1)
     touch = run.toolpath[run.toolpath.kind == Kind.PROBE][0]
-    assert touch.start == pytest.approx((25, 25, 27), abs=1e-9) and touch.end == pytest.approx((25, 25, 25.07), abs=1e-9)
+    assert touch.start == pytest.approx((25, 25, 27), abs=1e-9) and touch.end == pytest.approx(
+        (25, 25, 25.07), abs=1e-9
+    )
     assert run.tables.presets[0][:3] == pytest.approx((100, 200, -274.93), abs=1e-9)
 
 
@@ -91,7 +104,11 @@ REFUSED = [
     (((40, 0, 0), (-1, 0, 0)), {}, "touch point inaccessible: no contact within 10 mm"),
     (WALL, {"Q272": 4}, "TCH PROBE 419 Q272 (measuring axis) must be one of 1, 2, 3, got 4"),
     (WALL, {"Q305": 2, "Q303": -1}, "TCH PROBE 419 Q303 (measured value transfer) -1 does not say where row Q305 is"),
-    (WALL, {"before": "CYCL DEF 7.0 D\nCYCL DEF 7.1 X+5\nL Z+100 FMAX\n"}, "TCH PROBE 419 cannot run while a shift is active"),
+    (
+        WALL,
+        {"before": "CYCL DEF 7.0 D\nCYCL DEF 7.1 X+5\nL Z+100 FMAX\n"},
+        "TCH PROBE 419 cannot run while a shift is active",
+    ),
 ]
 
 

@@ -40,7 +40,9 @@ def without_numbers() -> str:
 
 def with_tilde() -> str:
     lines = PROGRAM.splitlines()
-    return "\n".join(line + " ~" if after.startswith(" ") else line for line, after in zip(lines, [*lines[1:], ""], strict=True))
+    return "\n".join(
+        line + " ~" if after.startswith(" ") else line for line, after in zip(lines, [*lines[1:], ""], strict=True)
+    )
 
 
 SPELLINGS = {
@@ -52,7 +54,10 @@ SPELLINGS = {
     "decimal comma": PROGRAM.replace("2.5", "2,5").replace("0.25", "0,25"),
     "plus signs left out": PROGRAM.replace("+", ""),
     "lines that end in ~": with_tilde(),
-    "blanks, tabs, comments, O for 0": PROGRAM.replace(" ", "  ").replace("  Y-", "\tY - ").replace(" R0", " RO").replace("\n", " ; x\n"),
+    "blanks, tabs, comments, O for 0": PROGRAM.replace(" ", "  ")
+    .replace("  Y-", "\tY - ")
+    .replace(" R0", " RO")
+    .replace("\n", " ; x\n"),
 }
 
 
@@ -99,7 +104,9 @@ def test_plain_lines_and_others_are_read_alike() -> None:
     assert (one[0].number, one[0].keyword, one[0].span) == ("7", "L", other[0].span)
 
 
-@pytest.mark.parametrize("line", ["L +5", "L  ", "L", "LX+5", "L X+1 X+2", "L X", "L X+1E5", "L R5", "L X+99999999999", "L IX+5", "X+5"])
+@pytest.mark.parametrize(
+    "line", ["L +5", "L  ", "L", "LX+5", "L X+1 X+2", "L X", "L X+1E5", "L R5", "L X+99999999999", "L IX+5", "X+5"]
+)
 def test_what_is_no_plain_line(line: str) -> None:
     assert not mnc.read(line + "\n", "tnc-620").plain.any()
 
@@ -125,7 +132,9 @@ def test_sub_blocks_become_one_block() -> None:
     assert [(str(w), w.span.line, w.span.column) for w in program[0].words] == [("X60", 2, 17), ("IY40", 3, 17)]
 
 
-@pytest.mark.parametrize("line", ["CONTUR1/2/3/4", "ETICH. CONTUR 1/2/3/4", "CONTOUR LABEL1 /2 /3 /4", "ETICH.\nCONTUR1/2/3/4"])
+@pytest.mark.parametrize(
+    "line", ["CONTUR1/2/3/4", "ETICH. CONTUR 1/2/3/4", "CONTOUR LABEL1 /2 /3 /4", "ETICH.\nCONTUR1/2/3/4"]
+)
 def test_contour_labels(line: str) -> None:
     """Printed in many ways (seed lines 5107, 5108): the numbers count."""
     program = block(f"12 CYCL DEF 14.0 CONTUR\n13 CYCL DEF 14.1 {line}")
@@ -147,7 +156,9 @@ def test_a_long_name_may_be_broken() -> None:
 
 
 def test_inches_become_millimetres(tnc) -> None:
-    run = tnc("0 BEGIN PGM I INCH\n1 TOOL CALL 1 Z F10\n2 L X+1 Y-0.5 R0\n3 Q1 = 2\n4 L X+Q1 Y+0 F20 ;\n5 END PGM I INCH\n")
+    run = tnc(
+        "0 BEGIN PGM I INCH\n1 TOOL CALL 1 Z F10\n2 L X+1 Y-0.5 R0\n3 Q1 = 2\n4 L X+Q1 Y+0 F20 ;\n5 END PGM I INCH\n"
+    )
     assert run.ok
     moves = run.toolpath.motion
     assert moves.end.ravel().tolist() == pytest.approx([25.4, -12.7, 0, 50.8, 0, 0])

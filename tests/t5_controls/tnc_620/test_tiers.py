@@ -14,7 +14,9 @@ WORDS = st.tuples(
     st.sampled_from(["", "X"]), NUMBERS, st.sampled_from(["", "Y"]), NUMBERS, st.sampled_from(["", "Z"]), NUMBERS,
     st.sampled_from([""] * 8 + ["F100", "F250", "R0"]),
 )  # fmt: skip
-RARE = st.sampled_from(["RND R0.1", "L X+3 FMAX", "L X-4 F0", "L IX+1 RL", "CALL LBL 1", "Q1 = 3", "L Y-Q1 R0", "; remark", "L"])
+RARE = st.sampled_from(
+    ["RND R0.1", "L X+3 FMAX", "L X-4 F0", "L IX+1 RL", "CALL LBL 1", "Q1 = 3", "L Y-Q1 R0", "; remark", "L"]
+)
 HEADS = ("", "CYCL DEF 7.0 S\nCYCL DEF 7.1 X+12.5\nCYCL DEF 7.2 IY-3\n", "CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+33\n")
 
 
@@ -40,7 +42,9 @@ def test_both_tiers_agree(head: str, runs: list[tuple[list[tuple[str, ...]], str
         assert np.array_equal(one, other, equal_nan=one.dtype.kind == "f"), name
     assert set(fast.history) == set(slow.history)
     for name in fast.history:
-        assert list(map(str, map(np.asarray, fast.history[name]))) == list(map(str, map(np.asarray, slow.history[name]))), name
+        assert list(map(str, map(np.asarray, fast.history[name]))) == list(
+            map(str, map(np.asarray, slow.history[name]))
+        ), name
     assert fast.variables == slow.variables and np.array_equal(fast.steps.block, slow.steps.block)
 
 

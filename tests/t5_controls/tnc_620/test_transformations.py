@@ -93,7 +93,9 @@ def test_cotrans_printed_points(needle) -> None:
     back = path[path.feed == 5000]
     assert len(back) == 8 and close(back.end[:, :2], [[65, 65]] * 8)
     bounds = rows.bounds
-    assert bounds[:, :2].ravel().tolist() == pytest.approx([7.071, 7.071, 122.929, 122.929], abs=0.011)  # arcs within 0.01
+    assert bounds[:, :2].ravel().tolist() == pytest.approx(
+        [7.071, 7.071, 122.929, 122.929], abs=0.011
+    )  # arcs within 0.01
 
 
 def test_cotrans_leaves_no_transformation(needle) -> None:
@@ -136,7 +138,12 @@ def test_example_11_6(tnc) -> None:
 
 
 def test_rotation_first_turns_the_shift(tnc) -> None:
-    assert plane(where(tnc, f"{TURN}\n{SHIFT}")) == [[26.206, 67.181], [34.398, 72.916], [20.47, 75.372], [45.045, 92.579]]
+    assert plane(where(tnc, f"{TURN}\n{SHIFT}")) == [
+        [26.206, 67.181],
+        [34.398, 72.916],
+        [20.47, 75.372],
+        [45.045, 92.579],
+    ]
 
 
 def test_example_11_2(tnc) -> None:

@@ -122,16 +122,31 @@ class RoughOut(Cycle):
     """Clears the contour level by level, each from the inside outward, islands first."""
 
     infeed: float = param("Q10", "infeed per cut", modal=True, incremental=True, **WIDE)
-    plunge_feed: float = param("Q11", "feed rate for plunging", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True)
-    feed: float = param("Q12", "feed rate for roughing", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True)
+    plunge_feed: float = param(
+        "Q11", "feed rate for plunging", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True
+    )
+    feed: float = param(
+        "Q12", "feed rate for roughing", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True
+    )
     coarse_tool: float = param(
         "Q18", "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
     )
-    swing_feed: float = param("Q19", "feed rate for reciprocation", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True)
-    retract_feed: float | str = param(
-        "Q208", "retraction feed rate", "mm/min", default=INF, default_means="FMAX", at_least=0, also=("FMAX", "FAUTO"), modal=True
+    swing_feed: float = param(
+        "Q19", "feed rate for reciprocation", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True
     )
-    factor: float = param("Q401", "feed rate factor at full engagement", "ratio", default=100, at_least=0.0001, at_most=100, modal=True)
+    retract_feed: float | str = param(
+        "Q208",
+        "retraction feed rate",
+        "mm/min",
+        default=INF,
+        default_means="FMAX",
+        at_least=0,
+        also=("FMAX", "FAUTO"),
+        modal=True,
+    )
+    factor: float = param(
+        "Q401", "feed rate factor at full engagement", "ratio", default=100, at_least=0.0001, at_most=100, modal=True
+    )
     fine_strategy: float = param(
         "Q404", "fine roughing strategy", "choice", default=0, modal=True,
         choices={0: "along the contour at depth", 1: "retract between the areas"},

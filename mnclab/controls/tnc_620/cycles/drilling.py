@@ -16,7 +16,7 @@ from mnclab.machining.depths import infeeds
 CYCLES = CycleTable()
 FAR = 99999.9999  # mm, the largest length of a cycle
 MOST = 10_000  # infeeds of one hole
-TIP = {0: "depth refers to the tool tip", 1: "depth refers to the cylindrical part of the tool"}
+TIP: dict[float, str] = {0: "depth refers to the tool tip", 1: "depth refers to the cylindrical part of the tool"}
 
 
 @CYCLES("CYCL DEF 200", "Drilling", runs="call", source="4.3")
@@ -27,14 +27,16 @@ class Drilling(Cycle):
     depth: float = param(
         "Q201", "depth", at_least=-FAR, at_most=FAR, incremental=True, modal=True, note="from the surface; negative is down"
     )  # fmt: skip
-    feed: float = param("Q206", "feed rate for plunging", "mm/min", at_least=0, at_most=99999.999, modal=True, also=("FAUTO", "FU"))
+    feed: float = param(
+        "Q206", "feed rate for plunging", "mm/min", at_least=0, at_most=99999.999, modal=True, also=("FAUTO", "FU")
+    )
     infeed: float = param(
-        "Q202", "infeed depth", at_least=0, at_most=FAR, incremental=True, modal=True, note="0 or not less than the depth: one pass"
+        "Q202", "infeed depth", at_least=0, at_most=FAR, incremental=True, modal=True, note="0: in one pass"
     )  # fmt: skip
     dwell_top: float = param("Q210", "dwell at the set-up clearance", "s", at_least=0, at_most=3600, modal=True)
     surface: float = param("Q203", "coordinate of the workpiece surface", at_least=-FAR, at_most=FAR, modal=True)
     second_clearance: float = param(
-        "Q204", "second set-up clearance", at_least=0, at_most=FAR, incremental=True, modal=True, note="counts if greater than Q200"
+        "Q204", "second set-up clearance", at_least=0, at_most=FAR, incremental=True, modal=True, note="if greater than Q200"
     )  # fmt: skip
     dwell_bottom: float = param("Q211", "dwell at the bottom of each infeed", "s", at_least=0, at_most=3600, modal=True)
     reference: float = param("Q395", "depth reference", "choice", default=0, choices=TIP, modal=True)

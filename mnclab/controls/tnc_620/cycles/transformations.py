@@ -23,12 +23,20 @@ FAR = 99999.9999  # mm
 class DatumShift(Cycle):
     """Moves the datum; IX counts from the shift that was valid before, an axis that is not named keeps its shift."""
 
-    x: float | None = param("X", "datum shift along X", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True)
-    y: float | None = param("Y", "datum shift along Y", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True)
-    z: float | None = param("Z", "datum shift along Z", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True)
+    x: float | None = param(
+        "X", "datum shift along X", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True
+    )
+    y: float | None = param(
+        "Y", "datum shift along Y", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True
+    )
+    z: float | None = param(
+        "Z", "datum shift along Z", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True
+    )
 
     @classmethod
-    def prepare(cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]) -> dict[str, Any]:
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
         """Increments are added to the shift as it is."""
         for name, before in zip("xyz", shift(m), strict=True):
             if name in given and given[name].incremental:
@@ -42,7 +50,9 @@ class DatumShift(Cycle):
 
     def moves(self, m: Machine) -> None:
         """No motion: the register is read anew from where the tip stands."""
-        x, y, z = (before if new is None else new for new, before in zip((self.x, self.y, self.z), shift(m), strict=True))
+        x, y, z = (
+            before if new is None else new for new, before in zip((self.x, self.y, self.z), shift(m), strict=True)
+        )
         m.set_frame("shift", frames.shift(x, y, z) if (x, y, z) != (0, 0, 0) else None, keep="tip")
 
 
@@ -56,10 +66,14 @@ def shift(m: Machine) -> tuple[float, float, float]:
 class Rotation(Cycle):
     """Turns the coordinates of the working plane about the active datum; cancels a radius compensation."""
 
-    angle: float = param("ROT", "rotation angle", "deg", at_least=-360, at_most=360, modal=True, note="IROT adds to the active angle")
+    angle: float = param(
+        "ROT", "rotation angle", "deg", at_least=-360, at_most=360, modal=True, note="IROT adds to the active angle"
+    )
 
     @classmethod
-    def prepare(cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]) -> dict[str, Any]:
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
         """An increment within its range is added to the active angle; the sum has no limit and counts modulo a whole turn."""
         if "angle" in given and given["angle"].incremental and abs(values["angle"]) <= 360:
             values["angle"] = math.fmod(m.memory.get("rotation", 0.0) + values["angle"], 360)

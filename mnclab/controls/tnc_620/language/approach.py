@@ -42,7 +42,9 @@ def departure(m: Machine, words: Words) -> None:
     f = feed(m, words)
     distance = length(m, words)
     if not m.side:
-        m.alarm("DEP LT ends radius compensation, and none is active", None, hint="begin it with APPR LT or with RL, RR")
+        m.alarm(
+            "DEP LT ends radius compensation, and none is active", None, hint="begin it with APPR LT or with RL, RR"
+        )
     heading, normal = m.heading(), PLANES[m.plane][2]
     if heading is None or abs(heading[normal]) > 1e-9:
         m.alarm("DEP LT needs a path element in the working plane directly before it", None)

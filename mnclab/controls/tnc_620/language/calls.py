@@ -29,7 +29,11 @@ def call(m: Machine, code: str, word: Word | None) -> None:
     if m.cycle is None:
         m.alarm(f"{code} has no cycle to call", word, hint="define one before, for example CYCL DEF 200")
     if m.side:
-        m.alarm(f"{code}: a cycle is called at a position without radius compensation", word, hint="write R0 in the block before")
+        m.alarm(
+            f"{code}: a cycle is called at a position without radius compensation",
+            word,
+            hint="write R0 in the block before",
+        )
     if m.tool.number == 0:
         m.warn(f"{code}: no tool was called", word)
     if not m.turning:

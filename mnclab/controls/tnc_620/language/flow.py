@@ -33,5 +33,7 @@ def call_label(m: Machine, words: Words) -> None:
         return
     first, here = m.flow.index_of(name, m._span(word)), m.flow.current
     if first >= here:
-        m.alarm(f"CALL LBL {name} REP: the section must begin before this block", word, hint="REP repeats what stands above")
+        m.alarm(
+            f"CALL LBL {name} REP: the section must begin before this block", word, hint="REP repeats what stands above"
+        )
     m.flow.repeat(first, here, int(m.value(words["REP"])), m._span(word))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import INF, Machine
 from mnclab.path.corners import Rounding
@@ -15,9 +17,9 @@ NAMES = {0: "R0", 1: "RL", -1: "RR"}
 TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue: C)
 
 
-def coordinates(m: Machine, words: Words, axes: str = AXES) -> dict[str, float]:
+def coordinates(m: Machine, words: Words, axes: str = AXES) -> dict[str, Any]:
     """Targets of the axes that are written, as arguments of a verb (``x=``, …); IX counts from the register."""
-    found = {}
+    found: dict[str, Any] = {}
     for k, axis in enumerate(AXES):
         if axis in axes and axis in words:
             value = m.value(words[axis])
@@ -68,7 +70,11 @@ def side(m: Machine, words: Words, begins: bool) -> None:
         wanted = SIDES[word.address]
         if wanted != m.side and not begins:
             verb = "end" if wanted == 0 else "begin"
-            m.alarm(f"{word} cannot {verb} the radius compensation in {words.code}", word, hint="write it in a straight line L")
+            m.alarm(
+                f"{word} cannot {verb} the radius compensation in {words.code}",
+                word,
+                hint="write it in a straight line L",
+            )
         m.change("side", wanted)
 
 
@@ -94,7 +100,9 @@ def centre(m: Machine, words: Words) -> None:
 def sense(m: Machine, words: Words) -> int:
     """DR+ counter-clockwise (1), DR- clockwise (-1)."""
     if "DR" not in words:
-        m.alarm(f"{words.code} needs the sense of rotation", None, hint="write DR+ (counter-clockwise) or DR- (clockwise)")
+        m.alarm(
+            f"{words.code} needs the sense of rotation", None, hint="write DR+ (counter-clockwise) or DR- (clockwise)"
+        )
     word = words["DR"]
     if word.value not in ("+", "-"):
         m.alarm(f"{words.code} DR (sense of rotation) must be DR+ or DR-, got {word}", word)

@@ -86,7 +86,9 @@ def corner(m: Machine, words: Words, least: Corner | None) -> Corner:
     found = []
     for k, axis in enumerate("XYZ"):
         if axis not in words:
-            m.alarm(f"{words.code} {axis} (coordinate of the corner) is missing", words.words[0] if len(words) else None)
+            m.alarm(
+                f"{words.code} {axis} (coordinate of the corner) is missing", words.words[0] if len(words) else None
+            )
         value = m.value(words[axis])
         if words[axis].incremental:
             if least is None:

@@ -16,7 +16,11 @@ FUNCTIONS = FunctionTable()
 def tool_call(m: Machine, words: Words) -> None:
     """Puts the tool into the spindle with its deltas; without a tool only speed, feed and deltas change."""
     if m.side:
-        m.alarm("TOOL CALL cannot change the tool under radius compensation", words.words[0] if len(words) else None, "write R0 first")
+        m.alarm(
+            "TOOL CALL cannot change the tool under radius compensation",
+            words.words[0] if len(words) else None,
+            "write R0 first",
+        )
     if "axis" in words and words["axis"].value != "Z":
         m.alarm(f"TOOL CALL: the tool axis {words['axis'].value} is not built yet, Z is", words["axis"])
     if "DR2" in words:
@@ -57,7 +61,11 @@ def find(m: Machine, word: Word) -> Tool:
         m.alarm(f'TOOL CALL "{word.value}" has no row in the tool table', word, hint=f"names: {known}")
     number = m.value(word)
     if number not in tools:
-        m.alarm(f"TOOL CALL {number:g} has no row in the tool table", word, hint=f"tools: {', '.join(map(str, sorted(tools)))}")
+        m.alarm(
+            f"TOOL CALL {number:g} has no row in the tool table",
+            word,
+            hint=f"tools: {', '.join(map(str, sorted(tools)))}",
+        )
     return tools[int(number)]
 
 
@@ -66,6 +74,8 @@ def tool_def(m: Machine, words: Words) -> None:
     """With a tool table it only names the next tool; nothing moves."""
     for address in ("L", "R"):
         if address in words:
-            m.alarm(f"TOOL DEF {address}: the tool table is active, it holds the dimensions of the tools", words[address])
+            m.alarm(
+                f"TOOL DEF {address}: the tool table is active, it holds the dimensions of the tools", words[address]
+            )
     if "tool" in words:
         find(m, words["tool"])

@@ -30,7 +30,9 @@ class PresetInOneAxis(Cycle):
         "Q272", "measuring axis", "choice", modal=True,
         choices={1: "reference axis", 2: "minor axis", 3: "touch probe axis"},
     )  # fmt: skip
-    direction: float = param("Q267", "traverse direction", "choice", choices={-1: "negative", 1: "positive"}, modal=True)
+    direction: float = param(
+        "Q267", "traverse direction", "choice", choices={-1: "negative", 1: "positive"}, modal=True
+    )
     row: float = param("Q305", "number in table", "count", at_least=0, at_most=9999, type="integer", modal=True)
     datum: float = param("Q333", "new coordinate of the touched point", default=0, modal=True, **WIDE)
     transfer: float = param(

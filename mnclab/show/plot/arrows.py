@@ -1,0 +1,73 @@
+"""Arrowheads that say which way the tool goes: a few a path, on long moves, all of them one artist."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PathCollection
+from matplotlib.path import Path
+from matplotlib.transforms import Affine2D, IdentityTransform
+from numpy.typing import NDArray
+
+from mnclab.show.plot import colours
+from mnclab.show.plot.classes import Classes
+from mnclab.show.plot.picture import View
+from mnclab.show.plot.strokes import Strokes
+
+MANY = 300  # moves of a path beyond which arrows say nothing and are not drawn
+MOST = 16  # arrows in one view
+LONG, APART, CLEAR = 0.1, 0.4, 0.06  # of the view's greatest side: a move with an arrow, way between two, distance
+HEAD = Path([(0.55, 0.0), (-0.45, 0.4), (-0.2, 0.0), (-0.45, -0.4), (0.55, 0.0)], closed=True)
+SIZE = 8.0  # points
+
+Array = NDArray[np.float64]
+
+
+def draw(ax: Axes, view: View, drawn: Strokes, found: Classes, low: Array, high: Array) -> Array:
+    """Add the arrowheads of one view that lie in its box ``low`` to ``high`` (3,), mm; returns their places (n, 2)."""
+    axes = [view.right, view.up]
+    at, angle, look = places(drawn.xyz[:, axes], drawn.row, found.group, low[axes], high[axes])
+    if len(at):
+        heads = [HEAD.transformed(Affine2D().rotate(each)) for each in angle]
+        shades = [found.lines[k].colour for k in look]
+        artist = PathCollection(
+            heads, sizes=[SIZE**2], offsets=at, offset_transform=ax.transData, facecolors=shades,
+            edgecolors=colours.PAPER, linewidths=0.5, zorder=3.3, label="_arrows",
+        )  # fmt: skip
+        artist.set_transform(IdentityTransform())
+        ax.add_collection(artist, autolim=False)
+    return at
+
+
+def places(
+    xy: Array, row: NDArray[np.int64], group: NDArray[np.int16], low: Array, high: Array
+) -> tuple[Array, Array, list[int]]:
+    """Where arrows stand (n, 2), their angles (n,) rad and classes; points (m, 2) and their rows and classes (m,)."""
+    at: list[Array] = []
+    angle: list[float] = []
+    look: list[int] = []
+    size = float((high - low).max())
+    limits = np.append(np.flatnonzero(np.diff(row, prepend=-1) != 0), len(row))
+    moves = np.stack([limits[:-1], limits[1:]], axis=1)[row[limits[:-1]] >= 0]
+    if size > 0:
+        last, since = -1, 0.0
+        for first, after in moves.tolist():
+            steps = np.diff(xy[first - 1 : after], axis=0)
+            way = np.cumsum(np.hypot(*steps.T))
+            since = since + way[-1] if group[first] == last else np.inf
+            last = group[first]
+            if way[-1] < LONG * size or since < APART * size:
+                continue
+            k = int(np.searchsorted(way, way[-1] / 2))
+            share = (way[-1] / 2 - (way[k - 1] if k else 0.0)) / (way[k] - (way[k - 1] if k else 0.0))
+            middle = xy[first - 1 + k] + share * steps[k]
+            inside = ((middle >= low) & (middle <= high)).all()
+            if inside and all(np.hypot(*(middle - other)) > CLEAR * size for other in at):
+                at.append(middle)
+                angle.append(float(np.arctan2(steps[k, 1], steps[k, 0])))
+                look.append(int(group[first]))
+                since = 0.0
+    if len(at) > MOST:
+        keep = np.unique(np.linspace(0, len(at) - 1, MOST).round().astype(int))
+        at, angle, look = [at[k] for k in keep], [angle[k] for k in keep], [look[k] for k in keep]
+    return np.array(at).reshape(-1, 2), np.array(angle), look

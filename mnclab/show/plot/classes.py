@@ -1,0 +1,143 @@
+"""Which moves share a colour: by kind, feed, tool, source line or height, and the scale that explains it.
+
+Rapids and probing always keep their own look; ``colour`` divides the cuts. Few different values are a class each, named
+in the legend; many are put into at most :data:`BINS` bins between round numbers, explained by a scale. The colours grow
+lighter with the value, so that grey print keeps the order.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.colors import to_hex
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Toolpath
+from mnclab.show.plot import colours
+from mnclab.show.plot.colours import Line
+from mnclab.show.plot.strokes import Strokes, parted
+
+COLOURS = ("kind", "feed", "tool", "line", "z")
+FEW, TOOLS, BINS = 6, 10, 14  # classes that the legend names one by one, tools likewise; bins of a scale at most
+LIGHTEST = 0.58  # of the map: beyond it the contrast on white falls below 3 to 1
+TITLES = {"feed": "feed, mm/min", "tool": "tool", "line": "line", "z": "Z, mm"}
+NAMES = {"feed": "{} mm/min", "tool": "tool {}", "line": "line {}", "z": "Z {} mm"}
+
+Array = NDArray[np.float64]
+Values = NDArray[Any]
+
+
+class Scale(NamedTuple):
+    """Bins between round numbers: ``limits`` (n + 1,) and a colour for each of the n."""
+
+    title: str
+    limits: tuple[float, ...]
+    colours: tuple[str, ...]
+
+
+class Classes(NamedTuple):
+    """Looks of the classes, in the order of drawing; ``group`` (m,) is the class of the stroke to each point or -1."""
+
+    lines: list[Line]
+    group: NDArray[np.int16]
+    scale: Scale | None = None
+
+
+def number(value: float) -> str:
+    """A value as a scale writes it."""
+    return f"{value:.6g}".replace("-", "\N{MINUS SIGN}")
+
+
+def classes(path: Toolpath, drawn: Strokes, colour: str) -> Classes:
+    """The classes of the strokes of a path; a ValueError for a colour that is not one of :data:`COLOURS`."""
+    if colour not in COLOURS:
+        raise ValueError(f"colour must be one of {', '.join(COLOURS)}, got {colour!r}")
+    fixed = [colours.RAPID, colours.PROBING, colours.FEED]
+    of_kind = np.full(max(Kind) + 2, -1, np.int16)  # the last one is for row -1
+    of_kind[[Kind.RAPID, Kind.PROBE, Kind.LINE, Kind.ARC]] = 0, 1, 2, 2
+    group = of_kind[path.kind[drawn.row]] if len(drawn.row) else np.empty(0, np.int16)
+    group[drawn.row < 0] = -1
+    cuts = group == 2
+    if colour == "kind" or not cuts.any():
+        return Classes(fixed, group)
+    values = _values(path, drawn, colour)
+    every = bool(cuts.all())
+    divided, looks, scale = _divide(values if every else values[cuts], colour)
+    if every:
+        group = divided + np.int16(2)
+    else:
+        group[cuts] = divided + np.int16(2)
+    return Classes([*fixed[:2], *looks], group, scale)
+
+
+def lines(drawn: Strokes, found: Classes) -> list[tuple[Line, Array]]:
+    """The classes that have a stroke, each with its points (k, 3), nan between."""
+    pieces = parted(drawn.xyz, found.group, len(found.lines))
+    return [(line, points) for line, points in zip(found.lines, pieces) if len(points)]
+
+
+def _values(path: Toolpath, drawn: Strokes, colour: str) -> Values:
+    """What the colour shows for the stroke to each point; the height of a stroke is that of its lower end."""
+    if colour == "z":
+        z = np.ascontiguousarray(drawn.xyz[:, 2])
+        return np.concatenate([z[:1], np.minimum(z[1:], z[:-1])])
+    columns: dict[str, Values] = {"feed": path.feed, "tool": path.tool, "line": path.line}
+    return columns[colour][drawn.row]
+
+
+def _divide(values: Values, colour: str) -> tuple[NDArray[np.int16], list[Line], Scale | None]:
+    """The class of each value, how the classes look, and a scale if they are bins."""
+    few = _few(values, TOOLS if colour == "tool" else FEW)
+    if few is not None:
+        known = few[np.isfinite(few)]
+        names = [NAMES[colour].format(number(value)) for value in known]
+        looks = _looks(names, colour)
+        if len(known) < len(few):
+            looks.append(colours.FEED._replace(name=f"no {colour}", colour=colours.PROGRAMMED.colour))
+        group = np.zeros(len(values), np.int16)
+        for value in known[1:]:
+            group += values >= value
+        group[~np.isfinite(values)] = len(known)
+        return group, looks, None
+    missing = ~np.isfinite(values)
+    known = values[~missing] if missing.any() else values
+    nice = MaxNLocator(BINS - 1, steps=[1, 2, 2.5, 5, 10], integer=colour in ("tool", "line"))
+    limits = np.asarray(nice.tick_values(float(known.min()), float(known.max())))
+    if known.max() >= limits[-1]:  # a bin holds its lower limit, not its upper one
+        limits = np.append(limits, 2 * limits[-1] - limits[-2])
+    limits = np.round(limits, 9)
+    names = [NAMES[colour].format(f"{number(a)} to {number(b)}") for a, b in zip(limits[:-1], limits[1:])]
+    looks = _looks(names, colour)
+    shades = tuple(look.colour for look in looks)
+    looks.append(colours.FEED._replace(name=f"no {colour}", colour=colours.PROGRAMMED.colour))
+    share = (np.where(missing, limits[0], values) - limits[0]) / (limits[1] - limits[0])
+    group = np.clip(share, 0, len(shades) - 1).astype(np.int16)
+    group[missing] = len(shades)
+    return group, looks, Scale(TITLES[colour], tuple(limits.tolist()), shades)
+
+
+def _few(values: Values, most: int) -> Values | None:
+    """The different values in rising order, nan last; None if there are more than ``most``."""
+    if len(np.unique(values[:: max(1, len(values) // 1000)])) > most:
+        return None
+    found = np.unique(values[np.flatnonzero(np.diff(values, append=np.nan) != 0)])
+    return found if len(found) <= most else None
+
+
+def _looks(names: list[str], colour: str) -> list[Line]:
+    """Cuts of rising values: the greater are drawn later, but the deeper where the colour shows Z."""
+    order = range(len(names), 0, -1) if colour == "z" else range(len(names))
+    base = colours.FEED
+    return [
+        base._replace(name=name, colour=shade, order=base.order + 0.01 * k)
+        for name, shade, k in zip(names, ramp(len(names)), order)
+    ]
+
+
+def ramp(count: int) -> tuple[str, ...]:
+    """Colours from dark to light, equal steps in lightness; all of them have contrast on white."""
+    return tuple(to_hex(colormaps["viridis"](LIGHTEST * k / max(count - 1, 1))) for k in range(count))

@@ -1,0 +1,193 @@
+"""Zero points that a program selects and poles that it names, as small crosses with their names.
+
+The places come out of the history of a run: its frames are put together again step by step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import groupby
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
+from numpy.typing import NDArray
+
+from mnclab.geometry import frames
+from mnclab.geometry.frames import FrameChain
+from mnclab.show.plot import colours
+from mnclab.show.plot.colours import Mark
+from mnclab.show.plot.picture import SMALL, View
+
+ORIGINS = {"datum": "", "preset": "preset", "local": "G92", "shift": "datum shift"}  # frames that set a zero point
+NEAR = 1.5  # places that would make the box longer than this many times are not shown
+MANY = 8  # places beyond which only zero points have names
+LOOKED_AT = 20_000  # strokes that a name avoids
+OFF = (8.0, 13.0)  # points from a cross to its name, tried one after the other
+SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1))
+
+Array = NDArray[np.float64]
+
+
+class Place(NamedTuple):
+    """A cross with a name at a point (3,), mm relative to the path's origin; nan where the height is not known."""
+
+    mark: Mark
+    name: str
+    xyz: tuple[float, float, float]
+
+
+def places_of(run: Any) -> list[Place]:
+    """The zero points and poles of a run, in the order of the program; what lies at one place shares a cross."""
+    history, path = run.history, run.toolpath
+    log = [
+        (step, name == "pole", name, value)
+        for name in history
+        if name.startswith("frame ") or name == "pole"
+        for step, value in history.changed(name)
+    ]
+    chain = FrameChain(run.frames.slots)
+    found: dict[tuple[Mark, tuple[float, ...]], list[str]] = {}
+
+    def add(mark: Mark, name: str, xyz: Array) -> None:
+        names = found.setdefault((mark, tuple(np.round(xyz, 6) + 0.0)), [])
+        if name not in names:
+            names.append(name)
+
+    for step, changes in groupby(sorted(log, key=lambda each: each[:2]), key=lambda each: each[0]):
+        selected = []
+        for _, is_pole, name, value in changes:
+            if is_pole:
+                if value is not None and (pole := _pole(path, chain, step, value)) is not None:
+                    add(colours.POLE, "pole", pole)
+                continue
+            frame, matrix = name.removeprefix("frame "), np.array(value)
+            neutral = np.array_equal(matrix, frames.IDENTITY)
+            chain.set(frame, None if neutral else matrix)
+            if frame in ORIGINS and not (neutral and frame in ("local", "shift")):
+                selected.append((frame, matrix))
+        for frame, matrix in selected:
+            origin = (chain.before(frame) @ matrix)[:3, 3] - path.origin
+            add(colours.DATUM, ORIGINS[frame] or _code(history, step), origin)
+    return [Place(mark, ", ".join(names), xyz) for (mark, xyz), names in found.items()]  # type: ignore[arg-type]
+
+
+def _code(history: Any, step: int) -> str:
+    """How the program called a work offset: its code, and its row where the code does not say which."""
+    code, row = str(history.value("datum", step)), history.value("datum row", step)
+    return f"{code} Q{row}" if row is not None and code in ("G147", "G247") else code
+
+
+def _pole(path: Any, chain: FrameChain, step: int, pole: tuple[float, float]) -> Array | None:
+    """A pole in the plane of the next move, nan along its normal; None if no move follows."""
+    row = int(np.searchsorted(path.step, step))
+    if row >= len(path):
+        return None
+    normal = int(np.argmax(np.abs(path.axis[row])))
+    point = np.zeros(3)
+    point[[(normal + 1) % 3, (normal + 2) % 3]] = pole
+    point = frames.apply(chain.matrix, point) - path.origin
+    point[normal] = np.nan
+    return point
+
+
+def near(places: Sequence[Place], low: Array, high: Array) -> list[Place]:
+    """Those places that are seen without the box ``low`` to ``high`` (3,), mm becoming much larger."""
+    size = float((high - low).max())
+    found = []
+    for place in places:
+        xyz = np.array(place.xyz)
+        span = np.fmax(high, xyz) - np.fmin(low, xyz)
+        if float(span.max()) <= NEAR * size or (span == high - low).all():
+            found.append(place)
+    return found
+
+
+def crosses(places: Sequence[Place], view: View) -> list[Line2D]:
+    """The crosses of one view, one line for each kind of place."""
+    found = []
+    for mark in (colours.DATUM, colours.POLE):
+        xyz = np.array([place.xyz for place in places if place.mark is mark]).reshape(-1, 3)[:, [view.right, view.up]]
+        xyz = xyz[np.isfinite(xyz).all(axis=1)]
+        if len(xyz):
+            label = mark.name if mark is colours.POLE and len(places) > MANY else f"_{mark.name}"
+            found.append(Line2D(xyz[:, 0], xyz[:, 1], **{**mark.style(), "label": label}))
+    return found
+
+
+# --- names -----------------------------------------------------------------------------------------------------------
+
+
+def write_names(ax: Axes, view: View, places: Sequence[Place], occupied: Array, drawn: Sequence[Array]) -> None:
+    """The names of the places in a view, where they cover no mark (``occupied`` (n, 2), mm) and least of the lines.
+
+    The limits of the axes must be final. A name without a free place is left out.
+    """
+    shown = [place for place in places if len(places) <= MANY or place.mark is colours.DATUM]
+    spots = [(p.name, p.mark, np.array(p.xyz)[[view.right, view.up]]) for p in shown]
+    spots = [spot for spot in spots if np.isfinite(spot[2]).all()]
+    if not spots:
+        return
+    figure: Any = ax.get_figure(root=True)
+    unit = figure.dpi / 72
+    begin, end = _segments(ax, view, drawn)
+    around = 6 * unit
+    crowd = ax.transData.transform(np.concatenate([occupied, [at for _, _, at in spots]]))
+    taken = [np.array([x - around, y - around, x + around, y + around]) for x, y in crowd]
+    inner = np.array([ax.bbox.x0, ax.bbox.y0, ax.bbox.x1, ax.bbox.y1]) + np.array([2, 2, -2, -2]) * unit
+    for name, mark, at in spots:
+        text = ax.annotate(
+            name, (float(at[0]), float(at[1])), (0, 0), textcoords="offset points", fontsize=SMALL,
+            color=mark.colour, zorder=4.5,
+            parse_math=False, bbox={"boxstyle": "square,pad=0.1", "fc": colours.PAPER, "ec": "none", "alpha": 0.75},
+        )  # fmt: skip
+        best = None
+        for off in OFF:
+            for side in SIDES:
+                _put(text, side, off)
+                box = np.asarray(text.get_window_extent().extents)
+                if (box[:2] < inner[:2]).any() or (box[2:] > inner[2:]).any() or any(_overlap(box, t) for t in taken):
+                    continue
+                covered = _crossing(box, begin, end)
+                if best is None or covered < best[0]:
+                    best = covered, side, off
+        if best is None:
+            text.remove()
+            continue
+        _put(text, best[1], best[2])
+        taken.append(np.asarray(text.get_window_extent().extents))
+
+
+def _put(text: Annotation, side: tuple[int, int], off: float) -> None:
+    right, up = side
+    text.set_horizontalalignment("left" if right > 0 else "right" if right else "center")
+    text.set_verticalalignment("bottom" if up > 0 else "top" if up else "center")
+    both = 0.8 if right and up else 1.0
+    text.set_position((both * off * right, both * off * up))
+
+
+def _overlap(one: Array, other: Array) -> bool:
+    return bool((one[:2] < other[2:]).all() and (other[:2] < one[2:]).all())
+
+
+def _segments(ax: Axes, view: View, drawn: Sequence[Array]) -> tuple[Array, Array]:
+    """Begin and end (n, 2) of the drawn strokes in pixels; none if they are too many to look at."""
+    if not drawn or sum(map(len, drawn)) > LOOKED_AT:
+        return np.empty((0, 2)), np.empty((0, 2))
+    lines = [ax.transData.transform(xyz[:, [view.right, view.up]]) for xyz in drawn]
+    begin, end = np.concatenate([line[:-1] for line in lines]), np.concatenate([line[1:] for line in lines])
+    seen = np.isfinite(begin).all(axis=1) & np.isfinite(end).all(axis=1)
+    return begin[seen], end[seen]
+
+
+def _crossing(box: Array, begin: Array, end: Array) -> int:
+    """How many strokes run through a box (left, bottom, right, top)."""
+    way = end - begin
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one, other = (box[:2] - begin) / way, (box[2:] - begin) / way
+    outside = ((way == 0) & ((begin < box[:2]) | (begin > box[2:]))).any(axis=1)
+    enter = np.fmax.reduce(np.where(way == 0, 0.0, np.fmin(one, other)), axis=1)
+    leave = np.fmin.reduce(np.where(way == 0, 1.0, np.fmax(one, other)), axis=1)
+    return int(((np.fmax(enter, 0) <= np.fmin(leave, 1)) & ~outside).sum())
