@@ -32,7 +32,7 @@ Values = NDArray[Any]
 
 
 class Scale(NamedTuple):
-    """Bins between round numbers: ``limits`` (n + 1,) and a colour for each of the n; ``single``: each is one number."""
+    """Bins between round numbers: ``limits`` (n + 1,) and a colour for each; ``single``: a bin is one number."""
 
     title: str
     limits: tuple[float, ...]
