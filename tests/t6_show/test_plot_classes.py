@@ -89,6 +89,15 @@ def test_many_values_are_bins_between_the_limits_of_a_scale(colour):
     assert len(shown) <= len(steps) <= classes.BINS
 
 
+def test_a_scale_of_single_numbers_has_each_below_its_step():
+    picture = plot_path(waves(12, tool=np.arange(1, 13, dtype=np.int32)), colour="tool", view="XZ")
+    assert list(divided(picture.axes[0])) == [f"tool {k}" for k in range(1, 13)]
+    assert [text.get_text() for text in picture.texts] == ["tool", *map(str, range(1, 13))]
+    steps = [patch for patch in picture.artists if hasattr(patch, "get_width")]
+    for text, step in zip(picture.texts[1:], steps):
+        assert text.get_position()[0] == pytest.approx(step.get_x() + step.get_width() / 2)
+
+
 def test_the_order_of_values_is_the_order_of_lightness():
     for count in (2, 6, classes.BINS):
         grey = [np.dot(to_rgb(shade), (0.2126, 0.7152, 0.0722)) for shade in classes.ramp(count)]

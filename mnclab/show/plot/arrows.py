@@ -29,7 +29,9 @@ def draw(ax: Axes, view: View, drawn: Strokes, found: Classes, low: Array, high:
     at, angle, look = places(drawn.xyz[:, axes], drawn.row, found.group, low[axes], high[axes])
     if len(at):
         heads = [HEAD.transformed(Affine2D().rotate(each)) for each in angle]
-        shades = [found.lines[k].colour for k in look]
+        looks = [found.lines[k] for k in look]  # divided cuts may lie on each other: their heads take no side
+        plain = (colours.RAPID, colours.PROBING, colours.FEED)
+        shades = [line.colour if line in plain else colours.INK for line in looks]
         artist = PathCollection(
             heads, sizes=[SIZE**2], offsets=at, offset_transform=ax.transData, facecolors=shades,
             edgecolors=colours.PAPER, linewidths=0.5, zorder=3.3, label="_arrows",

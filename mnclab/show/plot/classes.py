@@ -32,11 +32,12 @@ Values = NDArray[Any]
 
 
 class Scale(NamedTuple):
-    """Bins between round numbers: ``limits`` (n + 1,) and a colour for each of the n."""
+    """Bins between round numbers: ``limits`` (n + 1,) and a colour for each; ``single``: a bin is one number."""
 
     title: str
     limits: tuple[float, ...]
     colours: tuple[str, ...]
+    single: bool = False
 
 
 class Classes(NamedTuple):
@@ -110,21 +111,23 @@ def _divide(values: Values, colour: str) -> tuple[NDArray[np.int16], list[Line],
     if known.max() >= limits[-1]:  # a bin holds its lower limit, not its upper one
         limits = np.append(limits, 2 * limits[-1] - limits[-2])
     limits = np.round(limits, 9)
-    names = [NAMES[colour].format(f"{number(a)} to {number(b)}") for a, b in zip(limits[:-1], limits[1:])]
+    single = colour in ("tool", "line") and limits[1] - limits[0] == 1
+    bins = [number(a) if single else f"{number(a)} to {number(b)}" for a, b in zip(limits[:-1], limits[1:])]
+    names = [NAMES[colour].format(each) for each in bins]
     looks = _looks(names, colour)
     shades = tuple(look.colour for look in looks)
     looks.append(colours.FEED._replace(name=f"no {colour}", colour=colours.PROGRAMMED.colour))
     share = (np.where(missing, limits[0], values) - limits[0]) / (limits[1] - limits[0])
     group = np.clip(share, 0, len(shades) - 1).astype(np.int16)
     group[missing] = len(shades)
-    return group, looks, Scale(TITLES[colour], tuple(limits.tolist()), shades)
+    return group, looks, Scale(TITLES[colour], tuple(limits.tolist()), shades, single)
 
 
 def _few(values: Values, most: int) -> Values | None:
     """The different values in rising order, nan last; None if there are more than ``most``."""
     if len(np.unique(values[:: max(1, len(values) // 1000)])) > most:
         return None
-    found = np.unique(values[np.flatnonzero(np.diff(values, append=np.nan) != 0)])
+    found = np.unique(values[np.append(values[1:] != values[:-1], True)])
     return found if len(found) <= most else None
 
 
