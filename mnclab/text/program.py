@@ -271,10 +271,12 @@ class ProgramBuilder:
                 [self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses], dtype=np.int16
             )
             key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
-            zero, n = np.zeros(len(bulk.value), dtype=np.uint8), len(bulk.start)
+            n = len(bulk.start)
+            zero = np.broadcast_to(np.uint8(0), (len(bulk.value),))  # a constant column costs nothing
             form = zero if bulk.form is None else bulk.form
             more = [names[bulk.address], bulk.value, form, zero, bulk.offset, bulk.length]
-            more_heads = [bulk.start, np.full(n, key, dtype=np.int16), np.zeros(n, dtype=bool), bulk.plain, bulk.size]
+            same = np.broadcast_to(np.int16(key), (n,)), np.broadcast_to(np.False_, (n,))
+            more_heads = [bulk.start, *same, bulk.plain, bulk.size]
             if self.blocks:
                 more, more_heads = _merged(columns, more, 4), _merged(heads, more_heads, 0)
             columns, heads = more, more_heads

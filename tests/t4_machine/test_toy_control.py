@@ -71,8 +71,7 @@ SQUARE = "D\n" + "F 10\nL 90\n" * 4 + "H 3\nU\n"
 
 @pytest.fixture(autouse=True)
 def turtle():
-    mnclab.controls.add(TURTLE)
-    yield
+    yield mnclab.controls.add(TURTLE)
     mnclab.controls.remove("turtle")
 
 
