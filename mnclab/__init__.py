@@ -1,7 +1,7 @@
 """mnclab: part programs of real CNC controls, obeyed exactly as their manuals say, and shown.
 
-A part program is text; a control reads it into blocks; a machine obeys the blocks with a dozen verbs; every obeyed verb is a
-row in a table of moves; everything one can look at is computed from that table.
+A part program is text; a control reads it into blocks; a machine obeys the blocks with a dozen verbs; every obeyed verb
+is a row in a table of moves; everything one can look at is computed from that table.
 
 The map of the house, floor by floor (a folder imports only from those above its line)::
 
@@ -9,8 +9,7 @@ The map of the house, floor by floor (a folder imports only from those above its
     geometry    frames, arcs, contours, offsets, regions: numbers, no CNC word
     path        what the tool does: Toolpath in columns, and passes over it (corners, compensation)
     workpiece   what the tool meets: the part a probe touches
-    machining   how metal is cut, whatever the control: depths, pockets
-    comparison  strategies and runs side by side
+    machining   how metal is cut, whatever the control: depths, pockets, turning
     machine     who obeys: Machine, Control, Cycle, interpreter, bulk tier, history, Run
     controls    who speaks: a folder a control
     show        what people see and take away: plots, forms, files

@@ -39,7 +39,7 @@ class Controls(Mapping[str, Control]):
         return len(list(iter(self)))
 
     def add(self, control: Control) -> None:
-        """Make a control known for this session of Python."""
+        """Make a control known to the running Python."""
         self._built[control.name] = control
 
     def remove(self, name: str) -> None:
