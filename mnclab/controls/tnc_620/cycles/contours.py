@@ -160,6 +160,8 @@ class RoughOut(Cycle):
             yield "", "needs its contour data: CYCL DEF 20 comes before it"
         if self.infeed == 0:
             yield "infeed", "must not be 0"
+        if isinstance(self.retract_feed, float) and 99999.9999 < self.retract_feed < INF:
+            yield "retract_feed", f"must be at most 99999.9999 or FMAX, got {self.retract_feed:g}"
         if self.coarse_tool:
             yield "coarse_tool", "other than 0, fine roughing, is not built yet"
         if self.factor != 100:
