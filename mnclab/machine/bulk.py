@@ -39,15 +39,15 @@ class PlainWords:
     """How a control reads its plain blocks.
 
     ``motions`` maps the value of a G word to the code of its motion and its sense (0 rapid, 1 line, ±2 arcs, sign as in
-    +2 counter-clockwise); a control without such words has one entry, None. ``neutral`` addresses change nothing.
-    ``ready`` says whether plain words mean plain motion now, ``absolute`` whether positions are absolute.
+    +2 counter-clockwise); a control without such words has one entry, None. ``ready`` says whether plain words mean
+    plain motion now, ``absolute`` whether positions are absolute. Addresses other than :data:`LETTERS` change nothing in
+    a plain block (R0 of Klartext): its reader calls no other block plain.
     """
 
     motions: Mapping[float | None, tuple[str, int]]
     ready: Callable[[Machine], bool]
     absolute: Callable[[Machine], bool] = lambda m: True
     keyword: str = ""
-    neutral: tuple[str, ...] = ()
     tolerance: Callable[[Machine], float] = lambda m: 0.01
 
 

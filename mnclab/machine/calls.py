@@ -1,7 +1,7 @@
 """The course of a program: sections, labels, repeats, subprograms.
 
 A *step* is one execution of a block. A section of blocks is run by a plain loop; a call or a repeat is a section run
-inside another. Functions steer with :meth:`Flow.call`, :meth:`Flow.repeat`, :meth:`Flow.jump` and :meth:`Flow.leave`.
+inside another. Functions steer with :meth:`Flow.call`, :meth:`Flow.repeat` and :meth:`Flow.leave`.
 """
 
 from __future__ import annotations
@@ -40,7 +40,6 @@ class Flow:
         self.limit = LONGEST + len(program)
         self.returning = False
         self.current = 0  # block being obeyed
-        self._jump: int | None = None
         self._chunks: list[NDArray[np.int64] | range] = []
         self._blocks: list[int] = []
         self._counted = 0
@@ -64,10 +63,7 @@ class Flow:
             self.obey(block)
             if self.returning:
                 return
-            if self._jump is not None:
-                block, self._jump = self._jump, None
-            else:
-                block += 1
+            block += 1
 
     def call(self, label: str, span: Span | None = None) -> None:
         """Run from a label to the end of its subprogram."""
@@ -97,10 +93,6 @@ class Flow:
     def leave(self) -> None:
         """End the running subprogram; nothing in the main program."""
         self.returning = self.calls > 0
-
-    def jump(self, label: str, span: Span | None = None) -> None:
-        """Go on at a label."""
-        self._jump = self.index_of(label, span)
 
     def index_of(self, label: str, span: Span | None = None) -> int:
         """The block of a label."""

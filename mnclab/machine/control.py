@@ -111,10 +111,6 @@ class FunctionTable(dict[str, Function]):
     def __or__(self, other: Mapping[str, Function]) -> FunctionTable:  # type: ignore[override]
         return FunctionTable({**self, **other})
 
-    def without(self, *codes: str) -> FunctionTable:
-        """The table less some codes."""
-        return FunctionTable({code: function for code, function in self.items() if code not in codes})
-
 
 @dataclass(frozen=True)
 class Control:

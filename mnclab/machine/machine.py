@@ -51,7 +51,6 @@ class Machine:
         self.alarms: list[Alarm] = []
         self.logs = Logs()
         self.step, self.source_line, self.program = -1, 0, 0
-        self.steps_block: list[Any] = []
         self.ended = False
         self.recorded_only = False
         self.block_end: list[Callable[[], None]] = []

@@ -25,7 +25,7 @@ from mnclab.path.toolpath import COLUMNS, Toolpath
 
 TANGENT = np.radians(0.001)  # corners that turn less are none (setting tangent_tolerance of the MNC)
 CORNER = "outside corner"
-ROUND, STRAIGHT, ACUTE = 0, 1, 2  # column corner_rule
+ROUND = 0  # column corner_rule: an arc about the corner
 
 
 @dataclass(frozen=True)

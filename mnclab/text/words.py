@@ -18,16 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 PIECE = 1 << 18
-BLANK, LETTER, DIGIT, POINT, SIGN, END, OTHER = range(7)
+BLANK, DIGIT, END, OTHER = range(4)
 
 _KIND = np.full(256, OTHER, dtype=np.uint8)
 _KIND[[ord(c) for c in " \t"]] = BLANK
 _KIND[[ord(c) for c in "\r\n"]] = END
-_KIND[[ord(c) for c in "+-"]] = SIGN
-_KIND[ord(".")] = POINT
 _KIND[ord("0") : ord("9") + 1] = DIGIT
-_KIND[ord("A") : ord("Z") + 1] = LETTER
-_KIND[ord("a") : ord("z") + 1] = LETTER
 
 _u8 = np.uint64
 _ZEROS, _POINTS = _u8(0x3030303030303030), _u8(0x2E2E2E2E2E2E2E2E)

@@ -54,6 +54,6 @@ CONTROL = Control(
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
     refused=later.refused(FUNCTIONS, CYCLES),
-    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", neutral=("R0",), ready=lambda m: m.side == 0),
+    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0),
     named=motion.named,
 )
