@@ -31,8 +31,11 @@ class Words(dict[str, Word]):
     ``words.words`` has all of them in the order handed out, ``code`` is the code that was called.
     """
 
+    __slots__ = ("code", "words")
+
     def __init__(self, words: tuple[Word, ...], code: str = "") -> None:
-        super().__init__([(word[0], word) for word in reversed(words)])
+        for word in reversed(words):
+            self[word[0]] = word
         self.words, self.code = words, code
 
     def all(self, address: str) -> list[Word]:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from mnclab.geometry import frames
-from mnclab.geometry.arcs import sweep
+from mnclab.geometry.arcs import sweep_of_one
 from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.machine.circles import centre_by_radius, check_radii
 from mnclab.machine.history import Logs
@@ -286,20 +286,22 @@ class Machine:
             )
             self.alarm(fault, word, hint="lead the tool to the start of the arc by a straight move first")
         first, second, _ = PLANES[self.plane]
-        s = np.array([self.programmed[first], self.programmed[second]])
-        e = np.array([point[first], point[second]])
+        here = self.programmed
+        s, e = (here[first], here[second]), (point[first], point[second])
         if radius is not None:
             c = centre_by_radius(self, s, e, radius, sense, tolerance, word)
         else:
-            c = np.array([(centre or {}).get(k, self.programmed[k]) for k in (first, second)])
+            given = centre or {}
+            c = (given.get(first, here[first]), given.get(second, here[second]))
             check_radii(self, s, e, c, tolerance, word)
-        angle = float(sweep(s, e, c, sense))
-        middle = list(self.programmed)
-        middle[first], middle[second] = c.tolist()
+        angle = sweep_of_one(s, e, c, sense)
+        middle = list(here)
+        middle[first], middle[second] = c
         if self._shift is None:
             angle *= self._arc_sense(word)
-        self._row(Kind.ARC, self.to_machine(point), self.to_machine(middle), angle, feed)
-        self.programmed, self.tip = point, self.to_machine(point)
+        tip = self.to_machine(point)
+        self._row(Kind.ARC, tip, self.to_machine(middle), angle, feed)
+        self.programmed, self.tip = point, tip
 
     def _arc_sense(self, word: Word | None) -> int:
         """The orientation; an alarm when the frame would turn the circle into an ellipse."""
@@ -340,12 +342,12 @@ class Machine:
         if joint is not None:
             number = len(recorder.joints)
             recorder.joints.append(joint)
-        state = self.state()
+        state = self.state() if self._state is None else self._state
         if self.exact_here and not self.exact:
             state = recorder.state(recorder.states[state]._replace(exact=True))
         if self.per_rev and feed != (self.feed or 0.0) * abs(self.speed):  # a rapid, or a feed in mm/min of a cycle
             state = recorder.state(recorder.states[state]._replace(per_rev=NAN))
-        label = recorder.label(self.label)
+        label = recorder.label(self.label) if self.label else 0
         recorder.add((kind, self.source_line, self.step, label, *tip, *centre, angle, feed, time, number, state))
 
     def mark_joint(self, joint: Any) -> bool:

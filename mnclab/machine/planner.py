@@ -6,7 +6,9 @@ interpreter makes it once for each kind of block. No word is lost by constructio
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from difflib import get_close_matches
+from operator import itemgetter
 from typing import NamedTuple
 
 from mnclab.machine.control import Control, Function
@@ -24,11 +26,17 @@ class Action(NamedTuple):
     head: int
     takes: tuple[int, ...]
 
+    @property
+    def pick(self) -> Callable[[list[Word]], tuple[Word, ...]]:
+        """Takes its words out of a block: for a function the one that called it is the first."""
+        which = (self.head, *self.takes) if self.head >= 0 and isinstance(self.what, Function) else self.takes
+        return itemgetter(*which) if len(which) > 1 else lambda words: tuple([words[k] for k in which])
+
 
 class Plan(NamedTuple):
     """What to do with a kind of block, in order, and remarks about it."""
 
-    actions: tuple[Action, ...]
+    actions: tuple[tuple[Action, Callable[[list[Word]], tuple[Word, ...]]], ...]
     remarks: tuple[tuple[int, str, str], ...]  # word, sentence, hint
 
 
@@ -86,7 +94,7 @@ class Planner:
         self.refuse_leftovers([f for f, _ in functions])
         self.refuse_repeated()
         order = sorted(self.actions, key=lambda action: action.phase)
-        return Plan(tuple(order), tuple(self.remarks))
+        return Plan(tuple((action, action.pick) for action in order), tuple(self.remarks))
 
     def codes(self) -> list[tuple[str, int]]:
         """The codes of a block: its keyword, and its G and M words."""

@@ -17,11 +17,15 @@ ARGUMENTS = (("X", "x"), ("Y", "y"), ("Z", "z"))
 
 def coordinates(m: Machine, words: Words, absolute: bool) -> dict[str, Any]:
     """Targets of the axes that are written, as arguments of a verb (``x=``, …); increments count from the register."""
-    found = {}
-    for k, (axis, name) in enumerate(ARGUMENTS):
-        if axis in words:
-            value = m.value(words[axis])
-            found[name] = value if absolute else m.programmed[k] + value
+    found = {
+        name: value if type(value := words[axis][1]) is float else m.value(words[axis])
+        for axis, name in ARGUMENTS
+        if axis in words
+    }
+    if not absolute:
+        for k, (_, name) in enumerate(ARGUMENTS):
+            if name in found:
+                found[name] += m.programmed[k]
     return found
 
 
