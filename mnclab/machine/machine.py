@@ -19,6 +19,7 @@ from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.machine.circles import centre_by_radius, check_radii
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
+from mnclab.machine.settings import chosen
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
@@ -46,7 +47,7 @@ class Machine:
 
     def __init__(self, control: Control, setup: Setup) -> None:
         self.control, self.setup, self.tables = control, setup, Tables(setup)
-        self.settings: dict[str, Any] = {s.name: s.default for s in control.settings} | dict(setup.settings)
+        self.settings = chosen(control.settings, setup.settings, control.name)
         self.flow: Flow  # set by the interpreter
         self.alarms: list[Alarm] = []
         self.logs = Logs()

@@ -13,7 +13,7 @@ from mnclab.controls.mnc import compensation, drilling, language, polar, transfo
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
-from mnclab.machine.setup import Setting
+from mnclab.machine.settings import Setting
 from mnclab.path.compensation import Compensation
 
 #: Order inside a block (adopted reading MNC-BLOCK-ORDER).
