@@ -103,6 +103,10 @@ class FrameChain:
         else:
             self._frames.pop(name, None)
 
+    def innermost(self, name: str) -> None:
+        """Move a frame to the end of the chain, so that it acts on a point before the others."""
+        self._frames[name] = self._frames.pop(name, IDENTITY)
+
     @property
     def matrix(self) -> Matrix:
         """The product of all frames: local to outermost coordinates."""

@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     from mnclab.machine.cycle import Definition
 
 INF = math.inf
-PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0)}  # first axis, second axis, normal
-_AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
+PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0), "XZ": (0, 2, 1)}  # first axis, second axis, normal
+_AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0), "XZ": (0.0, -1.0, 0.0)}
 
 
 class Machine:

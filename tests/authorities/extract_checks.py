@@ -1,4 +1,4 @@
-"""Examples, codes and parameters of the MNC manual, copied from a catalogue of it: writes the files of catalogue/.
+"""Examples, codes, parameters and open readings of the MNC manual, copied from a catalogue: writes the files of catalogue/.
 
     python3 tests/authorities/extract_checks.py FOLDER
 
@@ -6,6 +6,7 @@ FOLDER holds the catalogue, one YAML file for each part of the manual. The tests
 """
 
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -31,6 +32,8 @@ EXAMPLES = {
 #: Files whose cycles give their parameters, and those whose G and M codes are listed.
 CYCLES = ["mnc-drilling", "mnc-milling"]
 CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
+#: Files whose ambiguities are listed: what the manual leaves open, and the reading to adopt.
+AMBIGUITIES = ["mnc-language"]
 KEYS = ("address", "meaning", "unit", "type", "range", "choices", "default", "required", "modal", "incremental")
 
 
@@ -68,6 +71,15 @@ def listed(folder, names):
                 yield {"code": code, **kept}
 
 
+def ambiguities(folder, names):
+    """What the manual leaves open (`text`) and how it is read (`read`), by the names that code and tests cite."""
+    for name in names:
+        for code, entry in entries(folder, name).items():
+            for sentence in entry.get("ambiguities") or ():
+                found = re.fullmatch(r"\[(MNC-[A-Z0-9a-z-]+)\] TEXT: (.*) READ: (.*) WHY: .*", sentence, re.DOTALL)
+                yield {"id": found[1], "code": code, "text": found[2], "read": found[3]}
+
+
 def save(name, records):
     """One record a line and one parameter a line, so that changes can be read."""
     lines = []
@@ -87,6 +99,7 @@ def main(folder):
         save(name, examples(folder, name.partition(".")[0], codes))
     save("parameters", parameters(folder, CYCLES))
     save("codes", listed(folder, CODES))
+    save("ambiguities", ambiguities(folder, AMBIGUITIES))
 
 
 if __name__ == "__main__":
