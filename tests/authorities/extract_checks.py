@@ -14,8 +14,7 @@ import yaml
 
 HERE = Path(__file__).parent / "catalogue"
 
-#: Entries whose examples are copied, by file (`a.b` is a file of its own for entries of `a`). A function that is built
-#: gets its entry here.
+#: Entries whose examples are copied, by file. A function that is built gets its entry here.
 EXAMPLES = {
     "mnc-language": [
         *("words", "modal groups", "block execution", "G17", "G18", "G19", "G90", "G91", "G92", "G53"),
@@ -25,7 +24,6 @@ EXAMPLES = {
         *("G41", "G42", "CRC entry (table 7.1)", "CRC travel (table 7.2)", "G40", "CRC exit (table 7.3)"),
         *("S", "G26", "G25", "M word", "M3", "M4", "M5", "M99"),
     ],
-    "mnc-language.frames": ["G10", "G12", "G13", "G37", "G39", "G51", "G147"],
     "mnc-drilling": ["drilling cycles G83-G85", "G80", "G98", "G99", "G83", "prepared cycles", "G300"],
 }
 
@@ -96,7 +94,7 @@ def save(name, records):
 
 def main(folder):
     for name, codes in EXAMPLES.items():
-        save(name, examples(folder, name.partition(".")[0], codes))
+        save(name, examples(folder, name, codes))
     save("parameters", parameters(folder, CYCLES))
     save("codes", listed(folder, CODES))
     save("ambiguities", ambiguities(folder, AMBIGUITIES))
