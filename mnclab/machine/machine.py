@@ -182,12 +182,16 @@ class Machine:
     def set_frame(self, name: str, matrix: Matrix | None, keep: str = "tip") -> None:
         """Replace one frame of the chain; ``keep`` "tip" (the program reads the place anew) or "programmed"."""
         self.frames.set(name, matrix)
-        self._matrix = self.frames.matrix
-        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None
-        self._state = None
+        self.compose()
         if keep == "tip":
             self.read_position()
         self.log("frame " + name, tuple(map(tuple, (self.frames[name]).tolist())))
+
+    def compose(self) -> None:
+        """The chain of frames has changed."""
+        self._matrix = self.frames.matrix
+        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None
+        self._state = None
 
     def select_datum(self, datum: Datum, frame: str = "datum") -> None:
         """Count from a work offset; the first one selected is the origin of the path."""
@@ -405,9 +409,9 @@ class Machine:
         self._row(Kind.PROBE, tip, feed=f)
         self.read_position()
 
-    def record(self, label: str, span: Span | None = None) -> Recording:
+    def record(self, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
         """Read the contour of a label: nothing moves, variables that it writes stay."""
-        return record(self, label, span)
+        return record(self, label, span, after)
 
     # --- settling ----------------------------------------------------------------------------------------------------
 

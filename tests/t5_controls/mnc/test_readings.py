@@ -28,7 +28,7 @@ class Case(NamedTuple):
     kinds: str = ""  # of the moves
     sweeps: tuple = ()  # of the arcs, degrees
     centres: tuple = ()  # of the arcs, in the first two axes
-    warns: str = ""  # how the only warning says
+    warns: str = ""  # what the only warning says
     alarm: str = ""  # LINE:COLUMN text
 
 
