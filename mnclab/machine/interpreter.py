@@ -43,6 +43,7 @@ class Interpreter:
         self.alarms = [self._passed_over(alarm) for alarm in program.alarms]
         self.faulty = {self._block_of(alarm) for alarm in self.alarms if alarm.severity == ALARM and alarm.span}
         self.bulk = Bulk(control, machine, program, self.faulty)
+        machine.recorder.expected = len(program)
         machine.flow = Flow(program, self.obey, self.bulk.obey)
         machine.flow.machine = machine
 
