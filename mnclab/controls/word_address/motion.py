@@ -53,10 +53,10 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
     if third in to and to[third] != m.programmed[normal]:
         helix(m, words)
     tolerance = m.settings.get("arc_tolerance", 0.01)
-    by_radius = "R" in words and not (offsets and m.settings["arc_by_both"] == "centre")
+    by_radius = "R" in words and not (offsets and m.settings.get("arc_by_both") == "centre")
     if "R" in words and offsets:
         both = "R and I J K stand in one block"
-        if m.settings["arc_by_both"] == "refuse":
+        if m.settings.get("arc_by_both") == "refuse":
             m.alarm(both, words["R"], hint="keep one of them")
         m.warn(f"{both}: {'R counts' if by_radius else 'I J K count'}", words["R"])
     if by_radius:
@@ -79,9 +79,10 @@ def helix(m: Machine, words: Words) -> None:
 def remark(m: Machine, setting: str, sentence: str, words: Words, address: str = "") -> None:
     """What a manual does not describe: a warning, an alarm, or nothing, as a setting wants it."""
     word = words[address] if address else first_word(words)
-    if m.settings[setting] == "refuse":
+    choice = m.settings.get(setting, "warn")
+    if choice == "refuse":
         m.alarm(sentence, word, hint=f"setting {setting}")
-    if m.settings[setting] == "warn":
+    if choice == "warn":
         m.warn(sentence, word)
 
 
