@@ -18,7 +18,7 @@ from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
-from mnclab.text.alarm import ALARM, Span
+from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import NONE, NUMBER, Program, Word, place_of
 
@@ -40,20 +40,25 @@ class Interpreter:
         self.blocks: list[tuple[int, bool, str, list[Word], tuple[Any, ...]]] = []
         """Of the blocks in the window: line, skip, keyword, words, and of each word its address, with the value where that
         makes another function."""
-        self.faulty = self._faulty_blocks()
+        self.skips = bool(machine.settings.get("block_skip"))
+        self.alarms = [self._passed_over(alarm) for alarm in program.alarms]
+        self.faulty = {self._block_of(alarm) for alarm in self.alarms if alarm.severity == ALARM and alarm.span}
         self.bulk = Bulk(control, machine, program, self.faulty)
         machine.recorder.expected = len(program)
         machine.flow = Flow(program, self.obey, self.bulk.obey)
         machine.flow.machine = machine
 
-    def _faulty_blocks(self) -> set[int]:
-        """Blocks in which the reader found a fault: the run stops there."""
-        found = set()
-        for alarm in self.program.alarms:
-            if alarm.severity == ALARM and alarm.span is not None:
-                offset = int(self.program.line_starts[alarm.span.line - 1]) + alarm.span.column - 1
-                found.add(max(int(np.searchsorted(self.program.start, offset, "right")) - 1, 0))
-        return found
+    def _block_of(self, alarm: Alarm) -> int:
+        """The block in which the reader found a fault: the run stops there."""
+        assert alarm.span is not None
+        offset = int(self.program.line_starts[alarm.span.line - 1]) + alarm.span.column - 1
+        return max(int(np.searchsorted(self.program.start, offset, "right")) - 1, 0)
+
+    def _passed_over(self, alarm: Alarm) -> Alarm:
+        """An alarm of the reader; no more than a warning in a block that is passed over."""
+        if not (self.skips and alarm.span and len(self.program)) or not self.program.skip[self._block_of(alarm)]:
+            return alarm
+        return Alarm(alarm.message, alarm.span, WARNING, alarm.hint, alarm.source)
 
     def run(self) -> None:
         """From the first block to the end, or to the first alarm."""
@@ -74,7 +79,7 @@ class Interpreter:
         if index not in window:
             window = self.open_window(index)
         machine.source_line, skip, keyword, words, kinds = self.blocks[index - window.start]
-        if skip and machine.settings.get("block_skip"):
+        if skip and self.skips:
             return
         if index in self.faulty:
             raise Stop

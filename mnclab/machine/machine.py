@@ -19,6 +19,7 @@ from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.machine.circles import centre_by_radius, check_radii
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
+from mnclab.machine.settings import chosen
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
@@ -37,8 +38,8 @@ if TYPE_CHECKING:
     from mnclab.machine.cycle import Definition
 
 INF = math.inf
-PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0)}  # first axis, second axis, normal
-_AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
+PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0), "XZ": (0, 2, 1)}  # first axis, second axis, normal
+_AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0), "XZ": (0.0, -1.0, 0.0)}
 
 
 class Machine:
@@ -46,7 +47,7 @@ class Machine:
 
     def __init__(self, control: Control, setup: Setup) -> None:
         self.control, self.setup, self.tables = control, setup, Tables(setup)
-        self.settings: dict[str, Any] = {s.name: s.default for s in control.settings} | dict(setup.settings)
+        self.settings = chosen(control.settings, setup.settings, control.name)
         self.flow: Flow  # set by the interpreter
         self.alarms: list[Alarm] = []
         self.logs = Logs()
@@ -181,12 +182,16 @@ class Machine:
     def set_frame(self, name: str, matrix: Matrix | None, keep: str = "tip") -> None:
         """Replace one frame of the chain; ``keep`` "tip" (the program reads the place anew) or "programmed"."""
         self.frames.set(name, matrix)
-        self._matrix = self.frames.matrix
-        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None
-        self._state = None
+        self.compose()
         if keep == "tip":
             self.read_position()
         self.log("frame " + name, tuple(map(tuple, (self.frames[name]).tolist())))
+
+    def compose(self) -> None:
+        """The chain of frames has changed."""
+        self._matrix = self.frames.matrix
+        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None
+        self._state = None
 
     def select_datum(self, datum: Datum, frame: str = "datum") -> None:
         """Count from a work offset; the first one selected is the origin of the path."""
@@ -406,9 +411,9 @@ class Machine:
         self._row(Kind.PROBE, tip, feed=f)
         self.read_position()
 
-    def record(self, label: str, span: Span | None = None) -> Recording:
+    def record(self, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
         """Read the contour of a label: nothing moves, variables that it writes stay."""
-        return record(self, label, span)
+        return record(self, label, span, after)
 
     # --- settling ----------------------------------------------------------------------------------------------------
 

@@ -7,13 +7,13 @@ interpreter makes it once for each kind of block. No word is lost by constructio
 from __future__ import annotations
 
 from collections.abc import Callable
-from difflib import get_close_matches
 from operator import itemgetter
 from typing import NamedTuple
 
 from mnclab.machine.control import Control, Function
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
+from mnclab.text.nearest import hint
 from mnclab.text.program import Word, digits
 
 
@@ -109,8 +109,9 @@ class Planner:
         if found is None:
             if code in self.control.refused:
                 self.alarm(f"{code} is refused: {self.control.refused[code]}", index)
-            near = get_close_matches(code, [*self.control.functions, *self.control.cycles], 3, 0.6)
-            self.alarm(f"{code} is not a function of this control", index, f"near: {', '.join(near)}" if near else "")
+            meant = code.replace("-", "").partition(".")[0]
+            near = hint(meant, (*self.control.functions, *self.control.cycles))
+            self.alarm(f"{code} is not a function of this control", index, near)
         assert found is not None
         return found
 

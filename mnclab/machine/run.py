@@ -186,8 +186,8 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     """Run a program that was read; with ``strict`` the first alarm is raised instead of collected."""
     setup = setup or Setup()
     machine = Machine(control, setup)
-    alarms = list(program.alarms)
     interpreter = Interpreter(control, machine, program)
+    alarms = list(interpreter.alarms)
     broken = False
     try:
         with collector_paused():
