@@ -12,45 +12,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
 from mnclab.geometry.contours import Contour, Curve, Floats, cross, left
 from mnclab.geometry.regions import Region
+from mnclab.machining.clearing import Clearing, Piece, links, numbered, piecewise, room_for
 
 MOST_RINGS = 2000
 SHARP = 1e-6  # rad and mm, the least turn of a corner and the shortest element
-
-
-@dataclass(frozen=True, eq=False)
-class Piece:
-    """A connected piece of the tool-centre area: one plunge, then its passes in order.
-
-    `linked[i]` tells whether the tool may go straight from the end of pass i to the start of pass i + 1;
-    if not, it must lift.
-    """
-
-    centres: Region
-    passes: tuple[Contour, ...]
-    linked: tuple[bool, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Clearing:
-    """All passes that clear an area, piece by piece; `centres` is where the tool centre may go."""
-
-    centres: Region
-    pieces: tuple[Piece, ...]
-
-    @property
-    def passes(self) -> tuple[Contour, ...]:
-        return tuple(ring for piece in self.pieces for ring in piece.passes)
-
-    @property
-    def length(self) -> float:
-        """Length of all rings, without the ways between them."""
-        return sum(ring.length for ring in self.passes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,18 +45,10 @@ def rings(
     the spindle turning clockwise, walls are followed counter-clockwise and islands clockwise. `corner_radius`
     rounds the inside corners of the passes along the final contour, as measured on the tool centre.
     """
-    if not radius > 0:
-        raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
-    if not 0 < stepover <= 2 * radius:
-        raise ValueError(f"the stepover must lie above 0 and not above twice the radius, got {stepover:g}")
     if corner_radius < 0:
         raise ValueError(f"the corner radius must not be negative, got {corner_radius:g}")
-    centres = region.inset(radius + allowance)
-    if not centres.loops:
-        rest = f" with an allowance of {allowance:g}" if allowance else ""
-        raise ValueError(f"a tool of radius {radius:g}{rest} does not fit into the contour")
-    pieces = [_piece(part, radius, stepover, climb, corner_radius) for part in centres.parts]
-    return Clearing(centres, tuple(pieces))
+    centres = room_for(region, radius, stepover, allowance)
+    return piecewise(centres, radius, lambda part: _piece(part, radius, stepover, climb, corner_radius))
 
 
 def rounded(loop: Contour, radius: float) -> Contour:
@@ -141,8 +103,9 @@ def _way(curve: Curve, sweep: float, start: Floats, end: Floats) -> float:
 def _piece(centres: Region, radius: float, stepover: float, climb: bool, corner_radius: float) -> Piece:
     """The rings of one connected piece of the tool-centre area, in order and joined."""
     passes = tuple(_ordered(list(_rings(centres, radius, stepover, corner_radius))))
-    linked = tuple(centres.holds(a.points[0], b.points[0]) for a, b in pairwise(passes))
-    return Piece(centres, passes if climb else tuple(ring.reversed() for ring in passes), linked)
+    linked = links(centres, passes, stepover)
+    turned = passes if climb else tuple(ring.reversed() for ring in passes)
+    return Piece(centres, turned, linked, numbered("ring", len(passes)))
 
 
 def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[_Ring]:
