@@ -24,7 +24,7 @@ FLOORS = {
 }  # fmt: skip
 
 OUTSIDE = {  # package -> the only modules of mnclab that import it
-    "shapely": ("geometry.regions",),
+    "shapely": ("geometry.regions", "geometry.sweeps"),
     "matplotlib": ("show.plot",),
     "pyvista": ("show.scene", "show.export"),
     "vtkmodules": ("show.scene", "show.export"),

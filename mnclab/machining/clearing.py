@@ -38,6 +38,15 @@ class Piece:
         """Where the tool goes down, `(2,)`: at `place`, else at the start of the first pass."""
         return begin(self.passes[0]) if self.place is None else self.place
 
+    def begins_cleared(self, k: int) -> bool:
+        """Whether pass k begins on one before it, where the tool can come straight down."""
+        spot = begin(self.passes[k])[None]
+        return any(contour.distance(spot)[0] < 1e-3 for contour in self.passes[:k])
+
+    def rest_from(self, k: int) -> Piece:
+        """The piece without its first k passes."""
+        return self if not k else Piece(self.centres, self.passes[k:], self.linked[k:], self.labels[k:])
+
     def reversed(self) -> Piece:
         """The same passes in the opposite order and sense; their names stay with them."""
         backwards = tuple(contour.reversed() for contour in self.passes[::-1])

@@ -5,7 +5,7 @@ A *descent* is a contour in the plane with the height of each of its points; bet
     lead of a helix = 2·π·r·tan(angle)          drop of a stroke s ≤ s·tan(angle)
 
 At 90 degrees every descent is straight down. What a slope leaves standing is cleared by a last move at the level: a
-full circle, or one more stroke.
+full circle, or one more stroke; a descent along a pass leaves that to the pass.
 """
 
 from __future__ import annotations
@@ -29,6 +29,11 @@ class Descent(NamedTuple):
     contour: Contour
     heights: Floats
     label: str
+
+    @property
+    def clears(self) -> bool:
+        """Whether it ends with a level move that leaves nothing of its slope."""
+        return len(self.heights) < 3 or bool(self.heights[-2] == self.heights[-1])
 
 
 @dataclass(frozen=True)
@@ -119,9 +124,9 @@ def pendulum(
 
 
 def along(contour: Contour, top: float, bottom: float, angle: float) -> Descent:
-    """Down along a pass: round and round a closed one, to and fro on an open one; ends level where the pass begins.
+    """Down along a pass: round and round a closed one, to and fro on an open one; it ends where the pass begins.
 
-    The last round, or the last stroke there and back, is level.
+    The slope that it leaves is taken away by the pass itself, which comes next.
     """
     slope = math.tan(math.radians(angle))
     rounds = max(1, math.ceil(abs(top - bottom) / (contour.length * slope) - DRIFT)) if top != bottom else 0
@@ -140,14 +145,19 @@ def along(contour: Contour, top: float, bottom: float, angle: float) -> Descent:
     return Descent(way, top + (bottom - top) * upto / upto[-1], "entry along the pass")
 
 
-def descent(piece: Piece, entry: Entry, radius: float, top: float, bottom: float, climb: bool = True) -> Descent:
-    """The way down to the first pass of a piece as wished for, ending near its start.
+def descent(
+    piece: Piece, entry: Entry, radius: float, top: float, bottom: float, climb: bool = True, number: int = 0
+) -> Descent:
+    """The way down to a pass of a piece (the first, or that of a `number`) as wished for, ending near its start.
 
-    Where a helix or a ramp has no room the tool goes down along the first pass itself.
+    Where the pass begins on an earlier one the tool goes straight down, where a helix or a ramp has no room along the
+    pass itself.
     """
+    straight = entry.kind == "vertical" or entry.angle == 90 or top <= bottom
+    if straight or (number and piece.begins_cleared(number)):
+        return vertical(begin(piece.passes[number]) if number else piece.entry, top, bottom)
+    piece = piece.rest_from(number)
     place = piece.entry
-    if entry.kind == "vertical" or entry.angle == 90 or top <= bottom:
-        return vertical(place, top, bottom)
     if entry.kind == "helix":
         wish = radius if entry.size is None else entry.size
         room = float(piece.centres.distance([place])[0]) if piece.centres.contains([place])[0] else 0.0
@@ -161,7 +171,4 @@ def descent(piece: Piece, entry: Entry, radius: float, top: float, bottom: float
                 return pendulum(place, float(way), top, bottom, entry.angle, least=least, room=least)
     if not piece.passes or piece.passes[0].length <= 0:
         return vertical(place, top, bottom)
-    down = along(piece.passes[0], top, bottom, entry.angle)
-    if np.hypot(*(begin(down.contour) - begin(piece.passes[0]))) > DRIFT:
-        raise AssertionError("a descent along a pass begins where the pass begins")
-    return down
+    return along(piece.passes[0], top, bottom, entry.angle)

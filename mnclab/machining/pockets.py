@@ -11,7 +11,7 @@ stands then, in sharp corners and along narrow arms between two rings, is the pr
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,8 +24,10 @@ SHARP = 1e-6  # rad and mm, the least turn of a corner and the shortest element
 
 
 @dataclass(frozen=True, eq=False)
-class _Ring:
-    level: float  # in stepovers inward from the boundary of the tool-centre area
+class Ring:
+    """A closed pass: its `level` in stepovers inward from the boundary of the tool-centre area, and what it goes round."""
+
+    level: float
     island: bool
     contour: Contour
 
@@ -102,13 +104,18 @@ def _way(curve: Curve, sweep: float, start: Floats, end: Floats) -> float:
 
 def _piece(centres: Region, radius: float, stepover: float, climb: bool, corner_radius: float) -> Piece:
     """The rings of one connected piece of the tool-centre area, in order and joined."""
-    passes = tuple(_ordered(list(_rings(centres, radius, stepover, corner_radius))))
+    passes = tuple(ring.contour for ring in rings_in_order(centres, radius, stepover, corner_radius))
     linked = links(centres, passes, stepover)
     turned = passes if climb else tuple(ring.reversed() for ring in passes)
     return Piece(centres, turned, linked, numbered("ring", len(passes)))
 
 
-def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[_Ring]:
+def rings_in_order(centres: Region, radius: float, stepover: float, corner_radius: float = 0.0) -> Iterator[Ring]:
+    """The rings of one connected piece of the tool-centre area, islands first, each from the inside out."""
+    return _ordered(list(_rings(centres, radius, stepover, corner_radius)))
+
+
+def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[Ring]:
     """The rings of a piece, with a core ring wherever one more step would leave a core standing."""
     if np.ptp(centres.loops[0].bounds, axis=0).min() / 2 > MOST_RINGS * stepover:
         raise ValueError(f"a stepover of {stepover:g} makes more than {MOST_RINGS} rings")
@@ -116,7 +123,7 @@ def _rings(centres: Region, radius: float, stepover: float, corner_radius: float
     while here.loops:
         for loop in here.loops:
             face = rounded(loop, corner_radius) if level == 0 else loop
-            yield _Ring(level, loop.area < 0, face)
+            yield Ring(level, loop.area < 0, face)
         level += 1
         deeper = centres.inset(level * stepover)
         if stepover > radius:
@@ -124,11 +131,11 @@ def _rings(centres: Region, radius: float, stepover: float, corner_radius: float
             for core in cores:
                 if not any(core.contains(loop.points[:1])[0] for loop in deeper.loops):
                     for loop in core.loops:
-                        yield _Ring(level - 1 + radius / stepover, loop.area < 0, loop)
+                        yield Ring(level - 1 + radius / stepover, loop.area < 0, loop)
         here = deeper
 
 
-def _ordered(todo: list[_Ring]) -> Iterator[Contour]:
+def _ordered(todo: list[Ring]) -> Iterator[Ring]:
     """Rings from the inside out, each begun where it comes nearest to the end of the one before.
 
     A ring round an island waits for the deeper rings about it; a ring along a wall for all islands and for
@@ -154,6 +161,6 @@ def _ordered(todo: list[_Ring]) -> Iterator[Contour]:
             contour = todo[k].contour
             way = contour.nearest(spot)
         left_over[k] = False
-        ring = contour.started_at(way)
-        here = ring.points[0]
+        ring = replace(todo[k], contour=contour.started_at(way))
+        here = ring.contour.points[0]
         yield ring
