@@ -28,7 +28,7 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "matplotlib": ("show.plot",),
     "pyvista": ("show.scene", "show.export"),
     "vtkmodules": ("show.scene", "show.export"),
-    "ezdxf": ("show.export",),
+    "ezdxf": ("show.export", "geometry.dxf"),
     "ipywidgets": ("show.forms",),
     "IPython": ("show.magic",),
 }
