@@ -23,7 +23,7 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 
 FINE = 16  # discs to a tool radius
-BLOCK = 2000
+BLOCK = 500
 RIM = np.radians(np.arange(-90, 90.01, 0.25))
 QUARTER = np.pi / 2
 
@@ -127,19 +127,20 @@ def _taken(
 ) -> tuple[NDArray[np.intp], Floats, Floats]:
     """The stretches of the rims, as angles from the heading, that earlier discs have cleared."""
     mine, other = cells.near(here)
-    arm = points[other] - points[here[mine]]
-    away = np.hypot(arm[:, 0], arm[:, 1])
+    x, y = (points[other] - points[here[mine]]).T
+    away2 = x * x + y * y
     wide = radius + step**2 / (4 * radius)
-    ahead = np.stack([np.cos(heading[here]), np.sin(heading[here])], axis=1)[mine]
-    forward = arm[:, 0] * ahead[:, 0] + arm[:, 1] * ahead[:, 1]
-    half2 = np.maximum(1.02 - (away / (radius + wide)) ** 2, 0.0)  # sin² of half the stretch, and a little more
-    near = (away < radius + wide) & ((forward >= 0) | (forward**2 <= away**2 * half2))  # some of it lies in front
-    mine, arm, away = mine[near], arm[near], away[near]
+    near = away2 < (radius + wide) ** 2
+    mine, x, y, away2 = mine[near], x[near], y[near], away2[near]
+    cosine, sine = np.cos(heading[here])[mine], np.sin(heading[here])[mine]
+    ahead, aside = x * cosine + y * sine, y * cosine - x * sine
+    half2 = 1.02 - away2 / (radius + wide) ** 2  # sin² of half the stretch, and a little more
+    front = (ahead >= 0) | (ahead * ahead <= away2 * half2)  # some of it lies in front
+    mine, ahead, aside, away2 = mine[front], ahead[front], aside[front], away2[front]
     with np.errstate(divide="ignore", invalid="ignore"):
-        cosine = (away**2 + radius**2 - wide**2) / (2 * away * radius)
-    half = np.arccos(np.clip(np.where(away > 0, cosine, -1.0), -1.0, 1.0))
-    towards = np.arctan2(arm[:, 1], arm[:, 0]) - heading[here[mine]]
-    towards = np.where(half >= np.pi - 1e-9, 0.0, np.remainder(towards + np.pi, 2 * np.pi) - np.pi)
+        cosine = (away2 + radius**2 - wide**2) / (2 * radius * np.sqrt(away2))
+    half = np.arccos(np.clip(np.where(away2 > 0, cosine, -1.0), -1.0, 1.0))
+    towards = np.where(half >= np.pi - 1e-9, 0.0, np.arctan2(aside, ahead))
     low, high = np.maximum(towards - half, -QUARTER), np.minimum(towards + half, QUARTER)
     some = low < high
     return mine[some], low[some], high[some]
@@ -162,7 +163,7 @@ def _open(sample: NDArray[np.intp], low: Floats, high: Floats, count: int, radiu
     """What the stretches leave of the front half of each rim: its angle, and its width across the heading."""
     sample = np.concatenate([sample, np.arange(count)])  # a last stretch of no length ends every rim
     low, high = np.append(low, np.full(count, QUARTER)), np.append(high, np.full(count, QUARTER))
-    order = np.lexsort((low, sample))
+    order = np.argsort(low + 4.0 * sample)
     sample, low, high = sample[order], low[order], high[order]
     lift = 4.0 * sample  # sets the rims apart, so that one running maximum serves them all
     reach = np.maximum.accumulate(high + lift)

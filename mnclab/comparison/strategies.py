@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 Strategies = Iterable[str] | Mapping[str, str | Clearing | Callable[[Region, float, float], Clearing]]
 
+DISCS = 10  # to a tool radius; the angles are within half a degree from 10° on
+
 #: Every column of a comparison: what it is and how it is written.
 COLUMNS = {
     "strategy": ("strategy", "{}"),
@@ -213,7 +215,7 @@ def compare(
             clearing = clear(how, region, radius, stepover, allowance=allowance, climb=climb)
         path = toolpath(clearing, (-depth,), entry=entry, feed=feed, plunge_feed=plunge_feed, climb=climb)
         moves, counted = level_moves(clearing, entry, depth, climb)
-        found = engagement(moves, radius)
+        found = engagement(moves, radius, spacing=radius / DISCS)
         found = found.chosen(np.array(counted, dtype=bool)[found.move])
         trials.append(
             Trial(name, region, clearing, path, found, depth, feed, np.radians(limit), allowance, limits, rapid)

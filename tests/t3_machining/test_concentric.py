@@ -84,6 +84,21 @@ def test_a_circle_is_cleared(make, step):
     assert covered.difference(shapely.Point(3, -2).buffer(30.25 + 1e-3, quad_segs=4000)).area == 0
 
 
+@pytest.mark.parametrize("size", [(70, 46), (46, 70), (50, 50)])
+@pytest.mark.parametrize("share", [0.3, 1.0, 1.25])
+@pytest.mark.parametrize("climb", [True, False])
+def test_a_rectangular_spiral_clears_its_pocket(size, share, climb):
+    clearing = concentric.rectangular_spiral(*size, 4, 4 * share, corner=7, allowance=0.2, climb=climb, angle=np.pi / 2)
+    way, last = clearing.passes
+    covered, reach = swept(clearing.passes, 4), box(size[1] / 2 - 0.2, size[0] / 2 - 0.2, 6.8)
+    assert covered.intersection(reach).area >= 0.999 * reach.area
+    assert covered.difference(reach.buffer(1e-3)).area < 1e-6
+    assert way.turns() == pytest.approx(np.zeros(len(way.starts)), abs=1e-9)
+    assert last.points[0] == pytest.approx(way.points[-1])
+    assert (last.area > 0) == climb
+    assert ((way.bulge[:-1] >= 0) if climb else (way.bulge[:-1] <= 0)).all()
+
+
 def test_a_spiral_never_turns_sharply_and_keeps_its_step():
     """On the line through the centre the turns are equal steps apart, none above the stepover."""
     (piece,) = concentric.circular_spiral(60, 5, 4).pieces
