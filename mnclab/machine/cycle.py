@@ -17,6 +17,7 @@ from dataclasses import MISSING, dataclass, field, fields
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
+from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
@@ -54,6 +55,7 @@ class Parameter:
     note: str = ""
     mark: int = 0
     several: bool = False
+    example: float | None = None
 
     @property
     def allowed(self) -> str:
@@ -107,19 +109,24 @@ def param(
     note: str = "",
     mark: int = 0,
     several: bool = False,
+    example: float | None = None,
 ) -> Any:
     """Declare one parameter of a cycle in one line of its class.
 
     No ``default`` means required, unless ``instead`` of it another is given (a parameter by its name);
     ``default_means`` says in words what a default of None stands for. ``several``: the address may be repeated, and the
-    value is a tuple. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …).
+    value is a tuple. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …). ``example`` is a value to begin
+    with where the cycle is tried out; it must obey the limits, or the declaration is a ValueError.
     """
     first, *others = (address,) if isinstance(address, str) else address
     required = default is MISSING
     declared = Parameter(
         first, meaning, unit, "", tuple(others), required, None if required else default, default_means, choices, above,
         at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note, mark, several,
+        example,
     )  # fmt: skip
+    if example is not None and declared.refuses(example):
+        raise ValueError(f"the example of {first} must be {declared.allowed}, got {example:g}")
     return field(default=declared.default, kw_only=True, metadata={"parameter": declared})
 
 
@@ -225,6 +232,14 @@ def check_value(definition: Definition, parameter: Parameter, value: Any) -> Non
     for number in value if isinstance(value, tuple) else (value,):
         if isinstance(number, int | float) and parameter.refuses(number):
             raise fault(definition, parameter, f"must be {parameter.allowed}, got {number:g}")
+
+
+def too_many(name: str, levels: Callable[[], object]) -> Iterator[tuple[str, str]]:
+    """A fault of the parameter that makes more levels or turns than any hole has."""
+    try:
+        levels()
+    except TooMany as error:
+        yield name, str(error)
 
 
 def fault(definition: Definition, parameter: Parameter | None, sentence: str) -> Alarm:

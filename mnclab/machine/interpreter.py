@@ -18,6 +18,7 @@ from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
+from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import ALARM, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import NONE, NUMBER, Program, Word
@@ -255,5 +256,8 @@ def run_cycle(machine: Machine, definition: Definition) -> None:
             definition.extra,
         )
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
-    bind(definition, machine).moves(machine)
+    try:
+        bind(definition, machine).moves(machine)
+    except TooMany as error:
+        raise fault(definition, None, str(error)) from None
     machine.label = label

@@ -25,7 +25,10 @@ EXAMPLES = {
         *("S", "G26", "G25", "M word", "M3", "M4", "M5", "M99"),
     ],
     "mnc-language.frames": ["G10", "G12", "G13", "G37", "G39", "G51", "G147"],
-    "mnc-drilling": ["drilling cycles G83-G85", "G80", "G98", "G99", "G83", "prepared cycles", "G300"],
+    "mnc-drilling": [
+        *("drilling cycles G83-G85", "G80", "G98", "G99", "G83", "G84", "G85", "prepared cycles", "G300", "G301"),
+        *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
+    ],
 }
 
 #: Files whose cycles give their parameters, and those whose G and M codes are listed.

@@ -1,15 +1,16 @@
 """The MNC milling control (Mechatronics, 2015): the namesake.
 
 ``language`` holds motion, offsets and words, ``polar`` polar motion, ``transforms`` scaling, mirror image, rotation and
-datums, ``compensation`` the radius functions, ``drilling`` the cycles of chapter 9. Still to come are the other cycles and
-probing; their codes are refused by name.
+datums, ``compensation`` the radius functions, ``cycles`` the drilling cycles of chapter 9. Still to come are the milling
+cycles and probing; their codes are refused by name.
 """
 
 from __future__ import annotations
 
 import re
 
-from mnclab.controls.mnc import compensation, drilling, language, polar, transforms
+from mnclab.controls.mnc import compensation, language, polar, transforms
+from mnclab.controls.mnc.cycles import boring, drilling, fixed, prepared, tapping
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -31,8 +32,7 @@ SETTINGS = (
 
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
-    {f"G{n}": _LATER for n in (84, 85, 161, 162, *range(301, 308), 309, 320, 321, 343, 344)}
-    | {f"G{n}": _LATER for n in (201, 202, 203, 204, 208, 241)}  # other names, table 1.2 and 2.5
+    {f"G{n}": _LATER for n in (161, 162, 320, 321, 343, 344)}
     | {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
     | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
@@ -51,8 +51,9 @@ CONTROL = Control(
     title="Mechatronics MNC (2015)",
     suffixes=(".mnc",),
     read=reader("mnc"),
-    functions=language.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | compensation.FUNCTIONS | drilling.FUNCTIONS,
-    cycles=drilling.CYCLES,
+    functions=language.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | compensation.FUNCTIONS
+    | fixed.FUNCTIONS | prepared.FUNCTIONS,
+    cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | tapping.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),
