@@ -132,7 +132,7 @@ def param(
 
 @dataclass(frozen=True)
 class Cycle:
-    """A cycle bound to its values. Subclasses declare parameters, :meth:`check` what joins several, and :meth:`moves`."""
+    """A cycle bound to its values. Subclasses declare parameters, :meth:`contradictions`, :meth:`check` and :meth:`moves`."""
 
     code: ClassVar[str] = ""
     title: ClassVar[str] = ""
@@ -161,8 +161,12 @@ class Cycle:
         """
         return values
 
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """Faults among the values alone, as (name of the parameter to mark, sentence); found where it is defined."""
+        yield from ()
+
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Faults that join several parameters, as (name of the parameter to mark, sentence)."""
+        """Faults of the values on this machine now: its tool, its spindle, its state; found where the cycle runs."""
         yield from ()
 
     def moves(self, m: Machine) -> None:
@@ -209,22 +213,33 @@ class Definition:
 
 def bind(definition: Definition, m: Machine) -> Cycle:
     """The frozen cycle with its values, or an Alarm at the word that is wrong (or at the cycle's own word)."""
+    bound = instance(definition)
+    for name, sentence in bound.check(m):
+        raise fault(definition, named(definition, name), sentence)
+    return bound
+
+
+def instance(definition: Definition) -> Cycle:
+    """The frozen cycle with its values, which are there, within their limits and without contradiction."""
     cycle, values = definition.cycle, {}
     for parameter in cycle.parameters():
         value = definition.values.get(parameter.name)
         if value is None and parameter.required and definition.values.get(parameter.instead) is None:
-            others = {p.name: p.address for p in cycle.parameters()}
-            neither = f", and so is {others[parameter.instead]}" if parameter.instead else ""
-            raise fault(definition, parameter, f"is missing{neither}")
+            other = named(definition, parameter.instead)
+            raise fault(definition, parameter, "is missing" + (f", and so is {other.address}" if other else ""))
         if value is None:
             value = parameter.default
         check_value(definition, parameter, value)
         values[parameter.name] = value
-    bound = cycle(**values)
-    for name, sentence in bound.check(m):
-        named = next((p for p in cycle.parameters() if p.name == name), None)
-        raise fault(definition, named, sentence)
-    return bound
+    made = cycle(**values)
+    for name, sentence in made.contradictions():
+        raise fault(definition, named(definition, name), sentence)
+    return made
+
+
+def named(definition: Definition, name: str) -> Parameter | None:
+    """The parameter of a name; None for the cycle as a whole."""
+    return next((p for p in definition.cycle.parameters() if p.name == name), None)
 
 
 def check_value(definition: Definition, parameter: Parameter, value: Any) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from mnclab.machine.bulk import Bulk
 from mnclab.machine.calls import Flow
 from mnclab.machine.control import Control, Function, Words
-from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault
+from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
 from mnclab.machining.depths import TooMany
@@ -165,7 +165,10 @@ class Interpreter:
         if code != cycle.code:
             machine.warn(f"{code} is another name of {cycle.code} ({cycle.title})", head)
         if cycle.runs == "call":
-            verify(definition)
+            if self.control.storage == "variables":  # which may still change
+                verify(definition)
+            else:
+                instance(definition)
             machine.cycle, machine.position_cycle = definition, None
         else:
             machine.cycle, machine.position_cycle = None, definition

@@ -41,7 +41,7 @@ def drill(
     """
     up, start, returns = math.copysign(1.0, above - levels[-1]), above, 0
     for number, level in enumerate(levels, 1):
-        peck = f"peck {number} of {len(levels)}"
+        peck = f"peck {number} of {len(levels)}" if len(levels) > 1 else "drill"
         first = levels[number - 2] if number > 1 else start
         for depth in infeeds(first, level, break_every)[:-1] if break_every else ():
             yield Go(peck, depth, feed)
@@ -152,7 +152,7 @@ def gun_drill(
     yield Coolant("coolant on", True)
     last = start
     for number, level in enumerate(levels, 1):
-        name = f"peck {number} of {len(levels)}"
+        name = f"peck {number} of {len(levels)}" if len(levels) > 1 else "drill"
         if pause is not None and (last - pause) * (pause - level) > 0:
             yield Go(name, pause, feed)
             yield Wait("dwell on the way", dwell)

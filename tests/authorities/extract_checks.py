@@ -1,4 +1,4 @@
-"""Examples, codes and parameters of the MNC manual, copied from a catalogue of it: writes the files of catalogue/.
+"""Examples, codes and parameters of the manuals, copied from a catalogue of them: writes the files of catalogue/.
 
     python3 tests/authorities/extract_checks.py FOLDER
 
@@ -31,10 +31,21 @@ EXAMPLES = {
     ],
 }
 
-#: Files whose cycles give their parameters, and those whose G and M codes are listed.
-CYCLES = ["mnc-drilling", "mnc-milling"]
+#: Files whose G and M codes are listed.
 CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
-KEYS = ("address", "meaning", "unit", "type", "range", "choices", "default", "required", "modal", "incremental")
+KEYS = (
+    "address",
+    "name",
+    "unit",
+    "type",
+    "range",
+    "alternatives",
+    "choices",
+    "default",
+    "required",
+    "modal",
+    "incremental",
+)
 
 
 def entries(folder, name):
@@ -53,13 +64,17 @@ def examples(folder, name, codes):
             yield {"code": code, **kept, "check": check}
 
 
-def parameters(folder, names):
-    """Parameters of every cycle, with the codes that mean the same."""
-    for name in names:
-        for code, entry in entries(folder, name).items():
-            if entry["kind"] == "cycle":
-                rows = [{key: row[key] for key in KEYS if key in row} for row in entry["parameters"]]
-                yield {"code": code, "title": entry["title"], "aliases": entry.get("aliases", []), "parameters": rows}
+def parameters(folder):
+    """Parameters of every cycle by control, with the codes that mean the same."""
+    controls = {}
+    for file in sorted(folder.glob("*.yaml")):
+        loaded = yaml.safe_load(file.read_text(encoding="utf-8"))
+        for entry in loaded.get("entries") or []:
+            if entry.get("kind") == "cycle" and entry.get("parameters"):
+                rows = [{key: row[key] for key in KEYS if row.get(key) is not None} for row in entry["parameters"]]
+                record = {"code": str(entry["code"]), "aliases": entry.get("aliases") or [], "parameters": rows}
+                controls.setdefault(loaded["control"], []).append(record)
+    return controls
 
 
 def listed(folder, names):
@@ -88,7 +103,8 @@ def save(name, records):
 def main(folder):
     for name, codes in EXAMPLES.items():
         save(name, examples(folder, name.partition(".")[0], codes))
-    save("parameters", parameters(folder, CYCLES))
+    for control, records in parameters(folder).items():
+        save(f"parameters-{control}", records)
     save("codes", listed(folder, CODES))
 
 

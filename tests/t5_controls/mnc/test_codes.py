@@ -67,7 +67,7 @@ def test_what_the_manual_does_not_list_is_said_to_be_so(code):
 
 @pytest.mark.parametrize(
     ("wrong", "near"),
-    [("G60", {"G160"}), ("G301.5", {"G300"}), ("M33", {"M3"}), ("G20", {"G2", "G200"})],
+    [("G60", {"G160"}), ("G301.5", {"G301"}), ("M33", {"M3"}), ("G20", {"G2", "G201", "G200"})],
 )
 def test_an_unknown_code_gets_near_ones(wrong, near):
     alarm = mnclab.run(f"{wrong}\n", "mnc").alarms[0]

@@ -87,14 +87,16 @@ class BackBoring(PreparedCycle):
     )
     thickness: float = param("B", "material thickness", above=0, incremental=True, example=20)
     eccentricity: float = param("E", "off-centre distance of the tool", above=0, incremental=True, example=3.5)
-    edge_height: float = param("L", "height of the edge above the end of the bar", above=0, incremental=True, example=12)
+    edge_height: float = param(
+        "L", "height of the edge above the end of the bar", above=0, incremental=True, example=12
+    )
     positioning_feed: float = param("V", "feed into and out of the workpiece", "mm/min", above=0, example=750)
     feed: float | None = feed("counterboring feed")
     dwell_bottom: float = dwell_bottom()
     disengage: float = param("D", "direction of the shift off the axis", "choice", choices=SHIFT, example=1)
     spindle_angle: float = spindle_angle("spindle angle for entry and exit")
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def contradictions(self) -> Iterator[tuple[str, str]]:
         """The counterbore stays below the upper surface."""
         if self.counterbore_depth >= self.thickness:
             yield (
@@ -130,13 +132,17 @@ class BoreMilling(PreparedCycle):
     )  # fmt: skip
     milling_mode: float = param("L", "kind of milling with M3", "choice", default=1, choices=MODE, example=1)
 
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """The hole drilled before is narrower; no more turns than a hole can have."""
+        if self.predrilled_diameter >= self.diameter:
+            yield "predrilled_diameter", f"must be less than D {self.diameter:g}, got {self.predrilled_diameter:g}"
+        yield from too_many("pitch", lambda: turns(self.clearance - self.depth, self.pitch))
+
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """The hole is not narrower than the tool, and leaves no core where none was drilled out."""
         tool = 2 * m.radius
         if self.diameter < tool:
             yield "diameter", f"must be at least the tool diameter {tool:g}, got {self.diameter:g}"
-        if self.predrilled_diameter >= self.diameter:
-            yield "predrilled_diameter", f"must be less than D {self.diameter:g}, got {self.predrilled_diameter:g}"
         if not self.predrilled_diameter and self.diameter > 2 * tool:
             yield (
                 "diameter",
@@ -147,7 +153,6 @@ class BoreMilling(PreparedCycle):
             m.cycle.extra["ring"] = None  # once is enough
             word = m.cycle.words["predrilled_diameter"]
             m.warn(f"{self.code} C {self.predrilled_diameter:g} leaves a ring: the tool reaches in to {inner:g}", word)
-        yield from too_many("pitch", lambda: turns(self.clearance - self.depth, self.pitch))
 
     def moves(self, m: Machine) -> None:
         """Steps 1 to 5 of the manual."""

@@ -45,7 +45,7 @@ class Drilling(PreparedCycle):
         """Infeeds count from the surface."""
         return infeeds(self.surface, self.surface + self.depth, self.infeed)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def contradictions(self) -> Iterator[tuple[str, str]]:
         """No more infeeds than a hole can have."""
         yield from too_many("infeed", self.levels)
 
@@ -101,7 +101,7 @@ class UniversalDrilling(PreparedCycle):
         bottom = self.surface + self.depth
         return infeeds(self.surface, bottom, self.infeed, self.decrement, self.min_infeed or 0.0)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def contradictions(self) -> Iterator[tuple[str, str]]:
         """A decrement has a least infeed; no more infeeds than a hole can have."""
         if self.decrement and self.min_infeed is None:
             yield "decrement", f"{self.decrement:g} needs M, the least infeed"
@@ -135,13 +135,16 @@ class Centring(PreparedCycle):
     feed: float | None = feed("centring feed")
     dwell_bottom: float = dwell_bottom()
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """What L chooses is given, and negative; a diameter needs a point angle."""
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """What L chooses is given, and negative."""
         name, value = ("diameter", self.diameter) if self.mode else ("depth", self.depth)
         if value is None:
             yield name, f"is missing: L is {self.mode:g}"
         elif not value < 0:
             yield name, f"must be less than 0, got {value:g}"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A diameter needs a point angle."""
         if self.mode and not 0 < m.tool.angle < 180:
             yield "mode", f"1 needs the point angle of tool {m.tool.number} in the tool table"
 
@@ -152,7 +155,9 @@ class Centring(PreparedCycle):
         else:
             down = self.depth or 0.0
         end = self.approach(m)
-        perform(m, self.code, [Go("centre", self.surface + down, self.feed), Wait("dwell at the bottom", self.dwell_bottom)])
+        perform(
+            m, self.code, [Go("centre", self.surface + down, self.feed), Wait("dwell at the bottom", self.dwell_bottom)]
+        )
         self.leave(m, end)
 
 
@@ -186,11 +191,14 @@ class GunDrilling(PreparedCycle):
         "K", "depth of a dwell on the way", default=0, at_least=0, incremental=True, note="0: none", example=10
     )
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The dwell and the start point lie above the bottom; there is a speed to drill with."""
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """The dwell and the start point lie above the bottom."""
         for name in ("dwell_depth", "start_depth"):
             if (value := getattr(self, name)) >= -self.depth:
                 yield name, f"must be less than the depth {-self.depth:g}, got {value:g}"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """There is a speed to drill with."""
         if not self.speed(m):
             yield "drilling_speed", "is missing, and no spindle speed was programmed before"
 

@@ -103,10 +103,13 @@ class FixedCycle(Cycle):
             m.change("feed", values["feed"])  # stays the modal feed afterwards
         return values
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The bottom lies below level R; no radius compensation, no machine coordinates."""
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """The bottom lies below level R."""
         if not self.bottom < self.r_level:
             yield "bottom", f"must lie below level R, got bottom {self.bottom:g} and R {self.r_level:g}"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """No radius compensation, no machine coordinates."""
         if m.side:
             yield "", "cannot run under radius compensation"
         if "machine coordinates" in m.memory:
@@ -145,9 +148,9 @@ class DeepHoleDrilling(FixedCycle):
         kept["pecked"] = "peck_depth" in given
         return super().prepare(values, given, m, kept)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def contradictions(self) -> Iterator[tuple[str, str]]:
         """As all fixed cycles; and no more pecks than a hole can have."""
-        yield from super().check(m)
+        yield from super().contradictions()
         yield from too_many("peck_depth", self.levels)
 
     def levels(self) -> tuple[float, ...]:

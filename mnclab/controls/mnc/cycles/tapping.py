@@ -20,10 +20,13 @@ class RigidTapping(PreparedCycle):
     depth: float = depth("depth of the thread from the surface")
     pitch: float = param("P", "pitch", "mm/rev", note="positive right-hand, negative left-hand", example=1.25)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """There is a pitch, and a speed."""
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """There is a pitch."""
         if self.pitch == 0:
             yield "pitch", "must not be 0"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """There is a speed."""
         if not m.speed:
             yield "", "needs a spindle speed: write S before"
 
