@@ -42,6 +42,7 @@ class Interpreter:
         self.words: list[Word] = []
         self.faulty = self._faulty_blocks()
         self.bulk = Bulk(control, machine, program, self.faulty)
+        machine.recorder.expected = len(program)
         machine.flow = Flow(program, self.obey, self.bulk.obey)
         machine.flow.machine = machine
 

@@ -85,8 +85,10 @@ def paths(m: Machine) -> tuple[Toolpath, Toolpath]:
 def _shown(m: Machine, path: Toolpath) -> Toolpath:
     """A path relative to the origin, with the labels and joints known at the end."""
     origin = np.array(m.origin or (0.0, 0.0, 0.0))
-    if origin.any():
-        path = path.replace(start=path.start - origin, end=path.end - origin, centre=path.centre - origin)
+    if origin.any() and len(path):
+        vertices = np.concatenate([path.start[:1], path.end]) - origin
+        centre = path.centre if path.centre.strides[0] == 0 else path.centre - origin
+        path = path.replace(start=vertices[:-1], end=vertices[1:], centre=centre)
     recorder = m.recorder
     return path.annotated(
         labels=tuple(recorder.labels), joints=tuple(recorder.joints), origin=tuple(origin), lathe=m.control.lathe

@@ -82,7 +82,7 @@ class Program:
     name: str
     control: str
     addresses: tuple[str, ...]
-    address: NDArray[np.int16]
+    address: NDArray[np.integer[Any]]
     value: NDArray[np.float64]
     form: NDArray[np.uint8]
     flag: NDArray[np.uint8]
@@ -146,7 +146,13 @@ class Program:
 
     def line_of(self, index: int | slice | NDArray[np.integer[Any]]) -> Any:
         """Source line of a block, 1-based; an array of blocks gives an array of lines."""
-        return np.searchsorted(self.line_starts, self.start[index], "right")
+        start = self.start[index]
+        if isinstance(index, slice) and len(start):  # mostly one block a line
+            first = int(np.searchsorted(self.line_starts, start[0], "right"))
+            lines = self.line_starts[first - 1 : first + len(start)]
+            if len(lines) > len(start) and (start >= lines[:-1]).all() and (start < lines[1:]).all():
+                return np.arange(first, first + len(start), dtype=np.int32)
+        return np.searchsorted(self.line_starts, start, "right")
 
     def line_text(self, line: int) -> str:
         """The characters of one line, without its end; empty beyond the program."""
@@ -265,23 +271,26 @@ class ProgramBuilder:
         words[:, 5] = np.minimum(words[:, 5], 32767)
         kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int16)
         columns = [words[:, k].astype(kind) for k, kind in enumerate(kinds)]
-        heads = [column.astype(np.int32) for column in (*blocks[:, :4].T, count)]
+        heads = [column.astype(np.int32) for column in blocks[:, :4].T]
+        first = first_words(count)
         if bulk is not None and len(bulk.start):
-            names = np.array(
-                [self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses], dtype=np.int16
-            )
+            names = [self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses]
+            same_names = names == list(range(len(names)))  # then no copy is needed
+            address = bulk.address if same_names else np.array(names, dtype=np.int16)[bulk.address]
             key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
             n = len(bulk.start)
             zero = np.broadcast_to(np.uint8(0), (len(bulk.value),))  # a constant column costs nothing
             form = zero if bulk.form is None else bulk.form
-            more = [names[bulk.address], bulk.value, form, zero, bulk.offset, bulk.length]
+            more = [address, bulk.value, form, zero, bulk.offset, bulk.length]
             same = np.broadcast_to(np.int16(key), (n,)), np.broadcast_to(np.False_, (n,))
-            more_heads = [bulk.start, *same, bulk.plain, bulk.size]
+            more_heads = [bulk.start, *same, bulk.plain]
+            first = bulk.first
             if self.blocks:
-                more, more_heads = _merged(columns, more, 4), _merged(heads, more_heads, 0)
-            columns, heads = more, more_heads
-        first = np.zeros(len(heads[4]) + 1, dtype=np.int32)
-        np.cumsum(heads[4], out=first[1:])
+                sizes = [count, np.diff(first)]
+                columns, heads = _merged(columns, more, 4), _merged([*heads, sizes[0]], [*more_heads, sizes[1]], 0)
+                first = first_words(heads[4])
+            else:
+                columns, heads = more, more_heads
         return Program(
             text=self.text,
             name=self.name,
@@ -307,6 +316,13 @@ class ProgramBuilder:
         )
 
 
+def first_words(size: NDArray[Any]) -> NDArray[np.int32]:
+    """Where the words of each block begin (b + 1,), from their number (b,)."""
+    first = np.zeros(len(size) + 1, dtype=np.int32)
+    np.cumsum(size, out=first[1:])
+    return first
+
+
 def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
     """Two sets of columns sorted together by one of them."""
     order = np.argsort(np.concatenate([some[by], others[by]]), kind="stable")
@@ -314,7 +330,7 @@ def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
 
 
 class BulkBlocks(NamedTuple):
-    """Blocks found for a whole text at once: words (w,) with ``address`` into ``addresses``, blocks (b,).
+    """Blocks found for a whole text at once: words (w,) with ``address`` into ``addresses``, blocks (b,), ``first`` (b + 1,).
 
     ``form`` (w,) may say that some words have no value; without it all are numbers.
     """
@@ -326,6 +342,6 @@ class BulkBlocks(NamedTuple):
     length: NDArray[np.int16]
     keyword: str
     start: NDArray[np.int32]
-    size: NDArray[np.int32]
+    first: NDArray[np.int32]
     plain: NDArray[np.bool_]
     form: NDArray[np.uint8] | None = None
