@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
-from mnclab.path.recorder import MANY, ROW
+from mnclab.path.recorder import ROW
 
 if TYPE_CHECKING:
     from mnclab.machine.bulk import Bulk
@@ -40,9 +40,9 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
     recorder.room(0)  # the rows of the first hole will stand alone
     flow.current = first
     flow.obey(first)
-    rows = np.array(recorder.rows, dtype=np.float64).reshape(-1, len(ROW))
+    rows = np.array(recorder.rows).reshape(-1, len(ROW))
     hole = machine.to_machine((*machine.programmed[:2], before[0]))
-    if _lasting(machine) != before or not _begins_at(rows, hole) or len(rows) >= MANY:
+    if _lasting(machine) != before or not _begins_at(rows, hole):
         bulk.not_before = first + least  # another hole each time: the other tier makes them
         return 1
     count = good - 2

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path import compensation, corners
+from mnclab.path import compensation, corners, rapids
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import join
 from mnclab.path.toolpath import Toolpath, concatenate
@@ -49,7 +49,8 @@ def settle(m: Machine, unfinished: bool = False) -> None:
 
 
 def _passes(m: Machine, piece: Toolpath, unfinished: bool) -> Toolpath:
-    return compensation.apply(corners.apply(piece, unfinished), m.control.compensation, unfinished)
+    path = compensation.apply(corners.apply(piece, unfinished), m.control.compensation, unfinished)
+    return rapids.broken(path, m.setup.limits.rapid) if m.settings.get("rapid_path") == "broken" else path
 
 
 def _before(m: Machine, piece: Toolpath) -> Toolpath:

@@ -6,6 +6,7 @@ tuple. Rows made in bulk arrive as columns.
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
@@ -40,7 +41,6 @@ PLAIN: dict[str, Any] = {
     "label": 0, "sweep": 0.0, "feed": NAN, "time": NAN, "joint": -1, "state": 0, "centre": np.array([NAN] * 3),
 }  # fmt: skip
 STATE = (np.int64,)
-MANY = 4096  # rows kept as tuples; as columns they do not keep the garbage collector busy
 ROW = ("kind", "line", "step", "label", "x", "y", "z", "cx", "cy", "cz", "sweep", "feed", "time", "joint", "state")
 
 
@@ -48,7 +48,7 @@ class Recorder:
     """Collects rows; :meth:`take` hands over what has come since the last time."""
 
     def __init__(self, start: tuple[float, float, float]) -> None:
-        self.rows: list[tuple[Any, ...]] = []
+        self.rows = array("d")  # one after the other; a list of tuples would be slower to make columns of
         self.states: list[State] = []
         self._state_index: dict[State, int] = {}
         self.labels: dict[str, int] = {"": 0}
@@ -70,7 +70,7 @@ class Recorder:
 
     def expect(self, count: int) -> None:
         """So many rows are to come; room made once is not made anew."""
-        self.expected = max(self.expected, self._count + len(self.rows) + count)
+        self.expected = max(self.expected, self._count + len(self.rows) // len(ROW) + count)
 
     def room(self, count: int) -> NDArray[np.float64]:
         """Where the vertices (count + 1, 3) of the next rows will lie; the first one is the end of the last row."""
@@ -102,9 +102,7 @@ class Recorder:
 
     def add(self, row: tuple[Any, ...]) -> None:
         """One row, the values in the order of :data:`ROW`."""
-        self.rows.append(row)
-        if len(self.rows) >= MANY:
-            self._flush()
+        self.rows.extend(row)
 
     def bulk(self, columns: dict[str, NDArray[Any]], ends: NDArray[np.float64]) -> None:
         """Rows (n,) as columns: ``kind`` and what differs from :data:`PLAIN`; one value stands for all.
@@ -168,9 +166,9 @@ class Recorder:
     def _flush(self) -> None:
         if not self.rows:
             return
-        table = np.array(self.rows, dtype=np.float64)
+        table = np.frombuffer(self.rows).reshape(-1, len(ROW))
         named = {name: _plain(name, table[:, i]) for i, name in enumerate(ROW) if len(name) > 2}
-        self.rows = []
+        self.rows = array("d")
         centre = PLAIN["centre"] if np.isnan(table[:, 7]).all() else table[:, 7:10]
         self._append({**named, "centre": centre}, table[:, 4:7])
 

@@ -32,13 +32,29 @@ def digits(value: float) -> str:
     return np.format_float_positional(value, trim="-")
 
 
+_LENGTH, _COLUMN, _LINE = 15, 23, 25  # bits of a place
+
+
+def place_of(line: Any, column: Any, length: Any) -> Any:
+    """Line, column and length in one integer, or in one array of them: a long program has millions of places."""
+    cut = (np.minimum(part, (1 << bits) - 1) for part, bits in ((line, _LINE), (column, _COLUMN), (length, _LENGTH)))
+    line, column, length = (np.asarray(part, dtype=np.int64) for part in cut)
+    return (line << _COLUMN | column) << _LENGTH | length
+
+
 class Word(NamedTuple):
     """An address with its value, and where it stands."""
 
     address: str
     value: float | str | Expression | None
-    span: Span
+    place: int
     flag: int = 0
+
+    @property
+    def span(self) -> Span:
+        """Where the word stands."""
+        above = self.place >> _LENGTH
+        return Span(above >> _COLUMN, above & (1 << _COLUMN) - 1, self.place & (1 << _LENGTH) - 1)
 
     @property
     def incremental(self) -> bool:
@@ -131,7 +147,7 @@ class Program:
         form, value = self.form[index], self.value[index]
         kept: Any = float(value) if form == NUMBER else None if form == NONE else self.payload[int(value)]
         span = self.span(int(self.offset[index]), int(self.length[index]))
-        return Word(self.addresses[self.address[index]], kept, span, int(self.flag[index]))
+        return Word(self.addresses[self.address[index]], kept, int(place_of(*span[:3])), int(self.flag[index]))
 
     def span(self, offset: int, length: int = 1) -> Span:
         """Line and column of a place in the text."""

@@ -1,4 +1,4 @@
-"""Examples, codes and parameters of the manuals, copied from a catalogue of them: writes the files of catalogue/.
+"""Examples, codes, parameters and open readings of manuals, copied from a catalogue: writes the files of catalogue/.
 
     python3 tests/authorities/extract_checks.py FOLDER
 
@@ -6,6 +6,7 @@ FOLDER holds the catalogue, one YAML file for each part of the manual. The tests
 """
 
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -13,8 +14,7 @@ import yaml
 
 HERE = Path(__file__).parent / "catalogue"
 
-#: Entries whose examples are copied, by file (`a.b` is a file of its own for entries of `a`). A function that is built
-#: gets its entry here.
+#: Entries whose examples are copied, by file. A function that is built gets its entry here.
 EXAMPLES = {
     "mnc-language": [
         *("words", "modal groups", "block execution", "G17", "G18", "G19", "G90", "G91", "G92", "G53"),
@@ -24,7 +24,6 @@ EXAMPLES = {
         *("G41", "G42", "CRC entry (table 7.1)", "CRC travel (table 7.2)", "G40", "CRC exit (table 7.3)"),
         *("S", "G26", "G25", "M word", "M3", "M4", "M5", "M99"),
     ],
-    "mnc-language.frames": ["G10", "G12", "G13", "G37", "G39", "G51", "G147"],
     "mnc-drilling": [
         *("drilling cycles G83-G85", "G80", "G98", "G99", "G83", "G84", "G85", "prepared cycles", "G300", "G301"),
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
@@ -33,17 +32,10 @@ EXAMPLES = {
 
 #: Files whose G and M codes are listed.
 CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
+#: Files whose ambiguities are listed: what the manual leaves open, and the reading to adopt.
+AMBIGUITIES = ["mnc-language"]
 KEYS = (
-    "address",
-    "name",
-    "unit",
-    "type",
-    "range",
-    "alternatives",
-    "choices",
-    "default",
-    "required",
-    "modal",
+    *("address", "name", "unit", "type", "range", "alternatives", "choices", "default", "required", "modal"),
     "incremental",
 )
 
@@ -86,6 +78,15 @@ def listed(folder, names):
                 yield {"code": code, **kept}
 
 
+def ambiguities(folder, names):
+    """What the manual leaves open (`text`) and how it is read (`read`), by the names that code and tests cite."""
+    for name in names:
+        for code, entry in entries(folder, name).items():
+            for sentence in entry.get("ambiguities") or ():
+                found = re.fullmatch(r"\[(MNC-[A-Z0-9a-z-]+)\] TEXT: (.*) READ: (.*) WHY: .*", sentence, re.DOTALL)
+                yield {"id": found[1], "code": code, "text": found[2], "read": found[3]}
+
+
 def save(name, records):
     """One record a line and one parameter a line, so that changes can be read."""
     lines = []
@@ -102,10 +103,11 @@ def save(name, records):
 
 def main(folder):
     for name, codes in EXAMPLES.items():
-        save(name, examples(folder, name.partition(".")[0], codes))
+        save(name, examples(folder, name, codes))
     for control, records in parameters(folder).items():
         save(f"parameters-{control}", records)
     save("codes", listed(folder, CODES))
+    save("ambiguities", ambiguities(folder, AMBIGUITIES))
 
 
 if __name__ == "__main__":

@@ -48,6 +48,6 @@ def executed():
         """How many blocks went one by one."""
         machine = Machine(mnclab.controls["mnc"], Setup())
         Interpreter(mnclab.controls["mnc"], machine, mnclab.read(text, "mnc")).run()
-        return machine.flow.executed
+        return len(machine.flow.steps().block) - machine.flow.in_bulk
 
     return count

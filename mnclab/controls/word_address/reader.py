@@ -13,6 +13,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.text.nearest import DIGITS, LATIN
 from mnclab.text.program import BulkBlocks, Program, ProgramBuilder, first_words
 from mnclab.text.words import Scan, scan
 
@@ -24,7 +25,6 @@ _BITS = np.zeros(128, dtype=np.int32)
 _BITS[65:91] = 1 << np.arange(26)
 
 _WORD = re.compile(r"([A-Za-z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))?")
-_LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
 
 
 def reader(control: str, comment: str = r"/[ \t]?/") -> Callable[[str, str], Program]:
@@ -163,17 +163,16 @@ def _skip_blanks(text: str, at: int, stop: int) -> int:
 def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int) -> None:
     """The fault at a character that is no part of a good word, with the repair where the mistake is known."""
     c = text[at]
-    following = text[at + 1 : stop].lstrip(" \t")[:1]
     if c == ",":
         builder.alarm("',' is no part of a number", at, hint="the decimal mark is a point")
-    elif c in _LOOKS_LATIN:
-        builder.alarm(f"{c!r} is a Cyrillic letter", at, hint=f"write the Latin letter {_LOOKS_LATIN[c]}")
     elif c.isascii() and c.isalpha():
-        if following in ("O", "o") or (c in "Oo" and text[at - 1 : at].isdigit()):
-            builder.alarm(f"{c.upper()} needs a number", at, hint="the letter O stands where the digit 0 was meant")
-        else:
-            found = f", found {following!r}" if following else ""
-            builder.alarm(f"{c.upper()} needs a number{found}", at)
+        following = text[at + 1 : stop].lstrip(" \t")[:1]
+        hint = _digit_meant(text, at, stop)
+        found = f", found {following!r}" if following and not hint else ""
+        builder.alarm(f"{c.upper()} needs a number{found}", at, hint=hint)
+    elif c in LATIN or c in DIGITS and c.isalpha():
+        latin = f"write the Latin letter {LATIN[c]}" if c in LATIN else ""
+        builder.alarm(f"{c!r} is a Cyrillic letter", at, hint=_digit_meant(text, at, stop) or latin)
     elif c == ".":
         builder.alarm("a number has only one decimal point", at)
     elif c in "+-":
@@ -182,6 +181,21 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int) -> None:
         builder.alarm(f"{c!r} needs an address letter before it", at, hint="a blank inside a number splits it")
     else:
         builder.alarm(f"{c!r} has no meaning here", at)
+
+
+def _digit_meant(text: str, at: int, stop: int) -> str:
+    """The hint about a letter in place of a digit: the one at ``at`` inside a number, or the one after that address."""
+    c = text[at]
+    if c not in DIGITS or not text[at - 1 : at].isdigit():
+        c = text[at + 1 : at + 2] if c.isascii() else ""
+        if c in " \t":
+            c = text[at + 1 : stop].lstrip(" \t")[:1]
+            c = c if c in "Oo" else ""  # the others may begin the next word
+    return (
+        f"the letter {c.upper() if c in 'Oo' else c} stands where the digit {DIGITS[c]} was meant"
+        if c in DIGITS
+        else ""
+    )
 
 
 def _check_labels(builder: ProgramBuilder, labels: list[tuple[int, int]]) -> None:
