@@ -9,7 +9,7 @@ The map of the house, floor by floor (a folder imports only from those above its
     geometry    frames, arcs, contours, offsets, regions: numbers, no CNC word
     path        what the tool does: Toolpath in columns, and passes over it (corners, compensation)
     workpiece   what the tool meets: the part a probe touches
-    machining   how metal is cut, whatever the control: depths, pockets, facing, turning
+    machining   how metal is cut, whatever the control: depths, holes, threads, pockets, facing, turning
     comparison  strategies side by side: way, time, engagement, what is left
     machine     who obeys: Machine, Control, Cycle, interpreter, bulk tier, history, Run
     controls    who speaks: a folder a control
