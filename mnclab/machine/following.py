@@ -10,8 +10,10 @@ from mnclab.geometry.contours import Contour
 from mnclab.machine.machine import Machine
 
 
-def follow(m: Machine, contour: Contour, feed: float, heights: Sequence[float] | np.ndarray | None = None) -> None:
-    """Run along a contour at a feed from where it begins: the tool must be there.
+def follow(
+    m: Machine, contour: Contour, feed: float | None, heights: Sequence[float] | np.ndarray | None = None
+) -> None:
+    """Run along a contour at a feed (None: the modal one) from where it begins: the tool must be there.
 
     `heights` are the tool-axis coordinates of its n points, or none for a level contour. A circle of two halves is one
     full circle.

@@ -17,6 +17,7 @@ from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.machining.clearing import Clearing, Piece, numbered
+from mnclab.machining.depths import MOST, TooMany
 from mnclab.machining.pockets import rounded
 from mnclab.machining.spirals import half_circles
 
@@ -24,9 +25,11 @@ DRIFT = 1e-9  # a number of steps this little above a whole one is that whole on
 
 
 def steps(way: float, stepover: float) -> int:
-    """How many equal steps of at most `stepover` a way needs."""
+    """How many equal steps of at most `stepover` a way needs; TooMany where nobody would wait for them."""
     if not stepover > 0:
         raise ValueError(f"the stepover must be greater than 0, got {stepover:g}")
+    if way > MOST * stepover:
+        raise TooMany(f"{stepover:g} divides {way:g} into more than {MOST} steps")
     return max(0, math.ceil(way / stepover - DRIFT))
 
 

@@ -11,6 +11,7 @@ full circle, or one more stroke; a descent along a pass leaves that to the pass.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -19,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.machining.clearing import Piece, begin
+from mnclab.machining.steps import Go, Step, Turn
 
 DRIFT = 1e-9
 
@@ -121,6 +123,29 @@ def pendulum(
     swing = strokes(middle - half, middle + half, top, bottom, angle)
     points = np.vstack([middle, swing.contour.points, middle])
     return Descent(Contour(points, closed=False), np.concatenate([[top], swing.heights, [bottom]]), "entry ramp")
+
+
+def descend(down: Descent, plunge: float | None, feed: float | None) -> Iterator[Step]:
+    """A descent as steps from its start: slopes at the plunge feed, level moves at the other one.
+
+    Arcs that go on about one centre are one turn, a helix of any number of them.
+    """
+    (_, *points), (_, *heights) = down.contour.points.tolist(), down.heights.tolist()
+    turn: Turn | None = None
+    before = float(down.heights[0])
+    columns = down.contour.sweeps.tolist(), down.contour.centres.tolist(), points, heights
+    for sweep, centre, (x, y), z in zip(*columns, strict=True):
+        rate = feed if z == before else plunge
+        before = z
+        if turn and (not sweep or turn.feed != rate or math.dist(turn.centre, centre) > DRIFT):
+            yield turn
+            turn = None
+        if sweep:
+            turn = Turn(down.label, sweep + (turn.angle if turn else 0.0), z, rate, turn.centre if turn else (*centre,))
+        else:
+            yield Go(down.label, z, rate, x, y)
+    if turn:
+        yield turn
 
 
 def along(contour: Contour, top: float, bottom: float, angle: float) -> Descent:

@@ -32,6 +32,12 @@ def tangential(contour: Contour, radius: float, side: int, *, approach: bool = T
     return Contour(points, bulge, closed=False)
 
 
+def approaching(contour: Contour, radius: float, side: int) -> Contour:
+    """The quarter circle by which a tool comes to the wall before a closed pass."""
+    way = tangential(contour, radius, side, departure=False)
+    return Contour(way.points[:2], way.bulge[:2], closed=False)
+
+
 def leaving(contour: Contour, radius: float, side: int) -> Contour:
     """The quarter circle by which a tool leaves the wall after a closed pass."""
     (*_, away) = contour.tangents()[1]
