@@ -131,15 +131,14 @@ def descend(down: Descent, plunge: float | None, feed: float | None) -> Iterator
     Arcs that go on about one centre are one turn, a helix of any number of them.
     """
     (_, *points), (_, *heights) = down.contour.points.tolist(), down.heights.tolist()
-    turn: Turn | None = None
-    before = float(down.heights[0])
+    turn, level, before = None, False, float(down.heights[0])
     columns = down.contour.sweeps.tolist(), down.contour.centres.tolist(), points, heights
     for sweep, centre, (x, y), z in zip(*columns, strict=True):
-        rate = feed if z == before else plunge
-        before = z
-        if turn and (not sweep or turn.feed != rate or math.dist(turn.centre, centre) > DRIFT):
+        if turn and (not sweep or level != (z == before) or math.dist(turn.centre, centre) > DRIFT):
             yield turn
             turn = None
+        level, before = z == before, z
+        rate = feed if level else plunge
         if sweep:
             turn = Turn(down.label, sweep + (turn.angle if turn else 0.0), z, rate, turn.centre if turn else (*centre,))
         else:
