@@ -181,7 +181,6 @@ def test_a_rectangular_pocket_is_the_sequence_of_the_manual(v, radius, corner, s
         a, b = v["A"] / 2 - radius - allowance, v["B"] / 2 - radius - allowance
         least = min(a, b)
         count = math.ceil(least / (v["K"] * radius) - 1e-9)
-        found = []
 
         def line(m, at, f):
             far = (a - least) * long[0], (b - least) * long[1]
