@@ -126,7 +126,7 @@ class Machine:
         """Note a new value of a name in the history; while a contour is recorded only what outlives it."""
         if self.recorded_only and name not in self.variables:
             return
-        self.logs.add(name, max(self.step, 0), value)
+        self.logs.add(name, self.step if self.step > 0 else 0, value)
 
     def change(self, name: str, value: Any) -> None:
         """Set an attribute that rows carry (feed, side, plane, …) and note it in the history.
