@@ -22,16 +22,18 @@ PHASES = (
     *("motion", "call", "end"),
 )
 
+GOUGE = "where the tool does not fit: refuse, or mark: cut anyway, mark the rows and warn"
 SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "1.5"),
     Setting("arc_tolerance", 0.01, "mm between the radii at start and end of an arc", "MNC-ARC-TOL"),
     Setting("peck_clearance", 1.0, "mm above the last depth to which G83 returns at rapid", "MNC-G83-CLEARANCE"),
+    Setting("gouge", "refuse", GOUGE, "MNC-CRC-GOUGE", ("refuse", "mark")),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )
 
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
-    {f"G{n}": _LATER for n in (84, 85, 161, 162, *range(301, 308), 309, 320, 321, 343, 344)}
+    {f"G{n}": _LATER for n in (84, 85, *range(301, 308), 309, 320, 321, 343, 344)}
     | {f"G{n}": _LATER for n in (201, 202, 203, 204, 208, 241)}  # other names, table 1.2 and 2.5
     | {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
     | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
@@ -56,7 +58,7 @@ CONTROL = Control(
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),
-    compensation=Compensation(approach="corner"),
+    compensation=Compensation(approach="corner", change=True),
     looks_like=looks_like,
     refused=REFUSED,
     together=language.together,

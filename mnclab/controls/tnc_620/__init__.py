@@ -20,10 +20,12 @@ from mnclab.path.compensation import Compensation
 #: Order inside a block: M functions that act at its start, the statement, calls, M functions that act at its end.
 PHASES = ("start", "motion", "call", "end", "last")
 
+GOUGE = "where the tool does not fit: refuse, or mark: cut anyway, mark the rows and warn"
 SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
+    Setting("gouge", "refuse", GOUGE, "", ("refuse", "mark")),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )
 

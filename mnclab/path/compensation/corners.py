@@ -1,0 +1,108 @@
+"""Corners of the equidistant: where an offset ends and the next one begins, all of them at once."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry.offsets import cross, dot, left, meet
+from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.rules import ACUTE_TURN, ROUND, STRAIGHT, TANGENT, Compensation
+from mnclab.path.kinds import Rule
+
+
+class Corners(NamedTuple):
+    """m corners: the offset before ends at ``E`` (m, 2), the one after begins at ``S`` (m, 2); where ``insert`` (m,) an
+    arc about the corner with sweep ``turn`` (m,) rad leads over. ``rule`` (m,) is what the element before is called;
+    ``apart`` (m,): an inside corner whose offsets do not meet."""
+
+    E: Array
+    S: Array
+    insert: Mask
+    turn: Array
+    rule: NDArray[np.uint8]
+    apart: Mask
+
+
+def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = None) -> Corners:
+    """The corners c (m,) between elements c and c + 1, for the radii of the elements or others (m,)."""
+    d = c + 1
+    on = el.on[c]
+    s = np.where(on, el.s[c], el.s[d])
+    R = np.where(on, el.R[c], el.R[d]) if radius is None else radius
+    P, t1, t2 = el.end[c], el.t_out[c], el.t_in[d]
+    shift = (R * s)[:, None]
+    A1, A2 = P + shift * left(t1), P + shift * left(t2)
+    across, along = cross(t1, t2), dot(t1, t2)
+    turn = np.arctan2(across, along)
+    reversal = np.abs(np.abs(turn) - np.pi) < TANGENT
+    turn = np.where(reversal, -s * np.pi, turn)  # straight back: an outside corner of half a turn
+    bent = on & (np.abs(turn) >= TANGENT)
+    out = s * turn < 0
+    lead, leave, change = el.lead[c], el.exit[d], el.change[d]
+
+    E, S = np.where(on[:, None], A1, P), A2
+    rule = np.where(on, Rule.SIDE, Rule.NONE).astype(np.uint8)
+    S = np.where((~on | change)[:, None], np.where(on[:, None], A1, P), S)
+    outside = bent & out & ~change
+    if rules.approach == "perpendicular":
+        outside &= ~lead & ~leave
+    square = on & ~outside & ~change  # an entry leads straight to A2, an exit starts at A1
+    E = np.where((square & lead)[:, None], A2, E)
+    S = np.where((square & leave)[:, None], A1, S)
+
+    corner = el.corner[d]
+    straight = outside & ~reversal & (corner != ROUND) & ((corner == STRAIGHT) | (np.abs(turn) <= ACUTE_TURN))
+    inside = bent & ~out & ~change & ~lead & ~leave
+    apart = np.zeros(len(c), dtype=bool)
+    for which, code in ((straight, Rule.OUTSIDE_STRAIGHT), (inside, Rule.INSIDE)):
+        k = np.flatnonzero(which)
+        if len(k):
+            found = _meet(el, c[k], d[k], P[k], R[k], s[k])
+            met = np.isfinite(found[:, 0])
+            E[k[met]] = S[k[met]] = found[met]
+            rule[k[met]] = code
+            apart[k[~met]] = code == Rule.INSIDE
+            straight[k[~met]] = False
+    rule[el.entry[c]], rule[el.change[c]] = Rule.ENTRY, Rule.CHANGE
+    return Corners(E, S, (outside & ~straight) | apart, turn, rule, apart)
+
+
+def _meet(el: Elements, c: Index, d: Index, P: Array, R: Array, s: Array) -> Array:
+    """Where the offsets before and after corners P meet: P + R (n1 + n2) / (1 + n1 . n2) between lines."""
+    lines = ~(el.arc[c] | el.arc[d])
+    t1, t2 = el.t_out[c], el.t_in[d]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = P + (R * s / (1 + dot(t1, t2)))[:, None] * left(t1 + t2)
+    k = np.flatnonzero(~lines)
+    if len(k):
+        first, second = el.offset(c[k], True, R[k], s[k]), el.offset(d[k], False, R[k], s[k])
+        found[k] = meet(first, second, P[k])
+    return found
+
+
+def remaining(el: Elements, k: Index, begin: Array, end: Array, radius: Array) -> tuple[Array, Array]:
+    """What is left of elements k (m,) between their trimmed ends: mm or rad in the sense of travel (m,), and sweeps.
+
+    Negative, or nan where an end is unknown: the tool would run backwards. The ends of an arc whose offset has turned
+    inside out lie opposite.
+    """
+    left_over = dot(end - begin, el.t_out[k])
+    sweep = el.sweep[k].copy()
+    a = np.flatnonzero(el.arc[k])
+    if len(a):
+        j = k[a]
+        sense, centre = np.sign(el.sweep[j]), el.centre[j]
+        small = el.r[j] - el.s[j] * sense * radius[a]
+        flip = np.where(small < 0, -1.0, 1.0)[:, None]
+        trimmed = _angle(el.start[j] - centre, flip * (begin[a] - centre))
+        trimmed -= _angle(el.end[j] - centre, flip * (end[a] - centre))
+        sweep[a] = el.sweep[j] - trimmed
+        left_over[a] = np.where(small > 1e-9, sweep[a] * sense, -np.inf)
+    return left_over, sweep
+
+
+def _angle(a: Array, b: Array) -> Array:
+    return np.arctan2(cross(a, b), dot(a, b))

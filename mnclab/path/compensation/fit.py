@@ -1,0 +1,181 @@
+"""Whether the tool fits: what it needs, what there is, and the largest radius for the whole contour.
+
+Four things are looked at. An *arc* on the inside must have a greater radius than the tool; an *element* must not be
+used up by its inside corners; a *bottleneck* is a pair of walls, any number of blocks apart, that face each other nearer
+than the tool is wide; at the *ends* of a contour, where the tool arrives and leaves, and at the points of straight
+outside *corners*, it must stand clear of all other walls. An *entry* (and an *exit*) must begin where the tool does not
+yet cut into the element it leads to.
+
+Growing the tool from nothing, the first place that fails is one of these; so the largest radius is the least of their
+own, each from a closed form or, for elements between two corners, from halving the interval on the exact condition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry.offsets import left
+from mnclab.path.compensation.corners import corners, remaining
+from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.rules import Compensation, Gouge, Report
+from mnclab.path.fault import PathFault
+from mnclab.path.plane import PlaneView
+from mnclab.path.toolpath import Toolpath
+
+if TYPE_CHECKING:
+    from mnclab.path.compensation.equidistant import Equidistant
+
+EXACT = 1e-9  # mm
+HINT = "take a smaller tool"
+
+
+class Places(NamedTuple):
+    """m places of one kind that do not fit: the elements concerned, the ones they cut into, the width that is there,
+    what is missing (mm), and the largest radius for the place alone (all (m,)), with the words for them."""
+
+    kind: str
+    k: Index
+    other: Index
+    width: Array
+    missing: Array
+    largest: Array
+    message: str
+    hint: str = HINT
+
+
+def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, report: Report) -> Mask:
+    """Which elements (n,) cut into the contour. PathFault at the first, unless ``gouge`` is "mark"."""
+    el = found.el
+    marked = np.zeros(len(el.rows), dtype=bool)
+    contour = np.cumsum(
+        el.entry | el.change | el.exit, dtype=np.int64
+    )  # one number from each entry or change to the next
+    places = [p for p in (*_local(found), *_leads(el), *_global(found, contour)) if len(p.k)]
+    if not places:
+        return marked
+    least = np.full(int(contour[-1]) + 1, np.inf)
+    for place in places:
+        np.minimum.at(least, contour[place.other], place.largest)
+        marked[place.k] = True
+    order = sorted((int(k), n, m) for n, place in enumerate(places) for m, k in enumerate(place.k))
+    refuse = gouge != "mark"
+    for k, n, m in order[:1] if refuse else order:
+        report.gouges.append(_worded(places[n], m, k, el, path, view, float(least[contour[places[n].other[m]]])))
+    if refuse:
+        first = report.gouges[-1]
+        raise PathFault(first.message, first.step, first.hint)
+    return marked
+
+
+def _worded(place: Places, m: int, k: int, el: Elements, path: Toolpath, view: PlaneView, largest: float) -> Gouge:
+    row, other, R = int(el.rows[k]), int(el.rows[place.other[m]]), float(el.R[k] or el.R[k - 1])
+    width, missing = float(place.width[m]), float(place.missing[m])
+    text = place.message.format(R=R, r=width, other=int(path.line[other]))
+    fits = f"the largest radius for the whole contour is {largest:.7g} mm" if largest > EXACT else "no radius fits"
+    at = view.to_space(np.array([row]), np.array([[*el.end[k], view.end[row, 2]]]))[0].tolist()
+    return Gouge(
+        place.kind, int(path.line[row]), int(path.step[row]), int(path.line[other]), (at[0], at[1], at[2]), R,
+        width, missing, largest, f"{text}: {missing:.4g} mm are missing, {fits}", place.hint,
+    )  # fmt: skip
+
+
+# --- elements and their neighbours ------------------------------------------------------------------------------------
+
+
+def _local(found: Equidistant) -> list[Places]:
+    """Arcs that are too small, and elements that their corners use up."""
+    el = found.el
+    wall = el.wall
+    curve = np.where(el.arc, el.r, np.inf)
+    toward = el.arc & (el.s * el.sweep > 0)
+    small = np.flatnonzero(wall & toward & (curve - el.R <= EXACT))
+    bound = np.where(el.arc, -1e-12, -EXACT)
+    lost = found.apart.copy()
+    lost[:-1] |= found.apart[1:]
+    used_up = wall & (lost | ~(found.left_over > bound))
+    used_up[small] = False
+    short = np.flatnonzero(used_up)
+    result = [
+        Places(
+            "arc", small, small, el.r[small], el.R[small] - el.r[small], el.r[small],
+            "the inside arc of radius {r:.4g} is not greater than the tool radius {R:.4g}",
+        )
+    ]  # fmt: skip
+    if len(short):
+        largest = halved(lambda R: _fits(el, short, R, found.rules), el.R[short])
+        per_mm = np.where(el.arc[short], el.r[short], 1.0)
+        lack = -np.nan_to_num(found.left_over[short], posinf=0.0, neginf=0.0) * per_mm
+        missing = np.where(lack > EXACT, lack, el.R[short] - largest)
+        length = np.where(
+            el.arc[short], np.abs(el.sweep[short]) * el.r[short], np.hypot(*(el.end[short] - el.start[short]).T)
+        )
+        message = (
+            "the element is too short for the tool radius {R:.4g}: the offsets of its neighbours do not meet on it"
+        )
+        hint = "take a smaller tool, or lengthen the element"
+        result.append(Places("element", short, short, length, missing, largest, message, hint))
+    return result
+
+
+def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
+    """Whether the corners of elements k (m,) leave something of them, for a radius each."""
+    n = len(el.rows)
+    shift = (radius * el.s[k])[:, None]
+    begin, end = el.start[k] + shift * left(el.t_in[k]), el.end[k] + shift * left(el.t_out[k])
+    apart = np.zeros(len(k), dtype=bool)
+    for corner, at_end in ((k - 1, False), (k, True)):
+        there = np.flatnonzero((corner >= 0) & (corner < n - 1))
+        found = corners(el, corner[there], rules, radius[there])
+        if at_end:
+            end[there] = found.E
+        else:
+            begin[there] = found.S
+        apart[there] |= found.apart
+    left_over, _ = remaining(el, k, begin, end, radius)
+    return ~apart & (left_over >= 0)
+
+
+def halved(fits: Callable[[Array], Mask], radius: Array) -> Array:
+    """The largest radii (m,) below the given ones for which something fits, by halving; it fits at zero."""
+    low, high = np.zeros_like(radius), radius.copy()
+    for _ in range(64):
+        middle = (low + high) / 2
+        good = fits(middle)
+        low, high = np.where(good, middle, low), np.where(good, high, middle)
+        if (high - low <= 1e-13 * radius).all():
+            break
+    return low
+
+
+# --- entry and exit ---------------------------------------------------------------------------------------------------
+
+
+def _leads(el: Elements) -> list[Places]:
+    """Where the tool stands before it enters and after it left, it must be clear of the end of the contour."""
+    n, result = len(el.rows), []
+    for kind, leads, step in (("entry", el.entry, 1), ("exit", el.exit, -1)):
+        k = np.flatnonzero(leads)
+        k = k[(k + step >= 0) & (k + step < n)]
+        k = k[el.wall[k + step]]
+        R, width = el.R[k + step], np.hypot(*(el.end[k] - el.start[k]).T)
+        bad = width < R - EXACT
+        verb = "begins" if step > 0 else "ends"
+        message = (
+            f"the {kind} {verb} {{r:.4g}} mm from the contour, where the tool of radius {{R:.4g}} cuts into it already"
+        )
+        hint = f"take a smaller tool, or let the {kind} {verb[:-1]} farther away"
+        where = (k[bad], k[bad] + step, width[bad], (R - width)[bad], width[bad])
+        result.append(Places(kind, *where, message, hint))
+    return result
+
+
+# --- any number of blocks apart ---------------------------------------------------------------------------------------
+
+
+def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
+    """Bottlenecks, ends and straight corners."""
+    return []
