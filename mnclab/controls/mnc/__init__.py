@@ -58,7 +58,7 @@ CONTROL = Control(
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),
-    compensation=Compensation(approach="corner", change=True),
+    compensation=Compensation(approach="corner", change=True, look_ahead=True),
     looks_like=looks_like,
     refused=REFUSED,
     together=language.together,

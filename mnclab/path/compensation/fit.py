@@ -13,11 +13,14 @@ own, each from a closed form or, for elements between two corners, from halving 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.curves import Curves, distance
+from mnclab.geometry.facing import Walls, facing
 from mnclab.geometry.offsets import left
 from mnclab.path.compensation.corners import corners, remaining
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
@@ -54,7 +57,10 @@ def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, repor
     contour = np.cumsum(
         el.entry | el.change | el.exit, dtype=np.int64
     )  # one number from each entry or change to the next
-    places = [p for p in (*_local(found), *_leads(el), *_global(found, contour)) if len(p.k)]
+    places = _local(found)
+    if found.rules.look_ahead:
+        places += [*_leads(el), *_global(found, contour)]
+    places = [place for place in places if len(place.k)]
     if not places:
         return marked
     least = np.full(int(contour[-1]) + 1, np.inf)
@@ -176,6 +182,68 @@ def _leads(el: Elements) -> list[Places]:
 # --- any number of blocks apart ---------------------------------------------------------------------------------------
 
 
+def _curves(el: Elements, k: Index) -> Curves:
+    return Curves(el.start[k], el.end[k], el.centre[k], el.r[k], el.sweep[k])
+
+
 def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     """Bottlenecks, ends and straight corners."""
-    return []
+    el = found.el
+    k = np.flatnonzero(el.wall)
+    if not len(k):
+        return []
+    s, joined = el.s[k], np.concatenate([[False], contour[k[1:]] == contour[k[:-1]]])
+    walls = Walls(_curves(el, k), s[:, None] * left(el.t_in[k]), s[:, None] * left(el.t_out[k]), joined, s, contour[k])
+    return [_bottlenecks(el, k, walls), *_ends(el, k, walls)]
+
+
+def _bottlenecks(el: Elements, k: Index, walls: Walls) -> Places:
+    """Walls that face each other nearer than the tool is wide; the largest radius is half of what there is."""
+    slack = _misfit(el)
+    chords = facing(walls, 2 * el.R[k])
+    i, j = k[chords.i], k[chords.j]
+    bad = chords.length < 2 * el.R[i] - EXACT - slack[i] - slack[j]
+    i, j, width = i[bad], j[bad], chords.length[bad]
+    message = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
+    return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, message)
+
+
+def _misfit(el: Elements) -> Array:
+    """By how much the end of each arc misses its circle (n,), mm: the tolerance of programmed centres."""
+    away = np.hypot(*(el.end - el.centre).T)
+    return np.where(el.arc, np.abs(away - el.r), 0.0)
+
+
+def _ends(el: Elements, k: Index, walls: Walls) -> list[Places]:
+    """Where the tool arrives at the first wall of a contour, and where it leaves the last, other walls must be clear."""
+    slack, places = _misfit(el), []
+    last = np.append(~walls.joined[1:], True)
+    for ends, at_end in ((~walls.joined, False), (last, True)):
+        for e in np.flatnonzero(ends):  # two for a contour
+            group = np.flatnonzero(walls.group == walls.group[e])
+            group = group[group != e]
+            if not len(group):
+                continue
+            c = walls.curves.take(group)
+            P, normal = (el.end[k[e]], walls.n_out[e]) if at_end else (el.start[k[e]], walls.n_in[e])
+            R, allowed = el.R[k[e]], EXACT + slack[k[e]] + slack[k[group]]
+
+            def clear(radius: Array, which: Index, c: Curves = c, P: Array = P, normal: Array = normal) -> Array:
+                return distance(P + radius[:, None] * normal, c.take(which)) - radius
+
+            bad = np.flatnonzero(clear(np.full(len(group), R), np.arange(len(group))) < -allowed)
+            if not len(bad):
+                continue
+            largest = halved(partial(_clears, clear, bad, allowed[bad]), np.full(len(bad), R))
+            worst = int(np.argmin(largest))
+            width = R + clear(np.array([R]), bad[[worst]])
+            one = np.array([k[e]])
+            verb = "leaves" if at_end else "arrives at"
+            message = f"where the tool of radius {{R:.4g}} {verb} the contour, the element of line {{other}} is {{r:.6g}} mm away"
+            other = k[group[bad[[worst]]]]
+            places.append(Places("end", one, other, width, R - width, largest[[worst]], message))
+    return places
+
+
+def _clears(clear: Callable[[Array, Index], Array], which: Index, allowed: Array, radius: Array) -> Mask:
+    return clear(radius, which) >= -allowed

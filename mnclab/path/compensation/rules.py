@@ -24,12 +24,14 @@ class Compensation:
 
     ``approach`` "perpendicular": the entry ends, and the exit begins, square to the contour; "corner": outside, the
     first and last corners are built like any other (MNC tables 7.1 and 7.3). ``rapid``: entry and exit may run at
-    rapid. ``change``: the side may change on the way, by a straight line that leads over like an entry.
+    rapid. ``change``: the side may change on the way, by a straight line that leads over like an entry. ``look_ahead``:
+    the whole contour is looked at, else each element with its neighbours only.
     """
 
     approach: str = "perpendicular"
     rapid: bool = False
     change: bool = False
+    look_ahead: bool = False
 
 
 class Gouge(NamedTuple):
