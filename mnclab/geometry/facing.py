@@ -81,7 +81,7 @@ class _Chunks(NamedTuple):
     def opposed(self, a: Index, b: Index) -> Mask:
         """Whether a normal of chunk a (k,) can be opposite to one of chunk b."""
         most = np.minimum(self.spread[a] + self.spread[b] + 1e-6, np.pi)
-        return np.asarray(-dot(self.middle[a], self.middle[b]) >= np.cos(most))
+        return np.asarray(-dot(self.middle[a], self.middle[b]) >= np.cos(most) - 1e-9)
 
     def near(self, a: Index, b: Index, gap: float) -> Mask:
         """Whether the boxes of chunks a and b (k,) are nearer than a gap."""
@@ -174,19 +174,20 @@ def chords(walls: Walls, i: Index, j: Index) -> Chords:
     c, best, every = walls.curves, _Best(len(i)), np.arange(len(i))
     one, two = c.take(i), c.take(j)
     ends = [
-        (walls_at, curve.end if last else curve.start, last)
-        for walls_at, curve in ((i, one), (j, two))
+        (k, curve.end if last else curve.start, last, _own(walls, k, last))
+        for k, curve in ((i, one), (j, two))
         for last in (False, True)
     ]
-    for a, p, p_last in ends[:2]:
-        for b, q, q_last in ends[2:]:
+    for a, p, p_last, p_own in ends[:2]:
+        for b, q, q_last, q_own in ends[2:]:
             u = _unit(q - p)
-            best.offer(every, p, q, _in_cone(walls, a, p_last, u) & _in_cone(walls, b, q_last, -u))
+            valid = p_own & q_own & _in_cone(walls, a, p_last, u) & _in_cone(walls, b, q_last, -u)
+            best.offer(every, p, q, valid)
     for near_ends, b, curve, turned in ((ends[:2], j, two, False), (ends[2:], i, one, True)):
-        for a, p, p_last in near_ends:
+        for a, p, p_last, p_own in near_ends:
             q = foot(p, curve)
             u = _unit(q - p)
-            valid = _on(q, curve) & _in_cone(walls, a, p_last, u) & (dot(u, _normal(walls, b, q)) < 0)
+            valid = p_own & _on(q, curve) & _in_cone(walls, a, p_last, u) & (dot(u, _normal(walls, b, q)) < 0)
             best.offer(every, *((q, p) if turned else (p, q)), valid)
     _between_curves(walls, i, j, best)
     k = np.flatnonzero(np.isfinite(best.length))
@@ -216,6 +217,14 @@ def _between_curves(walls: Walls, i: Index, j: Index, best: _Best) -> None:
             p = arc.centre + arc.r[:, None] * u
             q = other.centre + np.where(both, -other.r, other.r)[:, None] * u
             best.offer(k, *((q, p) if turned else (p, q)), clear & _on(p, arc) & _on(q, other))
+
+
+def _own(walls: Walls, k: Index, last: bool) -> Mask:
+    """Whether the vertex at the start or the end belongs to walls k: a vertex between two is that of the second."""
+    if not last:
+        return np.ones(len(k), dtype=bool)
+    after = np.minimum(k + 1, len(walls.s) - 1)
+    return np.asarray(~(walls.joined[after] & (after > k)))
 
 
 def _unit(v: Array) -> Array:

@@ -25,7 +25,9 @@ from mnclab.geometry.offsets import left
 from mnclab.path.compensation.corners import corners, remaining
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.rules import Compensation, Gouge, Report
+from mnclab.path.compensation.tips import clearance, near_tips
 from mnclab.path.fault import PathFault
+from mnclab.path.kinds import Rule
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
@@ -67,9 +69,10 @@ def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, repor
     for place in places:
         np.minimum.at(least, contour[place.other], place.largest)
         marked[place.k] = True
-    order = sorted((int(k), n, m) for n, place in enumerate(places) for m, k in enumerate(place.k))
+    every = [(int(k), float(place.largest[m]), n, m) for n, place in enumerate(places) for m, k in enumerate(place.k)]
+    order = sorted({one[0]: one for one in sorted(every, reverse=True)}.values())  # of each element the narrowest
     refuse = gouge != "mark"
-    for k, n, m in order[:1] if refuse else order:
+    for k, _, n, m in order[:1] if refuse else order:
         report.gouges.append(_worded(places[n], m, k, el, path, view, float(least[contour[places[n].other[m]]])))
     if refuse:
         first = report.gouges[-1]
@@ -194,7 +197,7 @@ def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
         return []
     s, joined = el.s[k], np.concatenate([[False], contour[k[1:]] == contour[k[:-1]]])
     walls = Walls(_curves(el, k), s[:, None] * left(el.t_in[k]), s[:, None] * left(el.t_out[k]), joined, s, contour[k])
-    return [_bottlenecks(el, k, walls), *_ends(el, k, walls)]
+    return [_bottlenecks(el, k, walls), *_ends(el, k, walls), *_tips(found, contour)]
 
 
 def _bottlenecks(el: Elements, k: Index, walls: Walls) -> Places:
@@ -206,6 +209,22 @@ def _bottlenecks(el: Elements, k: Index, walls: Walls) -> Places:
     i, j, width = i[bad], j[bad], chords.length[bad]
     message = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
     return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, message)
+
+
+def _tips(found: Equidistant, contour: Index) -> list[Places]:
+    """Straight corners that reach into another wall."""
+    el, rules = found.el, found.rules
+    if not (found.rule == Rule.OUTSIDE_STRAIGHT).any():
+        return []
+    c, w = near_tips(found, contour)
+    if not len(c):
+        return []
+    lack = -clearance(el, c, w, el.R[c], rules)
+    bad = lack > EXACT + _misfit(el)[w]
+    c, w, lack = c[bad], w[bad], lack[bad]
+    largest = halved(lambda radius: clearance(el, c, w, radius, rules) >= 0, el.R[c])
+    message = "the straight corner after this element leads the tool of radius {R:.4g} into the element of line {other}"
+    return [Places("corner", c, w, el.R[c] - lack, lack, largest, message, "take a smaller tool, or G160")]
 
 
 def _misfit(el: Elements) -> Array:
@@ -220,13 +239,14 @@ def _ends(el: Elements, k: Index, walls: Walls) -> list[Places]:
     last = np.append(~walls.joined[1:], True)
     for ends, at_end in ((~walls.joined, False), (last, True)):
         for e in np.flatnonzero(ends):  # two for a contour
-            group = np.flatnonzero(walls.group == walls.group[e])
+            P, normal = (el.end[k[e]], walls.n_out[e]) if at_end else (el.start[k[e]], walls.n_in[e])
+            R = el.R[k[e]]
+            group = np.flatnonzero((walls.group == walls.group[e]) & _within(walls.curves, P + R * normal, R))
             group = group[group != e]
             if not len(group):
                 continue
             c = walls.curves.take(group)
-            P, normal = (el.end[k[e]], walls.n_out[e]) if at_end else (el.start[k[e]], walls.n_in[e])
-            R, allowed = el.R[k[e]], EXACT + slack[k[e]] + slack[k[group]]
+            allowed = EXACT + slack[k[e]] + slack[k[group]]
 
             def clear(radius: Array, which: Index, c: Curves = c, P: Array = P, normal: Array = normal) -> Array:
                 return distance(P + radius[:, None] * normal, c.take(which)) - radius
@@ -243,6 +263,16 @@ def _ends(el: Elements, k: Index, walls: Walls) -> list[Places]:
             other = k[group[bad[[worst]]]]
             places.append(Places("end", one, other, width, R - width, largest[[worst]], message))
     return places
+
+
+def _within(c: Curves, at: Array, R: float) -> Mask:
+    """Which curves may come nearer than R to a point (2,)."""
+    bulge = np.where(c.arc, 2 * np.nan_to_num(c.r), 0.0) if c.arc.any() else np.zeros(1)
+    near = np.ones(len(c.start), dtype=bool)
+    for axis in (0, 1):
+        a, b = c.start[:, axis] - at[axis], c.end[:, axis] - at[axis]
+        near &= (np.minimum(a, b) <= R + bulge) & (np.maximum(a, b) >= -R - bulge)
+    return near
 
 
 def _clears(clear: Callable[[Array, Index], Array], which: Index, allowed: Array, radius: Array) -> Mask:
