@@ -83,6 +83,22 @@ def _meet(el: Elements, c: Index, d: Index, P: Array, R: Array, s: Array) -> Arr
     return found
 
 
+def ends(el: Elements, k: Index, radius: Array, rules: Compensation) -> tuple[Array, Array, Mask]:
+    """Where the offsets of elements k (m,) begin and end (m, 2) for a radius each, and which corners stay apart (m,)."""
+    n, shift = len(el.rows), (radius * el.s[k])[:, None]
+    begin, end = el.start[k] + shift * left(el.t_in[k]), el.end[k] + shift * left(el.t_out[k])
+    apart = np.zeros(len(k), dtype=bool)
+    for corner, at_end in ((k - 1, False), (k, True)):
+        there = np.flatnonzero((corner >= 0) & (corner < n - 1))
+        found = corners(el, corner[there], rules, radius[there])
+        if at_end:
+            end[there] = found.E
+        else:
+            begin[there] = found.S
+        apart[there] |= found.apart
+    return begin, end, apart
+
+
 def remaining(el: Elements, k: Index, begin: Array, end: Array, radius: Array) -> tuple[Array, Array]:
     """What is left of elements k (m,) between their trimmed ends: mm or rad in the sense of travel (m,), and sweeps.
 

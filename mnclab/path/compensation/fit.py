@@ -7,7 +7,7 @@ outside *corners*, it must stand clear of all other walls. An *entry* (and an *e
 yet cut into the element it leads to.
 
 Growing the tool from nothing, the first place that fails is one of these; so the largest radius is the least of their
-own, each from a closed form or, for elements between two corners, from halving the interval on the exact condition.
+own, each from a closed form or, for elements between two corners, from narrowing an interval on the exact condition.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from mnclab.geometry.curves import Curves, distance
 from mnclab.geometry.facing import Walls, facing
 from mnclab.geometry.offsets import left
-from mnclab.path.compensation.corners import corners, remaining
+from mnclab.path.compensation.corners import ends, remaining
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.rules import Compensation, Gouge, Report
 from mnclab.path.compensation.tips import clearance, near_tips
@@ -56,18 +56,13 @@ def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, repor
     """Which elements (n,) cut into the contour. PathFault at the first, unless ``gouge`` is "mark"."""
     el = found.el
     marked = np.zeros(len(el.rows), dtype=bool)
-    contour = np.cumsum(
-        el.entry | el.change | el.exit, dtype=np.int64
-    )  # one number from each entry or change to the next
-    places = _local(found)
-    if found.rules.look_ahead:
-        places += [*_leads(el), *_global(found, contour)]
-    places = [place for place in places if len(place.k)]
+    # one number from each entry or change to the next
+    contour = np.cumsum(el.entry | el.change | el.exit, dtype=np.int64)
+    places = _places(found, contour)
     if not places:
         return marked
-    least = np.full(int(contour[-1]) + 1, np.inf)
+    least = _least(found, contour, places)
     for place in places:
-        np.minimum.at(least, contour[place.other], place.largest)
         marked[place.k] = True
     every = [(int(k), float(place.largest[m]), n, m) for n, place in enumerate(places) for m, k in enumerate(place.k)]
     order = sorted({one[0]: one for one in sorted(every, reverse=True)}.values())  # of each element the narrowest
@@ -78,6 +73,36 @@ def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, repor
         first = report.gouges[-1]
         raise PathFault(first.message, first.step, first.hint)
     return marked
+
+
+def _places(found: Equidistant, contour: Index) -> list[Places]:
+    places = _local(found)
+    if found.rules.look_ahead:
+        places += [*_leads(found.el), *_global(found, contour)]
+    return [place for place in places if len(place.k)]
+
+
+def _least(found: Equidistant, contour: Index, places: list[Places]) -> Array:
+    """The largest radius of each contour.
+
+    With arcs at all corners what does not fit a tool does not fit a larger one. A straight corner may become an arc for
+    a larger tool (R > AB), so there the radius found is tried, and what fails then counts too.
+    """
+    least = np.full(int(contour[-1]) + 1, np.inf)
+    while places:
+        before = least.copy()
+        for place in places:
+            np.minimum.at(least, contour[place.other], place.largest)
+        if (
+            (np.isinf(before) == np.isinf(least)).all()
+            and (least >= before - EXACT)[np.isfinite(least)].all()
+            or not (found.rule == Rule.OUTSIDE_STRAIGHT).any()
+        ):
+            break
+        el = found.el
+        found = type(found)(el._replace(R=np.minimum(el.R, least[contour])), found.rules)
+        places = _places(found, contour)
+    return least
 
 
 def _worded(place: Places, m: int, k: int, el: Elements, path: Toolpath, view: PlaneView, largest: float) -> Gouge:
@@ -115,7 +140,7 @@ def _local(found: Equidistant) -> list[Places]:
         )
     ]  # fmt: skip
     if len(short):
-        largest = halved(lambda R: _fits(el, short, R, found.rules), el.R[short])
+        largest = narrowed(lambda at, R: _fits(el, short[at], R, found.rules), el.R[short])
         per_mm = np.where(el.arc[short], el.r[short], 1.0)
         lack = -np.nan_to_num(found.left_over[short], posinf=0.0, neginf=0.0) * per_mm
         missing = np.where(lack > EXACT, lack, el.R[short] - largest)
@@ -132,29 +157,25 @@ def _local(found: Equidistant) -> list[Places]:
 
 def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
     """Whether the corners of elements k (m,) leave something of them, for a radius each."""
-    n = len(el.rows)
-    shift = (radius * el.s[k])[:, None]
-    begin, end = el.start[k] + shift * left(el.t_in[k]), el.end[k] + shift * left(el.t_out[k])
-    apart = np.zeros(len(k), dtype=bool)
-    for corner, at_end in ((k - 1, False), (k, True)):
-        there = np.flatnonzero((corner >= 0) & (corner < n - 1))
-        found = corners(el, corner[there], rules, radius[there])
-        if at_end:
-            end[there] = found.E
-        else:
-            begin[there] = found.S
-        apart[there] |= found.apart
+    begin, end, apart = ends(el, k, radius, rules)
     left_over, _ = remaining(el, k, begin, end, radius)
     return ~apart & (left_over >= 0)
 
 
-def halved(fits: Callable[[Array], Mask], radius: Array) -> Array:
-    """The largest radii (m,) below the given ones for which something fits, by halving; it fits at zero."""
-    low, high = np.zeros_like(radius), radius.copy()
-    for _ in range(64):
-        middle = (low + high) / 2
-        good = fits(middle)
-        low, high = np.where(good, middle, low), np.where(good, high, middle)
+def narrowed(fits: Callable[[Index, Array], Mask], radius: Array, parts: int = 16) -> Array:
+    """The largest radii (m,) below the given ones for which something fits, by dividing the interval again and again.
+
+    ``fits(which, radius)`` tells for the things ``which`` (n,) of the m whether they fit (n,); all fit at zero.
+    """
+    m = len(radius)
+    low, high, which = np.zeros(m), radius.copy(), np.repeat(np.arange(m), parts - 1)
+    steps = np.arange(1, parts) / parts
+    for _ in range(14):
+        width = high - low
+        tried = low[:, None] + width[:, None] * steps
+        good = fits(which, tried.ravel()).reshape(m, parts - 1)
+        first = np.where(good.all(axis=1), parts - 1, np.argmin(good, axis=1))  # the first that does not fit
+        low, high = low + width * first / parts, np.where(first < parts - 1, low + width * (first + 1) / parts, high)
         if (high - low <= 1e-13 * radius).all():
             break
     return low
@@ -222,7 +243,7 @@ def _tips(found: Equidistant, contour: Index) -> list[Places]:
     lack = -clearance(el, c, w, el.R[c], rules)
     bad = lack > EXACT + _misfit(el)[w]
     c, w, lack = c[bad], w[bad], lack[bad]
-    largest = halved(lambda radius: clearance(el, c, w, radius, rules) >= 0, el.R[c])
+    largest = narrowed(lambda at, R: clearance(el, c[at], w[at], R, rules) >= 0, el.R[c])
     message = "the straight corner after this element leads the tool of radius {R:.4g} into the element of line {other}"
     return [Places("corner", c, w, el.R[c] - lack, lack, largest, message, "take a smaller tool, or G160")]
 
@@ -237,8 +258,8 @@ def _ends(el: Elements, k: Index, walls: Walls) -> list[Places]:
     """Where the tool arrives at the first wall of a contour, and where it leaves the last, other walls must be clear."""
     slack, places = _misfit(el), []
     last = np.append(~walls.joined[1:], True)
-    for ends, at_end in ((~walls.joined, False), (last, True)):
-        for e in np.flatnonzero(ends):  # two for a contour
+    for edge, at_end in ((~walls.joined, False), (last, True)):
+        for e in np.flatnonzero(edge):  # two for a contour
             P, normal = (el.end[k[e]], walls.n_out[e]) if at_end else (el.start[k[e]], walls.n_in[e])
             R = el.R[k[e]]
             group = np.flatnonzero((walls.group == walls.group[e]) & _within(walls.curves, P + R * normal, R))
@@ -254,7 +275,7 @@ def _ends(el: Elements, k: Index, walls: Walls) -> list[Places]:
             bad = np.flatnonzero(clear(np.full(len(group), R), np.arange(len(group))) < -allowed)
             if not len(bad):
                 continue
-            largest = halved(partial(_clears, clear, bad, allowed[bad]), np.full(len(bad), R))
+            largest = narrowed(partial(_clears, clear, bad, allowed[bad]), np.full(len(bad), R))
             worst = int(np.argmin(largest))
             width = R + clear(np.array([R]), bad[[worst]])
             one = np.array([k[e]])
@@ -275,5 +296,5 @@ def _within(c: Curves, at: Array, R: float) -> Mask:
     return near
 
 
-def _clears(clear: Callable[[Array, Index], Array], which: Index, allowed: Array, radius: Array) -> Mask:
-    return clear(radius, which) >= -allowed
+def _clears(clear: Callable[[Array, Index], Array], of: Index, allowed: Array, which: Index, radius: Array) -> Mask:
+    return clear(radius, of[which]) >= -allowed[which]

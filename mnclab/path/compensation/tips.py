@@ -1,6 +1,6 @@
 """Tips: where a straight outside corner reaches farther out than the tool's radius, it may meet another wall.
 
-The tool runs from A1 to the tip I and on to A2. All other walls must stay clear of I, and their vertices of both pieces.
+All other walls must stay clear of the tip, and their vertices of the rows that lead there and on.
 """
 
 from __future__ import annotations
@@ -11,8 +11,7 @@ import numpy as np
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, distance
-from mnclab.geometry.offsets import left
-from mnclab.path.compensation.corners import corners
+from mnclab.path.compensation.corners import corners, ends, remaining
 from mnclab.path.compensation.elements import Array, Elements, Index
 from mnclab.path.compensation.rules import Compensation
 from mnclab.path.kinds import Rule
@@ -52,16 +51,12 @@ def clearance(el: Elements, c: Index, w: Index, radius: Array, rules: Compensati
     """
     at = corners(el, c, rules, radius)
     wall = Curves(el.start[w], el.end[w], el.centre[w], el.r[w], el.sweep[w])
-    least = distance(at.E, wall)
-    for k, at_end in ((c, True), (c + 1, False)):
-        t, p = (el.t_out[k], el.end[k]) if at_end else (el.t_in[k], el.start[k])
-        s = el.s[c]
-        begin = p + (radius * s)[:, None] * left(t)
-        a, b = begin - el.centre[k], at.E - el.centre[k]
-        turned = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1))
-        r = np.where(el.arc[k], np.abs(el.r[k] - s * np.sign(el.sweep[k]) * radius), np.nan)
-        piece = Curves(begin, at.E, el.centre[k], r, turned)
+    least = distance(at.E, wall)  # and no vertex of a wall comes near the rows that lead to the tip and on
+    for k in (c, c + 1):
+        begin, end, _ = ends(el, k, radius, rules)
+        r = np.where(el.arc[k], np.abs(el.r[k] - el.s[k] * np.sign(el.sweep[k]) * radius), np.nan)
+        _, sweep = remaining(el, k, begin, end, radius)
+        row = Curves(begin, end, el.centre[k], r, sweep)
         for vertex in (el.start[w], el.end[w]):
-            own = np.hypot(*(vertex - el.end[c]).T) < LEAST  # a contour that comes back to the corner
-            least = np.where(own, least, np.minimum(least, distance(vertex, piece)))
+            least = np.minimum(least, distance(vertex, row))
     return np.where(at.rule == Rule.OUTSIDE_STRAIGHT, least - radius, np.inf)
