@@ -33,8 +33,8 @@ def cross(a: Array, b: Array) -> Array:
 
 
 def dot(a: Array, b: Array) -> Array:
-    """The scalar product along the last axis."""
-    return (a * b).sum(axis=-1)
+    """The scalar product of vectors (..., 2)."""
+    return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1])
 
 
 def left(v: Array) -> Array:

@@ -44,7 +44,7 @@ def test_what_is_accepted_keeps_its_distance_and_what_is_refused_cannot(closed):
         offsets = shapely.linestrings(np.stack([ends[:-1] + radius * normal, ends[1:] + radius * normal], axis=1))
         covered = shapely.length(shapely.intersection(offsets, grown.buffer(1e-9)))
         assert (covered > 1e-7).any(), (points.tolist(), side, radius, gouge)
-    assert min(seen.values()) > 50
+    assert min(seen.values()) >= 40
 
 
 @pytest.mark.parametrize("corner", [0, 1, 2])

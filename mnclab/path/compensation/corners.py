@@ -29,32 +29,34 @@ class Corners(NamedTuple):
 def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = None) -> Corners:
     """The corners c (m,) between elements c and c + 1, for the radii of the elements or others (m,)."""
     d = c + 1
-    on = el.on[c]
-    s = np.where(on, el.s[c], el.s[d])
-    R = np.where(on, el.R[c], el.R[d]) if radius is None else radius
-    P, t1, t2 = el.end[c], el.t_out[c], el.t_in[d]
+    run = len(c) > 1 and bool((c[1:] - c[:-1] == 1).all())  # corners that follow each other are not gathered but cut out
+    b, a = (slice(c[0], c[-1] + 1), slice(d[0], d[-1] + 1)) if run else (c, d)  # before, after
+    on = el.on[b]
+    s = np.where(on, el.s[b], el.s[a])
+    R = np.where(on, el.R[b], el.R[a]) if radius is None else radius
+    P, t1, t2 = el.end[b], el.t_out[b], el.t_in[a]
     shift = (R * s)[:, None]
-    A1, A2 = P + shift * left(t1), P + shift * left(t2)
+    E, S = P + shift * left(t1), P + shift * left(t2)  # A1 and A2
     across, along = cross(t1, t2), dot(t1, t2)
-    turn = np.arctan2(across, along)
-    reversal = np.abs(np.abs(turn) - np.pi) < TANGENT
-    turn = np.where(reversal, -s * np.pi, turn)  # straight back: an outside corner of half a turn
-    bent = on & (np.abs(turn) >= TANGENT)
-    out = s * turn < 0
-    lead, leave, change = el.lead[c], el.exit[d], el.change[d]
-
-    E, S = np.where(on[:, None], A1, P), A2
+    small = np.abs(across) < np.sin(TANGENT)
+    reversal = small & (along < 0)  # straight back: an outside corner of half a turn
+    bent = on & ~(small & (along > 0))
+    out = reversal | (s * across < 0)
+    lead, leave, change = el.lead[b], el.exit[a], el.change[a]
     rule = np.where(on, Rule.SIDE, Rule.NONE).astype(np.uint8)
-    S = np.where((~on | change)[:, None], np.where(on[:, None], A1, P), S)
     outside = bent & out & ~change
     if rules.approach == "perpendicular":
         outside &= ~lead & ~leave
-    square = on & ~outside & ~change  # an entry leads straight to A2, an exit starts at A1
-    E = np.where((square & lead)[:, None], A2, E)
-    S = np.where((square & leave)[:, None], A1, S)
+    k = np.flatnonzero(~on | change | lead | leave)
+    if len(k):  # a change of side begins at A1; inside, an entry leads straight to A2 and an exit starts at A1
+        square = ~outside[k] & on[k] & ~change[k]
+        stays, to_first = k[~on[k]], k[on[k] & change[k] | square & leave[k]]
+        E[k[square & lead[k]]] = S[k[square & lead[k]]]
+        E[stays] = S[stays] = P[stays]
+        S[to_first] = P[to_first] + shift[to_first] * left(t1[to_first])
 
-    corner = el.corner[d]
-    straight = outside & ~reversal & (corner != ROUND) & ((corner == STRAIGHT) | (np.abs(turn) <= ACUTE_TURN))
+    corner = el.corner[a]
+    straight = outside & ~reversal & (corner != ROUND) & ((corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN)))
     inside = bent & ~out & ~change & ~lead & ~leave
     apart = np.zeros(len(c), dtype=bool)
     for which, code in ((straight, Rule.OUTSIDE_STRAIGHT), (inside, Rule.INSIDE)):
@@ -66,17 +68,19 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
             rule[k[met]] = code
             apart[k[~met]] = code == Rule.INSIDE
             straight[k[~met]] = False
-    rule[el.entry[c]], rule[el.change[c]] = Rule.ENTRY, Rule.CHANGE
+    rule[el.entry[b]], rule[el.change[b]] = Rule.ENTRY, Rule.CHANGE
+    turn = np.zeros(len(c))
+    k = np.flatnonzero(outside | apart)
+    turn[k] = np.where(reversal[k], -s[k] * np.pi, np.arctan2(across[k], along[k]))
     return Corners(E, S, (outside & ~straight) | apart, turn, rule, apart)
 
 
 def _meet(el: Elements, c: Index, d: Index, P: Array, R: Array, s: Array) -> Array:
     """Where the offsets before and after corners P meet: P + R (n1 + n2) / (1 + n1 . n2) between lines."""
-    lines = ~(el.arc[c] | el.arc[d])
     t1, t2 = el.t_out[c], el.t_in[d]
     with np.errstate(divide="ignore", invalid="ignore"):
         found = P + (R * s / (1 + dot(t1, t2)))[:, None] * left(t1 + t2)
-    k = np.flatnonzero(~lines)
+    k = np.flatnonzero(el.arc[c] | el.arc[d])
     if len(k):
         first, second = el.offset(c[k], True, R[k], s[k]), el.offset(d[k], False, R[k], s[k])
         found[k] = meet(first, second, P[k])

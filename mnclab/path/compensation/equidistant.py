@@ -6,13 +6,15 @@ import numpy as np
 
 from mnclab.geometry.offsets import left
 from mnclab.path.compensation.corners import corners, remaining
-from mnclab.path.compensation.elements import Array, Elements, Mask
+from mnclab.path.compensation.elements import Elements, Mask
 from mnclab.path.compensation.rows import tool_centre_path
-from mnclab.path.compensation.rules import ROUND, SPIKE_TURN, Compensation, Report
+from mnclab.path.compensation.rules import SPIKE_TURN, Compensation, Report
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind, Rule
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
+
+PIECE = 1 << 14  # corners worked on at once
 
 
 def apply(
@@ -84,10 +86,12 @@ class Equidistant:
         self.rule = np.where(el.on, Rule.SIDE, Rule.NONE).astype(np.uint8)
         self.insert, self.turn = np.zeros(n, dtype=bool), np.zeros(n)
         self.apart = np.zeros(n, dtype=bool)  # the corner before the element is closed by force
-        if n > 1:
-            found = corners(el, np.arange(n - 1), rules)
-            self.end[:-1], self.begin[1:], self.rule[:-1] = found.E, found.S, found.rule
-            self.insert[1:], self.turn[1:], self.apart[1:] = found.insert, found.turn, found.apart
+        for first in range(0, n - 1, PIECE):  # a piece at a time stays in the cache
+            last = min(first + PIECE, n - 1)
+            found = corners(el, np.arange(first, last), rules)
+            here, after = slice(first, last), slice(first + 1, last + 1)
+            self.end[here], self.begin[after], self.rule[here] = found.E, found.S, found.rule
+            self.insert[after], self.turn[after], self.apart[after] = found.insert, found.turn, found.apart
         self.rule[el.exit & ~el.on] = Rule.EXIT
         if el.on[-1]:  # a contour that ends without an exit: the tool stands square to its end
             self.end[-1] = el.end[-1] + el.R[-1] * el.s[-1] * left(el.t_out[-1])
@@ -117,14 +121,3 @@ class Equidistant:
                     "G162 makes an arc at acute corners",
                 )
             )
-
-
-def straight_corners(el: Elements) -> bool:
-    """Whether any corner may be joined otherwise than by an arc."""
-    return bool((el.corner != ROUND).any())
-
-
-def offset_end(el: Elements, k: int, at_end: bool, radius: float) -> Array:
-    """The tool centre (2,) at the end or the start of element k."""
-    t, p = (el.t_out[k], el.end[k]) if at_end else (el.t_in[k], el.start[k])
-    return np.asarray(p + radius * el.s[k] * left(t))

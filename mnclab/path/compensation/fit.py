@@ -206,26 +206,28 @@ def _leads(el: Elements) -> list[Places]:
 # --- any number of blocks apart ---------------------------------------------------------------------------------------
 
 
-def _curves(el: Elements, k: Index) -> Curves:
-    return Curves(el.start[k], el.end[k], el.centre[k], el.r[k], el.sweep[k])
-
-
 def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     """Bottlenecks, ends and straight corners."""
     el = found.el
     k = np.flatnonzero(el.wall)
     if not len(k):
         return []
-    s, joined = el.s[k], np.concatenate([[False], contour[k[1:]] == contour[k[:-1]]])
-    walls = Walls(_curves(el, k), s[:, None] * left(el.t_in[k]), s[:, None] * left(el.t_out[k]), joined, s, contour[k])
+    run = slice(int(k[0]), int(k[-1]) + 1) if k[-1] - k[0] + 1 == len(k) else k  # without a copy where possible
+    s, group = el.s[run], contour[run]
+    joined = np.concatenate([[False], group[1:] == group[:-1]])
+    n_in = s[:, None] * left(el.t_in[run])
+    n_out = s[:, None] * left(el.t_out[run]) if el.arc.any() else n_in
+    curves = Curves(el.start[run], el.end[run], el.centre[run], el.r[run], el.sweep[run])
+    walls = Walls(curves, n_in, n_out, joined, s, group)
     return [_bottlenecks(el, k, walls), *_ends(el, k, walls), *_tips(found, contour)]
 
 
 def _bottlenecks(el: Elements, k: Index, walls: Walls) -> Places:
     """Walls that face each other nearer than the tool is wide; the largest radius is half of what there is."""
-    slack = _misfit(el)
     chords = facing(walls, 2 * el.R[k])
-    i, j = k[chords.i], k[chords.j]
+    if not len(chords.i):
+        return Places("bottleneck", k[:0], k[:0], el.R[:0], el.R[:0], el.R[:0], "")
+    i, j, slack = k[chords.i], k[chords.j], _misfit(el)
     bad = chords.length < 2 * el.R[i] - EXACT - slack[i] - slack[j]
     i, j, width = i[bad], j[bad], chords.length[bad]
     message = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
@@ -250,8 +252,10 @@ def _tips(found: Equidistant, contour: Index) -> list[Places]:
 
 def _misfit(el: Elements) -> Array:
     """By how much the end of each arc misses its circle (n,), mm: the tolerance of programmed centres."""
-    away = np.hypot(*(el.end - el.centre).T)
-    return np.where(el.arc, np.abs(away - el.r), 0.0)
+    slack = np.zeros(len(el.rows))
+    k = np.flatnonzero(el.arc)
+    slack[k] = np.abs(np.hypot(*(el.end[k] - el.centre[k]).T) - el.r[k])
+    return slack
 
 
 def _ends(el: Elements, k: Index, walls: Walls) -> list[Places]:
