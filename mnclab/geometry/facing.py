@@ -28,6 +28,7 @@ Mask = NDArray[np.bool_]
 
 EXACT = 1e-9  # mm, and rad between a chord and a normal
 COARSE, FINE = 64, 8  # walls in a chunk
+PIECE = 1 << 14  # walls summed up at once
 BATCH = 1 << 16  # pairs of walls worked on at once
 
 
@@ -54,9 +55,12 @@ class Chords(NamedTuple):
     length: Array
 
 
-def facing(walls: Walls, width: Array) -> Chords:
-    """The shortest chord of every pair of walls that is shorter than ``width`` (n,) mm, the same within a group."""
-    found = [chords(walls, i, j) for i, j in _pairs(walls, width)]
+def facing(walls: Walls, width: Array, coarse: Chunks) -> Chords:
+    """The shortest chord of every pair of walls that is shorter than ``width`` (n,) mm, the same within a group.
+
+    ``coarse`` are their :func:`chunks`.
+    """
+    found = [chords(walls, i, j) for i, j in _pairs(walls, width, coarse)]
     if not found:
         none = np.zeros(0, dtype=np.int64)
         return Chords(none, none, np.empty((0, 2)), np.empty((0, 2)), np.empty(0))
@@ -70,7 +74,7 @@ def facing(walls: Walls, width: Array) -> Chords:
 # --- pairs worth a look -----------------------------------------------------------------------------------------------
 
 
-class _Chunks(NamedTuple):
+class Chunks(NamedTuple):
     """Boxes (m, 2) of chunks of walls, and cones of their normals: middle (m, 2) and half angle (m,) rad."""
 
     low: Array
@@ -88,47 +92,66 @@ class _Chunks(NamedTuple):
         return np.asarray(((self.low[a] - gap <= self.high[b]) & (self.low[b] - gap <= self.high[a])).all(axis=1))
 
 
-def _chunks(walls: Walls, size: int) -> _Chunks:
+def chunks(walls: Walls, size: int = COARSE) -> Chunks:
     """Chunks of ``size`` walls; the last may be shorter."""
-    c, n = walls.curves, len(walls.s)
-    at = np.arange(0, n, size)
-    arcs = bool(c.arc.any())
-    low, high = np.minimum(c.start, c.end), np.maximum(c.start, c.end)
-    if arcs:
-        k = np.flatnonzero(c.arc)
-        turned = np.abs(c.sweep[k])
-        bulge = (c.r[k] * np.where(turned < np.pi, 1 - np.cos(np.minimum(turned, np.pi) / 2), 2.0))[:, None]
-        low[k] -= bulge
-        high[k] += bulge
-    total = np.add.reduceat(walls.n_in, at)
-    if arcs:
-        total += np.add.reduceat(walls.n_out, at)
+    n = len(walls.s)
+    step = size * max(1, PIECE // size)  # a piece at a time stays in the cache
+    pieces = [_chunks(walls, k, min(k + step, n), size) for k in range(0, n, step)]
+    if len(pieces) == 1:
+        return pieces[0]
+    return Chunks(*(np.concatenate(columns) for columns in zip(*pieces, strict=True)))
+
+
+def _chunks(walls: Walls, begin: int, end: int, size: int) -> Chunks:
+    piece, n = slice(begin, end), len(walls.s)
+    c, n_in = walls.curves, walls.n_in[piece]
+    arc = c.arc[piece]
+    at = np.arange(0, end - begin, size)
+    low, high = np.empty((len(at), 2)), np.empty((len(at), 2))
+    k = np.flatnonzero(arc)
+    bulge = np.zeros(end - begin)
+    if len(k):
+        turned, r = np.abs(c.sweep[piece][k]), c.r[piece][k]
+        bulge[k] = r * np.where(turned < np.pi, 1 - np.cos(np.minimum(turned, np.pi) / 2), 2.0)
+    for axis in (0, 1):
+        one, two = c.start[piece, axis], c.end[piece, axis]
+        least, most = np.minimum(one, two), np.maximum(one, two)
+        if len(k):
+            least, most = least - bulge, most + bulge
+        low[:, axis], high[:, axis] = np.minimum.reduceat(least, at), np.maximum.reduceat(most, at)
+    total = np.stack([np.add.reduceat(n_in[:, 0], at), np.add.reduceat(n_in[:, 1], at)], axis=1)
     length = np.hypot(total[:, 0], total[:, 1])
     middle = total / np.where(length > 0, length, 1.0)[:, None]
-    each = np.repeat(middle, np.diff(np.append(at, n)), axis=0)
-    least = dot(walls.n_in, each)
-    if arcs:
-        least = np.minimum(least, dot(walls.n_out, each))
-        least[np.abs(c.sweep) > np.pi / 2] = -1.0
+    each = np.repeat(middle, np.diff(np.append(at, end - begin)), axis=0)
+    least = dot(n_in, each)
+    if len(k):
+        least = np.minimum(least, dot(walls.n_out[piece], each))
+        least[np.abs(c.sweep[piece]) > np.pi / 2] = -1.0
     least = np.minimum.reduceat(least, at)
     # the vertices at both ends belong to the chunk, with the normals beyond them
-    least = np.minimum(least, dot(walls.n_out[np.maximum(at - 1, 0)], middle))
-    least = np.minimum(least, dot(walls.n_in[np.minimum(at + size, n - 1)], middle))
+    least = np.minimum(least, dot(walls.n_out[np.maximum(begin + at - 1, 0)], middle))
+    least = np.minimum(least, dot(walls.n_in[np.minimum(begin + at + size, n - 1)], middle))
     spread = np.where((least > 0) & (length > 0), np.arccos(np.clip(least, -1.0, 1.0)), np.pi)
-    return _Chunks(np.minimum.reduceat(low, at), np.maximum.reduceat(high, at), middle, spread)
+    return Chunks(low, high, middle, spread)
 
 
-def _pairs(walls: Walls, width: Array) -> Iterator[tuple[Index, Index]]:
+def around(coarse: Chunks, at: Array, reach: float, n: int) -> Index:
+    """The walls of all n in chunks whose boxes are nearer than ``reach`` to a point (2,)."""
+    there = ((coarse.low - reach <= at) & (coarse.high + reach >= at)).all(axis=1)
+    k = (np.flatnonzero(there)[:, None] * COARSE + np.arange(COARSE)).ravel()
+    return k[k < n]
+
+
+def _pairs(walls: Walls, width: Array, coarse: Chunks) -> Iterator[tuple[Index, Index]]:
     """Pairs i < j of walls that may face each other, in batches."""
     n, gap = len(walls.s), float(width.max(initial=0.0))
-    coarse = _chunks(walls, COARSE)
-    fine: _Chunks | None = None
+    fine: Chunks | None = None
     itself = np.flatnonzero(coarse.spread > np.pi / 2 - 1e-3)
     for a, b in _batches(near(coarse.low, coarse.high, gap), (itself, itself)):
         opposed = coarse.opposed(a, b)
         if not opposed.any():
             continue
-        fine = _chunks(walls, FINE) if fine is None else fine
+        fine = chunks(walls, FINE) if fine is None else fine
         for c, d in _inside(a[opposed], b[opposed], COARSE // FINE, len(fine.spread)):
             keep = fine.near(c, d, gap) & fine.opposed(c, d)
             for i, j in _inside(c[keep], d[keep], FINE, n):

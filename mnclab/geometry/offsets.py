@@ -42,6 +42,14 @@ def left(v: Array) -> Array:
     return np.stack([-v[..., 1], v[..., 0]], axis=-1)
 
 
+def beside(p: Array, t: Array, shift: Array) -> Array:
+    """Points p (n, 2), or one (1, 2), moved by ``shift`` (n,) along the left normals of vectors t (n, 2)."""
+    moved = np.empty(t.shape)
+    np.subtract(p[:, 0], shift * t[:, 1], out=moved[:, 0])
+    np.add(p[:, 1], shift * t[:, 0], out=moved[:, 1])
+    return moved
+
+
 def meet(first: Element, second: Element, near: Array) -> Array:
     """The common point (n, 2) of two elements that lies nearer to ``near`` (n, 2); nan where there is none."""
     found = np.full(near.shape, np.nan)

@@ -25,6 +25,9 @@ def basis(axis: Array) -> Array:
     return np.stack([first, np.cross(axis, first), axis], axis=-2)
 
 
+PIECE = 1 << 14  # rows worked on at once
+
+
 class PlaneView:
     """Rows of a path in the coordinates (u, v, w) of their planes."""
 
@@ -34,12 +37,17 @@ class PlaneView:
         self.flat = len(self.basis) == 1 and bool((self.basis[0] == np.eye(3)).all())
         self.start, self.end = self.to_plane(path.start), self.to_plane(path.end)
         self.arc = path.kind == Kind.ARC
-        self.sweep = path.sweep.copy()
-        travel = self.end[:, :2] - self.start[:, :2]
-        length = np.hypot(travel[:, 0], travel[:, 1])
-        self.moves = path.is_motion & (self.arc | (length > 1e-9))
-        line = travel / np.where(length > 0, length, 1.0)[:, None]
-        self.radius = np.full(len(path), np.nan)
+        self.sweep = path.sweep
+        n = len(path)
+        self.moves, line = np.empty(n, dtype=bool), np.empty((n, 2))
+        for first in range(0, n, PIECE):  # a piece at a time stays in the cache
+            piece = slice(first, first + PIECE)
+            travel = self.end[piece, :2] - self.start[piece, :2]
+            length = np.hypot(travel[:, 0], travel[:, 1])
+            self.moves[piece] = length > 1e-9
+            np.divide(travel, np.where(length > 0, length, 1.0)[:, None], out=line[piece])
+        self.moves = path.is_motion & (self.arc | self.moves)
+        self.radius = np.broadcast_to(np.nan, (n,))
         self.tangent_start, self.tangent_end = line, line
         if not self.arc.any():
             self.centre = np.broadcast_to(np.array([np.nan, np.nan]), (len(path), 2))

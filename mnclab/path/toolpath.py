@@ -176,7 +176,7 @@ class Toolpath:
     @property
     def is_motion(self) -> NDArray[np.bool_]:
         """Which rows move the tool (n,)."""
-        return np.isin(self.kind, MOTION_KINDS)
+        return np.asarray(self.kind <= max(MOTION_KINDS))
 
     @property
     def motion(self) -> Toolpath:

@@ -82,23 +82,30 @@ class Equidistant:
     def __init__(self, el: Elements, rules: Compensation) -> None:
         self.el, self.rules = el, rules
         n = len(el.rows)
-        self.begin, self.end = el.start.copy(), el.end.copy()
-        self.rule = np.where(el.on, Rule.SIDE, Rule.NONE).astype(np.uint8)
-        self.insert, self.turn = np.zeros(n, dtype=bool), np.zeros(n)
-        self.apart = np.zeros(n, dtype=bool)  # the corner before the element is closed by force
+        self.begin, self.end = np.empty((n, 2)), np.empty((n, 2))
+        self.begin[0], self.end[-1] = el.start[0], el.end[-1]
+        self.rule = np.where(el.on, np.uint8(Rule.SIDE), np.uint8(Rule.NONE))
+        self.insert, self.apart = np.zeros(n, dtype=bool), np.zeros(n, dtype=bool)  # apart: closed by force
+        self.turn, self.left_over, self.sweep = np.zeros(n), np.empty(n), np.empty(n)
         for first in range(0, n - 1, PIECE):  # a piece at a time stays in the cache
             last = min(first + PIECE, n - 1)
             found = corners(el, np.arange(first, last), rules)
             here, after = slice(first, last), slice(first + 1, last + 1)
             self.end[here], self.begin[after], self.rule[here] = found.E, found.S, found.rule
             self.insert[after], self.turn[after], self.apart[after] = found.insert, found.turn, found.apart
+            self._remain(here)
         self.rule[el.exit & ~el.on] = Rule.EXIT
         if el.on[-1]:  # a contour that ends without an exit: the tool stands square to its end
             self.end[-1] = el.end[-1] + el.R[-1] * el.s[-1] * left(el.t_out[-1])
             lead = Rule.ENTRY if el.entry[-1] else Rule.CHANGE if el.change[-1] else Rule.SIDE
             self.rule[-1] = lead
-        self.left_over, self.sweep = remaining(el, np.arange(n), self.begin, self.end, el.R)
-        self.sweep[~el.wall] = el.sweep[~el.wall]
+        self._remain(slice(n - 1, n))
+        free = np.flatnonzero(~el.wall)
+        self.sweep[free] = el.sweep[free]
+
+    def _remain(self, k: slice) -> None:
+        found = remaining(self.el, k, self.begin[k], self.end[k], self.el.R[k])
+        self.left_over[k], self.sweep[k] = found
 
     def check(self, path: Toolpath, view: PlaneView, gouge: str, report: Report) -> Mask:
         """Which elements (n,) cut into the contour; PathFault at the first of them unless they are to be marked."""

@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.curves import Curves, distance
-from mnclab.geometry.facing import Walls, facing
-from mnclab.geometry.offsets import left
+from mnclab.geometry.facing import Chunks, Walls, around, chunks, facing
+from mnclab.geometry.offsets import beside
 from mnclab.path.compensation.corners import ends, remaining
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.rules import Compensation, Gouge, Report
@@ -215,16 +215,17 @@ def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     run = slice(int(k[0]), int(k[-1]) + 1) if k[-1] - k[0] + 1 == len(k) else k  # without a copy where possible
     s, group = el.s[run], contour[run]
     joined = np.concatenate([[False], group[1:] == group[:-1]])
-    n_in = s[:, None] * left(el.t_in[run])
-    n_out = s[:, None] * left(el.t_out[run]) if el.arc.any() else n_in
+    n_in = beside(np.zeros((1, 2)), el.t_in[run], s)
+    n_out = beside(np.zeros((1, 2)), el.t_out[run], s) if el.arc.any() else n_in
     curves = Curves(el.start[run], el.end[run], el.centre[run], el.r[run], el.sweep[run])
     walls = Walls(curves, n_in, n_out, joined, s, group)
-    return [_bottlenecks(el, k, walls), *_ends(el, k, walls), *_tips(found, contour)]
+    coarse = chunks(walls)
+    return [_bottlenecks(el, k, walls, coarse), *_ends(el, k, walls, coarse), *_tips(found, contour)]
 
 
-def _bottlenecks(el: Elements, k: Index, walls: Walls) -> Places:
+def _bottlenecks(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> Places:
     """Walls that face each other nearer than the tool is wide; the largest radius is half of what there is."""
-    chords = facing(walls, 2 * el.R[k])
+    chords = facing(walls, 2 * el.R[k], coarse)
     if not len(chords.i):
         return Places("bottleneck", k[:0], k[:0], el.R[:0], el.R[:0], el.R[:0], "")
     i, j, slack = k[chords.i], k[chords.j], _misfit(el)
@@ -258,7 +259,7 @@ def _misfit(el: Elements) -> Array:
     return slack
 
 
-def _ends(el: Elements, k: Index, walls: Walls) -> list[Places]:
+def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
     """Where the tool arrives at the first wall of a contour, and where it leaves the last, other walls must be clear."""
     slack, places = _misfit(el), []
     last = np.append(~walls.joined[1:], True)
@@ -266,8 +267,8 @@ def _ends(el: Elements, k: Index, walls: Walls) -> list[Places]:
         for e in np.flatnonzero(edge):  # two for a contour
             P, normal = (el.end[k[e]], walls.n_out[e]) if at_end else (el.start[k[e]], walls.n_in[e])
             R = el.R[k[e]]
-            group = np.flatnonzero((walls.group == walls.group[e]) & _within(walls.curves, P + R * normal, R))
-            group = group[group != e]
+            group = around(coarse, P + R * normal, R, len(k))
+            group = group[(walls.group[group] == walls.group[e]) & (group != e)]
             if not len(group):
                 continue
             c = walls.curves.take(group)
@@ -288,16 +289,6 @@ def _ends(el: Elements, k: Index, walls: Walls) -> list[Places]:
             other = k[group[bad[[worst]]]]
             places.append(Places("end", one, other, width, R - width, largest[[worst]], message))
     return places
-
-
-def _within(c: Curves, at: Array, R: float) -> Mask:
-    """Which curves may come nearer than R to a point (2,)."""
-    bulge = np.where(c.arc, 2 * np.nan_to_num(c.r), 0.0) if c.arc.any() else np.zeros(1)
-    near = np.ones(len(c.start), dtype=bool)
-    for axis in (0, 1):
-        a, b = c.start[:, axis] - at[axis], c.end[:, axis] - at[axis]
-        near &= (np.minimum(a, b) <= R + bulge) & (np.maximum(a, b) >= -R - bulge)
-    return near
 
 
 def _clears(clear: Callable[[Array, Index], Array], of: Index, allowed: Array, which: Index, radius: Array) -> Mask:
