@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path import compensation, corners
+from mnclab.path import compensation, corners, rapids
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import join
 from mnclab.path.toolpath import Toolpath, concatenate
@@ -55,8 +55,9 @@ def settle(m: Machine, unfinished: bool = False) -> None:
 
 
 def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.Report | None = None) -> Toolpath:
-    turned = corners.apply(piece, unfinished)
-    return compensation.apply(turned, m.control.compensation, unfinished, m.settings.get("gouge", "refuse"), report)
+    turned, gouge = corners.apply(piece, unfinished), str(m.settings.get("gouge", "refuse"))
+    path = compensation.apply(turned, m.control.compensation, unfinished, gouge, report)
+    return rapids.broken(path, m.setup.limits.rapid) if m.settings.get("rapid_path") == "broken" else path
 
 
 def _before(m: Machine, piece: Toolpath) -> Toolpath:
@@ -92,8 +93,10 @@ def paths(m: Machine) -> tuple[Toolpath, Toolpath]:
 def _shown(m: Machine, path: Toolpath) -> Toolpath:
     """A path relative to the origin, with the labels and joints known at the end."""
     origin = np.array(m.origin or (0.0, 0.0, 0.0))
-    if origin.any():
-        path = path.replace(start=path.start - origin, end=path.end - origin, centre=path.centre - origin)
+    if origin.any() and len(path):
+        vertices = np.concatenate([path.start[:1], path.end]) - origin
+        centre = path.centre if path.centre.strides[0] == 0 else path.centre - origin
+        path = path.replace(start=vertices[:-1], end=vertices[1:], centre=centre)
     recorder = m.recorder
     return path.annotated(
         labels=tuple(recorder.labels), joints=tuple(recorder.joints), origin=tuple(origin), lathe=m.control.lathe

@@ -14,20 +14,22 @@ from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, m
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
-from mnclab.machine.setup import Setting
+from mnclab.machine.settings import Setting
 from mnclab.path.compensation import Compensation
 
 #: Order inside a block: M functions that act at its start, the statement, calls, M functions that act at its end.
 PHASES = ("start", "motion", "call", "end", "last")
 
-GOUGE = "where the tool does not fit: refuse, or mark: cut anyway, mark the rows and warn"
 SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
-    Setting("gouge", "refuse", GOUGE, "", ("refuse", "mark")),
+    Setting(
+        "gouge", "refuse", "what happens where a compensated tool does not fit", "",
+        {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
+    ),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
-)
+)  # fmt: skip
 
 FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
