@@ -33,6 +33,18 @@ def contour(points, side, radius, corner=0):
     return Toolpath.chain(np.column_stack([way, np.zeros(n + 1)]), columns)
 
 
+def joined(paths):
+    """One path of many contours, with rapids between them."""
+    vertices, columns = [paths[0].start[:1]], {name: [] for name in ("kind", "side", "radius", "corner_rule")}
+    for path in paths:
+        rapid = np.zeros(1)
+        for name, found in columns.items():
+            found += [rapid.astype(getattr(path, name).dtype), getattr(path, name)]
+        vertices += [path.start[:1], path.end]
+    columns = {name: np.concatenate(found) for name, found in columns.items()}
+    return Toolpath.chain(np.concatenate(vertices), columns | {"step": np.arange(len(columns["kind"]))})
+
+
 def compensated(path):
     """The tool-centre path and None, or None and what does not fit."""
     report = Report()
@@ -71,4 +83,4 @@ def shape(rng):
 @pytest.fixture
 def closed():
     """The functions above."""
-    return SimpleNamespace(contour=contour, compensated=compensated, body=body, shape=shape)
+    return SimpleNamespace(contour=contour, joined=joined, compensated=compensated, body=body, shape=shape)
