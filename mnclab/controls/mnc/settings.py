@@ -89,6 +89,10 @@ COORDINATES = (
 
 TECHNOLOGY = (
     Setting(
+        "gouge", "refuse", "what happens where a compensated tool does not fit", "MNC-CRC-GOUGE",
+        {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
+    ),
+    Setting(
         "feed_mode_switch", "kept", "the feed when G94 and G95 change", "MNC-G95-SWITCH",
         {
             "kept": "the number of F stays and is read anew",

@@ -263,6 +263,19 @@ def test_rapids_of_axes_that_do_not_wait():
 # --- one declaration ---------------------------------------------------------------------------------------------------
 
 
+def test_gouge():
+    """A groove 3 mm wide for a tool of radius 2: its floor is lost, so the tool would turn back by 1 mm."""
+    groove = "T1 G0 X-9|G41 G1 X0 F60|X10|Y-9|X13|Y0|X20|G40 X30"
+    refused, marked = (run(groove, {"gouge": value}) for value in ("refuse", "mark"))
+    assert [(alarm.span.line, alarm.severity) for alarm in refused.alarms] == [(4, "alarm")]
+    assert [gouge.largest for gouge in refused.gouges] == [1.5] and refused.toolpath.line.max() == 2
+    assert marked.ok and {alarm.severity for alarm in marked.alarms} == {"warning"}
+    assert set(marked.toolpath.line[marked.toolpath.gouge].tolist()) >= {4, 5}
+    floor = marked.toolpath[marked.toolpath.line == 5]
+    assert floor.start[0, :2].tolist() == [12, -7] and floor.end[0, :2].tolist() == [11, -7]
+    assert {gouge.largest for gouge in marked.gouges} == {1.5}
+
+
 def test_every_setting_is_tested_here_or_with_its_cycle():
     text = open(__file__, encoding="utf-8").read()
     for setting in SETTINGS.values():
