@@ -15,6 +15,7 @@ from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
 from mnclab.machine.setup import Setting
 from mnclab.path.compensation import Compensation
+from mnclab.path.limits import RAPIDS
 
 #: Order inside a block (adopted reading MNC-BLOCK-ORDER).
 PHASES = (
@@ -26,6 +27,7 @@ SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "1.5"),
     Setting("arc_tolerance", 0.01, "mm between the radii at start and end of an arc", "MNC-ARC-TOL"),
     Setting("peck_clearance", 1.0, "mm above the last depth to which G83 returns at rapid", "MNC-G83-CLEARANCE"),
+    Setting("rapid_motion", "axes", "how a rapid goes: axis by axis, or along the line", "3.1", tuple(RAPIDS)),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )
 
