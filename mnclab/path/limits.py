@@ -28,7 +28,7 @@ RAPIDS = {
 class Limits:
     """Per axis, or one number for all: ``rapid`` mm/min, ``acceleration`` mm/s², ``jerk`` mm/s³ (None: no limit).
 
-    ``rapid`` is the greatest speed of an axis, at feed too. ``corner`` (:data:`CORNERS`) says how fast a corner is
+    ``rapid`` is the greatest speed of an axis, at feed too. ``corner_speed`` (:data:`CORNERS`) says how fast a corner is
     taken, ``corner_tolerance`` mm how far it may be cut (0 stops wherever an axis would jump), ``corner_jump`` mm/min by
     how much the speed of an axis may jump under "jump". ``rapid_motion`` (:data:`RAPIDS`) is how a rapid goes, None: as
     the control has it. ``spindle`` is the greatest speed, rev/min; ``spindle_acceleration`` rev/min in a second, None: at
@@ -43,7 +43,7 @@ class Limits:
     jerk: PerAxis | None = None
     corner_tolerance: float = 0.0
     travel: tuple[tuple[float, float], ...] | None = None
-    corner: str = "tolerance"
+    corner_speed: str = "tolerance"
     corner_jump: PerAxis = 0.0
     rapid_motion: str | None = None
     spindle: float = math.inf
@@ -56,7 +56,7 @@ class Limits:
                 self._check(name, above=True)
         for name in ("corner_tolerance", "corner_jump", "tool_change"):
             self._check(name, above=False)
-        for name, known in (("corner", (*CORNERS,)), ("rapid_motion", (*RAPIDS, None))):
+        for name, known in (("corner_speed", (*CORNERS,)), ("rapid_motion", (*RAPIDS, None))):
             if getattr(self, name) not in known:
                 names = ", ".join(each for each in known if each)
                 raise Alarm(f"limit {name} must be one of {names}, got {getattr(self, name)!r}")

@@ -65,8 +65,11 @@ CORNER = ((0, 0, 0), (100, 0, 0), (100, 100, 0))
         # |Δu| = sqrt 2, max |Δu_k| / a_k = 1/1000: v² = 8 · 0.01 / (sqrt 2 / 1000)
         (Limits(corner_tolerance=0.01), math.sqrt(8 * 0.01 * 1000 / math.sqrt(2))),
         # legs at 90°: sin 45° = 0.70711, v² = 1000 · 0.01 · 0.70711 / (1 - 0.70711)
-        (Limits(corner_tolerance=0.01, corner="deviation"), math.sqrt(10 * math.sqrt(0.5) / (1 - math.sqrt(0.5)))),
-        (Limits(corner="jump", corner_jump=(300, 600, 0)), 5.0),
+        (
+            Limits(corner_tolerance=0.01, corner_speed="deviation"),
+            math.sqrt(10 * math.sqrt(0.5) / (1 - math.sqrt(0.5))),
+        ),
+        (Limits(corner_speed="jump", corner_jump=(300, 600, 0)), 5.0),
         (Limits(), 0.0),
     ],
 )
@@ -196,7 +199,7 @@ points = st.lists(st.tuples(number, number, number), min_size=2, max_size=12)
 )
 def test_blocks_sum_up_and_places_meet_the_ends(corners, feed, a, tolerance, corner, jerk, motion):
     kinds = np.array([k % 3 == 0 for k in range(len(corners) - 1)], dtype=np.uint8)  # RAPID is 0, LINE is 1
-    limits = Limits(acceleration=a, corner_tolerance=tolerance, corner=corner, jerk=jerk)
+    limits = Limits(acceleration=a, corner_tolerance=tolerance, corner_speed=corner, jerk=jerk)
     profile = Profile(path(*corners, kind=kinds, feed=feed), limits, rapid_motion=motion)
     scale = max(1.0, profile.time)
     assert abs(profile.seconds.sum() - profile.time) < 1e-9 * scale
@@ -293,7 +296,7 @@ def test_the_setup_of_a_run_has_the_limits():
         ({"acceleration": 0}, "limit acceleration must be greater than 0, got 0"),
         ({"rapid": (1, 2)}, "limit rapid takes one number or three"),
         ({"jerk": -1}, "limit jerk must be greater than 0"),
-        ({"corner": "sharp"}, "limit corner must be one of tolerance, deviation, jump, got 'sharp'"),
+        ({"corner_speed": "sharp"}, "limit corner_speed must be one of tolerance, deviation, jump, got 'sharp'"),
         ({"rapid_motion": "fast"}, "limit rapid_motion must be one of axes, proportional, line"),
         ({"corner_tolerance": "a"}, "limit corner_tolerance must be a number, got 'a'"),
         ({"tool_change": -1}, "limit tool_change must be at least 0"),

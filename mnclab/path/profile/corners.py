@@ -87,7 +87,7 @@ def rule(limits: Limits) -> Rule:
         w[turn < TANGENT**2] = np.inf
         return w
 
-    return {"tolerance": tolerance, "deviation": deviation, "jump": jump}[limits.corner]
+    return {"tolerance": tolerance, "deviation": deviation, "jump": jump}[limits.corner_speed]
 
 
 def _changes(before: Columns, after: Columns, accelerations: Array, jerks: Array | None) -> tuple[Array, Array, Array]:
