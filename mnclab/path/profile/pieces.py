@@ -26,11 +26,12 @@ class Pieces(NamedTuple):
 
 def pieces(plan: Plan) -> Pieces:
     """All pieces that take time."""
-    tables = [_trapezoids(plan)] if plan.smooth is None else plan.smooth.tables(plan)
+    left_out = plan.rapids.rows if plan.rapids is not None else np.empty(0, dtype=np.int64)
+    tables = [_trapezoids(plan) if plan.groups is None else plan.groups.items(plan.seconds, left_out)]
     if plan.rapids is not None:
         tables.append(_rapids(plan))
     row, order, dt, ds, v, a, j = (np.concatenate(column) for column in zip(*tables))
-    if len(tables) > 1:
+    if len(tables) > 1 or plan.groups is not None:
         sorted_ = np.lexsort((order, row))
         row, dt, ds, v, a, j = (column[sorted_] for column in (row, dt, ds, v, a, j))
     if plan.row is not None:

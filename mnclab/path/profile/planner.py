@@ -10,7 +10,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +20,7 @@ from mnclab.path.profile.bends import divided
 from mnclab.path.profile.lookahead import reachable
 from mnclab.path.profile.rapids import Rapids
 from mnclab.path.profile.rows import PIECE, Rows, measure
+from mnclab.path.profile.smooth import Groups, smooth
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
 
@@ -34,7 +34,7 @@ class Plan:
     """The planned rows (n,) of ``path``; ``row`` (n,) of the path that was asked for, None if they are the same.
 
     ``v`` (n + 1,) the speeds at the nodes, ``top`` (n,) the greatest speed within a row, ``up`` and ``down`` (n,) the
-    accelerations used (mm, s), ``seconds`` (n,).
+    accelerations used (mm, s), ``seconds`` (n,); ``groups`` under a jerk limit.
     """
 
     path: Toolpath
@@ -46,7 +46,7 @@ class Plan:
     down: Array
     seconds: Array
     rapids: Rapids | None = None
-    smooth: Any = None
+    groups: Groups | None = None
 
 
 def plan(
@@ -69,7 +69,7 @@ def plan(
         path, row = divided(path, np.where(turning & path.is_motion, SURFACE, 1))
         waits = None if waits is None else waits[row]
     rows = measure(path, limits, override)
-    found = _trapezoids(path, row, rows)
+    found = _s_curves(path, row, rows) if len(rows.j) else _trapezoids(path, row, rows)
     _events(found, limits, waits)
     motion = limits.rapid_motion or rapid_motion
     if motion != "line" and (rapid := np.flatnonzero((path.kind == Kind.RAPID) & (rows.length > 0))).size:
@@ -102,6 +102,13 @@ def _trapezoids(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows) -> Pl
     if still.any():
         seconds[still] = 0.0
     return Plan(path, row, rows, v, top, rows.a, rows.a, seconds)
+
+
+def _s_curves(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows) -> Plan:
+    """The same under a jerk limit."""
+    w = reachable(rows.corner, 2 * rows.a * rows.length)
+    v, top, seconds, groups = smooth(rows, w)
+    return Plan(path, row, rows, v, top, rows.a, rows.a, seconds, groups=groups)
 
 
 def _events(found: Plan, limits: Limits, waits: NDArray[np.bool_] | None) -> None:

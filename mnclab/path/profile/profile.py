@@ -144,17 +144,13 @@ class Profile:
             a, j, row = p.a[i] + dt * p.j[i], p.j[i], p.row[i]
             outside = (times < p.t[0]) | (times > p.t[-1])
             v, a, j = (np.where(outside, 0.0, each) for each in (v, a, j))
-            within = np.clip(s - self._behind[row], 0.0, self.path.lengths[row])
+            first = np.searchsorted(p.row, row)  # the piece that the row begins with
+            within = np.clip(s - p.s[first], 0.0, self.path.lengths[row])
             place, velocity, rate = self._axes(row, within, v, a, p.t[i] + dt)
             found = Instant(times, s, v, a, j, place, velocity, rate, row, self.path.line[row])
         if np.ndim(t):
             return found
         return Instant(*(each[0] if each.ndim == 2 else each[0].item() for each in found))
-
-    @cached_property
-    def _behind(self) -> Array:
-        """Length of path before each row (n + 1,)."""
-        return running_sum(self.path.lengths)
 
     def _axes(self, row: NDArray[np.int64], within: Array, v: Array, a: Array, t: Array) -> tuple[Array, Array, Array]:
         """Place, velocity and acceleration (k, 3) of the axes, ``within`` mm after the start of the row."""

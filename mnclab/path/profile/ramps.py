@@ -34,70 +34,84 @@ def ramp_length(v0: Array, v1: Array, a: Array, j: Array) -> Array:
     return 0.5 * (v0 + v1) * ramp_time(np.abs(v1 - v0), a, j)
 
 
-def reach(v: Array, length: Array, a: Array, j: Array, most: Array) -> Array:
-    """The greatest speed (n,) that a ramp from ``v`` reaches within ``length``, at most ``most`` (>= v)."""
-    return _solve([v], length, v, most, a, j)
+def gain(v: Array, length: Array, a: Array, j: Array) -> Array:
+    """By how much (n,) a ramp from ``v`` changes the speed upwards within ``length``.
+
+    With D the change and y = sqrt D the length is (2 v + D) y / sqrt j below D = a² / j, so y solves the cubic equation
+    y³ + 2 v y = L sqrt j; above, (2 v + D) (D + a² / j) = 2 a L.
+    """
+    full = a * a / j
+    with np.errstate(divide="ignore", invalid="ignore"):
+        q = length * np.sqrt(j)
+        root = np.sqrt(2 * v / 3)
+        y = 2 * root * np.sinh(np.arcsinh(q / (2 * root**3)) / 3)
+        bent = np.where(2 * v * np.cbrt(q) < 1e-9 * q, np.cbrt(q), y) ** 2
+    half = v + 0.5 * full
+    rest = 2 * (a * length - v * full)
+    straight = rest / (half + np.sqrt(np.maximum(half * half + rest, 0.0)))
+    return np.where(full > 0, np.where(straight >= full, straight, np.minimum(bent, full)), straight)
 
 
 def peak(length: Array, v0: Array, v1: Array, cap: Array, a: Array, j: Array) -> Array:
-    """The greatest speed (n,) of a move; at least that of its ends, which must be within reach of each other."""
-    low = np.maximum(v0, v1)
-    return _solve([v0, v1], length, low, np.maximum(cap, low), a, j)
+    """By how much (n,) the greatest speed of a move is above the greater of its ends, which a ramp must be able to join.
 
-
-def phases(length: Array, v0: Array, v1: Array, top: Array, a: Array, j: Array) -> Array:
-    """The seconds (n, 7) of the phases of a move whose peak is ``top``."""
-    found = np.zeros((len(length), 7))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        for at, v in ((0, v0), (4, v1)):
-            change = np.maximum(top - v, 0.0)
-            full = a * a / j
-            bent = np.where(change >= full, a / j, np.sqrt(np.minimum(change, full) / j))
-            found[:, at] = found[:, at + 2] = np.where(np.isinf(j), 0.0, bent)
-            found[:, at + 1] = np.where(change >= full, change / a - np.where(np.isinf(j), 0.0, a / j), 0.0)
-        rest = length - ramp_length(v0, top, a, j) - ramp_length(v1, top, a, j)
-        found[:, 3] = np.where(rest > 0, rest / top, 0.0)
-    return found
-
-
-def _need(ends: list[Array], x: Array, a: Array, j: Array) -> tuple[Array, Array]:
-    """The length of the ramps between each of the ends and x (which is not below them), and how it grows with x."""
-    full = a * a / j
-    total, growth = np.zeros(len(x)), np.zeros(len(x))
-    for v in ends:
-        change = x - v
-        bent = np.sqrt(np.minimum(change, full) / j)
-        whole = change >= full
-        time = np.where(whole, change / a + a / j, 2 * bent)
-        with np.errstate(divide="ignore", invalid="ignore"):  # at x = v, where _solve halves instead
-            slope = np.where(whole, 1 / a, 1 / (bent * j))
-        total += 0.5 * (v + x) * time
-        growth += 0.5 * time + 0.5 * (v + x) * slope
-    return total, growth
-
-
-def _solve(ends: list[Array], length: Array, low: Array, high: Array, a: Array, j: Array) -> Array:
-    """x (n,) in low … high where the ramps to it need ``length``: Newton's steps, halving where they leave the bracket."""
-    found = np.array(high, dtype=np.float64)
-    with np.errstate(invalid="ignore"):
-        open_ = np.flatnonzero(_need(ends, found, a, j)[0] > length)
-    x, low, high, length, a, j = (each[open_] for each in (found, low, high, length, a, j))
-    ends = [v[open_] for v in ends]
+    That number, not the speed, because a ramp over a change of 1e-14 still takes 1e-9 s.
+    """
+    low, other = np.maximum(v0, v1), np.minimum(v0, v1)
+    found = np.maximum(cap - low, 0.0)
+    room = length - ramp_length(other, low, a, j)
+    open_ = np.flatnonzero(_need(low, other, found, a, j)[0] > length)
+    low, other, length, a, j, room = (each[open_] for each in (low, other, length, a, j, room))
+    most = np.minimum(found[open_], gain(low, np.maximum(room, 0.0), a, j))
+    least, x = np.zeros(len(open_)), most
     for _ in range(STEPS):
         if not len(open_):
             break
-        total, growth = _need(ends, x, a, j)
+        total, growth = _need(low, other, x, a, j)
         over = total > length
-        high, low = np.where(over, x, high), np.where(over, low, x)
+        most, least = np.where(over, x, most), np.where(over, least, x)
         with np.errstate(invalid="ignore"):
             new = x - (total - length) / growth
-        new = np.where((new > low) & (new < high), new, 0.5 * (low + high))
-        go_on = np.abs(new - x) > 1e-15 * high
-        found[open_] = x = new
-        if not go_on.all():
-            open_ = open_[go_on]
-            x, low, high, length, a, j = (each[go_on] for each in (x, low, high, length, a, j))
-            ends = [v[go_on] for v in ends]
+        new = np.where((new > least) & (new < most), new, 0.5 * (least + most))
+        go_on = np.abs(new - x) > 1e-15 * most
+        found[open_] = new
+        open_ = open_[go_on]
+        low, other, length, a, j, x, most, least = (
+            each[go_on] for each in (low, other, length, a, j, new, most, least)
+        )
+    return found
+
+
+def _need(low: Array, other: Array, x: Array, a: Array, j: Array) -> tuple[Array, Array]:
+    """The length of the ramps from both ends to low + x, and how it grows with x."""
+    full = a * a / j
+    total, growth = np.zeros(len(x)), np.zeros(len(x))
+    top = low + x
+    for v, change in ((low, x), (other, x + (low - other))):
+        bent = np.sqrt(np.minimum(change, full) / j)
+        whole = change >= full
+        time = np.where(whole, change / a + a / j, 2 * bent)
+        with np.errstate(divide="ignore", invalid="ignore"):  # at x = 0, where peak halves instead
+            growth += 0.5 * (time + (v + top) * np.where(whole, 1 / a, 1 / (bent * j)))
+        total += 0.5 * (v + top) * time
+    return total, growth
+
+
+def phases(length: Array, v0: Array, v1: Array, above: Array, a: Array, j: Array) -> Array:
+    """The seconds (n, 7) of the phases of a move whose peak is ``above`` the greater of its ends."""
+    low = np.maximum(v0, v1)
+    top = low + above
+    found = np.zeros((len(length), 7))
+    smooth, full = np.isfinite(j), a * a / j
+    rest = length.copy()
+    for at, v in ((0, v0), (4, v1)):
+        change = above + (low - v)
+        whole = change >= full
+        bent = np.where(smooth, np.where(whole, a / j, np.sqrt(np.minimum(change, full) / j)), 0.0)
+        found[:, at] = found[:, at + 2] = bent
+        found[:, at + 1] = np.where(whole, change / a - bent, 0.0)
+        rest -= 0.5 * (v + top) * (2 * bent + found[:, at + 1])
+    np.divide(rest, top, out=found[:, 3], where=rest > 0)
     return found
 
 

@@ -36,9 +36,9 @@ class Rapids:
         moves = np.flatnonzero(flat > 0)
         a, j = (np.tile(limits.axes(name), len(rows)) for name in ("acceleration", "jerk"))
         still, v = np.zeros(len(moves)), speeds.ravel()[moves]
-        top = ramps.peak(flat[moves], still, still, v, a[moves], j[moves])
+        above = ramps.peak(flat[moves], still, still, v, a[moves], j[moves])
         seconds = np.zeros((len(flat), 7))
-        seconds[moves] = ramps.phases(flat[moves], still, still, top, a[moves], j[moves])
+        seconds[moves] = ramps.phases(flat[moves], still, still, above, a[moves], j[moves])
         #: Seconds (m, 3, 7) of the phases of each axis.
         self.phases = seconds.reshape(-1, 3, 7)
         self._starts = [

@@ -101,7 +101,7 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0) -> Rows:
             each /= length
         size = [np.abs(each) for each in d]
         feed = feeds(path, i, j, length, limits, override)
-        with np.errstate(divide="ignore"):
+        with np.errstate(divide="ignore", over="ignore"):
             cap = np.minimum(1 / _slowest(size, speeds), feed)
             a = 1 / _slowest(size, accelerations)
             if jerky:
