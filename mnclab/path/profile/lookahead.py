@@ -21,12 +21,14 @@ BLOCK = 4096  # nodes
 Array = NDArray[np.float64]
 
 
-def reachable(cap: Array, up: Array, down: Array | None = None) -> Array:
-    """Greatest w (n + 1,) under ``cap`` that rises by at most ``up`` (n,) and falls by at most ``down`` over a row."""
-    w = _forward(cap[::-1], (up if down is None else down)[::-1])[::-1]
-    w = _forward(w, up)
-    np.minimum(w, cap, out=w)
-    return np.maximum(w, 0.0, out=w)
+def reachable(cap: Array, gain: Array) -> Array:
+    """Greatest w (n + 1,) under ``cap`` that rises and falls by at most ``gain`` (n,) over a row."""
+    return forward(backward(cap, gain), gain)
+
+
+def backward(cap: Array, gain: Array) -> Array:
+    """Greatest w (n + 1,) under ``cap`` from which each node's successor is within ``gain`` (n,)."""
+    return forward(cap[::-1], gain[::-1])[::-1]
 
 
 def running_sum(values: Array) -> Array:
@@ -46,8 +48,14 @@ def running_sum(values: Array) -> Array:
     return total
 
 
-def _forward(cap: Array, gain: Array) -> Array:
-    """w (n + 1,): each the least of its cap and of what can be reached from any node before it."""
+def forward(cap: Array, gain: Array) -> Array:
+    """w (n + 1,): each the least of its cap and of what can be reached from any node before it; not below 0."""
+    w = _scan(cap, gain)
+    np.minimum(w, cap, out=w)
+    return np.maximum(w, 0.0, out=w)
+
+
+def _scan(cap: Array, gain: Array) -> Array:
     nodes = len(cap)
     if nodes <= BLOCK:
         total = np.empty(nodes)

@@ -66,6 +66,12 @@ def _trapezoids(plan: Plan) -> Table:
     a = np.stack([plan.up, np.zeros(n), -plan.down], axis=1)
     v = np.stack([v0, top, top], axis=1)
     dt[ds <= 0] = 0.0
+    if plan.ramps is not None:
+        one = plan.ramps
+        length, total = plan.rows.length[one], v0[one] + v1[one]
+        dt[one], ds[one] = 0.0, 0.0
+        dt[one, 0], ds[one, 0] = 2 * length / total, length
+        a[one, 0] = (v1[one] - v0[one]) * total / (2 * length)
     events = plan.rows.length == 0
     if events.any():
         dt[events, 1], v[events], a[events] = plan.seconds[events], 0.0, 0.0

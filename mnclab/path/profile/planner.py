@@ -2,7 +2,7 @@
 
 1. :mod:`~mnclab.path.profile.rows`: what each row and each corner allows by itself.
 2. :mod:`~mnclab.path.profile.lookahead`: from that the speeds at the nodes between rows, by two scans.
-3. :mod:`~mnclab.path.profile.turns`: arcs that do not run at their feed are cut finer and planned again.
+3. :mod:`~mnclab.path.profile.turns`: arcs that do not reach their feed are cut finer and planned again.
 4. :mod:`~mnclab.path.profile.smooth`: under a jerk limit, S-curves over groups of rows instead of trapezoids.
 5. Rows without motion take their own time; rapids may run axis by axis (:mod:`~mnclab.path.profile.rapids`).
 """
@@ -21,6 +21,7 @@ from mnclab.path.profile.lookahead import reachable
 from mnclab.path.profile.rapids import Rapids
 from mnclab.path.profile.rows import PIECE, Rows, measure
 from mnclab.path.profile.smooth import Groups, smooth
+from mnclab.path.profile.turns import PART, Turns
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
 
@@ -35,6 +36,7 @@ class Plan:
 
     ``v`` (n + 1,) the speeds at the nodes, ``top`` (n,) the greatest speed within a row, ``up`` and ``down`` (n,) the
     accelerations used (mm, s), ``seconds`` (n,); ``groups`` under a jerk limit.
+    ``ramps`` are rows that are one ramp from end to end, whatever ``up`` and ``down`` say.
     """
 
     path: Toolpath
@@ -46,6 +48,7 @@ class Plan:
     down: Array
     seconds: Array
     rapids: Rapids | None = None
+    ramps: NDArray[np.int64] | None = None
     groups: Groups | None = None
 
 
@@ -70,6 +73,11 @@ def plan(
         waits = None if waits is None else waits[row]
     rows = measure(path, limits, override)
     found = _s_curves(path, row, rows) if len(rows.j) else _trapezoids(path, row, rows)
+    slow = _slow_arcs(found)
+    if not len(rows.j) and slow.any():
+        found, parts = _turned(found, slow, limits, override)
+        waits = None if waits is None else waits[parts]
+        path, rows = found.path, found.rows
     _events(found, limits, waits)
     motion = limits.rapid_motion or rapid_motion
     if motion != "line" and (rapid := np.flatnonzero((path.kind == Kind.RAPID) & (rows.length > 0))).size:
@@ -78,12 +86,13 @@ def plan(
     return found
 
 
-def _trapezoids(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows) -> Plan:
-    """Speeds at the nodes and times of the rows, each up, along and down at constant acceleration."""
+def _trapezoids(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows, w: Array | None = None) -> Plan:
+    """Speeds at the nodes (v² may be given) and times of the rows, each up, along and down at constant acceleration."""
     n = len(path)
     gain = 2 * rows.a
     gain *= rows.length
-    w = reachable(rows.corner, gain)
+    if w is None:
+        w = reachable(rows.corner, gain)
     v, top, seconds = np.sqrt(w), np.empty(n), np.empty(n)
     for i in range(0, n, PIECE):
         part = slice(i, min(n, i + PIECE))
@@ -102,6 +111,33 @@ def _trapezoids(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows) -> Pl
     if still.any():
         seconds[still] = 0.0
     return Plan(path, row, rows, v, top, rows.a, rows.a, seconds)
+
+
+def _slow_arcs(found: Plan) -> NDArray[np.bool_]:
+    """Arcs (n,) that do not reach their feed."""
+    arcs = (found.path.kind == Kind.ARC) & (found.rows.length > 0)
+    if not arcs.any():
+        return arcs
+    return np.asarray(arcs & (found.top < found.rows.feed * (1 - 1e-12)))
+
+
+def _turned(found: Plan, slow: NDArray[np.bool_], limits: Limits, override: float) -> tuple[Plan, NDArray[np.int64]]:
+    """The plan with some arcs cut finer, and the row (m,) that each of its rows was part of."""
+    counts = np.where(slow, np.ceil(np.abs(found.path.sweep) / PART), 1).astype(np.int64)
+    counts = np.maximum(counts, 1)
+    path, part = divided(found.path, counts)
+    turns = Turns(path, np.flatnonzero(slow[part]), np.append(0, np.cumsum(counts[slow])), limits)
+    caps = np.full(len(path), np.nan)
+    caps[turns.rows] = turns.cap
+    rows = measure(path, limits, override, caps)
+    w = turns.speeds_at(rows.corner, rows.a, rows.length)
+    w0, w1 = w[turns.rows], w[turns.rows + 1]
+    row = part if found.row is None else found.row[part]
+    again = _trapezoids(path, row, rows, w)
+    again.ramps = turns.rows
+    again.top[turns.rows] = np.sqrt(np.maximum(w0, w1))
+    again.seconds[turns.rows] = 2 * turns.length / (np.sqrt(w0) + np.sqrt(w1))
+    return again, part
 
 
 def _s_curves(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows) -> Plan:

@@ -72,8 +72,8 @@ def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, o
     return np.where(np.isnan(feed), np.inf, feed)
 
 
-def measure(path: Toolpath, limits: Limits, override: float = 1.0) -> Rows:
-    """What the rows of a path allow."""
+def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array | None = None) -> Rows:
+    """What the rows of a path allow; ``caps`` (n,), where they are numbers, replace what all of an arc would allow."""
     n = len(path)
     speeds, accelerations, jerks = (limits.axes(name) for name in ("rapid", "acceleration", "jerk"))
     jerky = bool(np.isfinite(jerks).any())
@@ -113,6 +113,8 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0) -> Rows:
             cap[arcs], a[arcs], found = allowed(bends, feed[arcs], limits)
             if jerky:
                 rows.j[i:j][arcs] = found
+            if caps is not None:
+                cap = np.where(np.isnan(caps[i:j]), cap, np.minimum(caps[i:j], feed * feed))
             after = [each.copy() for each in d]
             for k, (at_start, at_end) in enumerate(zip(bends.tangent(0.0).T, bends.tangent(1.0).T)):
                 after[k][arcs], before[k][arcs] = at_start, at_end
