@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +15,9 @@ from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.pieces import Pieces, pieces
 from mnclab.path.profile.planner import Plan, plan
 from mnclab.path.toolpath import Toolpath
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -245,3 +248,25 @@ class Profile:
             for cause, seconds in causes.items()
         )
         return f"<table><tr><th>time</th><th>{self.time:.3f} s</th><th></th></tr>{rows}</table>"
+
+    def plot(self, **options: Any) -> Figure:
+        """Programmed and reached feed, acceleration and jerk over time, stops, limits, and which of them governs where.
+
+        ``over="path"`` shows them over the path length, ``axes=True`` adds X, Y and Z; all options are explained in
+        ``mnclab.show.plot.profile.plot_profile``.
+        """
+        from mnclab.show.plot.profile import plot_profile
+
+        return plot_profile(self, **options)
+
+    def plot_reached(self, **options: Any) -> Figure:
+        """The path coloured by the feed that is reached; options as in ``mnclab.show.plot.path.plot_path``."""
+        from mnclab.show.plot.profile import plot_reached
+
+        return plot_reached(self, **options)
+
+    def plot_lost(self, **options: Any) -> Figure:
+        """The time of each line beside its text, and how much of it the machine adds; ``most`` lines."""
+        from mnclab.show.plot.profile import plot_lost
+
+        return plot_lost(self, **options)
