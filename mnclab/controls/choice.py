@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from html import escape
 from pathlib import Path
 
@@ -10,8 +9,10 @@ from mnclab.controls import CONTROLS
 from mnclab.machine.control import Control, Function
 from mnclab.machine.cycle import Cycle, help_html, help_table
 from mnclab.machine.run import Run, run_program
+from mnclab.machine.settings import Setting, settings_html, settings_table
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import Alarm
+from mnclab.text.nearest import hint, nearest
 from mnclab.text.program import Program, decode
 
 
@@ -62,7 +63,7 @@ def choose(control: str | None, name: str, text: str) -> Control:
     """The control that was named, or the one that the suffix or the text points to; an Alarm when none or two do."""
     if control is not None:
         if control not in CONTROLS:
-            near = get_close_matches(control, list(CONTROLS), 1, 0.3)
+            near = nearest(control, CONTROLS, 1)
             raise Alarm(
                 f"there is no control {control!r}",
                 hint=f"known: {', '.join(CONTROLS)}" + (f"; near: {near[0]}" if near else ""),
@@ -85,13 +86,15 @@ def choose(control: str | None, name: str, text: str) -> Control:
 
 
 class Help:
-    """What a code means on a control: shown as text or as a table."""
+    """What a code or a setting means on a control: shown as text or as a table."""
 
-    def __init__(self, entry: Function | type[Cycle], control: Control) -> None:
+    def __init__(self, entry: Function | type[Cycle] | tuple[Setting, ...], control: Control) -> None:
         self.entry, self.control = entry, control
 
     def __str__(self) -> str:
         entry = self.entry
+        if isinstance(entry, tuple):
+            return settings_table(entry)
         if isinstance(entry, Function):
             takes = f"\ntakes {' '.join(entry.takes)}" if entry.takes else ""
             group = f", group {entry.group}" if entry.group else ""
@@ -101,14 +104,22 @@ class Help:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
+        if isinstance(self.entry, tuple):
+            return settings_html(self.entry)
         if isinstance(self.entry, Function):
             return f"<pre>{escape(str(self))}</pre>"
         return help_html(self.entry)
 
 
 def help(code: str, control: str) -> Help:
-    """The parameter table of a cycle, or the meaning of a function; an Alarm with the nearest codes if there is none."""
+    """The parameter table of a cycle, the meaning of a function or setting; "settings" is the table of all settings.
+
+    An Alarm with the nearest codes if there is none.
+    """
     chosen = choose(control, "", "")
+    settings = {setting.name: setting for setting in chosen.settings}
+    if code.strip().lower() in ("settings", *settings):
+        return Help(tuple(one for name, one in settings.items() if code.strip().lower() in ("settings", name)), chosen)
     wanted = _normal(code, chosen)
     if wanted in chosen.cycles:
         return Help(chosen.cycles[wanted], chosen)
@@ -116,8 +127,8 @@ def help(code: str, control: str) -> Help:
         return Help(chosen.functions[wanted], chosen)
     if wanted in chosen.refused:
         raise Alarm(f"{wanted}: {chosen.refused[wanted]}")
-    near = get_close_matches(wanted, [*chosen.functions, *chosen.cycles], 5, 0.4)
-    raise Alarm(f"{chosen.name} has no code {code!r}", hint=f"near: {', '.join(near)}" if near else "")
+    near = hint(wanted, (*chosen.functions, *chosen.cycles, "settings", *settings), 5)
+    raise Alarm(f"{chosen.name} has no code {code!r}", hint=near)
 
 
 def _normal(code: str, control: Control) -> str:

@@ -1,28 +1,40 @@
 """Arcs in a plane: the centre from a radius, the sweep from a centre.
 
-Points are (..., 2) in mm in the axes of the plane, angles in radians, positive counter-clockwise. Everything takes one
-arc or a million.
+Points are (..., 2) in mm in the axes of the plane, angles in radians, positive counter-clockwise. There are two of each:
+for a million arcs, and for one in plain numbers, to the last bit the same (so ``arctan2`` and ``hypot`` are numpy's).
 """
 
 from __future__ import annotations
+
+import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
+Pair = Sequence[float]
+FULL = 1e-3  # mm: a start and an end that are closer are a whole turn
 
 
-def sweep(start: ArrayLike, end: ArrayLike, centre: ArrayLike, sense: ArrayLike, full: float = 1e-3) -> Array:
-    """Angle (...) from start to end about centre, in the sense +1 (counter-clockwise) or -1.
-
-    A start and an end closer than ``full`` mm are a whole turn.
-    """
+def sweep(start: ArrayLike, end: ArrayLike, centre: ArrayLike, sense: ArrayLike) -> Array:
+    """Angle (...) from start to end about centre, in the sense +1 (counter-clockwise) or -1."""
     start, end, centre = (np.asarray(p, dtype=np.float64) for p in (start, end, centre))
     a, b = start - centre, end - centre
     angle = np.arctan2(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=-1))
     sense = np.asarray(sense, dtype=np.float64)
     angle = np.where(angle * sense < 0, angle + sense * 2 * np.pi, angle)
-    return np.where(np.hypot(*np.moveaxis(end - start, -1, 0)) < full, sense * 2 * np.pi, angle)
+    return np.where(np.hypot(*np.moveaxis(end - start, -1, 0)) < FULL, sense * 2 * np.pi, angle)
+
+
+def sweep_of_one(start: Pair, end: Pair, centre: Pair, sense: int) -> float:
+    """:func:`sweep` of one arc."""
+    (sx, sy), (ex, ey), (cx, cy) = start, end, centre
+    ax, ay, bx, by = sx - cx, sy - cy, ex - cx, ey - cy
+    if math.hypot(ex - sx, ey - sy) < FULL:
+        return sense * 2 * math.pi
+    angle = float(np.arctan2(ax * by - ay * bx, ax * bx + ay * by))
+    return angle + sense * 2 * math.pi if angle * sense < 0 else angle
 
 
 def centre_from_radius(start: ArrayLike, end: ArrayLike, radius: ArrayLike, sense: ArrayLike) -> tuple[Array, Array]:
@@ -41,3 +53,13 @@ def centre_from_radius(start: ArrayLike, end: ArrayLike, radius: ArrayLike, sens
     side = sense * np.sign(radius) * height / np.where(half > 0, 2 * half, 1.0)
     normal = np.stack([-d[..., 1], d[..., 0]], axis=-1)
     return (start + end) / 2 + side[..., None] * normal, half - np.abs(radius)
+
+
+def centre_of_one(start: Pair, end: Pair, radius: float, sense: int) -> tuple[tuple[float, float], float]:
+    """:func:`centre_from_radius` of one arc."""
+    (sx, sy), (ex, ey) = start, end
+    dx, dy = ex - sx, ey - sy
+    half = float(np.hypot(dx, dy)) / 2
+    height = math.sqrt(max((abs(radius) - half) * (abs(radius) + half), 0.0))
+    side = sense * float(np.sign(radius)) * height / (2 * half if half > 0 else 1.0)
+    return ((sx + ex) / 2 + side * -dy, (sy + ey) / 2 + side * dx), half - abs(radius)

@@ -55,10 +55,12 @@ def apply(matrix: Matrix, points: ArrayLike) -> NDArray[np.float64]:
     """Points (..., 3) in outer coordinates.
 
     Summed term by term and not as a matrix product, whose last digit depends on how many points there are: one point
-    and a million give the same figures.
+    and a million give the same figures. A coordinate that is nan spoils only those that depend on it.
     """
-    x, y, z = np.moveaxis(np.asarray(points, dtype=np.float64), -1, 0)
-    return np.stack([a * x + b * y + c * z + d for a, b, c, d in matrix[:3].tolist()], axis=-1)
+    xyz = np.moveaxis(np.asarray(points, dtype=np.float64), -1, 0)
+    return np.stack(
+        [sum(f * p for f, p in zip(row, xyz, strict=False) if f) + row[3] for row in matrix[:3].tolist()], -1
+    )
 
 
 def inverse(matrix: Matrix) -> Matrix:
@@ -102,6 +104,10 @@ class FrameChain:
             self._frames[name] = IDENTITY
         else:
             self._frames.pop(name, None)
+
+    def innermost(self, name: str) -> None:
+        """Move a frame to the end of the chain, so that it acts on a point before the others."""
+        self._frames[name] = self._frames.pop(name, IDENTITY)
 
     @property
     def matrix(self) -> Matrix:

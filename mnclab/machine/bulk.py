@@ -32,6 +32,8 @@ SHORTEST, LARGEST = 32, 1 << 15  # blocks obeyed at once: below, one by one is f
 LETTERS = "GXYZIJKRF"  # the addresses of plain words
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+NOTHING: Array = np.empty(0)
+NO_MOTION = 99  # the sense of a G word that is none
 
 
 @dataclass(frozen=True)
@@ -61,9 +63,9 @@ class _Run:
     feed: Array  # (n,) modal feed after each block
     moves: Mask
     fault: Mask
-    centre: Array
-    angle: Array
-    arc: Mask = field(default_factory=lambda: np.zeros(0, dtype=bool))
+    arc: Mask
+    centre: Array = field(default_factory=lambda: NOTHING)  # (n, 3) and angle (n,) where there is an arc
+    angle: Array = field(default_factory=lambda: NOTHING)
 
 
 class Bulk:
@@ -80,8 +82,7 @@ class Bulk:
         plain[list(faulty)] = False
         if self.rule.keyword and self.rule.keyword in program.keywords:
             plain &= program.keyword == program.keywords.index(self.rule.keyword)
-        # the column of each address of this program; one more for those that change nothing
-        self.place = np.array([LETTERS.find(name) if len(name) == 1 else -1 for name in program.addresses] or [-1])
+        self.index = {name: k for k, name in enumerate(program.addresses) if len(name) == 1 and name in LETTERS}
         self.breaks = np.append(np.flatnonzero(~plain), len(program))
         self.enabled = self.enabled and len(program) - len(self.breaks) + 1 >= SHORTEST
         self.codes = {value: code for value, (code, _) in self.rule.motions.items()}
@@ -115,48 +116,70 @@ class Bulk:
     # --- what the run is ---------------------------------------------------------------------------------------------
 
     def columns(self, first: int, end: int) -> dict[str, Array]:
-        """The words of the blocks by address (n,), nan where not written."""
+        """The words of the blocks by address (n,), nan where not written; an address that is never written is left out."""
         program, n = self.program, end - first
         a, b = int(program.first[first]), int(program.first[end])
-        block = np.repeat(np.arange(n), np.diff(program.first[first : end + 1]))
-        table = np.full((n, len(LETTERS) + 1), np.nan)
-        table[block, self.place[program.address[a:b]]] = program.value[a:b]
-        return {name: table[:, k] for k, name in enumerate(LETTERS)}
+        address, value = program.address[a:b], program.value[a:b]
+        found: dict[str, Array] = {}
+        block: NDArray[np.int64] | None = None
+        for name, index in self.index.items():
+            words = np.flatnonzero(address == index)
+            if len(words) == n:  # a block has it once, so every block has it
+                found[name] = value[words]
+            elif len(words):
+                if block is None:
+                    block = np.repeat(np.arange(n), np.diff(program.first[first : end + 1]))
+                found[name] = np.full(n, np.nan)
+                found[name][block[words]] = value[words]
+        return found
 
     def work_out(self, first: int, end: int) -> _Run:
         """Everything about the blocks [first, end), faults included."""
         machine, rule = self.machine, self.rule
         assert rule is not None
         words, n = self.columns(first, end), end - first
-        points, moves = np.empty((n + 1, 3)), np.zeros(n, dtype=bool)
-        points[0] = machine.programmed
+        points, moves = machine.recorder.room(n), np.zeros(n, dtype=bool)
+        same = machine._shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed == tuple(points[0].tolist())
+        if not same:
+            points = np.empty((n + 1, 3))
+            points[0] = machine.programmed
         absolute = rule.absolute(machine)
         for k, axis in enumerate("XYZ"):
+            start = machine.programmed[k]
+            if axis not in words:
+                points[1:, k] = start
+                continue
             written = ~np.isnan(words[axis])
             moves |= written
-            points[1:, k] = words[axis] if absolute else np.where(written, words[axis], 0.0)
-            points[:, k] = _filled(points[:, k]) if absolute else np.cumsum(points[:, k])
-        same = machine._shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed
+            if absolute:
+                points[1:, k] = _filled(start, words[axis])
+            else:
+                points[:, k] = np.cumsum(np.concatenate([[start], np.where(written, words[axis], 0.0)]))
         tips = points if same else self.to_machine(points)  # no copy: memory costs more than the work on it
 
-        feed = _filled(np.concatenate([[np.nan if machine.feed is None else machine.feed], words["F"]]))[1:]
-        motion, unknown = self.motions(words["G"], n)
-        centred = ~np.isnan(np.stack([words["I"], words["J"], words["K"]], axis=1))
-        by_radius = ~np.isnan(words["R"])
-        shaped = centred[:, 0] | centred[:, 1] | centred[:, 2] | by_radius
-        arc = (np.abs(motion) == 2) & shaped
-        moves |= arc
+        no_feed = np.nan if machine.feed is None else machine.feed
+        feed = _filled(no_feed, words["F"]) if "F" in words else np.full(n, no_feed)
+        motion, fault = self.motions(words.get("G"), n)
+        arc = shaped = np.zeros(n, dtype=bool)
+        for name in "IJKR":
+            if name in words:
+                shaped = shaped | ~np.isnan(words[name])
+        if shaped.any():
+            arc = (np.abs(motion) == 2) & shaped
+            fault |= shaped & ~arc
+            moves |= arc
         go = int(np.argmax(moves)) if moves.any() else n  # until then the tool stands where it stood
         begin = tuple(tips[0].tolist())
         if begin != machine.tip:  # a transformation was switched, or the register was turned there and back
             tips = tips.copy() if tips is points else tips
             tips[: go + 1] = machine.tip
 
-        without_feed = moves & (motion != 0) & np.isnan(feed)
-        fault = unknown | (words["F"] <= 0) | without_feed | (shaped & (np.abs(motion) != 2))
-        run = _Run(points, tips, motion, feed, moves, fault, np.full((n, 3), np.nan), np.zeros(n), arc)
+        fault |= moves & (motion != 0) & np.isnan(feed)  # without a feed
+        if "F" in words:
+            fault |= words["F"] <= 0
+        run = _Run(points, tips, motion, feed, moves, fault, arc)
         if arc.any():
-            self.arcs(run, words, centred, by_radius)
+            self.arcs(run, words)
             run.fault[go] |= arc[go] and math.dist(begin, machine.tip) > rule.tolerance(machine)
         run.moves = moves & (_differ(tips[1:], tips[:-1]) | arc)
         return run
@@ -166,21 +189,20 @@ class Bulk:
         shift = self.machine._shift
         return frames.apply(self.machine._matrix, points) if shift is None else points + np.array(shift)
 
-    def motions(self, g: Array, n: int) -> tuple[NDArray[np.int64], Mask]:
-        """The sense of each block's motion, and which G words are none."""
-        active = self.machine.modal.get(self.group, "")
+    def motions(self, g: Array | None, n: int) -> tuple[NDArray[np.int64], Mask]:
+        """The sense of each block's motion, and which blocks have a G word that is none."""
         if None in self.codes:
-            return np.full(n, self.senses[self.codes[None]]), ~np.isnan(g)
-        known = [value for value in self.codes if value is not None]
-        unknown = ~np.isnan(g) & ~np.isin(g, known)
-        start = next((value for value in known if self.codes[value] == active), np.nan)
-        filled = _filled(np.concatenate([[start], g]))[1:]
-        sense = np.zeros(n, dtype=np.int64)
-        for value in known:
-            sense[filled == value] = self.senses[self.codes[value]]
-        return sense, unknown | np.isnan(filled)
+            return np.full(n, self.senses[self.codes[None]]), np.zeros(n, dtype=bool) if g is None else ~np.isnan(g)
+        active = self.machine.modal.get(self.group, "")
+        start = next((value for value, code in self.codes.items() if code == active), None)
+        values = np.full(n, start, dtype=float) if g is None else _filled(np.nan if start is None else start, g)
+        sense = np.full(n, NO_MOTION)
+        for value in set(self.codes) if g is not None else {start}:
+            if value is not None:
+                sense[values == value] = self.senses[self.codes[value]]
+        return sense, sense == NO_MOTION
 
-    def arcs(self, run: _Run, words: dict[str, Array], centred: NDArray[np.bool_], by_radius: Mask) -> None:
+    def arcs(self, run: _Run, words: dict[str, Array]) -> None:
         """Centres and sweeps of the arcs; what is doubtful is a fault."""
         from mnclab.machine.machine import PLANES
 
@@ -191,13 +213,16 @@ class Bulk:
         s, e = run.points[k][:, [first, second]], run.points[k + 1][:, [first, second]]
         sense = np.sign(run.motion[k])
         tolerance = rule.tolerance(machine)
-        c = s + np.nan_to_num(np.stack([words["IJK"[first]][k], words["IJK"[second]][k]], axis=1))
+        nothing = np.full(len(k), np.nan)
+        to_centre = np.stack([words[name][k] if name in words else nothing for name in "IJK"], axis=1)
+        radii = words["R"][k] if "R" in words else nothing
+        c = s + np.nan_to_num(to_centre[:, [first, second]])
         at_start, at_end = np.hypot(*(s - c).T), np.hypot(*(e - c).T)
-        fault = (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance) | centred[k, normal]
-        if (by := np.flatnonzero(by_radius[k])).size:
-            radius, chord = words["R"][k][by], np.hypot(*(e - s)[by].T)
+        fault = (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance) | ~np.isnan(to_centre[:, normal])
+        if (by := np.flatnonzero(~np.isnan(radii))).size:
+            radius, chord = radii[by], np.hypot(*(e - s)[by].T)
             c[by], shortage = centre_from_radius(s[by], e[by], radius, sense[by])
-            fault[by] = (shortage > tolerance) | (chord < 1e-3) | (radius == 0) | centred[k][by].any(axis=1)
+            fault[by] = (shortage > tolerance) | (chord < 1e-3) | (radius == 0) | ~np.isnan(to_centre[by]).all(axis=1)
         run.fault[k] |= fault
         run.fault[k] |= run.points[k, normal] != run.points[k + 1, normal]  # a helix: the other tier remarks on it
         angle = sweep(s, e, c, sense)
@@ -206,6 +231,7 @@ class Bulk:
         if machine._shift is None:
             run.fault[k] |= not machine.keeps_circles
             angle = angle * machine.orientation
+        run.centre, run.angle = np.full(run.tips[1:].shape, np.nan), np.zeros(len(run.moves))
         run.centre[k], run.angle[k] = self.to_machine(centre), angle
 
     # --- doing it ----------------------------------------------------------------------------------------------------
@@ -215,34 +241,32 @@ class Bulk:
         machine = self.machine
         step = machine.flow.begin_many(first, count)
         steps = np.arange(step, step + count, dtype=np.int32)
-        before = machine.step
         machine.step = step + count - 1
-        moved = np.flatnonzero(run.moves[:count])
-        if len(moved):
-            self.rows(run, first, steps, moved if len(moved) < count else slice(0, count))
-        self.log(run, steps, count, before)
+        self.log(run, steps, count)
         machine.programmed = tuple(run.points[count].tolist())
         machine.tip = tuple(run.tips[count].tolist())
         machine.source_line = int(self.program.line_of(first + count - 1))
+        moved = np.flatnonzero(run.moves[:count])
+        if len(moved):  # last: rows closed up may take the room where the points were worked out
+            self.rows(run, first, steps, moved if len(moved) < count else slice(0, count))
 
     def rows(self, run: _Run, first: int, steps: NDArray[np.int32], moved: NDArray[np.int64] | slice) -> None:
         """Hand the rows of the blocks that move to the recorder."""
         motion, arc = run.motion[moved], run.arc[moved]
         kind = np.where(motion == 0, Kind.RAPID, np.where(arc, Kind.ARC, Kind.LINE)).astype(np.uint8)
-        lines = np.asarray(self.program.line_of(slice(first, first + len(run.moves)))).astype(np.int32)
+        lines = np.asarray(self.program.line_of(slice(first, first + len(run.moves))))
         columns: dict[str, NDArray[Any]] = {
             "kind": kind,
-            "line": lines[moved],
+            "line": lines[moved].astype(np.int32, copy=False),
             "step": steps[moved],
-            "end": run.tips[1:][moved],
             "feed": np.where(motion == 0, np.inf, run.feed[moved]),
             "state": np.asarray(self.machine.state()),
         }
         if arc.any():
             columns |= {"centre": run.centre[moved], "sweep": run.angle[moved]}
-        self.machine.recorder.bulk(columns)
+        self.machine.recorder.bulk(columns, run.tips[1:][moved])
 
-    def log(self, run: _Run, steps: NDArray[np.int32], count: int, before: int) -> None:
+    def log(self, run: _Run, steps: NDArray[np.int32], count: int) -> None:
         """Changes of position, feed and motion, step by step."""
         machine, history = self.machine, self.machine.logs
         changed = np.flatnonzero(_differ(run.points[1 : count + 1], run.points[:count]))
@@ -273,9 +297,9 @@ def _differ(a: Array, b: Array) -> Mask:
     return (a[:, 0] != b[:, 0]) | (a[:, 1] != b[:, 1]) | (a[:, 2] != b[:, 2])
 
 
-def _filled(column: Array) -> Array:
-    """The last value that is not nan, going down a column (n,)."""
-    empty = np.isnan(column)
-    if not empty[1:].any():
+def _filled(start: float, column: Array) -> Array:
+    """The last value that is not nan, going down a column (n,) that begins after ``start``."""
+    at = np.flatnonzero(column == column)
+    if len(at) == len(column):
         return column
-    return column[np.maximum.accumulate(np.where(empty, 0, np.arange(len(column))))]
+    return np.repeat(np.concatenate([[start], column[at]]), np.diff(at, prepend=0, append=len(column)))

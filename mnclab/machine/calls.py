@@ -36,8 +36,11 @@ class Flow:
         self.programs = [program]
         self.obey, self.bulk = obey, bulk
         self.machine: Machine
-        self.depth, self.calls, self.executed = 0, 0, 0  # calls: subprograms alone, without repeats
-        self.limit = LONGEST + len(program)
+        self.depth, self.calls = 0, 0  # calls: subprograms alone, without repeats
+        self.limit, self.in_bulk = (
+            LONGEST + len(program),
+            0,
+        )  # steps obeyed in bulk do not count: they end by themselves
         self.returning = False
         self.current = 0  # block being obeyed
         self._chunks: list[NDArray[np.int64] | range] = []
@@ -106,17 +109,19 @@ class Flow:
 
     def begin(self, block: int) -> int:
         """Note the execution of a block; the number of its step."""
-        self.executed += 1
-        if self.executed > self.limit:
+        blocks = self._blocks
+        step = self._counted + len(blocks)
+        if step - self.in_bulk >= self.limit:
             raise Alarm(f"repeats and calls ran {LONGEST} blocks without an end", self.program.span_of_block(block))
-        self._blocks.append(block)
-        return self._counted + len(self._blocks) - 1
+        blocks.append(block)
+        return step
 
     def begin_many(self, first: int, count: int) -> int:
         """Note the execution of blocks in a row; the number of the first step."""
         self._flush()
         self._chunks.append(range(first, first + count))
         self._counted += count
+        self.in_bulk += count
         return self._counted - count
 
     def _flush(self) -> None:

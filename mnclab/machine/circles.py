@@ -1,6 +1,6 @@
 """What an arc must be before a machine runs it: a radius that reaches, a centre as far from its end as from its start.
 
-Points are (2,) in mm in the axes of the plane.
+Points are pairs in mm in the axes of the plane.
 """
 
 from __future__ import annotations
@@ -8,16 +8,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
-from mnclab.geometry.arcs import centre_from_radius
+from mnclab.geometry.arcs import centre_of_one
 from mnclab.text.program import Word
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
-Point = NDArray[np.float64]
+Point = tuple[float, float]
 
 
 def centre_by_radius(
@@ -26,9 +23,9 @@ def centre_by_radius(
     """The centre of the arc of a signed radius; an Alarm when the radius does not reach, and by how much."""
     if math.dist(s, e) < 1e-3:
         m.alarm("a full circle cannot be given by its radius", word, hint="write the centre with I J K")
-    c, shortage = centre_from_radius(s, e, radius, sense)
+    c, shortage = centre_of_one(s, e, radius, sense)
     if shortage > tolerance:
-        chord, address = 2 * (float(shortage) + abs(radius)), word.address if word else "R"
+        chord, address = 2 * (shortage + abs(radius)), word.address if word else "R"
         m.alarm(
             f"{address}{abs(radius):g} is too small for the distance {chord:.7g} mm between start and end: "
             f"at least {chord / 2:.4f} is needed",

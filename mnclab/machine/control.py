@@ -12,12 +12,12 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from mnclab.machine.settings import Setting, settings_html
 from mnclab.text.program import Program, Word
 
 if TYPE_CHECKING:
     from mnclab.machine.cycle import CycleTable
     from mnclab.machine.machine import Machine
-    from mnclab.machine.setup import Setting
     from mnclab.path.compensation import Compensation
 
 Obey = Callable[["Machine", "Words"], None]
@@ -31,8 +31,11 @@ class Words(dict[str, Word]):
     ``words.words`` has all of them in the order handed out, ``code`` is the code that was called.
     """
 
+    __slots__ = ("code", "words")
+
     def __init__(self, words: tuple[Word, ...], code: str = "") -> None:
-        super().__init__([(word[0], word) for word in reversed(words)])
+        for word in reversed(words):
+            self[word[0]] = word
         self.words, self.code = words, code
 
     def all(self, address: str) -> list[Word]:
@@ -168,4 +171,5 @@ class Control:
         ]
         rows += [row(code, cycle.title, "cycle", "", cycle.source) for code, cycle in self.cycles.items()]
         head = "<tr><th>code</th><th>title</th><th>group</th><th>at power-on</th><th>source</th></tr>"
-        return f"<h4>{escape(self.title)}</h4><table>{head}{''.join(rows)}</table>"
+        table = f"<h4>{escape(self.title)}</h4><table>{head}{''.join(rows)}</table>"
+        return table + (f"<h5>Settings</h5>{settings_html(self.settings)}" if self.settings else "")

@@ -18,9 +18,9 @@ from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
-from mnclab.text.alarm import ALARM, Span
+from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
 from mnclab.text.expression import Expression
-from mnclab.text.program import NONE, NUMBER, Program, Word
+from mnclab.text.program import NONE, NUMBER, Program, Word, place_of
 
 WINDOW = 256  # blocks whose words are made at once; more would keep the garbage collector busy
 
@@ -36,22 +36,29 @@ class Interpreter:
         self.control, self.machine, self.program = control, machine, program
         self.phases = {name: k for k, name in enumerate(control.phases)}
         self.plans: dict[Any, Plan] = {}
-        self.window, self.bounds = (0, 0), [0]
-        self.lines: list[int] = []
-        self.words: list[Word] = []
-        self.faulty = self._faulty_blocks()
+        self.window = range(0)
+        self.blocks: list[tuple[int, bool, str, list[Word], tuple[Any, ...]]] = []
+        """Of the blocks in the window: line, skip, keyword, words, and of each word its address, with the value where that
+        makes another function."""
+        self.skips = bool(machine.settings.get("block_skip"))
+        self.alarms = [self._passed_over(alarm) for alarm in program.alarms]
+        self.faulty = {self._block_of(alarm) for alarm in self.alarms if alarm.severity == ALARM and alarm.span}
         self.bulk = Bulk(control, machine, program, self.faulty)
+        machine.recorder.expected = len(program)
         machine.flow = Flow(program, self.obey, self.bulk.obey)
         machine.flow.machine = machine
 
-    def _faulty_blocks(self) -> set[int]:
-        """Blocks in which the reader found a fault: the run stops there."""
-        found = set()
-        for alarm in self.program.alarms:
-            if alarm.severity == ALARM and alarm.span is not None:
-                offset = int(self.program.line_starts[alarm.span.line - 1]) + alarm.span.column - 1
-                found.add(max(int(np.searchsorted(self.program.start, offset, "right")) - 1, 0))
-        return found
+    def _block_of(self, alarm: Alarm) -> int:
+        """The block in which the reader found a fault: the run stops there."""
+        assert alarm.span is not None
+        offset = int(self.program.line_starts[alarm.span.line - 1]) + alarm.span.column - 1
+        return max(int(np.searchsorted(self.program.start, offset, "right")) - 1, 0)
+
+    def _passed_over(self, alarm: Alarm) -> Alarm:
+        """An alarm of the reader; no more than a warning in a block that is passed over."""
+        if not (self.skips and alarm.span and len(self.program)) or not self.program.skip[self._block_of(alarm)]:
+            return alarm
+        return Alarm(alarm.message, alarm.span, WARNING, alarm.hint, alarm.source)
 
     def run(self) -> None:
         """From the first block to the end, or to the first alarm."""
@@ -67,71 +74,63 @@ class Interpreter:
 
     def obey(self, index: int) -> None:
         """Obey one block."""
-        machine, program = self.machine, self.program
+        machine, window = self.machine, self.window
         machine.step = machine.flow.begin(index)
-        if not self.window[0] <= index < self.window[1]:
-            self.open_window(index)
-        machine.source_line = self.lines[index - self.window[0]]
-        if program.skip[index] and machine.settings.get("block_skip"):
+        if index not in window:
+            window = self.open_window(index)
+        machine.source_line, skip, keyword, words, kinds = self.blocks[index - window.start]
+        if skip and self.skips:
             return
         if index in self.faulty:
             raise Stop
         before = machine.programmed
-        at = index - self.window[0]
-        words = self.words[self.bounds[at] : self.bounds[at + 1]]
-        plan = self.plan_for(program.keywords[program.keyword[index]], words)
+        plan = self.plan_for(keyword, kinds, words)
         for which, sentence, hint in plan.remarks:
             machine.warn(sentence, words[which], hint)
-        for _, what, code, head, takes in plan.actions:
-            given = tuple([words[k] for k in takes])
+        for (_, what, code, head, _), pick in plan.actions:
             if isinstance(what, Function):
-                self.call(what, words[head] if head >= 0 else None, given)
+                if what.group and what.modal and machine.modal.get(what.group) != what.code:
+                    machine.set_modal(what.group, what.code)
+                what.obey(machine, Words(pick(words), what.code))
             else:
-                self.take_cycle(what, code, words[head] if head >= 0 else None, given)
+                self.take_cycle(what, code, words[head] if head >= 0 else None, pick(words))
         machine.end_block()
         if machine.programmed != before:
             machine.log("position", machine.programmed)
 
-    def call(self, function: Function, head: Word | None, given: tuple[Word, ...]) -> None:
-        """Let a function act on its words."""
-        if function.group and function.modal:
-            self.machine.set_modal(function.group, function.code)
-        function.obey(self.machine, Words((head, *given) if head else given, function.code))
-
-    def open_window(self, index: int) -> None:
-        """Make the words of the next blocks: columns as lists, for plain Python is faster on those."""
-        program, new = self.program, tuple.__new__
-        stop = min(index + WINDOW, len(program))
-        a, b = int(program.first[index]), int(program.first[stop])
+    def open_window(self, index: int) -> range:
+        """Make the next blocks: columns as lists, for plain Python is faster on those."""
+        program, new, codes = self.program, tuple.__new__, self.control.codes
+        window = range(index, min(index + WINDOW, len(program)))
+        here = slice(index, window.stop)
+        a, b = int(program.first[index]), int(program.first[window.stop])
         offset = program.offset[a:b]
         line = np.searchsorted(program.line_starts, offset, "right")
         column = offset - program.line_starts[line - 1] + 1
-        columns = (program.address, program.value, program.form, program.flag, program.length)
-        rows = zip(*(part.tolist() for part in (*(c[a:b] for c in columns), line, column)), strict=True)
+        place = place_of(line, column, program.length[a:b])
+        columns = program.address[a:b], program.value[a:b], program.form[a:b], place, program.flag[a:b]
         names, payload = program.addresses, program.payload
-        self.words = [
-            new(
-                Word,
-                (
-                    names[k],
-                    v if form == NUMBER else None if form == NONE else payload[int(v)],
-                    new(Span, (n, c, size, 0)),
-                    flag,
-                ),
-            )
-            for k, v, form, flag, size, n, c in rows
+        words = [
+            new(Word, (names[k], v if form == NUMBER else None if form == NONE else payload[int(v)], at, flag))
+            for k, v, form, at, flag in zip(*(part.tolist() for part in columns), strict=True)
         ]
-        self.bounds = (program.first[index : stop + 1] - a).tolist()
-        self.lines = np.asarray(program.line_of(slice(index, stop))).tolist()
-        self.window = (index, stop)
+        kinds = [(w[0], w[1]) if w[0] in codes else w[0] for w in words]
+        bounds = (program.first[index : window.stop + 1] - a).tolist()
+        heads = zip(
+            np.asarray(program.line_of(here)).tolist(), program.skip[here].tolist(), program.keyword[here].tolist(),
+            bounds[:-1], bounds[1:], strict=True,
+        )  # fmt: skip
+        keys = program.keywords
+        self.blocks = [(n, skip, keys[k], words[i:j], tuple(kinds[i:j])) for n, skip, k, i, j in heads]
+        self.window = window
+        return window
 
     # --- planning ----------------------------------------------------------------------------------------------------
 
-    def plan_for(self, keyword: str, words: list[Word]) -> Plan:
+    def plan_for(self, keyword: str, kinds: tuple[Any, ...], words: list[Word]) -> Plan:
         """The plan for this kind of block, made when it is first met."""
-        machine, codes = self.machine, self.control.codes
+        machine = self.machine
         active = machine.position_cycle.cycle if machine.position_cycle else None
-        kinds = tuple([w[0] if w[0] not in codes else (w[0], w[1]) for w in words])
         key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None)
         plan = self.plans.get(key)
         if plan is None:
@@ -144,7 +143,7 @@ class Interpreter:
         """A block that defines a cycle, or runs the active one again."""
         machine = self.machine
         values, words = self.assign(cycle, code, given)
-        head = head or Word(code, None, self.span_here())
+        head = head or Word(code, None, int(place_of(*self.span_here()[:3])))
         marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
         values, words = values | dict.fromkeys(marks, 1.0), words | marks
         again = machine.position_cycle

@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from mnclab.geometry import frames
-from mnclab.geometry.arcs import sweep
+from mnclab.geometry.arcs import sweep_of_one
 from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.machine.circles import centre_by_radius, check_radii
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
+from mnclab.machine.settings import chosen
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
@@ -37,8 +38,8 @@ if TYPE_CHECKING:
     from mnclab.machine.cycle import Definition
 
 INF = math.inf
-PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0)}  # first axis, second axis, normal
-_AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
+PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0), "XZ": (0, 2, 1)}  # first axis, second axis, normal
+_AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0), "XZ": (0.0, -1.0, 0.0)}
 
 
 class Machine:
@@ -46,7 +47,7 @@ class Machine:
 
     def __init__(self, control: Control, setup: Setup) -> None:
         self.control, self.setup, self.tables = control, setup, Tables(setup)
-        self.settings: dict[str, Any] = {s.name: s.default for s in control.settings} | dict(setup.settings)
+        self.settings = chosen(control.settings, setup.settings, control.name)
         self.flow: Flow  # set by the interpreter
         self.alarms: list[Alarm] = []
         self.logs = Logs()
@@ -181,12 +182,16 @@ class Machine:
     def set_frame(self, name: str, matrix: Matrix | None, keep: str = "tip") -> None:
         """Replace one frame of the chain; ``keep`` "tip" (the program reads the place anew) or "programmed"."""
         self.frames.set(name, matrix)
-        self._matrix = self.frames.matrix
-        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None
-        self._state = None
+        self.compose()
         if keep == "tip":
             self.read_position()
         self.log("frame " + name, tuple(map(tuple, (self.frames[name]).tolist())))
+
+    def compose(self) -> None:
+        """The chain of frames has changed."""
+        self._matrix = self.frames.matrix
+        self._shift = tuple(self._matrix[:3, 3].tolist()) if frames.is_shift(self._matrix) else None
+        self._state = None
 
     def select_datum(self, datum: Datum, frame: str = "datum") -> None:
         """Count from a work offset; the first one selected is the origin of the path."""
@@ -286,20 +291,22 @@ class Machine:
             )
             self.alarm(fault, word, hint="lead the tool to the start of the arc by a straight move first")
         first, second, _ = PLANES[self.plane]
-        s = np.array([self.programmed[first], self.programmed[second]])
-        e = np.array([point[first], point[second]])
+        here = self.programmed
+        s, e = (here[first], here[second]), (point[first], point[second])
         if radius is not None:
             c = centre_by_radius(self, s, e, radius, sense, tolerance, word)
         else:
-            c = np.array([(centre or {}).get(k, self.programmed[k]) for k in (first, second)])
+            given = centre or {}
+            c = (given.get(first, here[first]), given.get(second, here[second]))
             check_radii(self, s, e, c, tolerance, word)
-        angle = float(sweep(s, e, c, sense))
-        middle = list(self.programmed)
-        middle[first], middle[second] = c.tolist()
+        angle = sweep_of_one(s, e, c, sense)
+        middle = list(here)
+        middle[first], middle[second] = c
         if self._shift is None:
             angle *= self._arc_sense(word)
-        self._row(Kind.ARC, self.to_machine(point), self.to_machine(middle), angle, feed)
-        self.programmed, self.tip = point, self.to_machine(point)
+        tip = self.to_machine(point)
+        self._row(Kind.ARC, tip, self.to_machine(middle), angle, feed)
+        self.programmed, self.tip = point, tip
 
     def _arc_sense(self, word: Word | None) -> int:
         """The orientation; an alarm when the frame would turn the circle into an ellipse."""
@@ -340,12 +347,12 @@ class Machine:
         if joint is not None:
             number = len(recorder.joints)
             recorder.joints.append(joint)
-        state = self.state()
+        state = self.state() if self._state is None else self._state
         if self.exact_here and not self.exact:
             state = recorder.state(recorder.states[state]._replace(exact=True))
         if self.per_rev and feed != (self.feed or 0.0) * abs(self.speed):  # a rapid, or a feed in mm/min of a cycle
             state = recorder.state(recorder.states[state]._replace(per_rev=NAN))
-        label = recorder.label(self.label)
+        label = recorder.label(self.label) if self.label else 0
         recorder.add((kind, self.source_line, self.step, label, *tip, *centre, angle, feed, time, number, state))
 
     def mark_joint(self, joint: Any) -> bool:
@@ -404,9 +411,9 @@ class Machine:
         self._row(Kind.PROBE, tip, feed=f)
         self.read_position()
 
-    def record(self, label: str, span: Span | None = None) -> Recording:
+    def record(self, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
         """Read the contour of a label: nothing moves, variables that it writes stay."""
-        return record(self, label, span)
+        return record(self, label, span, after)
 
     # --- settling ----------------------------------------------------------------------------------------------------
 

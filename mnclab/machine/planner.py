@@ -6,12 +6,14 @@ interpreter makes it once for each kind of block. No word is lost by constructio
 
 from __future__ import annotations
 
-from difflib import get_close_matches
+from collections.abc import Callable
+from operator import itemgetter
 from typing import NamedTuple
 
 from mnclab.machine.control import Control, Function
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
+from mnclab.text.nearest import hint
 from mnclab.text.program import Word, digits
 
 
@@ -24,11 +26,17 @@ class Action(NamedTuple):
     head: int
     takes: tuple[int, ...]
 
+    @property
+    def pick(self) -> Callable[[list[Word]], tuple[Word, ...]]:
+        """Takes its words out of a block: for a function the one that called it is the first."""
+        which = (self.head, *self.takes) if self.head >= 0 and isinstance(self.what, Function) else self.takes
+        return itemgetter(*which) if len(which) > 1 else lambda words: tuple([words[k] for k in which])
+
 
 class Plan(NamedTuple):
     """What to do with a kind of block, in order, and remarks about it."""
 
-    actions: tuple[Action, ...]
+    actions: tuple[tuple[Action, Callable[[list[Word]], tuple[Word, ...]]], ...]
     remarks: tuple[tuple[int, str, str], ...]  # word, sentence, hint
 
 
@@ -86,7 +94,7 @@ class Planner:
         self.refuse_leftovers([f for f, _ in functions])
         self.refuse_repeated()
         order = sorted(self.actions, key=lambda action: action.phase)
-        return Plan(tuple(order), tuple(self.remarks))
+        return Plan(tuple((action, action.pick) for action in order), tuple(self.remarks))
 
     def codes(self) -> list[tuple[str, int]]:
         """The codes of a block: its keyword, and its G and M words."""
@@ -101,8 +109,9 @@ class Planner:
         if found is None:
             if code in self.control.refused:
                 self.alarm(f"{code} is refused: {self.control.refused[code]}", index)
-            near = get_close_matches(code, [*self.control.functions, *self.control.cycles], 3, 0.6)
-            self.alarm(f"{code} is not a function of this control", index, f"near: {', '.join(near)}" if near else "")
+            meant = code.replace("-", "").partition(".")[0]
+            near = hint(meant, (*self.control.functions, *self.control.cycles))
+            self.alarm(f"{code} is not a function of this control", index, near)
         assert found is not None
         return found
 

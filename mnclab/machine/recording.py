@@ -1,18 +1,19 @@
 """Reading a contour from a label: its blocks are obeyed, but the tool does not move.
 
-The same interpreter runs the label on a machine whose frames, rows and modal state are set aside: the frame is the
-identity, corners are applied, the radius is not compensated. Afterwards everything is as before, except variables that the
-label wrote; alarms keep the line they stand in.
+The same interpreter runs the label on a machine whose frames, rows and modal state are set aside: corners are applied,
+the radius is not compensated. Afterwards everything is as before, except variables that the label wrote; alarms keep the
+line they stand in. A transformation inside the label replaces or adds to that of the program as it would outside; the
+contour is told in the coordinates of the program that calls, and the next label of the same contour goes on with it.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from mnclab.geometry import frames
-from mnclab.geometry.frames import FrameChain
+from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.path import corners
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import Recorder
@@ -23,23 +24,29 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 #: What a recorded label may change for good.
-_OUTLIVES = ("alarms", "variables", "measured", "tables", "step", "logs", "flow", "memory")
+_OUTLIVES = ("alarms", "variables", "measured", "tables", "step", "logs", "flow")
 _NOWHERE = (float("nan"), float("nan"), 0.0)
 
 
 class Recording(NamedTuple):
     """A contour as its label describes it: ``path`` in program coordinates from ``start`` on, and its side (+1 left,
-    -1 right, 0 none)."""
+    -1 right, 0 none). ``frames`` and ``memory`` are the transformations at its end."""
 
     path: Toolpath
     side: int
     start: tuple[float, float, float]
+    frames: FrameChain
+    memory: dict[str, Any]
 
 
-def record(m: Machine, label: str, span: Span | None = None) -> Recording:
-    """Obey a label for its contour; an Alarm when it has none or does not begin with both coordinates."""
-    kept = dict(vars(m))
-    m.frames, m._matrix, m._shift = FrameChain(m.control.frames), frames.IDENTITY, (0.0, 0.0, 0.0)
+def record(m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
+    """Obey a label for its contour; an Alarm when it has none or does not begin with both coordinates.
+
+    ``after`` is the label before it in the same contour, whose transformations still act.
+    """
+    kept, outer = dict(vars(m)), m._matrix
+    m.frames, m.memory = (after or m).frames.copy(), dict((after or m).memory)
+    m.compose()
     m.recorder, m.programmed_pieces, m.settled = Recorder(_NOWHERE), [], []
     m.modal, m._state, m.recorded_only = dict(m.modal), None, True
     m.tip = m.programmed = _NOWHERE
@@ -47,16 +54,28 @@ def record(m: Machine, label: str, span: Span | None = None) -> Recording:
     try:
         m.flow.call(label, span)
         path = corners.apply(m.recorder.take())
+        chain, memory = m.frames, m.memory
     except PathFault as fault:
         raise Alarm(fault.message, m.flow.span_of_step(fault.step), hint=fault.hint) from None
     finally:
         for name, value in kept.items():
             if name not in _OUTLIVES:
                 setattr(m, name, value)
-    path = path.motion
+    path = _within(path.motion, outer)
     if not len(path):
         raise Alarm(f"label {label} describes no contour", span)
     if np.isnan(path.end).any():
         raise Alarm(f"the contour of label {label} must begin with both coordinates of the plane", span)
     first = path[0].end.tolist()
-    return Recording(path[1:], int(path.side[1] if len(path) > 1 else path.side[0]), (first[0], first[1], first[2]))
+    side = int(path.side[1] if len(path) > 1 else path.side[0])
+    return Recording(path[1:], side, (first[0], first[1], first[2]), chain, memory)
+
+
+def _within(path: Toolpath, outer: Matrix) -> Toolpath:
+    """A path of the machine in the coordinates inside a frame (of equal scales)."""
+    back = frames.inverse(outer)
+    sense = 1 if np.linalg.det(outer[:3, :3]) > 0 else -1  # a mirror turns arcs and sides over
+    places = {name: frames.apply(back, getattr(path, name)) for name in ("start", "end", "centre")}
+    axis = frames.apply(back, path.axis) - back[:3, 3]
+    axis /= np.linalg.norm(axis, axis=-1, keepdims=True)
+    return path.replace(**places, axis=axis, sweep=path.sweep * sense, side=path.side * sense)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path import compensation, corners
+from mnclab.path import compensation, corners, rapids
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import join
 from mnclab.path.toolpath import Toolpath, concatenate
@@ -49,7 +49,8 @@ def settle(m: Machine, unfinished: bool = False) -> None:
 
 
 def _passes(m: Machine, piece: Toolpath, unfinished: bool) -> Toolpath:
-    return compensation.apply(corners.apply(piece, unfinished), m.control.compensation, unfinished)
+    path = compensation.apply(corners.apply(piece, unfinished), m.control.compensation, unfinished)
+    return rapids.broken(path, m.setup.limits.rapid) if m.settings.get("rapid_path") == "broken" else path
 
 
 def _before(m: Machine, piece: Toolpath) -> Toolpath:
@@ -85,8 +86,10 @@ def paths(m: Machine) -> tuple[Toolpath, Toolpath]:
 def _shown(m: Machine, path: Toolpath) -> Toolpath:
     """A path relative to the origin, with the labels and joints known at the end."""
     origin = np.array(m.origin or (0.0, 0.0, 0.0))
-    if origin.any():
-        path = path.replace(start=path.start - origin, end=path.end - origin, centre=path.centre - origin)
+    if origin.any() and len(path):
+        vertices = np.concatenate([path.start[:1], path.end]) - origin
+        centre = path.centre if path.centre.strides[0] == 0 else path.centre - origin
+        path = path.replace(start=vertices[:-1], end=vertices[1:], centre=centre)
     recorder = m.recorder
     return path.annotated(
         labels=tuple(recorder.labels), joints=tuple(recorder.joints), origin=tuple(origin), lathe=m.control.lathe

@@ -35,16 +35,6 @@ class Probe(NamedTuple):
     rapid: float = float("inf")  # FMAX
 
 
-class Setting(NamedTuple):
-    """A choice that a control leaves to its parameters or to the reader of its manual."""
-
-    name: str
-    default: Any
-    meaning: str
-    source: str = ""
-    choices: tuple[Any, ...] = ()
-
-
 #: A small magazine, so that a first program needs no table. Lengths are 0: the tip is the spindle reference.
 MAGAZINE: Mapping[int, Tool] = {
     0: Tool(number=0, name="none"),
@@ -63,7 +53,7 @@ class Setup:
 
     ``start`` is the spindle reference in machine coordinates, mm. ``part`` and ``stock`` stand in machine coordinates.
     ``files`` maps names to texts or paths of other programs and tables. ``settings`` overrides the declared choices of
-    the control, see ``Control.settings``. Tools given without a number get the one they are listed under.
+    the control (``mnclab.help("settings", control)``). Tools given without a number get the one they are listed under.
     """
 
     tools: Mapping[int, Tool] = field(default_factory=lambda: MAGAZINE)

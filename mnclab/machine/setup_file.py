@@ -6,7 +6,6 @@ import re
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import fields
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -14,6 +13,7 @@ from mnclab.machine.setup import Datum, Probe, Setup
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm, Span
+from mnclab.text.nearest import hint
 
 Result = TypeVar("Result")
 
@@ -33,7 +33,7 @@ length = 80                    # and in degrees angle (of the point) and plunge_
 [limits]                       # rapid, acceleration, jerk, corner_speed, corner_tolerance, corner_jump, rapid_motion,
                                # spindle, spindle_acceleration, tool_change; a number, or [x, y, z] per axis
 [probe]                        # clearance, reach, feed, rapid
-[settings]                     # choices of the control, as mnclab.controls[name].settings lists them
+[settings]                     # choices of the control: mnclab help settings --control NAME lists them
 [files]                        # names that programs call -> files, seen from this one
 """
 
@@ -151,6 +151,4 @@ def check_names(table: Mapping[str, Any], known: Any, where: str) -> None:
     """An Alarm for the first name that is not known."""
     for name in table:
         if name not in known:
-            near = get_close_matches(name, list(known), 1)
-            hint = f"near: {near[0]}" if near else f"known: {', '.join(known)}"
-            raise Alarm(f"{where} has no {name!r}", hint=hint)
+            raise Alarm(f"{where} has no {name!r}", hint=hint(name, known, 1) or f"known: {', '.join(known)}")

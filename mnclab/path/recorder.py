@@ -6,6 +6,8 @@ tuple. Rows made in bulk arrive as columns.
 
 from __future__ import annotations
 
+from array import array
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -39,7 +41,6 @@ PLAIN: dict[str, Any] = {
     "label": 0, "sweep": 0.0, "feed": NAN, "time": NAN, "joint": -1, "state": 0, "centre": np.array([NAN] * 3),
 }  # fmt: skip
 STATE = (np.int64,)
-MANY = 4096  # rows kept as tuples; as columns they do not keep the garbage collector busy
 ROW = ("kind", "line", "step", "label", "x", "y", "z", "cx", "cy", "cz", "sweep", "feed", "time", "joint", "state")
 
 
@@ -47,14 +48,38 @@ class Recorder:
     """Collects rows; :meth:`take` hands over what has come since the last time."""
 
     def __init__(self, start: tuple[float, float, float]) -> None:
-        self.rows: list[tuple[Any, ...]] = []
+        self.rows = array("d")  # one after the other; a list of tuples would be slower to make columns of
         self.states: list[State] = []
         self._state_index: dict[State, int] = {}
         self.labels: dict[str, int] = {"": 0}
         self.joints: list[Any] = []
         self._done: list[dict[str, NDArray[Any]]] = []  # column chunks not yet taken
-        self.start = np.array(start, dtype=np.float64)
-        self.count = 0
+        self.expected = 0
+        """How many rows there will be, roughly: room that is never used costs nothing, room made anew costs much."""
+        self.start = start
+
+    @property
+    def start(self) -> NDArray[np.float64]:
+        """Where (3,) the next path begins. Set it between two paths only."""
+        return self._vertices[0]
+
+    @start.setter
+    def start(self, point: Iterable[float]) -> None:
+        self._vertices = np.array([tuple(point)], dtype=np.float64)  # (room + 1, 3), of which the first are filled
+        self._count = 0  # rows that have their vertices there
+
+    def room(self, count: int) -> NDArray[np.float64]:
+        """Where the vertices (count + 1, 3) of the next rows will lie; the first one is the end of the last row."""
+        self._flush()
+        return self._room(count)
+
+    def _room(self, count: int) -> NDArray[np.float64]:
+        needed = self._count + count + 1
+        if needed > len(self._vertices):
+            more = np.empty((max(needed, 2 * len(self._vertices), self.expected + 1), 3))
+            more[: self._count + 1] = self._vertices[: self._count + 1]
+            self._vertices = more
+        return self._vertices[self._count : needed]
 
     def state(self, state: State) -> int:
         """The index of a state."""
@@ -73,14 +98,22 @@ class Recorder:
 
     def add(self, row: tuple[Any, ...]) -> None:
         """One row, the values in the order of :data:`ROW`."""
-        self.rows.append(row)
-        if len(self.rows) >= MANY:
-            self._flush()
+        self.rows.extend(row)
 
-    def bulk(self, columns: dict[str, NDArray[Any]]) -> None:
-        """Rows (n,) as columns: ``kind`` and ``end`` (n, 3), and what differs from :data:`PLAIN`; one value stands for all."""
+    def bulk(self, columns: dict[str, NDArray[Any]], ends: NDArray[np.float64]) -> None:
+        """Rows (n,) as columns: ``kind`` and what differs from :data:`PLAIN`; one value stands for all.
+
+        ``ends`` (n, 3) may lie in :meth:`room` already.
+        """
         self._flush()
-        self._done.append(columns)
+        self._append(columns, ends)
+
+    def _append(self, columns: dict[str, NDArray[Any]], ends: NDArray[np.float64]) -> None:
+        room = self._room(len(ends))[1:]
+        if room.__array_interface__["data"] != ends.__array_interface__["data"]:
+            room[:] = ends
+        self._done.append({**columns, "end": room})
+        self._count += len(ends)
 
     def _last_motion(self) -> tuple[dict[str, NDArray[Any]], int] | None:
         """The columns and the row in them of the last line, arc or rapid not yet taken."""
@@ -119,7 +152,7 @@ class Recorder:
             spoke = end - chunk["centre"][row]
             travel = np.cross(axis, spoke) * np.sign(chunk["sweep"][row])
         else:
-            before = [np.array(self.start), *(c["end"][-1] for c in self._done)]
+            before = [self.start, *(c["end"][-1] for c in self._done)]
             index = next(i for i, c in enumerate(self._done) if c is chunk)
             travel = end - (chunk["end"][row - 1] if row else before[index])
         length = float(np.linalg.norm(travel))
@@ -128,10 +161,10 @@ class Recorder:
     def _flush(self) -> None:
         if not self.rows:
             return
-        table = np.array(self.rows, dtype=np.float64)
+        table = np.frombuffer(self.rows).reshape(-1, len(ROW))
         named = {name: table[:, i] for i, name in enumerate(ROW) if len(name) > 2}
-        self._done.append({**named, "end": table[:, 4:7], "centre": table[:, 7:10]})
-        self.rows = []
+        self.rows = array("d")
+        self._append({**named, "centre": table[:, 7:10]}, table[:, 4:7])
 
     def take(self) -> Toolpath:
         """The rows since the last call as a path that begins at :attr:`start`, which moves on to its end."""
@@ -145,8 +178,8 @@ class Recorder:
             for name in dict.fromkeys(name for chunk in chunks for name in chunk)
             if name != "end"
         }
-        vertices = np.concatenate([self.start[None], *(chunk["end"] for chunk in chunks)])
-        self.start = vertices[-1]
+        vertices = self._vertices[: self._count + 1]
+        self._vertices, self._count = self._vertices[self._count :], 0  # the next path begins where this one ends
         return self._path(columns, vertices)
 
     def _path(self, columns: dict[str, NDArray[Any]], vertices: NDArray[np.float64]) -> Toolpath:

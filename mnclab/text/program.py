@@ -32,13 +32,29 @@ def digits(value: float) -> str:
     return np.format_float_positional(value, trim="-")
 
 
+_LENGTH, _COLUMN, _LINE = 15, 23, 25  # bits of a place
+
+
+def place_of(line: Any, column: Any, length: Any) -> Any:
+    """Line, column and length in one integer, or in one array of them: a long program has millions of places."""
+    cut = (np.minimum(part, (1 << bits) - 1) for part, bits in ((line, _LINE), (column, _COLUMN), (length, _LENGTH)))
+    line, column, length = (np.asarray(part, dtype=np.int64) for part in cut)
+    return (line << _COLUMN | column) << _LENGTH | length
+
+
 class Word(NamedTuple):
     """An address with its value, and where it stands."""
 
     address: str
     value: float | str | Expression | None
-    span: Span
+    place: int
     flag: int = 0
+
+    @property
+    def span(self) -> Span:
+        """Where the word stands."""
+        above = self.place >> _LENGTH
+        return Span(above >> _COLUMN, above & (1 << _COLUMN) - 1, self.place & (1 << _LENGTH) - 1)
 
     @property
     def incremental(self) -> bool:
@@ -82,7 +98,7 @@ class Program:
     name: str
     control: str
     addresses: tuple[str, ...]
-    address: NDArray[np.int16]
+    address: NDArray[np.integer[Any]]
     value: NDArray[np.float64]
     form: NDArray[np.uint8]
     flag: NDArray[np.uint8]
@@ -131,7 +147,7 @@ class Program:
         form, value = self.form[index], self.value[index]
         kept: Any = float(value) if form == NUMBER else None if form == NONE else self.payload[int(value)]
         span = self.span(int(self.offset[index]), int(self.length[index]))
-        return Word(self.addresses[self.address[index]], kept, span, int(self.flag[index]))
+        return Word(self.addresses[self.address[index]], kept, int(place_of(*span[:3])), int(self.flag[index]))
 
     def span(self, offset: int, length: int = 1) -> Span:
         """Line and column of a place in the text."""
@@ -146,7 +162,13 @@ class Program:
 
     def line_of(self, index: int | slice | NDArray[np.integer[Any]]) -> Any:
         """Source line of a block, 1-based; an array of blocks gives an array of lines."""
-        return np.searchsorted(self.line_starts, self.start[index], "right")
+        start = self.start[index]
+        if isinstance(index, slice) and len(start):  # mostly one block a line
+            first = int(np.searchsorted(self.line_starts, start[0], "right"))
+            lines = self.line_starts[first - 1 : first + len(start)]
+            if len(lines) > len(start) and (start >= lines[:-1]).all() and (start < lines[1:]).all():
+                return np.arange(first, first + len(start), dtype=np.int32)
+        return np.searchsorted(self.line_starts, start, "right")
 
     def line_text(self, line: int) -> str:
         """The characters of one line, without its end; empty beyond the program."""
@@ -265,23 +287,26 @@ class ProgramBuilder:
         words[:, 5] = np.minimum(words[:, 5], 32767)
         kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int16)
         columns = [words[:, k].astype(kind) for k, kind in enumerate(kinds)]
-        heads = [column.astype(np.int32) for column in (*blocks[:, :4].T, count)]
+        heads = [column.astype(np.int32) for column in blocks[:, :4].T]
+        first = first_words(count)
         if bulk is not None and len(bulk.start):
-            names = np.array(
-                [self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses], dtype=np.int16
-            )
+            names = [self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses]
+            same_names = names == list(range(len(names)))  # then no copy is needed
+            address = bulk.address if same_names else np.array(names, dtype=np.int16)[bulk.address]
             key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
             n = len(bulk.start)
             zero = np.broadcast_to(np.uint8(0), (len(bulk.value),))  # a constant column costs nothing
             form = zero if bulk.form is None else bulk.form
-            more = [names[bulk.address], bulk.value, form, zero, bulk.offset, bulk.length]
+            more = [address, bulk.value, form, zero, bulk.offset, bulk.length]
             same = np.broadcast_to(np.int16(key), (n,)), np.broadcast_to(np.False_, (n,))
-            more_heads = [bulk.start, *same, bulk.plain, bulk.size]
+            more_heads = [bulk.start, *same, bulk.plain]
+            first = bulk.first
             if self.blocks:
-                more, more_heads = _merged(columns, more, 4), _merged(heads, more_heads, 0)
-            columns, heads = more, more_heads
-        first = np.zeros(len(heads[4]) + 1, dtype=np.int32)
-        np.cumsum(heads[4], out=first[1:])
+                sizes = [count, np.diff(first)]
+                columns, heads = _merged(columns, more, 4), _merged([*heads, sizes[0]], [*more_heads, sizes[1]], 0)
+                first = first_words(heads[4])
+            else:
+                columns, heads = more, more_heads
         return Program(
             text=self.text,
             name=self.name,
@@ -307,6 +332,13 @@ class ProgramBuilder:
         )
 
 
+def first_words(size: NDArray[Any]) -> NDArray[np.int32]:
+    """Where the words of each block begin (b + 1,), from their number (b,)."""
+    first = np.zeros(len(size) + 1, dtype=np.int32)
+    np.cumsum(size, out=first[1:])
+    return first
+
+
 def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
     """Two sets of columns sorted together by one of them."""
     order = np.argsort(np.concatenate([some[by], others[by]]), kind="stable")
@@ -314,7 +346,7 @@ def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
 
 
 class BulkBlocks(NamedTuple):
-    """Blocks found for a whole text at once: words (w,) with ``address`` into ``addresses``, blocks (b,).
+    """Blocks found for a whole text at once: words (w,) with ``address`` into ``addresses``, blocks (b,), ``first`` (b + 1,).
 
     ``form`` (w,) may say that some words have no value; without it all are numbers.
     """
@@ -326,6 +358,6 @@ class BulkBlocks(NamedTuple):
     length: NDArray[np.int16]
     keyword: str
     start: NDArray[np.int32]
-    size: NDArray[np.int32]
+    first: NDArray[np.int32]
     plain: NDArray[np.bool_]
     form: NDArray[np.uint8] | None = None

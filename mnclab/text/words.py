@@ -26,9 +26,11 @@ _KIND[[ord(c) for c in "\r\n"]] = END
 _KIND[ord("0") : ord("9") + 1] = DIGIT
 
 _u8 = np.uint64
-_ZEROS, _POINTS = _u8(0x3030303030303030), _u8(0x2E2E2E2E2E2E2E2E)
-_LOW, _HIGH = _u8(0x0101010101010101), _u8(0x8080808080808080)
+_ZEROS, _BIT_OF_POINT, _HIGH = _u8(0x3030303030303030), _u8(0x1010101010101010), _u8(0x8080808080808080)
 _POWERS = 10.0 ** np.arange(23)
+_KEEP = np.array([(2**64 - 1) >> 8 * k << 8 * k for k in range(8, -1, -1)], dtype=np.uint64)  # by number of characters
+_POWER_OF_POINT = np.ones(65)  # by the number of bits below the point in a machine word
+_POWER_OF_POINT[0:64:8] = _POWERS[7::-1]
 
 
 @dataclass(frozen=True)
@@ -79,26 +81,25 @@ def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
     most = len(text) // 2 + 1
     columns: list[NDArray[Any]] = [np.empty(most, dtype=kind) for kind in (np.uint8, np.float64, np.int32, np.int16)]
     starts: list[NDArray[np.int32]] = []
-    counts: list[NDArray[np.int64]] = []
+    counts: list[NDArray[np.int32]] = []
     cleans: list[NDArray[np.bool_]] = []
     begin = found = 0
     while begin < len(text) or not starts:
         end = _end_of_piece(text, begin)
-        data = characters(text[begin:end])
-        local = line_starts(data)
-        if end < len(text):
-            local = local[:-1]  # the line that begins the next piece
-        *words, count, clean = _scan_piece(data, local, begin, leading_number, bare)
+        piece = _Piece(characters(text[begin:end]), leading_number, bare)
+        lines = len(piece.starts) - (end < len(text))  # the last one begins with the next piece
+        words = piece.words()
+        stop = found + len(words[0])
         for column, part in zip(columns, words, strict=True):
-            column[found : found + len(part)] = part
-        starts.append(local + begin)
-        counts.append(count)
-        cleans.append(clean)
-        found, begin = found + len(words[0]), end
+            column[found:stop] = part
+        columns[2][found:stop] += begin
+        starts.append((piece.starts[:lines] + begin).astype(np.int32))
+        counts.append((piece.count * piece.clean)[:lines].astype(np.int32))
+        cleans.append(piece.clean[:lines])
+        found, begin = stop, end
     letter, value, offset, length = (column[:found] for column in columns)
     return Scan(
-        letter, value, offset, length,
-        np.concatenate(counts).astype(np.int32), np.concatenate(cleans), np.concatenate(starts).astype(np.int32),
+        letter, value, offset, length, np.concatenate(counts), np.concatenate(cleans), np.concatenate(starts)
     )  # fmt: skip
 
 
@@ -115,52 +116,87 @@ def _end_of_piece(text: str, begin: int) -> int:
     return last + 2 if text[last : last + 2] == "\r\n" else last + 1
 
 
-def _letters(data: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    return (data | 0x20) - 97 < 26
+class _Piece:
+    """The words of some whole lines.
+
+    Nearly every word is a letter, at once its number, and then one blank or the end of the line; all are read as if
+    they were. Those that come out wrong are looked at again with care.
+    """
+
+    def __init__(self, data: NDArray[np.uint8], leading_number: bool, bare: str) -> None:
+        self.data = data
+        ends = data == 10
+        if (returns := data == 13).any():
+            returns[:-1] &= data[1:] != 10  # of CR LF only the second is an end
+            ends |= returns
+        marks = np.flatnonzero((((data | 0x20) - 97) < 26) | ends)
+        marked = data[marks]
+        newline = np.flatnonzero(marked <= 13)
+        self.starts = np.concatenate([[0], marks[newline] + 1])
+        self.count = np.diff(newline, prepend=-1, append=len(marks)) - 1  # words of each line
+        is_letter = marked > 13
+        self.at = marks[is_letter]
+        self.letter = marked[is_letter] & 0xDF
+        self.words_before = np.concatenate([[0], np.cumsum(self.count)])
+        self.filled = np.flatnonzero(self.count)  # lines with words
+        after = np.append(self.at, len(data))[1:]
+        after[self.words_before[self.filled + 1] - 1] = np.append(marks[newline], len(data))[self.filled]
+        self.value, self.end = self.read(after)
+        self.clean = self.clean_lines(leading_number, bare)
+
+    def read(self, after: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Values and ends of the words, the text of each before ``after``; nan where there is no number, end 0 where there is
+        nothing."""
+        padded = _padded(self.data)
+        first, last = padded[self.at + 9], padded[after + 7]
+        negative = first == 45
+        begin = self.at + 1 + (negative | (first == 43))
+        end = after - ((last == 32) | (last == 9) | (last == 13))
+        value, good = numbers(self.data, begin, end, padded)
+        if not good.all():
+            odd = np.flatnonzero(~good)
+            begin = _skip_blanks(self.data, self.at[odd] + 1, after[odd])
+            end[odd] = _drop_blanks(self.data, begin, after[odd])
+            first = padded[begin + 8]
+            negative[odd] = (first == 45) & (end[odd] > begin)
+            signed = negative[odd] | ((first == 43) & (end[odd] > begin))
+            value[odd], good = numbers(self.data, begin + signed, end[odd], padded)
+            value[odd[~good]] = np.nan
+            end[odd[begin == end[odd]]] = 0
+        value.view(np.uint64)[:] ^= negative.astype(np.uint64) << _u8(63)  # the bit of the sign
+        return value, end
+
+    def clean_lines(self, leading_number: bool, bare: str) -> NDArray[np.bool_]:
+        """Which lines have only good words, and no other character before the first of them."""
+        odd = np.flatnonzero(np.isnan(self.value))
+        if bare and len(odd):
+            first = self.words_before[np.searchsorted(self.words_before, odd, "right") - 1] == odd
+            alone = odd[first & (self.end[odd] == 0) & np.isin(self.letter[odd], [ord(letter) for letter in bare])]
+            self.value[alone], self.end[alone] = 0.0, self.at[alone] + 1
+            odd = np.flatnonzero(np.isnan(self.value))
+        clean = np.ones(len(self.starts), dtype=bool)
+        clean[np.searchsorted(self.words_before, odd, "right") - 1] = False
+        head = np.append(self.starts[1:], len(self.data))
+        head[self.filled] = self.at[self.words_before[self.filled]]
+        return clean & _clean_heads(self.data, self.starts, head, leading_number)
+
+    def words(self) -> tuple[NDArray[Any], ...]:
+        """Letter, value, offset and length of the words of the clean lines."""
+        columns = self.letter, self.value, self.at, np.minimum(self.end - self.at, 32767)
+        if self.clean.all():
+            return columns
+        keep = np.repeat(self.clean, self.count)
+        return tuple(column[keep] for column in columns)
 
 
-def _scan_piece(
-    data: NDArray[np.uint8], starts: NDArray[np.int32], begin: int, leading_number: bool, bare: str
-) -> tuple[NDArray, ...]:
-    marks = np.flatnonzero(_letters(data) | (data == 10) | (data == 13))
-    marked = data[marks]
-    is_letter = marked > 13
-    at = marks[is_letter]
-    after = np.append(marks[1:], len(data))[is_letter]
-
-    # the number lies between the letter and the next one, blanks cut off at both ends
-    begin_of = _skip_blanks(data, at + 1, after)
-    end_of = _drop_blanks(data, begin_of, after)
-    first_of = data[np.minimum(begin_of, len(data) - 1)]
-    negative = (first_of == ord("-")) & (end_of > begin_of)
-    signed = negative | ((first_of == ord("+")) & (end_of > begin_of))
-    value, good = numbers(data, begin_of + signed, end_of)
-    value = np.where(negative, -value, value)
-
-    if (marked == 13).any():
-        line = np.searchsorted(starts, at, "right") - 1
-    else:
-        line = np.cumsum(~is_letter).astype(np.int64)[is_letter]
-    # a line is clean when all its words are good and no other character stands before the first of them
-    if bare:
-        alone = (begin_of == end_of) & (np.diff(line, prepend=-1) != 0)
-        alone &= np.isin(data[at] & 0xDF, [ord(letter) for letter in bare])
-        value, good, end_of = np.where(alone, 0.0, value), good | alone, np.where(alone, at + 1, end_of)
-    clean = np.ones(len(starts), dtype=bool)
-    clean[line[~good]] = False
-    ends = np.append(starts[1:], len(data))
-    head = ends.copy()
-    head[line[::-1]] = at[::-1]
-    clean &= _clean_heads(data, starts, head, leading_number)
-    keep = slice(None) if clean.all() else clean[line]
-    return (
-        data[at[keep]] & 0xDF,
-        value[keep],
-        at[keep] + begin,
-        np.minimum(end_of[keep] - at[keep], 32767),
-        np.bincount(line[keep], minlength=len(starts)),
-        clean,
-    )
+def _padded(data: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The text between eight blanks before it and a line end behind it; a slash, which :func:`numbers` would take for a
+    one, is replaced."""
+    padded = np.empty(len(data) + 9, dtype=np.uint8)
+    padded[:8], padded[8:-1], padded[-1] = 32, data, 10
+    if (slash := padded == 47).any():
+        padded[slash] = 63
+    return padded
 
 
 def _clean_heads(
@@ -180,9 +216,10 @@ def _clean_heads(
     return (before == 0) | ((digits[head] - digits[starts] == before) & (digits[there] - digits[here] == before))
 
 
-def _blank(data: NDArray[np.uint8], at: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _blank(data: NDArray[np.uint8], at: NDArray[np.int64] | slice) -> NDArray[np.bool_]:
+    """Blank, tab, or the CR of a line end CR LF."""
     character = data[at]
-    return (character == 32) | (character == 9)
+    return (character == 32) | (character == 9) | (character == 13)
 
 
 def _skip_blanks(data: NDArray[np.uint8], at: NDArray[np.int64], end: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -190,7 +227,7 @@ def _skip_blanks(data: NDArray[np.uint8], at: NDArray[np.int64], end: NDArray[np
     blank = (at < end) & _blank(data, np.minimum(at, len(data) - 1))
     if not blank.any():
         return at
-    solid = np.append(np.flatnonzero((data != 32) & (data != 9)), len(data))
+    solid = np.append(np.flatnonzero(~_blank(data, slice(None))), len(data))
     found = solid[np.searchsorted(solid, at[blank])]
     result = at.copy()
     result[blank] = np.minimum(found, end[blank])
@@ -202,40 +239,45 @@ def _drop_blanks(data: NDArray[np.uint8], begin: NDArray[np.int64], end: NDArray
     result = end - ((end > begin) & _blank(data, end - 1))  # nearly always one
     todo = np.flatnonzero((result > begin) & _blank(data, result - 1))
     if len(todo):
-        solid = np.maximum.accumulate(np.where((data != 32) & (data != 9), np.arange(len(data)), -1))
+        solid = np.maximum.accumulate(np.where(_blank(data, slice(None)), -1, np.arange(len(data))))
         result[todo] = np.maximum(solid[result[todo] - 1] + 1, begin[todo])
     return result
 
 
 def numbers(
-    data: NDArray[np.uint8], begin: NDArray[np.int64], end: NDArray[np.int64]
+    data: NDArray[np.uint8], begin: NDArray[np.int64], end: NDArray[np.int64], padded: NDArray[np.uint8]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Values of the unsigned decimal numbers in [begin, end) and which of them are numbers at all."""
     size = end - begin
-    padded = np.concatenate([np.full(8, ord(" "), dtype=np.uint8), data])
     window = np.ndarray((len(data) + 1,), dtype="<u8", buffer=padded, strides=(1,))
     word = window[end]  # the eight characters before the end
-    spare = np.clip(8 - size, 0, 7).astype(np.uint64) * _u8(8)
-    low = (_u8(1) << spare) - _u8(1)
-    word = (word & ~low) | (_ZEROS & low)
-
-    # the byte of the point (the lowest zero byte of word ^ points), and the digits below it moved up by one
-    away = word ^ _POINTS
-    found = (away - _LOW) & ~away & _HIGH
-    mark = found & (~found + _u8(1))
-    has_point = mark != 0
-    below = np.where(has_point, (mark >> _u8(7)) - _u8(1), _u8(0))
-    above = np.where(has_point, ~((mark << _u8(1)) - _u8(1)), ~_u8(0))
-    word = (word & above) | ((word & below) << _u8(8)) | np.where(has_point, _u8(0x30), _u8(0))
-    decimals = np.where(has_point, 7 - (np.bitwise_count(mark - _u8(1)).astype(np.int64) >> 3), 0)
-
-    is_digits = (((word + _u8(0x4646464646464646)) | (word - _ZEROS)) & _HIGH) == 0
-    good = is_digits & (size >= 1) & (size <= 8) & ~(has_point & (size == 1))
-    word &= _u8(0x0F0F0F0F0F0F0F0F)
-    word = (word * _u8(2561)) >> _u8(8)
-    word = ((word & _u8(0x00FF00FF00FF00FF)) * _u8(6553601)) >> _u8(16)
-    word = ((word & _u8(0x0000FFFF0000FFFF)) * _u8(42949672960001)) >> _u8(32)
-    value = word.astype(np.float64) / _POWERS[decimals]
+    word ^= _ZEROS
+    word &= _KEEP.take(size, mode="clip")  # a byte for each digit, 0 … 9; a point is 0x1E, nothing else becomes that
+    point = word & _BIT_OF_POINT
+    has_point = point != 0
+    point &= np.negative(point)  # the first one: whatever stays of another is no digit
+    point >>= _u8(4)
+    word -= (point << _u8(5)) - (point << _u8(1))
+    wrong = word + _u8(0x7676767676767676)
+    wrong |= word
+    wrong &= _HIGH
+    good = wrong == 0
+    good &= size > has_point
+    below = point - _u8(1)
+    power = _POWER_OF_POINT[np.bitwise_count(below)]
+    np.minimum(below, point, out=below)  # nothing where there is no point
+    below &= word
+    word += (below << _u8(8)) - below  # the digits before the point move up by one
+    word *= _u8(2561)
+    word >>= _u8(8)
+    word &= _u8(0x00FF00FF00FF00FF)
+    word *= _u8(6553601)
+    word >>= _u8(16)
+    word &= _u8(0x0000FFFF0000FFFF)
+    word *= _u8(42949672960001)
+    word >>= _u8(32)
+    value = word.view(np.int64).astype(np.float64)
+    value /= power
     if (long := size > 8).any():
         value[long], good[long] = _long_numbers(data, begin[long], end[long])
     return value, good

@@ -1,4 +1,4 @@
-"""Examples, codes and parameters of the MNC manual, copied from a catalogue of it: writes the files of catalogue/.
+"""Examples, codes, parameters and open readings of the MNC manual, copied from a catalogue: writes the files of catalogue/.
 
     python3 tests/authorities/extract_checks.py FOLDER
 
@@ -6,6 +6,7 @@ FOLDER holds the catalogue, one YAML file for each part of the manual. The tests
 """
 
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -13,8 +14,7 @@ import yaml
 
 HERE = Path(__file__).parent / "catalogue"
 
-#: Entries whose examples are copied, by file (`a.b` is a file of its own for entries of `a`). A function that is built
-#: gets its entry here.
+#: Entries whose examples are copied, by file. A function that is built gets its entry here.
 EXAMPLES = {
     "mnc-language": [
         *("words", "modal groups", "block execution", "G17", "G18", "G19", "G90", "G91", "G92", "G53"),
@@ -24,13 +24,14 @@ EXAMPLES = {
         *("G41", "G42", "CRC entry (table 7.1)", "CRC travel (table 7.2)", "G40", "CRC exit (table 7.3)"),
         *("S", "G26", "G25", "M word", "M3", "M4", "M5", "M99"),
     ],
-    "mnc-language.frames": ["G10", "G12", "G13", "G37", "G39", "G51", "G147"],
     "mnc-drilling": ["drilling cycles G83-G85", "G80", "G98", "G99", "G83", "prepared cycles", "G300"],
 }
 
 #: Files whose cycles give their parameters, and those whose G and M codes are listed.
 CYCLES = ["mnc-drilling", "mnc-milling"]
 CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
+#: Files whose ambiguities are listed: what the manual leaves open, and the reading to adopt.
+AMBIGUITIES = ["mnc-language"]
 KEYS = ("address", "meaning", "unit", "type", "range", "choices", "default", "required", "modal", "incremental")
 
 
@@ -68,6 +69,15 @@ def listed(folder, names):
                 yield {"code": code, **kept}
 
 
+def ambiguities(folder, names):
+    """What the manual leaves open (`text`) and how it is read (`read`), by the names that code and tests cite."""
+    for name in names:
+        for code, entry in entries(folder, name).items():
+            for sentence in entry.get("ambiguities") or ():
+                found = re.fullmatch(r"\[(MNC-[A-Z0-9a-z-]+)\] TEXT: (.*) READ: (.*) WHY: .*", sentence, re.DOTALL)
+                yield {"id": found[1], "code": code, "text": found[2], "read": found[3]}
+
+
 def save(name, records):
     """One record a line and one parameter a line, so that changes can be read."""
     lines = []
@@ -84,9 +94,10 @@ def save(name, records):
 
 def main(folder):
     for name, codes in EXAMPLES.items():
-        save(name, examples(folder, name.partition(".")[0], codes))
+        save(name, examples(folder, name, codes))
     save("parameters", parameters(folder, CYCLES))
     save("codes", listed(folder, CODES))
+    save("ambiguities", ambiguities(folder, AMBIGUITIES))
 
 
 if __name__ == "__main__":

@@ -99,3 +99,11 @@ def test_the_size_of_a_piece_does_not_show(lines, size):
         words.PIECE = kept
     for name in ("letter", "value", "offset", "length", "count", "clean", "starts"):
         assert np.array_equal(getattr(whole, name), getattr(pieces, name)), name
+
+
+@pytest.mark.parametrize("end", [" \r\n", "\t \r\n", "\r", "\r\n\r\n"])
+def test_blanks_before_a_line_end_belong_to_no_word(end):
+    found = scan(f"X1{end}Y-2.5  Z3{end}M{end}")
+    assert found.value.tolist() == [1, -2.5, 3]
+    assert found.length.tolist() == [2, 5, 2]
+    assert found.clean.sum() == len(found.clean) - 1

@@ -15,7 +15,7 @@ def path_of(*rows, start=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0)):
     recorder = Recorder(start)
     state = recorder.state(State(axis=axis))
     for number, (kind, end, centre, sweep) in enumerate(rows):
-        recorder.rows.append((int(kind), number + 1, number, 0, *end, *centre, sweep, 100.0, NAN, -1, state))
+        recorder.add((int(kind), number + 1, number, 0, *end, *centre, sweep, 100.0, NAN, -1, state))
     return recorder.take()
 
 
@@ -110,5 +110,5 @@ def test_only_rows_at_feed_have_a_feed_per_revolution():
     recorder = Recorder((0.0, 0.0, 0.0))
     state = recorder.state(State(per_rev=0.2))
     for kind, feed in ((Kind.RAPID, np.inf), (Kind.LINE, 60.0), (Kind.DWELL, NAN)):
-        recorder.rows.append((int(kind), 1, 0, 0, 1.0, 0.0, 0.0, *NOWHERE, 0.0, feed, NAN, -1, state))
+        recorder.add((int(kind), 1, 0, 0, 1.0, 0.0, 0.0, *NOWHERE, 0.0, feed, NAN, -1, state))
     assert np.array_equal(recorder.take().per_rev, [np.nan, 0.2, np.nan], equal_nan=True)

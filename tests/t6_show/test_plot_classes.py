@@ -215,6 +215,22 @@ def test_a_pole_is_a_cross_in_the_view_of_its_plane():
     assert crosses(turned.plot().axes[0])["pole"] == (-10, 20)
 
 
+@pytest.mark.parametrize(
+    ("settings", "program", "view", "place"),
+    [
+        ({}, "G18\nG16 X20 Z10\nG10 R5 A0\n", "XZ", (20, 10)),
+        ({"g18_axes": "XZ"}, "G18\nG16 X20 Z10\nG10 R5 A0\n", "XZ", (20, 10)),
+        ({}, "G39 A90\nG51 X0\nG16 X3 Y1\nG10 R5 A0\n", "XY", (-1, -3)),  # -3 1 -> -1 -3
+        ({}, "G51 X0\nG39 A90\nG16 X3 Y1\nG10 R5 A0\n", "XY", (-1, -3)),
+        ({"transformation_order": "nested"}, "G51 X0\nG39 A90\nG16 X3 Y1\nG10 R5 A0\n", "XY", (1, 3)),  # -1 3 -> 1 3
+    ],
+)
+def test_a_pole_lies_where_the_settings_put_it(settings, program, view, place):
+    result = mnclab.run(program, "mnc", mnclab.Setup(settings=settings))
+    (ax,) = result.plot(view=view).axes
+    assert crosses(ax)["pole"] == pytest.approx(place)
+
+
 def test_a_circle_centre_of_a_conversational_program_is_a_pole():
     text = (
         "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n2 L X+20 Y+0\n3 CC X+0 Y+0\n4 C X+0 Y+20 DR+\n5 END PGM A MM\n"

@@ -1,34 +1,26 @@
 """The MNC milling control (Mechatronics, 2015): the namesake.
 
-``language`` holds motion, offsets and words, ``polar`` polar motion, ``transforms`` scaling, mirror image, rotation and
-datums, ``compensation`` the radius functions, ``drilling`` the cycles of chapter 9. Still to come are the other cycles and
-probing; their codes are refused by name.
+``language`` holds motion, offsets and feed, ``auxiliary`` tool, spindle and M functions, ``polar`` polar motion,
+``transforms`` scaling, mirror image, rotation and datums, ``compensation`` the radius functions, ``drilling`` the cycles of
+chapter 9, ``settings`` what a machine may need otherwise. Still to come are the other cycles and probing; their codes are
+refused by name.
 """
 
 from __future__ import annotations
 
 import re
 
-from mnclab.controls.mnc import compensation, drilling, language, polar, transforms
+from mnclab.controls.mnc import auxiliary, compensation, drilling, language, polar, transforms
+from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
-from mnclab.machine.setup import Setting
 from mnclab.path.compensation import Compensation
-from mnclab.path.limits import RAPIDS
 
 #: Order inside a block (adopted reading MNC-BLOCK-ORDER).
 PHASES = (
-    *("plane", "feed", "spindle", "tool", "corrector", "auxiliary", "frames", "local", "compensation", "dwell"),
-    *("motion", "call", "end"),
-)
-
-SETTINGS = (
-    Setting("block_skip", False, "operator mode: blocks with / are passed over", "1.5"),
-    Setting("arc_tolerance", 0.01, "mm between the radii at start and end of an arc", "MNC-ARC-TOL"),
-    Setting("peck_clearance", 1.0, "mm above the last depth to which G83 returns at rapid", "MNC-G83-CLEARANCE"),
-    Setting("rapid_motion", "axes", "how a rapid goes: axis by axis, or along the line", "3.1", tuple(RAPIDS)),
-    Setting("bulk", True, "obey long runs of plain blocks at once", ""),
+    *("plane", "feed", "spindle", "tool", "change", "corrector", "auxiliary", "frames", "local", "compensation"),
+    *("dwell", "motion", "call", "end"),
 )
 
 _LATER = "it is part of this control but not built yet"
@@ -48,17 +40,23 @@ def looks_like(text: str) -> bool:
     return _G_BLOCK.search(text) is not None and re.search(r"[*~@;']|BEGIN[ \t]+PGM", text) is None
 
 
+FUNCTIONS = (
+    language.FUNCTIONS | auxiliary.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | compensation.FUNCTIONS
+    | drilling.FUNCTIONS
+)  # fmt: skip
+
 CONTROL = Control(
     name="mnc",
     title="Mechatronics MNC (2015)",
     suffixes=(".mnc",),
     read=reader("mnc"),
-    functions=language.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | compensation.FUNCTIONS | drilling.FUNCTIONS,
+    functions=FUNCTIONS,
     cycles=drilling.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),
     compensation=Compensation(approach="corner"),
+    start=language.power_on,
     looks_like=looks_like,
     refused=REFUSED,
     together=language.together,

@@ -1,4 +1,4 @@
-"""Motion, planes, dimensions, work offsets, feed, spindle, tool and auxiliary functions (MNC, chapters 1 to 8)."""
+"""Motion, planes, dimensions, G53 and G92, feed, dwell and exact stop (MNC, chapters 1 to 4, 8)."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ from mnclab.machine.machine import Machine
 from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
-PLANES = {"G17": "XY", "G18": "ZX", "G19": "YZ"}
-OUTSIDE = "the manual does not list it; it is taken in its ISO meaning"
+PLANES = {"G17": "XY", "G19": "YZ"}  # G18: setting g18_axes
 
 
 def together(m: Machine, words: list[Word]) -> None:
@@ -25,6 +24,15 @@ def together(m: Machine, words: list[Word]) -> None:
     for code, word in codes.items():
         if "G53" in codes and code in m.control.functions and m.control.functions[code].still:
             m.alarm(f"{code} stands in a block without motion, G53 in one with motion", word, hint="write two blocks")
+
+
+def power_on(m: Machine) -> None:
+    """The functions that settings put in the place of those of the table at power-on."""
+    for name, code in m.settings.items():
+        if name.startswith("power_on_"):
+            function = m.control.functions[code]
+            m.set_modal(str(function.group), code)
+            function.obey(m, Words((), code))
 
 
 def absolute(m: Machine) -> bool:
@@ -62,9 +70,10 @@ def arc(m: Machine, words: Words) -> None:
 )  # fmt: skip
 def plane(m: Machine, words: Words) -> None:
     """The plane of arcs, radius compensation, polar coordinates and rotation."""
-    if m.pole is not None and PLANES[words.code] != m.plane:
+    plane = PLANES.get(words.code) or m.settings["g18_axes"]
+    if m.pole is not None and plane != m.plane:
         m.alarm("the plane cannot change while polar coordinates are on", first_word(words), hint="write G15 first")
-    motion.set_plane(m, PLANES[words.code], first_word(words))
+    motion.set_plane(m, plane, first_word(words))
 
 
 @FUNCTIONS(
@@ -78,7 +87,12 @@ def dimension(m: Machine, words: Words) -> None:
 @FUNCTIONS("G53", "Machine coordinates", group="datum", phase="frames", power_on="G53", modal=False, source="2.6")
 def machine_coordinates(m: Machine, words: Words) -> None:
     """In this block only, work offset and G92 count as zero; active at power-on until a work offset is selected."""
-    kept = [(name, m.frames[name]) for name in ("datum", "local")]
+    transformed = m.settings["g53_transformed"]
+    kept = [(name, frame) for name, frame in m.frames if name in ("datum", "local") or not transformed]
+    if m.side and not (transformed and m.settings["g53_tool_length"]):
+        m.alarm(
+            "G53 without the corrections cannot stand under radius compensation", first_word(words), "write G40 first"
+        )
 
     def restore() -> None:
         for name, frame in kept:
@@ -88,7 +102,17 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     m.memory["machine coordinates"] = True
     for name, _ in kept:
         m.set_frame(name, None)
+    if not m.settings["g53_tool_length"]:  # Z is the spindle reference, above the tip by the length
+        m.set_frame("local", frames.shift(z=-m.tool.effective_length))
     m.at_block_end(restore)
+
+
+def transformation(m: Machine) -> frames.Matrix:
+    """Scaling, mirror image and rotation as one: all that stands inside the work offset and G92."""
+    product = frames.IDENTITY
+    for name, frame in m.frames:
+        product = product if name in ("datum", "local") else product @ frame
+    return product
 
 
 @FUNCTIONS("G92", "Set position", phase="local", takes="X Y Z U V W", still=True, modal=False, source="2.5")
@@ -97,7 +121,7 @@ def set_position(m: Machine, words: Words) -> None:
     if m.side:
         m.alarm("G92 cannot stand under radius compensation", first_word(words), hint="write G40 first")
     point, local = list(m.programmed), m.frames["local"][:3, 3].copy()
-    inner = m.frames["rotation"] @ m.frames["mirror"] @ m.frames["scaling"]
+    inner = transformation(m)
     if not np.array_equal(inner, frames.IDENTITY):
         m.warn("G92 under scaling, mirror image or rotation: its values are programmed coordinates", first_word(words))
     for k, (axis, increment) in enumerate(zip(AXES, "UVW", strict=True)):
@@ -106,7 +130,7 @@ def set_position(m: Machine, words: Words) -> None:
         if axis in words:
             point[k] = m.value(words[axis])
         elif increment in words:
-            point[k] -= m.value(words[increment])
+            point[k] += m.value(words[increment]) * (1 if m.settings["g92_increment"] == "add" else -1)
     # shift = tip - datum - q(p), for the axes written (2.5, MNC-G92-XFORM)
     shift = np.array(m.tip) - m.frames["datum"][:3, 3] - frames.apply(inner, point)
     for k, (axis, increment) in enumerate(zip(AXES, "UVW", strict=True)):
@@ -117,47 +141,6 @@ def set_position(m: Machine, words: Words) -> None:
 
 
 FUNCTIONS("F", "Feed", phase="feed", source="4.1")(motion.feed)
-FUNCTIONS("S", "Spindle speed", phase="spindle", source="1.2")(motion.spindle_speed)
-FUNCTIONS("T", "Tool call", phase="tool", source="5.1")(motion.tool)
-FUNCTIONS("D", "Tool corrector", phase="corrector", source="1.2")(motion.corrector)
-
-SPINDLE = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise", "M5": "Spindle stop"}
-
-
-@FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source="9")
-def spindle(m: Machine, words: Words) -> None:
-    """Before the motion of the block."""
-    m.spindle(turning={"M3": 1, "M4": -1, "M5": 0}[words.code])
-
-
-@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="ISO 6983")
-def program_stop(m: Machine, words: Words) -> None:
-    """Wait for the operator, after the motion of the block."""
-    m.warn(f"{words.code}: {OUTSIDE}", first_word(words))
-    m.stop()
-
-
-@FUNCTIONS("M2 M30", "Program end", phase="end", modal=False, source="ISO 6983")
-def program_end(m: Machine, words: Words) -> None:
-    """The program ends here, after the motion of the block; without it, at the end of the text."""
-    m.warn(f"{words.code}: {OUTSIDE}", first_word(words))
-    m.ended = True
-
-
-@FUNCTIONS("M6", "Tool change", phase="auxiliary", modal=False, source="ISO 6983")
-def tool_change(m: Machine, words: Words) -> None:
-    """Nothing: T itself changes the tool (5.1)."""
-    m.warn(f"M6: {OUTSIDE}; T itself changes the tool", first_word(words))
-
-
-COOLANT = {"M7": "Coolant 2 on", "M8": "Coolant on", "M9": "Coolant off"}
-
-
-@FUNCTIONS("M7 M8 M9", COOLANT, group="coolant", phase="auxiliary", power_on="M9", source="ISO 6983")
-def coolant(m: Machine, words: Words) -> None:
-    """Before the motion of the block."""
-    m.warn(f"{words.code}: {OUTSIDE}", first_word(words))
-    m.coolant()
 
 
 @FUNCTIONS("G4", "Dwell", group="dwell", phase="dwell", takes="P", still=True, modal=False, source="8")
@@ -191,13 +174,9 @@ FEED = {"G94": "Feed per minute", "G95": "Feed per revolution"}
 
 @FUNCTIONS("G94 G95", FEED, group="feed mode", phase="plane", power_on="G94", source="4.2")
 def feed_mode(m: Machine, words: Words) -> None:
-    """The number of F is kept and read anew."""
-    m.change("per_rev", words.code == "G95")
-
-
-SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
-
-
-@FUNCTIONS("G25 G26", SUPERVISION, group="supervision", phase="plane", power_on="G26", source="7")
-def supervision(m: Machine, words: Words) -> None:
-    """Whether the control waits until the spindle has its speed; a matter of time, not of the path."""
+    """The number of F is kept and read anew; the setting feed_mode_switch knows other habits."""
+    per_rev, speed, switch = words.code == "G95", abs(m.spindle_speed), m.settings["feed_mode_switch"]
+    if per_rev != m.per_rev and m.feed is not None and switch != "kept":
+        converted = switch == "converted" and speed > 0
+        m.change("feed", (m.feed / speed if per_rev else m.feed * speed) if converted else None)
+    m.change("per_rev", per_rev)

@@ -11,7 +11,7 @@ import math
 from typing import Any
 
 from mnclab.controls.mnc.language import absolute
-from mnclab.controls.word_address.motion import AXES, first_word
+from mnclab.controls.word_address.motion import AXES, first_word, helix
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import PLANES, Machine
 
@@ -29,14 +29,21 @@ def polar_of(m: Machine, pole: tuple[float, float]) -> tuple[float, float]:
 
 @FUNCTIONS("G16", "Polar coordinates on", group="polar", phase="frames", takes="X Y Z", still=True, source="2.8.5")
 def polar_on(m: Machine, words: Words) -> None:
-    """X Y Z are the pole, absolute; a coordinate not written is 0. No motion."""
+    """X Y Z are the pole, absolute; a coordinate not written is 0. No motion.
+
+    By the setting g16_pole under G91 the pole counts from the last programmed point.
+    """
     if m.side:
         m.alarm("G16 cannot stand under radius compensation", first_word(words), hint="write G40 first")
     first, second, normal = PLANES[m.plane]
     if AXES[normal] in words:
         m.alarm(f"{AXES[normal]} is no coordinate of the plane {m.plane}", words[AXES[normal]])
-    pole = tuple(m.value(words[AXES[k]]) if AXES[k] in words else 0.0 for k in (first, second))
-    m.pole = (pole[0], pole[1])
+    from_point = m.settings["g16_pole"] == "incremental" and not absolute(m)
+    u, v = (
+        (m.value(words[AXES[k]]) if AXES[k] in words else 0.0) + (m.programmed[k] if from_point else 0.0)
+        for k in (first, second)
+    )
+    m.pole = (u, v)
     m.log("pole", m.pole)
     m.memory["polar"] = polar_of(m, m.pole), m.programmed
 
@@ -111,29 +118,29 @@ ARCS = {"G12": "Circular interpolation clockwise, polar", "G13": "Circular inter
 def polar_arc(m: Machine, words: Words) -> None:
     """An arc of radius K: about the pole if that fits, else below 180 degrees for K > 0 and above for K < 0.
 
-    Without K a straight line, as G2 and G3 without a centre (MNC-G12-NOK).
+    Without K a straight line, as G2 and G3 without a centre (MNC-G12-NOK). Settings polar_arc, polar_arc_without_k.
     """
     if not has_target(words):
         return
     begin = polar_of(m, m.pole or (0.0, 0.0))[0]
     to = target(m, words)
-    if "K" not in words:
+    if "K" not in words and m.settings["polar_arc_without_k"] == "line":
         m.line(**to, word=first_word(words))
         return
     assert m.pole is not None
-    word, sense = words["K"], -1 if words.code == "G12" else 1
-    radius, (first, second, normal) = m.value(word), PLANES[m.plane]
-    if radius == 0:
+    word, sense = words.get("K", words.words[0]), -1 if words.code == "G12" else 1
+    first, second, normal = PLANES[m.plane]
+    radius = m.value(word) if "K" in words else begin
+    if radius == 0 and "K" in words:
         m.alarm("K (radius of the arc) must not be 0", word)
     if AXES[normal] in words:
-        m.warn(
-            f"{AXES[normal]} in an arc of the plane {m.plane} makes a helix, which the manual does not describe",
-            words[AXES[normal]],
-        )
-    end = m.memory["polar"][0][0]
-    if max(abs(begin - abs(radius)), abs(end - abs(radius))) <= ON_CENTRE:
+        helix(m, words)
+    end, by_sign = m.memory["polar"][0][0], m.settings["polar_arc"] == "sign" and "K" in words
+    fits = max(abs(begin - abs(radius)), abs(end - abs(radius))) <= ON_CENTRE
+    if "K" not in words or (fits and not by_sign):
         m.arc(**to, sense=sense, centre={first: m.pole[0], second: m.pole[1]}, word=word, tolerance=2 * ON_CENTRE)
     elif m.memory["polar"][1] == m.programmed:
-        m.alarm("a full circle needs K equal to the polar radius", word)
+        needed = "G2 or G3 with its centre" if by_sign else "K equal to the polar radius"
+        m.alarm(f"a full circle needs {needed}", word)
     else:
         m.arc(**to, sense=sense, radius=radius, word=word)

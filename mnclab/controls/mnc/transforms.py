@@ -3,6 +3,7 @@
 A programmed point is scaled about the origin, then mirrored, then turned, whatever the order of programming; then come the
 local shift of G92 and the work offset. Switching moves nothing and keeps the programmed coordinates: the next motion
 takes the whole programmed point through the new transformation, so that an axis which is not written may still move.
+Settings: transformation_order, switch_keeps.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ FUNCTIONS = FunctionTable()
 SCALING = {"G36": "Scaling off", "G37": "Scaling on"}
 ROTATION = {"G38": "Rotation off", "G39": "Rotation on"}
 MIRROR = {"G50": "Mirror image off", "G51": "Mirror image on"}
-NORMAL = {"XY": "z", "ZX": "y", "YZ": "x"}
+NORMAL = {"XY": ("z", 1), "ZX": ("y", 1), "XZ": ("y", -1), "YZ": ("x", 1)}  # and the sense from first to second axis
 
 
 def axis_values(m: Machine, words: Words) -> dict[int, float]:
@@ -31,18 +32,20 @@ def switch(m: Machine, name: str, frame: frames.Matrix | None, words: Words) -> 
     """Replace a transformation; the radius must not be compensated meanwhile."""
     if m.side:
         m.alarm(f"{words.code} cannot stand under radius compensation", first_word(words), hint="write G40 first")
-    m.set_frame(name, frame, keep="programmed")
+    if m.settings["transformation_order"] == "nested":
+        m.frames.innermost(name)
+    m.set_frame(name, frame, keep=m.settings["switch_keeps"])
 
 
 @FUNCTIONS("G37", SCALING, group="scaling", phase="frames", takes="X Y Z", still=True, source="2.9.1")
 def scaling(m: Machine, words: Words) -> None:
-    """Factors of the axes about the origin, signs ignored; an axis not written has factor 1."""
-    factors = [1.0, 1.0, 1.0]
+    """Factors of the axes about the origin, signs ignored; an axis not written has factor 1 (setting g37_omitted)."""
+    factors = m.frames["scaling"].diagonal().tolist() if m.settings["g37_omitted"] == "kept" else [1.0, 1.0, 1.0, 1.0]
     for k, factor in axis_values(m, words).items():
         if factor == 0:
             m.alarm(f"G37 {AXES[k]} (scale factor) must not be 0", words[AXES[k]])
         factors[k] = abs(factor)
-    switch(m, "scaling", frames.scale(*factors), words)
+    switch(m, "scaling", frames.scale(*factors[:3]), words)
 
 
 @FUNCTIONS("G51", MIRROR, group="mirror", phase="frames", takes="X Y Z", still=True, source="2.9.2")
@@ -64,8 +67,9 @@ def rotation(m: Machine, words: Words) -> None:
     if AXES[normal] in words:
         m.alarm(f"{AXES[normal]} is no coordinate of the plane {m.plane}", words[AXES[normal]])
     pole = axis_values(m, words)
-    angle = math.radians(m.value(words["A"]))
-    switch(m, "rotation", frames.turn(angle, NORMAL[m.plane], [pole.get(k, 0.0) for k in range(3)]), words)
+    axis, sense = NORMAL[m.plane]
+    angle = sense * math.radians(m.value(words["A"]))
+    switch(m, "rotation", frames.turn(angle, axis, [pole.get(k, 0.0) for k in range(3)]), words)
 
 
 def transformation_off(m: Machine, words: Words) -> None:
@@ -93,7 +97,7 @@ def activate_datum(m: Machine, words: Words) -> None:
     row = m.value(words["Q"])
     if row != int(row) or row < 1:
         m.alarm(f"{words.code} Q (datum number) must be a whole number from 1, got {row:g}", words["Q"])
-    if row > 6 and int(row) not in m.tables.datums:
+    if row > m.settings["datum_rows"] and int(row) not in m.tables.datums:
         rows = ", ".join(map(str, sorted(m.tables.datums))) or "none beyond the six of G54 to G59"
         m.alarm(f"{words.code} Q{int(row)} has no row in the datum table", words["Q"], hint=f"rows: {rows}")
     select_row(m, int(row))

@@ -10,15 +10,36 @@ from __future__ import annotations
 from mnclab.controls.nc_31 import functions, turning
 from mnclab.controls.nc_31.reader import looks_like, read
 from mnclab.machine.control import Control
-from mnclab.machine.setup import Setting
+from mnclab.machine.settings import Setting
 
 SETTINGS = (
-    Setting("parameter_6", 0, "G31: infeed angle of the thread, degrees", "group P, adopted 0"),
+    Setting("parameter_6", 0, "G31: infeed angle of the thread", "group P, adopted 0", unit="deg"),
     Setting("parameter_7", 0, "G31: run-out at the end of the thread, 0.1 of the pitch", "group P, adopted 0"),
-    Setting("parameter_8", 100, "G72, G73: gap left when the drill returns, 0.01 mm", "group P, adopted 1 mm"),
-    Setting("parameter_10", 0, "G77, G78: length of cut until the chip is broken, 0.01 mm; 0: not broken", "group P"),
-    Setting("parameter_11", 50, "G77, G78: rapid retract that breaks the chip, 0.01 mm", "group P, adopted 0.5 mm"),
-    Setting("p1_on_radius", False, "G77: P1 counts on the radius, not on the diameter", "not stated", (False, True)),
+    Setting(
+        "parameter_8",
+        100,
+        "G72, G73: gap left when the drill returns",
+        "group P, adopted 1 mm",
+        unit="0.01 mm",
+        at_least=0,
+    ),
+    Setting(
+        "parameter_10",
+        0,
+        "G77, G78: length of cut until the chip is broken; 0: not broken",
+        "group P",
+        unit="0.01 mm",
+        at_least=0,
+    ),
+    Setting(
+        "parameter_11",
+        50,
+        "G77, G78: rapid retract that breaks the chip",
+        "group P, adopted 0.5 mm",
+        unit="0.01 mm",
+        at_least=0,
+    ),
+    Setting("p1_on_radius", False, "G77: P1 counts on the radius, not on the diameter", "not stated"),
 )
 
 _LATER = "it is part of this control but not built yet"

@@ -60,7 +60,7 @@ class LongitudinalRoughing(Cycle):
         return values
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Something to remove, a bevel that fits, machine parameters that can be used, a feed for the clean-up."""
+        """Something to remove, a bevel that fits, a machine parameter that can be used, a feed for the clean-up."""
         x1, z1 = m.programmed[0] * discretes.X, m.programmed[2] * discretes.Z
         stock, length = abs(x1 - self.x), abs(z1 - self.z)
         if stock == 0:
@@ -69,10 +69,6 @@ class LongitudinalRoughing(Cycle):
             yield "z", f"must differ from the Z of the start, got {self.z:g}"
         if self.bevel > length * (1 + 1e-9):
             yield "bevel", f"must be at most {length:g}, the distance to the start, got {self.bevel:g}"
-        for number in (10, 11):
-            value = m.settings[f"parameter_{number}"]
-            if not (isinstance(value, int | float) and 0 <= value < math.inf):
-                yield "", f"needs machine parameter {number} to be a number from 0, got {value!r}"
         passes = count_of_levels(x1, self.x, self.depth(m))
         if passes > MOST_PASSES:
             yield "stock_per_pass", f"{self.stock_per_pass:g} gives {passes} passes, allowed are {MOST_PASSES}"

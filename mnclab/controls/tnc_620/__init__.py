@@ -14,7 +14,7 @@ from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, m
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
-from mnclab.machine.setup import Setting
+from mnclab.machine.settings import Setting
 from mnclab.path.compensation import Compensation
 
 #: Order inside a block: M functions that act at its start, the statement, calls, M functions that act at its end.

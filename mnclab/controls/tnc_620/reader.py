@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from mnclab.controls.tnc_620.statements import KEYWORDS_ONLY, WORDS, Statement, cycle_parameters, recognize
 from mnclab.controls.tnc_620.words import FLAGS, INCH, LARGEST, Cursor, Fault
 from mnclab.text.alarm import Alarm
-from mnclab.text.program import NONE, BulkBlocks, Program, ProgramBuilder
+from mnclab.text.program import NONE, BulkBlocks, Program, ProgramBuilder, first_words
 from mnclab.text.words import Scan, characters, scan
 
 _UNIT = re.compile(r"(?:^|[\r\n])[ \t\ufeff]*/?[ \t]*\d*[ \t]*BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
@@ -239,7 +239,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
         length=found.length[keep],
         keyword="L",
         start=starts,
-        size=count[good],
+        first=first_words(count[good]),
         plain=np.ones(int(good.sum()), dtype=bool),
         form=np.where(letter == ord("R"), NONE, 0).astype(np.uint8),
     )

@@ -17,11 +17,15 @@ ARGUMENTS = (("X", "x"), ("Y", "y"), ("Z", "z"))
 
 def coordinates(m: Machine, words: Words, absolute: bool) -> dict[str, Any]:
     """Targets of the axes that are written, as arguments of a verb (``x=``, …); increments count from the register."""
-    found = {}
-    for k, (axis, name) in enumerate(ARGUMENTS):
-        if axis in words:
-            value = m.value(words[axis])
-            found[name] = value if absolute else m.programmed[k] + value
+    found = {
+        name: value if type(value := words[axis][1]) is float else m.value(words[axis])
+        for axis, name in ARGUMENTS
+        if axis in words
+    }
+    if not absolute:
+        for k, (_, name) in enumerate(ARGUMENTS):
+            if name in found:
+                found[name] += m.programmed[k]
     return found
 
 
@@ -49,22 +53,41 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
     if normal in offsets:
         plane = f"plane {m.plane} has no {CENTRE[normal]}: its centre is given by {CENTRE[first]} and {CENTRE[second]}"
         m.alarm(f"{CENTRE[normal]} stands along the axis of the arc, {plane}", offsets[normal])
-    third = AXES[normal]
-    if third in words and to[third.lower()] != m.programmed[normal]:
-        m.warn(
-            f"{third} in an arc of the plane {m.plane} makes a helix, which the manual does not describe", words[third]
-        )
+    third = AXES[normal].lower()
+    if third in to and to[third] != m.programmed[normal]:
+        helix(m, words)
     tolerance = m.settings.get("arc_tolerance", 0.01)
-    if "R" in words:
+    by_radius = "R" in words and not (offsets and m.settings.get("arc_by_both") == "centre")
+    if "R" in words and offsets:
+        both = "R and I J K stand in one block"
+        if m.settings.get("arc_by_both") == "refuse":
+            m.alarm(both, words["R"], hint="keep one of them")
+        m.warn(f"{both}: {'R counts' if by_radius else 'I J K count'}", words["R"])
+    if by_radius:
         radius = m.value(words["R"])
         if radius == 0:
             m.alarm("R must not be 0", words["R"])
-        if offsets:
-            m.warn("R and I J K stand in one block: R counts", words["R"])
         m.arc(**to, sense=sense, radius=radius, word=words["R"], tolerance=tolerance)
         return
     centre = {k: m.programmed[k] + m.value(word) for k, word in offsets.items()}
     m.arc(**to, sense=sense, centre=centre, word=next(iter(offsets.values())), tolerance=tolerance)
+
+
+def helix(m: Machine, words: Words) -> None:
+    """Say that an arc with a word of the third axis is a helix."""
+    third = AXES[PLANES[m.plane][2]]
+    sentence = f"{third} in an arc of the plane {m.plane} makes a helix, which the manual does not describe"
+    remark(m, "helix", sentence, words, third)
+
+
+def remark(m: Machine, setting: str, sentence: str, words: Words, address: str = "") -> None:
+    """What a manual does not describe: a warning, an alarm, or nothing, as a setting wants it."""
+    word = words[address] if address else first_word(words)
+    choice = m.settings.get(setting, "warn")
+    if choice == "refuse":
+        m.alarm(sentence, word, hint=f"setting {setting}")
+    if choice == "warn":
+        m.warn(sentence, word)
 
 
 def set_plane(m: Machine, plane: str, head: Word | None) -> None:
@@ -92,13 +115,21 @@ def spindle_speed(m: Machine, words: Words) -> None:
 
 def tool(m: Machine, words: Words) -> None:
     """T: the tool from the table is active at once; no axis moves."""
-    m.change_tool(tool_row(m, words["T"], "tool"))
+    row = tool_row(m, words["T"], "tool")
+    refuse_change(m, "tool", words["T"])
+    m.change_tool(row)
 
 
 def corrector(m: Machine, words: Words) -> None:
-    """D: until the next T, corrections and radius come from another row of the tool table; no axis moves."""
+    """D: until the next T, corrections and radius come from another row of the tool table; no axis moves.
+
+    By the setting corrector_length the length too.
+    """
     row = tool_row(m, words["D"], "corrector")
-    corrected = replace(m.tables.tools[m.tool.number], radius=row.radius, dr=row.dr, dl=row.dl)
+    refuse_change(m, "corrector", words["D"])
+    own = m.tables.tools[m.tool.number]
+    length = row.length if m.settings.get("corrector_length") else own.length
+    corrected = replace(own, radius=row.radius, length=length, dr=row.dr, dl=row.dl)
     if corrected.effective_length != m.tool.effective_length:
         m.change_tool(corrected)
     else:
@@ -113,6 +144,10 @@ def tool_row(m: Machine, word: Word, name: str) -> Tool:
     if int(number) not in m.tables.tools:
         known = ", ".join(f"{letter}{n}" for n in sorted(m.tables.tools))
         m.alarm(f"{letter}{int(number)} has no row in the tool table", word, hint=f"tools: {known}")
+    return m.tables.tools[int(number)]
+
+
+def refuse_change(m: Machine, name: str, word: Word | None) -> None:
+    """An Alarm under radius compensation: an equidistant has one radius."""
     if m.side:
         m.alarm(f"the {name} cannot change while radius compensation is active", word, hint="write G40 first")
-    return m.tables.tools[int(number)]

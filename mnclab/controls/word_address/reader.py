@@ -13,17 +13,18 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.text.program import BulkBlocks, Program, ProgramBuilder
+from mnclab.text.nearest import DIGITS, LATIN
+from mnclab.text.program import BulkBlocks, Program, ProgramBuilder, first_words
 from mnclab.text.words import Scan, scan
 
 PIECE = 1 << 16
 LARGEST = 1e9  # no coordinate, feed or number of a program is as large
 PLAIN_LETTERS = "GXYZIJKRF"
+ALPHABET = tuple(chr(c) for c in range(65, 91))
 _BITS = np.zeros(128, dtype=np.int32)
 _BITS[65:91] = 1 << np.arange(26)
 
 _WORD = re.compile(r"([A-Za-z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))?")
-_LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
 
 
 def reader(control: str, comment: str = r"/[ \t]?/") -> Callable[[str, str], Program]:
@@ -46,28 +47,28 @@ def reader(control: str, comment: str = r"/[ \t]?/") -> Callable[[str, str], Pro
 def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: list[tuple[int, int]]) -> BulkBlocks:
     """Blocks of the clean lines; N words are checked and left out."""
     count = found.count[found.count > 0]
-    begins = np.cumsum(count) - count  # the first word of each block
-    starts = found.offset[begins]
+    first = first_words(count)  # of each block
+    starts = found.offset[first[:-1]]
     letter, value, offset, length = found.letter, found.value, found.offset, found.length
     is_label = letter == ord("N")
     if is_label.any():
-        _note_labels(builder, found, is_label, begins, labels)
+        _note_labels(builder, found, is_label, first[:-1], labels)
         words = ~is_label
-        count = count - np.add.reduceat(is_label, begins, dtype=np.int32)
+        first = first_words(count - np.add.reduceat(is_label, first[:-1], dtype=np.int32))
         letter, value, offset, length = (column[words] for column in (letter, value, offset, length))
     if len(value) and max(value.max(), -value.min()) >= LARGEST:
         for i in np.flatnonzero(np.abs(value) >= LARGEST):
             builder.alarm(f"a number must be smaller than {LARGEST:g}", int(offset[i]), int(length[i]))
-    names = "".join(chr(c) for c in range(65, 91))
-    plain = plain_blocks(letter, value, count, PLAIN_LETTERS)
-    return BulkBlocks(tuple(names), letter - 65, value, offset, length, "", starts, count, plain)
+    plain = plain_blocks(letter, value, first, PLAIN_LETTERS)
+    address = np.subtract(letter, 65, out=letter)  # in place: nobody else has the letters
+    return BulkBlocks(ALPHABET, address, value, offset, length, "", starts, first, plain)
 
 
 def _note_labels(
     builder: ProgramBuilder,
     found: Scan,
     is_label: NDArray[np.bool_],
-    begins: NDArray[np.int64],
+    begins: NDArray[np.int32],
     labels: list[tuple[int, int]],
 ) -> None:
     """N must be first in its block, a positive whole number, and (checked at the end) unique."""
@@ -85,27 +86,30 @@ def _note_labels(
 
 
 def plain_blocks(
-    letter: NDArray[np.uint8], value: NDArray[np.float64], count: NDArray[np.int32], letters: str
+    letter: NDArray[np.uint8], value: NDArray[np.float64], first: NDArray[np.int32], letters: str
 ) -> NDArray[np.bool_]:
     """Which blocks (b,) hold only these letters, each once, and of the G words only plain motion.
 
-    Every letter is a bit: a block with a letter twice has a sum of bits that differs from their union.
+    Every letter is a bit: a block with a letter twice has a sum of bits that differs from their union. ``first`` (b + 1,)
+    says where the words of a block begin.
     """
-    plain = count > 0
+    plain = np.zeros(len(first) - 1, dtype=bool)
     allowed = np.int32(sum(1 << (ord(c) - 65) for c in letters))
-    filled = np.flatnonzero(plain)
-    begins = np.append(0, np.cumsum(count[filled]))
-    for k in range(0, len(filled), PIECE):  # in pieces that stay in the cache
-        a, b = begins[k], begins[min(k + PIECE, len(filled))]
-        edges = begins[k : k + PIECE][: len(filled) - k] - a
+    for k in range(0, len(plain), PIECE):  # in pieces that stay in the cache
+        bounds = first[k : k + PIECE + 1]
+        filled = np.flatnonzero(bounds[1:] > bounds[:-1])
+        if not len(filled):
+            continue
+        a, b = bounds[0], bounds[-1]
+        edges = bounds[filled] - a
         bits = _BITS[letter[a:b]]
-        g = value[a:b][letter[a:b] == ord("G")]
         union, total = np.bitwise_or.reduceat(bits, edges), np.add.reduceat(bits, edges)
         good = ((union & ~allowed) == 0) & (union == total)
-        if not ((g == 0) | (g == 1) | (g == 2) | (g == 3)).all():
-            strange = np.flatnonzero((letter[a:b] == ord("G")) & ~np.isin(value[a:b], (0, 1, 2, 3)))
+        of_g = np.flatnonzero(letter[a:b] == ord("G"))
+        g = value[a:b][of_g]
+        if (strange := of_g[(g != 0) & (g != 1) & (g != 2) & (g != 3)]).size:
             good[np.searchsorted(edges, strange, "right") - 1] = False
-        plain[filled[k : k + PIECE]] = good
+        plain[k + filled] = good
     return plain
 
 
@@ -159,17 +163,16 @@ def _skip_blanks(text: str, at: int, stop: int) -> int:
 def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int) -> None:
     """The fault at a character that is no part of a good word, with the repair where the mistake is known."""
     c = text[at]
-    following = text[at + 1 : stop].lstrip(" \t")[:1]
     if c == ",":
         builder.alarm("',' is no part of a number", at, hint="the decimal mark is a point")
-    elif c in _LOOKS_LATIN:
-        builder.alarm(f"{c!r} is a Cyrillic letter", at, hint=f"write the Latin letter {_LOOKS_LATIN[c]}")
     elif c.isascii() and c.isalpha():
-        if following in ("O", "o") or (c in "Oo" and text[at - 1 : at].isdigit()):
-            builder.alarm(f"{c.upper()} needs a number", at, hint="the letter O stands where the digit 0 was meant")
-        else:
-            found = f", found {following!r}" if following else ""
-            builder.alarm(f"{c.upper()} needs a number{found}", at)
+        following = text[at + 1 : stop].lstrip(" \t")[:1]
+        hint = _digit_meant(text, at, stop)
+        found = f", found {following!r}" if following and not hint else ""
+        builder.alarm(f"{c.upper()} needs a number{found}", at, hint=hint)
+    elif c in LATIN or c in DIGITS and c.isalpha():
+        latin = f"write the Latin letter {LATIN[c]}" if c in LATIN else ""
+        builder.alarm(f"{c!r} is a Cyrillic letter", at, hint=_digit_meant(text, at, stop) or latin)
     elif c == ".":
         builder.alarm("a number has only one decimal point", at)
     elif c in "+-":
@@ -178,6 +181,21 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int) -> None:
         builder.alarm(f"{c!r} needs an address letter before it", at, hint="a blank inside a number splits it")
     else:
         builder.alarm(f"{c!r} has no meaning here", at)
+
+
+def _digit_meant(text: str, at: int, stop: int) -> str:
+    """The hint about a letter in place of a digit: the one at ``at`` inside a number, or the one after that address."""
+    c = text[at]
+    if c not in DIGITS or not text[at - 1 : at].isdigit():
+        c = text[at + 1 : at + 2] if c.isascii() else ""
+        if c in " \t":
+            c = text[at + 1 : stop].lstrip(" \t")[:1]
+            c = c if c in "Oo" else ""  # the others may begin the next word
+    return (
+        f"the letter {c.upper() if c in 'Oo' else c} stands where the digit {DIGITS[c]} was meant"
+        if c in DIGITS
+        else ""
+    )
 
 
 def _check_labels(builder: ProgramBuilder, labels: list[tuple[int, int]]) -> None:

@@ -66,8 +66,14 @@ class Profile:
     ) -> None:
         self.path, self.limits, self.override = path, limits or Limits(), override
         self.source = source  # the Program, for pictures that show its lines
+        self._more: dict[str, Any] = {"rapid_motion": rapid_motion, "waits": waits, "source": source}
         self.plan: Plan = plan(path, self.limits, override, rapid_motion, waits)
         self.seconds: Array = self._of_rows(self.plan.seconds)
+
+    def again(self, limits: Limits | None = None, override: float | None = None) -> Profile:
+        """The same path planned under other limits, or with another feed override."""
+        chosen = self.override if override is None else override
+        return Profile(self.path, limits or self.limits, override=chosen, **self._more)
 
     def _of_rows(self, values: Array) -> Array:
         """Sums (n,) for the rows of the path from values for planned rows."""
@@ -270,3 +276,9 @@ class Profile:
         from mnclab.show.plot.profile import plot_lost
 
         return plot_lost(self, **options)
+
+    def panel(self, **options: Any) -> Any:
+        """Number boxes for acceleration, jerk, corner tolerance and feed override, with a picture that follows."""
+        from mnclab.show.forms import profile_panel
+
+        return profile_panel(self, **options)

@@ -3,8 +3,8 @@
 On an arc the acceleration of an axis is ``t_k a + n_k w`` (w = v², t the tangent, n the curvature vector), and both change
 along it: where the centripetal part lies on X, the path acceleration has all of Y to itself, and an axis may bear a speed
 only while the tool brakes. So such arcs are cut into parts of at most :data:`PART`, and at least :data:`FEWEST`, with a
-constant a each, and along the parts of one arc, of all arcs at once, the speeds are found as in H. Pham, Q.-C. Pham, "A New Approach to Time-Optimal Path
-Parameterization Based on Reachability Analysis" (2018):
+constant a each, and along the parts of one arc, of all arcs at once, the speeds are found as in H. Pham, Q.-C. Pham, "A
+New Approach to Time-Optimal Path Parameterization Based on Reachability Analysis" (2018):
 
     backward   the greatest w at the start of a part from which an allowed a leads to no more than w at its end
     forward    from w at its start the greatest allowed a that leads to no more than that

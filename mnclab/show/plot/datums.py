@@ -50,6 +50,7 @@ def places_of(run: Any) -> list[Place]:
     ]
     chain = FrameChain(run.frames.slots)
     found: dict[tuple[Mark, tuple[float, ...]], list[str]] = {}
+    nested = run.settings.get("transformation_order") == "nested"
 
     def add(mark: Mark, name: str, xyz: Array) -> None:
         names = found.setdefault((mark, tuple(np.round(xyz, 6) + 0.0)), [])
@@ -65,6 +66,8 @@ def places_of(run: Any) -> list[Place]:
                 continue
             frame, matrix = name.removeprefix("frame "), np.array(value)
             neutral = np.array_equal(matrix, frames.IDENTITY)
+            if nested and frame not in ORIGINS and not np.array_equal(matrix, chain[frame]):
+                chain.innermost(frame)
             chain.set(frame, None if neutral else matrix)
             if frame in ORIGINS and not (neutral and frame in ("local", "shift")):
                 selected.append((frame, matrix))
@@ -86,8 +89,9 @@ def _pole(path: Any, chain: FrameChain, step: int, pole: tuple[float, float]) ->
     if row >= len(path):
         return None
     normal = int(np.argmax(np.abs(path.axis[row])))
+    upright = np.linalg.solve(chain.matrix[:3, :3], path.axis[row])[normal] > 0  # else the axes are named in turn: XZ
     point = np.zeros(3)
-    point[[(normal + 1) % 3, (normal + 2) % 3]] = pole
+    point[[(normal + 1) % 3, (normal + 2) % 3]] = pole if upright else pole[::-1]
     point = frames.apply(chain.matrix, point) - path.origin
     point[normal] = np.nan
     return point

@@ -126,12 +126,18 @@ def plot_profile(
     for each, title in zip(rows, titles):
         _dress(each, title)
     handles = _feed(rows[0], profile, drawn, x, over, limits)
-    most = np.repeat(_of_rows(profile, profile.plan.rows.a)[profile.move], len(x) // max(len(profile), 1))
-    moving = drawn.v > 0
+    most = _of_rows(profile, profile.plan.rows.a).copy()
+    most[profile.path.kind > Kind.PROBE] = np.nan
+    if profile.plan.rapids is not None:
+        most[profile.path.kind == Kind.RAPID] = np.nan  # its axes have their own
+    if profile.plan.ramps is not None:
+        most[profile.path.kind == Kind.ARC] = np.nan  # it changes along them
+    most = most[profile.move[drawn.piece]]
     rows[1].plot(x, drawn.a, **{**colours.REACHED.style(), "label": "_a"})
-    if limits and len(x) and profile.plan.rapids is None and profile.plan.ramps is None:
-        for sign in (1, -1):
-            rows[1].plot(x, np.where(moving, sign * most, np.nan), **{**colours.LIMIT.style(), "label": "_limit"})
+    for sign in (1, -1) if limits else ():
+        handles += rows[1].plot(
+            x, sign * most, **{**colours.LIMIT.style(), "label": "limit" if sign > 0 else "_limit"}
+        )[:sign]
     if len(profile.plan.rows.j):
         rows[2].plot(x, drawn.j, **{**colours.REACHED.style(), "label": "_j"})
     if axes:
@@ -240,7 +246,8 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
 
 def _axes(rows: list[Axes], profile: Profile, drawn: Curve, x: Array, limits: bool) -> list[Line2D]:
     """Speed and acceleration of each axis."""
-    now = profile.at(drawn.t)
+    begin, end = profile.t[:-1][drawn.piece], profile.t[1:][drawn.piece]
+    now = profile.at(np.clip(drawn.t, begin + 1e-9 * (end - begin), end - 1e-9 * (end - begin)))  # within the piece
     handles = []
     for k, look in enumerate(colours.AXES):
         if not np.abs(now.velocity[:, k]).max(initial=0.0) > 1e-9:

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import mnclab
+from mnclab.text.nearest import slips_between
 
 CONTROL = mnclab.controls["mnc"]
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "codes.json"
@@ -67,9 +68,36 @@ def test_what_the_manual_does_not_list_is_said_to_be_so(code):
 
 @pytest.mark.parametrize(
     ("wrong", "near"),
-    [("G60", {"G160"}), ("G301.5", {"G300"}), ("M33", {"M3"}), ("G20", {"G2", "G200"})],
-)
-def test_an_unknown_code_gets_near_ones(wrong, near):
+    [
+        ("G60", "G61"), ("G20", "G2"), ("G144", "G147"), ("M33", "M3"), ("G-1", "G1"), ("G17.5", "G17"),
+        ("G31", "G13"), ("G900", "G90"), ("G380", "G38"), ("M98", "M9"), ("G811", "G11"),
+    ],
+)  # fmt: skip
+def test_an_unknown_code_gets_the_one_that_is_a_slip_away(wrong, near):
+    """Left out, added, exchanged, or two in the wrong order: counted by hand. What is two slips away is not named."""
     alarm = mnclab.run(f"{wrong}\n", "mnc").alarms[0]
     assert alarm.message == f"{wrong} is not a function of this control"
-    assert alarm.hint.startswith("near: ") and near & set(alarm.hint[6:].split(", "))
+    assert alarm.hint.startswith(f"near: {near}") and alarm.hint.count(",") < 3
+    for code in alarm.hint.removeprefix("near: ").split(", "):
+        assert code in CONTROL.functions or code in CONTROL.cycles
+        assert slips_between(wrong.replace("-", "").partition(".")[0], code) <= 1
+
+
+@pytest.mark.parametrize(
+    ("wrong", "column", "hint"),
+    [
+        ("G10O", 4, "the letter O stands where the digit 0 was meant"),
+        ("G1О", 3, "the letter О stands where the digit 0 was meant"),  # Cyrillic O
+        ("GО1", 1, "the letter О stands where the digit 0 was meant"),
+        ("G0l", 3, "the letter l stands where the digit 1 was meant"),
+        ("Gl X5", 1, "the letter l stands where the digit 1 was meant"),
+        ("M0З", 3, "the letter З stands where the digit 3 was meant"),
+        ("М3", 1, "write the Latin letter M"),
+        ("G1 Х10", 4, "write the Latin letter X"),
+        ("G I5", 1, ""),  # I5 is a word
+        ("T l", 1, ""),
+    ],
+)
+def test_a_letter_in_place_of_a_digit_or_of_a_latin_letter(wrong, column, hint):
+    alarm = mnclab.run(f"F100\n{wrong}\n", "mnc").alarms[0]
+    assert (alarm.span[:2], alarm.hint) == ((2, column), hint)

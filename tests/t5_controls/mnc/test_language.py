@@ -111,7 +111,7 @@ def test_spindle_supervision_is_a_state_and_moves_nothing():
 
 
 def test_at_power_on():
-    """The table of the power-on state; spindle, feed and tool are at rest."""
+    """MNC-POWERON: the table of the power-on state; spindle, feed and tool are at rest."""
     found = run("G0 X1\n")
     groups = {
         "datum": "G53", "supervision": "G26", "corners": "G160", "motion": "G0", "polar": "G15", "plane": "G17",

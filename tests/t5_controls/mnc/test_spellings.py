@@ -176,6 +176,18 @@ def test_block_skip_when_it_is_on():
     assert run(text).alarms[0].span[:2] == (4, 4)
 
 
+@pytest.mark.parametrize("block", ["/X2,5", "/ N5 X1 X2", "/N1 X2", "/G1 X\u041610", "/G77 X5", "/L1", "/X"])
+def test_a_fault_in_a_block_that_is_passed_over_is_no_alarm(block):
+    """1.5: the block is not obeyed, so the program runs; what the reader saw in it is a warning. Without skip it stops."""
+    text = f"N1 G0 X1\n{block}\nN10 X4\n"
+    passed = mnclab.run(text, "mnc", mnclab.Setup(settings={"block_skip": True}), strict=True)
+    assert passed.ok and all(alarm.span.line == 2 for alarm in passed.alarms)
+    assert passed.toolpath.end[:, 0].tolist() == [1, 4]
+    stopped = run(text)
+    assert not stopped.ok and {alarm.severity for alarm in stopped.alarms} == {"alarm"}
+    assert len(passed.alarms) <= len(stopped.alarms) and not mnclab.run(text.replace("/", ""), "mnc").ok
+
+
 # --- nothing is lost --------------------------------------------------------------------------------------------------
 
 

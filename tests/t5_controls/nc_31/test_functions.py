@@ -93,16 +93,16 @@ def test_p1_may_count_on_the_radius():
         assert sum("pass" in label for label in run.toolpath.labels) == passes
 
 
-@pytest.mark.parametrize(
-    ("settings", "message"),
-    [
-        ({"parameter_10": -1}, "machine parameter 10 to be a number from 0, got -1"),
-        ({"parameter_11": "much"}, "machine parameter 11 to be a number from 0, got 'much'"),
-        ({"parameter_10": 0.1}, "G77 would break the chip 103998 times: machine parameter 10 is too small"),
-    ],
-)
-def test_machine_parameters_are_checked(settings, message):
-    run = run_of("S300", "F20", "G77*~", "X4000*", "Z-5000*", "P1000", setup=Setup(start=(30, 0, 2), settings=settings))
+@pytest.mark.parametrize(("parameter", "value"), [("parameter_10", -1), ("parameter_11", "much")])
+def test_machine_parameters_are_checked(parameter, value):
+    with pytest.raises(mnclab.Alarm, match=rf"setting {parameter} \(.*\) must be a number from 0, got {value!r}"):
+        run_of("S300", setup=Setup(settings={parameter: value}))
+
+
+def test_a_machine_parameter_that_is_too_small_is_noticed_by_its_cycle():
+    setup = Setup(start=(30, 0, 2), settings={"parameter_10": 0.1})
+    run = run_of("S300", "F20", "G77*~", "X4000*", "Z-5000*", "P1000", setup=setup)
+    message = "G77 would break the chip 103998 times: machine parameter 10 is too small"
     assert message in run.alarms[0].message and run.alarms[0].span[:2] == (3, 1)
 
 

@@ -193,3 +193,51 @@ def test_multipolygons_are_two_plunges():
     plunges = run.toolpath[(run.toolpath.kind == Kind.LINE) & (run.toolpath.feed == 100)]
     assert len(plunges) == 2 and isinstance(swept(run.toolpath, -10, 15), MultiPolygon | Polygon)
     assert sorted(x < 80 for x in plunges.end[:, 0]) == [False, True]
+
+
+# --- transformations in the labels (8.2) ----------------------------------------------------------------------------
+
+TURN, SHIFT = "CYCL DEF 10.0 R\nCYCL DEF 10.1 {}\n", "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 {}\n"
+OBLONG = "LBL {n}\n{inner}L X{x:+d} Y-10 RR\nL Y+10\nL IX+40\nL Y-10\nL X{x:+d}\nLBL 0\n"
+
+
+def cleared(outer, *inner):
+    """Bounds (x, y), (x, y) of what is cut of oblongs 40 x 20 with a tool of radius 5; the second lies 100 farther along X."""
+    labels = "".join(OBLONG.format(n=k + 1, inner=text, x=100 * k - 20) for k, text in enumerate(inner))
+    numbers = "/".join(str(k + 1) for k in range(len(inner)))
+    contour = f"CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL {numbers}\n{outer}"
+    head = "TOOL CALL 1 Z S2000\nL Z+100 R0 FMAX M3\n"
+    text = f"{head}{contour}{data(Q3=0, Q4=0)}CYCL CALL\nL Z+100 R0 FMAX\nL X+1 Y+0 FMAX\nM2\n{labels}"
+    run = mnclab.run(text, "tnc-620", Setup(tools={1: Tool(radius=5, plunge_angle=90)}))
+    assert run.ok, run.alarms
+    path = run.toolpath[(run.toolpath.kind == Kind.LINE) & (run.toolpath.end[:, 2] < 0)]
+    return path.bounds[:, :2].round(6).tolist(), run.toolpath.end[-1, :2].round(6).tolist()
+
+
+@pytest.mark.parametrize(
+    ("outer", "inner", "centre", "upright", "last"),
+    [
+        ("", "", (0, 0), False, (1, 0)),
+        ("", TURN.format("IROT+90"), (0, 0), True, (1, 0)),
+        ("", TURN.format("ROT+90"), (0, 0), True, (1, 0)),
+        ("", 2 * TURN.format("IROT+45"), (0, 0), True, (1, 0)),
+        (TURN.format("ROT+30"), TURN.format("IROT+60"), (0, 0), True, (0.866025, 0.5)),  # added to what is active
+        (TURN.format("ROT+30"), TURN.format("ROT+90"), (0, 0), True, (0.866025, 0.5)),  # in its place
+        (TURN.format("IROT+90"), TURN.format("IROT-90"), (0, 0), False, (0, 1)),
+        (SHIFT.format("X+5"), SHIFT.format("IX+7"), (12, 0), False, (6, 0)),
+        (SHIFT.format("X+5"), SHIFT.format("X+7"), (7, 0), False, (6, 0)),
+        (SHIFT.format("Y+5"), TURN.format("IROT+90"), (0, 5), True, (1, 5)),
+    ],
+)
+def test_a_transformation_in_a_label(outer, inner, centre, upright, last):
+    """It acts on the contour as it would on a motion; after the call that of before the call is back."""
+    (low, high), end = cleared(outer, inner)
+    half = np.array([10 - 5, 20 - 5] if upright else [20 - 5, 10 - 5])
+    assert low == pytest.approx(centre - half) and high == pytest.approx(centre + half)
+    assert end == pytest.approx(last)
+
+
+def test_a_transformation_in_a_label_acts_in_the_next_one():
+    """Turned by 90 degrees, the second oblong lies 100 farther along Y; a further IROT turns it back to X."""
+    assert cleared("", TURN.format("IROT+90"), "")[0] == [[-5, -15], [5, 115]]
+    assert cleared("", TURN.format("IROT+90"), TURN.format("IROT-90"))[0] == [[-5, -15], [115, 15]]

@@ -13,6 +13,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import INF, Machine
+from mnclab.machine.recording import Recording
 from mnclab.machining.depths import infeeds
 from mnclab.machining.pockets import rings
 from mnclab.path.outline import outline
@@ -89,8 +90,9 @@ def contour_region(m: Machine) -> Region:
     """
     pockets: list[tuple[Contour, tuple[float, float]]] = []
     islands: list[Contour] = []
+    recording: Recording | None = None
     for label in m.memory["contour labels"]:
-        recording = m.record(label)
+        recording = m.record(label, after=recording)
         if not len(recording.path):
             m.alarm(f"label {label} describes no contour")
         if (abs(recording.path.end[:, 2] - recording.start[2]) > 1e-9).any():

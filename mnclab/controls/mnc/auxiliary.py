@@ -1,0 +1,110 @@
+"""Tool, spindle and auxiliary functions (MNC 1.2, 5, 7, 9), and those M functions that only ISO 6983 explains."""
+
+from __future__ import annotations
+
+from mnclab.controls.word_address import motion
+from mnclab.controls.word_address.motion import first_word, remark
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.machine import Machine
+
+FUNCTIONS = FunctionTable()
+
+
+def unlisted(m: Machine, words: Words, more: str = "") -> None:
+    """Say that the manual knows nothing of this M function."""
+    remark(m, "unlisted_m", f"{words.code}: the manual does not list it; it is taken in its ISO meaning{more}", words)
+
+
+# --- tool ----------------------------------------------------------------------------------------------------------------
+
+
+@FUNCTIONS("T", "Tool call", phase="tool", source="5.1")
+def tool(m: Machine, words: Words) -> None:
+    """The tool from the table is active at once, no axis moves; by the setting tool_change it waits for M6."""
+    if m.settings["tool_change"] == "T":
+        motion.tool(m, words)
+    else:
+        m.memory["next tool"] = motion.tool_row(m, words["T"], "tool")
+        m.log("next tool", m.memory["next tool"].number)
+
+
+FUNCTIONS("D", "Tool corrector", phase="corrector", source="1.2")(motion.corrector)
+
+
+@FUNCTIONS("M6", "Tool change", phase="change", modal=False, source="ISO 6983")
+def tool_change(m: Machine, words: Words) -> None:
+    """Nothing: T itself changes the tool (5.1); by the setting tool_change it puts the tool of T into the spindle."""
+    if m.settings["tool_change"] == "T":
+        unlisted(m, words, "; T itself changes the tool")
+        return
+    if "next tool" not in m.memory:
+        m.alarm("M6 has no tool to put into the spindle", first_word(words), hint="write T before it")
+    motion.refuse_change(m, "tool", first_word(words))
+    m.change_tool(m.memory["next tool"])
+
+
+# --- spindle -------------------------------------------------------------------------------------------------------------
+
+SPINDLE = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise", "M5": "Spindle stop"}
+SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
+
+
+@FUNCTIONS("S", "Spindle speed", phase="spindle", source="1.2")
+def spindle_speed(m: Machine, words: Words) -> None:
+    """The speed of M3 and M4, kept while the spindle stands."""
+    before = m.spindle_speed
+    motion.spindle_speed(m, words)
+    run_up(m, before)
+
+
+@FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source="9")
+def spindle(m: Machine, words: Words) -> None:
+    """Before the motion of the block; M5 by the setting spindle_stop after it."""
+    if words.code == "M5" and m.settings["spindle_stop"] == "after":
+        m.at_block_end(lambda: m.spindle(turning=0))
+        return
+    before = m.spindle_speed
+    m.spindle(turning={"M3": 1, "M4": -1, "M5": 0}[words.code])
+    run_up(m, before)
+
+
+@FUNCTIONS("G25 G26", SUPERVISION, group="supervision", phase="plane", power_on="G26", source="7")
+def supervision(m: Machine, words: Words) -> None:
+    """Whether the control waits until the spindle has its speed; a matter of time (setting spindle_run_up), not of the
+    path."""
+
+
+def run_up(m: Machine, before: float) -> None:
+    """Wait once in a block that gives the turning spindle another speed or sense, if that is supervised."""
+    if m.spindle_speed not in (0, before) and m.modal["supervision"] == "G26" and m.memory.get("run-up") != m.step:
+        m.memory["run-up"] = m.step
+        m.dwell(m.settings["spindle_run_up"])
+
+
+# --- stops and coolant ---------------------------------------------------------------------------------------------------
+
+COOLANT = {"M7": "Coolant 2 on", "M8": "Coolant on", "M9": "Coolant off"}
+
+
+@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="ISO 6983")
+def program_stop(m: Machine, words: Words) -> None:
+    """Wait for the operator, after the motion of the block."""
+    unlisted(m, words)
+    m.stop()
+
+
+@FUNCTIONS("M2 M30", "Program end", phase="end", modal=False, source="ISO 6983")
+def program_end(m: Machine, words: Words) -> None:
+    """The program ends here, after the motion of the block; without it, at the end of the text."""
+    unlisted(m, words)
+    m.ended = True
+
+
+def coolant(m: Machine, words: Words) -> None:
+    """On before the motion of the block, off after it."""
+    unlisted(m, words)
+    m.coolant()
+
+
+FUNCTIONS("M7 M8", COOLANT, group="coolant", phase="auxiliary", source="ISO 6983")(coolant)
+FUNCTIONS("M9", COOLANT, group="coolant", phase="end", power_on="M9", source="ISO 6983")(coolant)

@@ -1,0 +1,101 @@
+"""Settings: what a control leaves to its parameters, to the operator, or to the reader of its manual.
+
+A setting is declared once, in the ``settings`` of its control; from there come the check of what a Setup says, the table
+of ``mnclab.help("settings", control)`` and the values that functions and cycles find in ``Machine.settings``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from html import escape
+from numbers import Real
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from mnclab.text.alarm import Alarm
+from mnclab.text.nearest import hint, nearest
+
+
+class Setting(NamedTuple):
+    """One choice. Its kind is that of the default: true or false, a number, or one of ``choices`` (value -> meaning).
+
+    ``source`` is the section of the manual, or the name of the reading where the manual leaves it open.
+    """
+
+    name: str
+    default: Any
+    meaning: str
+    source: str = ""
+    choices: Mapping[str, str] = MappingProxyType({})
+    unit: str = ""
+    at_least: float | None = None
+
+    @property
+    def allowed(self) -> str:
+        """What may be written, in words."""
+        if self.choices:
+            return "one of " + ", ".join(self.choices)
+        if isinstance(self.default, bool):
+            return "true or false"
+        least = "" if self.at_least is None else f" from {self.at_least:g}"
+        return f"a number{least}"
+
+    def check(self, value: Any) -> Any:
+        """The value as functions read it; an Alarm when it is not allowed."""
+        if self.choices:
+            good = isinstance(value, str) and value in self.choices
+        elif isinstance(self.default, bool):
+            good = isinstance(value, bool)
+        else:
+            good = isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+            good = good and (self.at_least is None or float(value) >= self.at_least)
+        if not good:
+            near = hint(value, self.choices, 1) if isinstance(value, str) else ""
+            raise Alarm(f"setting {self.name} ({self.meaning}) must be {self.allowed}, got {value!r}", hint=near)
+        return value
+
+
+def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str) -> dict[str, Any]:
+    """Values by name: the defaults, and what a Setup gives instead. An Alarm names what is unknown or not allowed."""
+    known = {setting.name: setting for setting in declared}
+    for name in given:
+        if name not in known:
+            near = nearest(str(name), known, 1)
+            listed = f"mnclab.help('settings', {control!r}) lists them" if known else "it has none"
+            raise Alarm(f"{control} has no setting {name!r}", hint=f"near: {near[0]}" if near else listed)
+    return {name: setting.check(given.get(name, setting.default)) for name, setting in known.items()}
+
+
+def rows(settings: Iterable[Setting]) -> list[tuple[str, str, str, str, str]]:
+    """Name, default, allowed, meaning and source, a row for each setting and one below it for each of its choices."""
+    table = []
+    for one in settings:
+        default = str(one.default).lower() if isinstance(one.default, bool) else str(one.default)
+        unit = f" {one.unit}" if one.unit else ""
+        table.append((one.name, default + unit, "" if one.choices else one.allowed, one.meaning, one.source))
+        table += [("", "", choice, meaning, "") for choice, meaning in one.choices.items()]
+    return table
+
+
+HEAD = ("setting", "default", "allowed", "meaning", "source")
+
+
+def settings_table(settings: Iterable[Setting]) -> str:
+    """The settings as text."""
+    table = [HEAD, *rows(settings)]
+    widths = [max(len(row[k]) for row in table) for k in range(len(HEAD))]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in table]
+    lines.insert(1, "  ".join("-" * width for width in widths))
+    return "\n".join(lines)
+
+
+def settings_html(settings: Iterable[Setting]) -> str:
+    """The settings as HTML."""
+    head = "".join(f"<th>{name}</th>" for name in HEAD)
+    body = "".join(
+        "<tr>" + "".join(f"<td>{f'<code>{escape(cell)}</code>' if k in (0, 1, 2) and cell else escape(cell)}</td>"
+                         for k, cell in enumerate(row)) + "</tr>"
+        for row in rows(settings)
+    )  # fmt: skip
+    return f"<table><tr>{head}</tr>{body}</table>"

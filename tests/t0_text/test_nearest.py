@@ -1,0 +1,40 @@
+"""The words that a misspelt one was meant to be; slips are counted by hand."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mnclab.text.nearest import ALIKE, SWAPPED, hint, nearest, slips_between
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "slips"),
+    [
+        ("G83", "G83", 0), ("g83", "G83", 0), ("G83", "G38", SWAPPED), ("G83", "G3", 1), ("G8", "G83", 1),
+        ("G84", "G83", 1), ("G8O", "G80", ALIKE), ("Gl", "G1", ALIKE), ("\u0425", "X", ALIKE), ("", "G1", 2), ("M3", "G4", 2),
+        ("block_skp", "block_skip", 1), ("blokc_skip", "block_skip", SWAPPED), ("kitten", "sitting", 3),
+    ],
+)  # fmt: skip
+def test_slips(one, other, slips):
+    assert slips_between(one, other) == slips
+
+
+word = st.text("GM0123", max_size=6)
+
+
+@given(word, word, word)
+def test_slips_are_symmetric_and_count_what_was_done(one, other, added):
+    assert slips_between(one, other) == slips_between(other, one)
+    assert abs(len(one) - len(other)) <= slips_between(one, other) <= max(len(one), len(other))
+    assert slips_between(one, one + added) == len(added)
+
+
+@given(word, st.lists(word, unique=True))
+def test_the_nearest_come_first_and_nothing_nearer_is_left_out(wrong, known):
+    found = nearest(wrong, known, 2, slips=2)
+    distances = sorted(slips_between(wrong, one) for one in known if slips_between(wrong, one) <= 2)
+    assert [slips_between(wrong, one) for one in found] == distances[:2]
+
+
+def test_a_hint_names_them_or_is_empty():
+    assert hint("G8O", ["G83", "G80"]) == "near: G80, G83" and hint("tool", ["datums"]) == ""
