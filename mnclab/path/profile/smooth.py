@@ -3,9 +3,9 @@
 A jerk limit is not additive in v², so the scans of the look-ahead do not carry over. Instead:
 
 1. Nodes at which the acceleration is zero, the *knots*, are chosen: stops, ends of rows that are long against a ramp,
-   sharp corners among gentle ones, changes of feed, and otherwise one in every :data:`SHARE` of the length of a ramp from
-   rest to the feed. The rows between two knots are a *group*; it has the least speed, acceleration and jerk of its rows
-   and of the corners inside it.
+   sharp corners among gentle ones, changes of feed, and otherwise one in every :data:`SHARE` of the length of a ramp
+   from rest to the greatest speed between two stops. The rows between two knots are a *group*; it has the least speed,
+   acceleration and jerk of its rows and of the corners inside it.
 2. The acceleration alone bounds the speeds at the knots from above, by the two scans.
 3. Where a ramp between two knots does not fit into its group, its faster end is slowed to what does; this may unsettle
    the neighbours, so it is repeated for these. Should :data:`ROUNDS` not be enough, a scan that needs no repetition
@@ -28,7 +28,7 @@ from mnclab.path.profile import ramps
 from mnclab.path.profile.lookahead import reachable, running_sum
 from mnclab.path.profile.rows import Rows
 
-SHARE = 0.5  # of a ramp from rest to the feed: the least length of a group of short rows
+SHARE = 0.5  # of a ramp from rest to the greatest speed: the least length of a group of short rows
 SHARP = 0.64  # of its neighbours: a corner with less v² gets a knot
 ROUNDS = 200
 STEPS = 60  # of Newton for the time at a place; seven or so are usual
@@ -140,7 +140,9 @@ def smooth(rows: Rows, w: Array) -> tuple[Array, Array, Array, Groups]:
 def _knots(rows: Rows, w: Array) -> Index:
     """Nodes (g + 1,) at which the acceleration is zero, the first and the last among them."""
     n = len(rows.length)
-    v = np.sqrt(rows.cap)
+    stops = np.flatnonzero(w[:-1] == 0)  # node 0 is one
+    fastest = np.repeat(np.maximum.reduceat(w, stops), np.diff(np.append(stops, n)))  # between two stops
+    v = np.sqrt(np.minimum(rows.cap, fastest))
     with np.errstate(divide="ignore", invalid="ignore"):
         share = rows.length / (SHARE * np.maximum(ramps.ramp_length(np.zeros(n), v, rows.a, rows.j), 1e-9))
     share = np.minimum(np.nan_to_num(share), 1.0)

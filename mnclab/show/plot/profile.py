@@ -217,7 +217,7 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
     top = 1.08 * max(float(drawn.v.max(initial=0.0)) * 60, float(np.nanmax(wanted, initial=0.0)), 1e-3)
     if not np.isfinite(top) or top > 40 * max(float(drawn.v.max(initial=0.0)) * 60, 1e-3):
         top = 1.08 * float(drawn.v.max(initial=0.0)) * 60  # a feed far beyond what is reached would flatten all else
-    p, plan = profile.pieces, profile.plan
+    p = profile.pieces
     at = p.t if over == "time" else p.s
     ax.set_xlim(0, max(float(at[-1]), 1e-9) if len(at) else 1.0)
     ax.set_ylim(-0.14 * top if limits else -0.03 * top, top)
@@ -226,7 +226,7 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
         lines.append(ax.plot(stops, 0 * stops, **colours.STANDS.style())[0])
     turn = np.zeros(len(p.v), dtype=bool)
     turn[1:-1] = (p.row[1:] != p.row[:-1]) & (p.v[1:-1] > 1e-9) & (p.v[1:-1] < p.v[:-2]) & (p.v[1:-1] < p.v[2:])
-    if turn.any() and turn.sum() <= 300 and plan.row is None:
+    if 0 < turn.sum() <= 60:
         lines.append(ax.plot(at[turn], p.v[turn] * 60, **colours.SLOW_CORNER.style())[0])
     if not limits or not len(p.row):
         return lines
