@@ -155,7 +155,7 @@ def _knots(rows: Rows, w: Array) -> Index:
     chosen[1:n] |= np.minimum(cap[1:], cap[:-1]) < SHARP * np.maximum(cap[1:], cap[:-1])
     inner = corner[1:n]
     around = np.maximum(corner[:-2], corner[2:])
-    chosen[1:n] |= (inner <= corner[:-2]) & (inner <= corner[2:]) & (inner < SHARP * around) & (inner <= w[1:n])
+    chosen[1:n] |= (inner < SHARP * around) & (inner <= w[1:n])
     still = rows.length == 0  # an event is a group of its own
     chosen[:-1] |= still
     chosen[1:] |= still

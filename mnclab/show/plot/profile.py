@@ -22,6 +22,7 @@ from mnclab.show.plot.picture import SMALL, Picture, columns
 
 SIZE = (7.0, 6.0)  # inches
 FINE, MANY = 9, 20_000  # points of a piece, as long as all of them are not more than so many
+BAND, FEW = 500, 60  # steps of the band that says what holds the speed; boxes of it that are hatched
 MOST = 30  # lines of a program beside their bars
 PARTS = 3000  # of a path that is coloured by the speed reached
 
@@ -230,17 +231,26 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
         lines.append(ax.plot(at[turn], p.v[turn] * 60, **colours.SLOW_CORNER.style())[0])
     if not limits or not len(p.row):
         return lines
-    which = holds(profile)
+    which, edges = holds(profile), at
+    if len(which) > BAND:  # more pieces than the band can show
+        edges = np.linspace(at[0], at[-1], BAND + 1)
+        middle = (edges[1:] + edges[:-1]) / 2
+        which = which[np.clip(np.searchsorted(at, middle, "right") - 1, 0, len(which) - 1)]
     for k, (name, (shade, hatch)) in enumerate(colours.HOLDS.items()):
         first = np.flatnonzero((which == k) & np.append(True, which[1:] != which[:-1]))
         last = np.flatnonzero((which == k) & np.append(which[1:] != which[:-1], True)) + 1
         if not len(first) or name == "standing":
             continue
         low, high = -0.12 * top, -0.05 * top
-        boxes = [[(a, low), (b, low), (b, high), (a, high)] for a, b in zip(at[first], at[last])]
-        looks: dict[str, Any] = {"facecolor": shade, "hatch": hatch, "edgecolor": colours.PAPER, "linewidth": 0.0}
+        boxes = [[(a, low), (b, low), (b, high), (a, high)] for a, b in zip(edges[first], edges[last])]
+        looks: dict[str, Any] = {
+            "facecolor": shade,
+            "hatch": hatch if len(boxes) < FEW else "",
+            "edgecolor": colours.PAPER,
+            "linewidth": 0.0,
+        }
         ax.add_collection(PolyCollection(boxes, **looks, zorder=2))
-        lines.append(Patch(**looks, label=f"held by {name}"))
+        lines.append(Patch(**looks | {"hatch": hatch}, label=f"held by {name}"))
     return lines
 
 
