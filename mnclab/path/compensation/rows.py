@@ -21,15 +21,16 @@ def tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked
     """The rows of ``path`` along the equidistant; rows without motion in the plane stand where the one before ends."""
     el = found.el
     rows, n = el.rows, len(path)
-    flat = np.empty((n, 2))
-    at = np.full(n, -1)
-    at[rows] = np.arange(len(rows))
-    where = np.maximum.accumulate(at)  # the last element up to each row
-    moved = where >= 0
-    flat[moved], flat[~moved] = found.end[where[moved]], view.end[~moved, :2]
-    ends = view.to_space(np.arange(n), np.column_stack([flat, view.end[:, 2]]))
-    keep = ~moved | ~el.on[where]  # not compensated: exactly as it was
-    ends[keep] = path.end[keep]
+    if len(rows) == n:
+        flat, keep = found.end, ~el.on
+    else:
+        at = np.full(n, -1)
+        at[rows] = np.arange(len(rows))
+        where = np.maximum.accumulate(at)  # the last element up to each row
+        flat = found.end.take(where, axis=0, mode="clip")
+        keep = (where < 0) | ~el.on[where]
+    ends = view.to_space(np.arange(n), _joined(flat, view.end[:, 2]))
+    ends[keep] = path.end[keep]  # not compensated: exactly as it was
 
     columns: dict[str, NDArray[Any]] = {name: getattr(path, name) for name in COLUMNS if name not in ("start", "end")}
     columns["sweep"], columns["rule"], columns["gouge"] = path.sweep.copy(), np.zeros(n, np.uint8), np.zeros(n, bool)
@@ -41,7 +42,7 @@ def tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked
         w = view.start[like, 2]
         made: dict[str, Any] = {
             "kind": Kind.ARC,
-            "centre": view.to_space(like, np.column_stack([el.end[k - 1], w])),
+            "centre": view.to_space(like, _joined(el.end[k - 1], w)),
             "sweep": found.turn[k],
             "label": labels.index(CORNER),
             "side": path.side[before],
@@ -58,10 +59,17 @@ def tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked
         inserted = like + np.arange(len(k))
         for name, column in columns.items():
             columns[name] = _spread(column, source, inserted, made.get(name))
-        ends = ends[source]
-        ends[inserted] = view.to_space(like, np.column_stack([found.begin[k], w]))
+        ends = ends.take(source, axis=0, mode="clip")
+        ends[inserted] = view.to_space(like, _joined(found.begin[k], w))
     vertices = np.concatenate([path.start[:1], ends])
     return Toolpath.chain(vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe)
+
+
+def _joined(flat: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points (n, 3) from coordinates in the plane (n, 2) and along its normal (n,)."""
+    points = np.empty((len(flat), 3))
+    points[:, 0], points[:, 1], points[:, 2] = flat[:, 0], flat[:, 1], w
+    return points
 
 
 def _spread(column: NDArray[Any], source: NDArray[np.int64], at: NDArray[np.int64], value: Any) -> NDArray[Any]:
@@ -71,7 +79,10 @@ def _spread(column: NDArray[Any], source: NDArray[np.int64], at: NDArray[np.int6
     )
     if column.strides[0] == 0 and same:
         return np.broadcast_to(column[0], (len(source), *column.shape[1:]))
-    found = column[source]
+    if column.strides[0] == 0:
+        found = np.full((len(source), *column.shape[1:]), column[0])
+    else:
+        found = column.take(source, axis=0, mode="clip")  # faster than column[source]
     if value is not None:
         found[at] = value
     return found
