@@ -27,7 +27,7 @@ tail = st.sampled_from(["", "", " K2.5", " Z-8", " Z-8 R2", " F100", " R2.5 K3"]
 holes = st.tuples(tail, st.lists(place, min_size=SHORTEST + 4, max_size=60)).map(lambda t: [p + t[0] for p in t[1]])
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(st.sampled_from(CYCLES), st.sampled_from(["", "G39 A33", "G51 Y0", "G37 X2 Y0.5 Z3", "G91"]), holes)
 def test_rows_of_holes(both, assert_equal, cycle, switch, places):
     assert_equal(*both(f"{HEAD}{switch}\n{cycle}\n" + "\n".join(places) + "\nG80 G0 X1\n"))

@@ -26,8 +26,7 @@ PHASES = (
 
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
-    {f"G{n}": _LATER for n in (161, 162)}
-    | {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
+    {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
     | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
 )
@@ -55,7 +54,7 @@ CONTROL = Control(
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),
-    compensation=Compensation(approach="corner"),
+    compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=language.power_on,
     looks_like=looks_like,
     refused=REFUSED,
