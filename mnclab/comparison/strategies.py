@@ -15,6 +15,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
+from importlib import import_module
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -107,10 +109,9 @@ class Trial:
 
     @cached_property
     def time(self) -> float:
-        """Seconds: by the feed-rate profile where axis limits are given and it can be had, else length over feed."""
-        profile = getattr(self.path, "profile", None)
-        if self.limits is not None and profile is not None:
-            return float(profile(self.limits).time)
+        """Seconds: as the planner has it where axis limits are given, else length over feed."""
+        if self.limits is not None and (planned := _planned(self.path, self.limits)) is not None:
+            return planned
         feed = np.where(np.isinf(self.path.feed), self.rapid_rate, self.path.feed)
         return float((self.path.lengths / feed).sum() * 60)
 
@@ -221,6 +222,13 @@ def compare(
             Trial(name, region, clearing, path, found, depth, feed, np.radians(limit), allowance, limits, rapid)
         )
     return Comparison(tuple(trials))
+
+
+def _planned(path: Toolpath, limits: Limits) -> float | None:
+    """Seconds by the look-ahead planner, None where this copy of mnclab has none."""
+    if find_spec("mnclab.path.profile") is None:
+        return None
+    return float(import_module("mnclab.path.profile").Profile(path, limits).time)
 
 
 def level_moves(clearing: Clearing, entry: Entry, depth: float, climb: bool) -> tuple[list[Contour], list[bool]]:

@@ -35,6 +35,16 @@ def polygons(region: Region) -> Any:
     return shapely.union_all([shapely.make_valid(shapely.Polygon(outer, holes)) for outer, *holes in pieces])
 
 
+def stays(passes: Iterable[Contour], area: Any) -> list[bool]:
+    """Which contours lie in a shapely area, or within twice `CHORD_ERROR` of it."""
+    import shapely
+
+    lines = [shapely.LineString(contour.points_within(CHORD_ERROR)) for contour in passes]
+    room = shapely.buffer(area, 2 * CHORD_ERROR)
+    shapely.prepare(room)
+    return [bool(one) for one in shapely.covers(room, lines)]
+
+
 def left_over(area: Any, cover: Any, least: float) -> Region:
     """What of a shapely area is not covered, without what is narrower than `least`."""
     import shapely

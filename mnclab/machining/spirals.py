@@ -9,16 +9,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour, Floats, cross, steps_within
 from mnclab.geometry.regions import Region
+from mnclab.geometry.sweeps import covered, polygons, stays
 from mnclab.machining.clearing import Clearing, Piece, links, numbered, piecewise, room_for
 from mnclab.machining.pockets import Ring, rings_in_order
 
-CHORD = 2e-3  # mm
+CHORD = 5e-4  # mm
+LEFT = 1e-3  # of an area: a spiral that leaves more standing is none
 
 
 def half_circles(
@@ -68,7 +71,7 @@ def spiral(region: Region, radius: float, stepover: float, *, allowance: float =
 
     A round area is one spiral of true arcs. Elsewhere one turn of straight lines leads from each ring to the next one
     outside it, and the last ring is run as it is, arcs and all. Where rings divide, or a turn would leave the area, one
-    spiral ends and another begins.
+    spiral ends and another begins; where spirals would leave something standing, the rings are run as they are.
     """
     centres = room_for(region, radius, stepover, allowance)
     return piecewise(centres, radius, lambda part: _piece(part, radius, stepover, climb))
@@ -82,7 +85,12 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piec
         way = half_circles(middle, 0.0, reach, halves, clockwise=not climb)
         last = Contour.circle(middle, reach, np.pi * halves, clockwise=not climb)
         return Piece(centres, (way, last), (True,), ("spiral", "wall"), middle)
-    chains = _chains(list(rings_in_order(centres, radius, stepover)), centres, stepover, climb)
+    rings = list(rings_in_order(centres, radius, stepover))
+    chains = _chains(rings, centres, stepover, climb)
+    reach = polygons(centres).buffer(radius)
+    cover = covered([way for turns, ring in chains for way in (*turns, ring.contour)], radius)
+    if reach.difference(cover).area > LEFT * reach.area:
+        chains = [([], ring if climb else replace(ring, contour=ring.contour.reversed())) for ring in rings]
     passes: list[Contour] = []
     labels: list[str] = []
     for name, (turns, ring) in zip(numbered("spiral", len(chains)), chains, strict=True):
@@ -107,16 +115,23 @@ def _circle(centres: Region) -> tuple[Floats, float] | None:
 def _chains(rings: list[Ring], centres: Region, stepover: float, climb: bool) -> list[tuple[list[Contour], Ring]]:
     """Rings in the order of cutting as spirals: the way from the first to the last, and the last ring."""
     rings = rings if climb else [replace(ring, contour=ring.contour.reversed()) for ring in rings]
+    grows = [_grows(ring, following, rings) for ring, following in pairwise(rings)]
+    for k in reversed(range(len(grows))):
+        if grows[k]:  # a turn begins where the ring within comes nearest to its end
+            inner, outer = rings[k].contour, rings[k + 1].contour
+            rings[k] = replace(rings[k], contour=inner.started_at(inner.nearest(outer.points[0])))
+    ways = {
+        k: turn_between(rings[k].contour, rings[k + 1].contour, stepover / 2) for k in np.flatnonzero(grows).tolist()
+    }
+    inside = dict(zip(ways, stays(ways.values(), polygons(centres)), strict=True))
     chains: list[tuple[list[Contour], Ring]] = []
     parts: list[Contour] = []
     for k, ring in enumerate(rings):
-        following = rings[k + 1] if k + 1 < len(rings) else None
-        way = turn_between(ring.contour, following.contour, stepover / 2) if following else None
-        if following and way and _grows(ring, following, rings) and _stays(way, centres):
-            parts = [*(parts or [ring.contour]), way]
-            continue
-        chains.append((_one_way(parts), ring))
-        parts = []
+        if inside.get(k):
+            parts = [*(parts or [ring.contour]), ways[k]]
+        else:
+            chains.append((_one_way(parts), ring))
+            parts = []
     return chains
 
 
@@ -130,11 +145,6 @@ def _grows(ring: Ring, following: Ring, rings: list[Ring]) -> bool:
     spots = np.array([other.contour.points[0] for other in others])
     within = outer.contour.winding(spots) != 0
     return int(within.sum()) == 1 and bool(outer.contour.winding(inner.contour.points[:1])[0])
-
-
-def _stays(way: Contour, centres: Region) -> bool:
-    spots = np.vstack([way.points, (way.points[1:] + way.points[:-1]) / 2])
-    return bool((centres.contains(spots) | (centres.distance(spots) <= 1e-6)).all())
 
 
 def _one_way(parts: list[Contour]) -> list[Contour]:

@@ -11,6 +11,8 @@ takes away the cusps between the arcs.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from mnclab.geometry.contours import Contour, Floats, left
@@ -52,13 +54,11 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piec
     passes: list[Contour] = []
     labels: list[str] = []
     found = skeleton(centres, min(stepover, radius) / 2)
-    place = None
-    if len(found.points) and found.room.max() > SMALLEST * radius:
-        place = found.points[int(found.room.argmax())]
-        for number, branch in enumerate(_branches(found), 1):
-            arcs = _discs(found.points[branch], centres, radius, stepover, climb, number == 1)
-            passes += arcs
-            labels += [f"branch {number}, {name}" for name in numbered("arc", len(arcs))]
+    for number, (branch, fresh) in enumerate(_branches(found, SMALLEST * radius), 1):
+        arcs = _discs(found.points[branch], centres, radius, stepover, climb, fresh)
+        passes += arcs
+        labels += [f"branch {number}, {name}" for name in numbered("arc", len(arcs))]
+    place = passes[0].points[0] if passes else None
     here = end(passes[-1]) if passes else centres.loops[0].points[0]
     for loop in sorted(centres.loops, key=lambda loop: loop.area):
         ring = loop.started_at(loop.nearest(here))
@@ -85,9 +85,7 @@ def _discs(points: Floats, centres: Region, radius: float, stepover: float, clim
         if last <= 0:
             last = min(1, len(middles) - 1)
         new, size = middles[last], float(rooms[last])
-        if size < SMALLEST * radius:
-            break
-        arc = _outside(new, size, centre, reach, climb)
+        arc = _outside(new, size, centre, reach, climb) if size >= SMALLEST * radius else None
         if arc is not None:
             arcs.append(arc)
         centre, reach = new, size
@@ -116,30 +114,42 @@ def _outside(middle: Floats, size: float, before: Floats, reach: float, climb: b
     return Contour(spots, [bulge, bulge, 0.0], closed=False)
 
 
-def _branches(found: Skeleton) -> list[np.ndarray]:
-    """The middle line as chains of points, from its widest one on: each begins on one that came before."""
+def _branches(found: Skeleton, least: float) -> Iterator[tuple[np.ndarray, bool]]:
+    """The middle line as chains of points, from its widest one on, and whether a chain begins where none has been.
+
+    Any other begins on one that came before. A line that a narrow place has parted is taken piece by piece.
+    """
     neighbours: dict[int, list[int]] = {}
     for a, b in found.edges.tolist():
         neighbours.setdefault(a, []).append(b)
         neighbours.setdefault(b, []).append(a)
-    if not neighbours:  # of a round area only its centre is left
-        return [np.array([int(found.room.argmax())])]
+    seen = np.zeros(len(found.points), dtype=bool)
+    if neighbours:
+        seen[:] = True
+        seen[list(neighbours)] = False
     done: set[tuple[int, int]] = set()
-    chains: list[np.ndarray] = []
-    waiting = [int(found.room.argmax())]
-    while waiting:
-        start = waiting[-1]
-        free = [k for k in neighbours[start] if (start, k) not in done]
-        if not free:
-            waiting.pop()
-            continue
-        chain = [start]
-        while free:
-            step = max(free, key=lambda k: found.room[k])
-            done |= {(chain[-1], step), (step, chain[-1])}
-            chain.append(step)
-            free = [k for k in neighbours[step] if (step, k) not in done]
-            if len(free) > 1:
-                waiting.append(step)
-        chains.append(np.array(chain))
-    return chains
+    while not seen.all():
+        widest = int(np.where(seen, -np.inf, found.room).argmax())
+        if found.room[widest] <= least:
+            return
+        if not neighbours:  # of a round area only its centre is left
+            yield np.array([widest]), True
+            return
+        waiting, fresh = [widest], True
+        while waiting:
+            start = waiting[-1]
+            free = [k for k in neighbours[start] if (start, k) not in done]
+            if not free:
+                waiting.pop()
+                continue
+            chain = [start]
+            while free:
+                step = max(free, key=lambda k: found.room[k])
+                done |= {(chain[-1], step), (step, chain[-1])}
+                chain.append(step)
+                free = [k for k in neighbours[step] if (step, k) not in done]
+                if len(free) > 1:
+                    waiting.append(step)
+            seen[chain] = True
+            yield np.array(chain), fresh
+            fresh = False

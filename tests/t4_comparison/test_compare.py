@@ -1,11 +1,12 @@
 """The table that sets strategies side by side, against areas and lengths worked out by hand."""
 
 from dataclasses import replace
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
 
-from mnclab import Tool
+from mnclab import Limits, Tool
 from mnclab.comparison.strategies import COLUMNS, compare
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -71,3 +72,10 @@ def test_own_functions_and_other_names():
         compare(BOX, 5.0, overlap=1.0)
     with pytest.raises(ValueError, match="does not fit"):
         compare(Region.of(Contour.circle((0, 0), 4)), 5.0)
+
+
+def test_time_under_limits_of_the_axes():
+    """Where there is a planner, stops in corners cost time; where there is none, it is length over feed."""
+    free = compare(BOX, 5.0, ["rings"], feed=2000)["rings"].time
+    slow = compare(BOX, 5.0, ["rings"], feed=2000, limits=Limits(acceleration=200))["rings"].time
+    assert slow > 1.05 * free if find_spec("mnclab.path.profile") else slow == pytest.approx(free)
