@@ -50,13 +50,14 @@ class Curve {
       pen.lineWidth = 1.1;
       pen.stroke();
     }
-    pen.fillStyle = colours.quiet;
     pen.font = "10px system-ui, sans-serif";
     pen.textBaseline = "top";
     const text = `${number(this.most / 1.08 * 60, 0)} mm/min${this.clipped ? ", rapids go beyond" : ""}`;
-    pen.strokeStyle = colours.paper;
-    pen.lineWidth = 3;
-    pen.strokeText(text, 6, 3);
-    pen.fillText(text, 6, 3);
+    pen.fillStyle = colours.paper;
+    pen.globalAlpha = 0.8;
+    pen.fillRect(3, 6, pen.measureText(text).width + 6, 14);
+    pen.globalAlpha = 1;
+    pen.fillStyle = colours.quiet;
+    pen.fillText(text, 6, 8);
   }
 }

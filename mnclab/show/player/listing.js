@@ -11,6 +11,7 @@ class Listing {
     this.sheet.className = "sheet";
     box.append(this.sheet);
     this.height = 20;
+    box.style.setProperty("--digits", Math.max(3, ...run.texts.map(text => String(text.length).length)));
     this.alarms = new Map(run.header.alarms.filter(alarm => alarm.line).map(alarm => [alarm.line, alarm]));
     this.shown = "";
     box.addEventListener("scroll", () => this.draw());

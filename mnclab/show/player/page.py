@@ -30,6 +30,11 @@ class Player:
         self.run, self.profile = run, profile
         self.height, self.theme, self.speed = height, theme, speed
 
+    @property
+    def name(self) -> str:
+        """What the program is called, without its folders."""
+        return Path(self.run.program.name).name
+
     @cached_property
     def page(self) -> str:
         """The page: markup, style, data and scripts in one text."""
@@ -37,7 +42,7 @@ class Player:
         text = {name: here.joinpath(name).read_text("utf-8") for name in ("page.html", "page.css")}
         script = "\n".join(here.joinpath(f"{name}.js").read_text("utf-8") for name in SCRIPTS)
         parts = {
-            "@title@": escape(f"{self.run.program.name} on {self.run.control.title}"),
+            "@title@": escape(f"{self.name} on {self.run.control.title}"),
             "@theme@": self.theme,
             "@speed@": f"{self.speed:g}",
             "@style@": text["page.css"],
@@ -57,7 +62,7 @@ class Player:
         return path
 
     def _repr_html_(self) -> str:
-        name = escape(f"player of {self.run.program.name}", quote=True)
+        name = escape(f"player of {self.name}", quote=True)
         return (
             f'<iframe title="{name}" sandbox="allow-scripts" loading="eager" '
             f'style="width: 100%; height: {self.height:d}px; border: 0; border-radius: 6px" '
@@ -67,7 +72,7 @@ class Player:
     def __repr__(self) -> str:
         path = self.run.toolpath
         moves = int(path.is_motion.sum())
-        return f"<Player of {self.run.program.name}: {moves} moves, {self.profile.time:.1f} s; save it as .html>"
+        return f"<Player of {self.name}: {moves} moves, {self.profile.time:.1f} s; save it as .html>"
 
 
 def player(run: Any, profile: Profile | None = None, **options: Any) -> Player:

@@ -3,6 +3,8 @@
 
 const FAR = 5;  // rapids that make the box this many times larger than that of the cuts are not fitted in
 
+const LONG = 8000;  // points of a path from which on it is drawn in hairlines
+
 class Picture {
   constructor(canvas, run) {
     this.canvas = canvas;
@@ -16,7 +18,10 @@ class Picture {
     this.box = cuts && size(all) > FAR * size(cuts) && size(cuts) > 0 ? fine[1] : fine[0];
     this.box = this.box || [run.path.vertex(0).map(v => v - 10), run.path.vertex(0).map(v => v + 10)];
     this.extent = Math.max(size(this.box), 1);
+    this.long = this.strokes.n > LONG;
     this.fewRapids = this.strokes.kind.reduce((n, kind) => n + (kind === RAPIDS), 0) < 3000;
+    this.room = this.box.map(corner => corner.slice());  // that is fitted in: with part of the tool
+    if (!run.lathe) this.room[1][2] += this.extent / 6;
     this.camera = new Camera(run.lathe);
     this.ground = document.createElement("canvas");
     this.done = document.createElement("canvas");
@@ -38,11 +43,11 @@ class Picture {
     this.ratio = ratio;
     this.camera.size = [w, h];
     for (const each of [this.canvas, this.ground, this.done]) [each.width, each.height] = [w * ratio, h * ratio];
-    if (first || !(this.camera.zoom > 0)) this.camera.fit(this.box); else this.camera.zoom *= scale;
+    if (first || !(this.camera.zoom > 0)) this.camera.fit(this.room); else this.camera.zoom *= scale;
     this.stale = true;
   }
   fit() {
-    this.camera.fit(this.box);
+    this.camera.fit(this.room);
     this.stale = true;
   }
   view(name) {
@@ -58,11 +63,11 @@ class Picture {
   lines(pen, from, to, pale) {
     const {rapid, cut, probing} = this.colours;
     pen.globalAlpha = pale ? 0.28 : 1;
-    pen.lineJoin = "round";
+    pen.lineJoin = this.long ? "bevel" : "round";
     for (const [kind, colour, width, dashes] of [[CUTS, cut, 1.8, []], [RAPIDS, rapid, 1, this.fewRapids ? [5, 3] : []],
       [PROBINGS, probing, 1.4, [1.5, 2]]]) {
       pen.strokeStyle = colour;
-      pen.lineWidth = pale ? Math.min(width, 1.2) : width;
+      pen.lineWidth = this.long ? 1 / this.ratio : pale ? Math.min(width, 1.2) : width;  // hairlines cost a tenth
       pen.setLineDash(dashes);
       this.strokes.stroke(pen, kind, from, to);
     }
@@ -82,7 +87,7 @@ class Picture {
       if (this.contour) {
         this.contour.project(camera);
         pen.strokeStyle = this.colours.contour;
-        pen.lineWidth = 1;
+        pen.lineWidth = this.long ? 1 / this.ratio : 1;
         this.contour.stroke(pen, CUTS, 0, this.contour.n - 1);
       }
       this.lines(pen, 0, strokes.n - 1, true);
@@ -155,10 +160,11 @@ class Picture {
     pen.font = "11px system-ui, sans-serif";
     pen.lineWidth = 1;
     if (!across || !upwards) return this.bar(pen);
-    const names = "XYZ", diameter = k => run.lathe && k === 0 ? 2 : 1;
-    for (const [[axis, sense], flat] of [[across, true], [upwards, false]]) {
-      const parts = diameter(axis), step = round(58 / camera.zoom * parts) / parts, digits = Math.max(0, -Math.floor(Math.log10(step * parts) + 1e-9));
-      const span = flat ? w : h, middle = camera.target[axis], half = span / 2 / camera.zoom;
+    const words = [], names = "XYZ", diameter = k => run.lathe && k === 0 ? 2 : 1;
+    for (const [[axis], flat] of [[across, true], [upwards, false]]) {
+      const parts = diameter(axis), step = round(58 / camera.zoom * parts) / parts;
+      const digits = Math.max(0, -Math.floor(Math.log10(step * parts) + 1e-9));
+      const middle = camera.target[axis], half = (flat ? w : h) / 2 / camera.zoom;
       for (let k = Math.ceil((middle - half) / step); k <= (middle + half) / step; k++) {
         const point = camera.target.slice();
         point[axis] = k * step;
@@ -169,23 +175,24 @@ class Picture {
         pen.moveTo(flat ? x : 0, flat ? 0 : y);
         pen.lineTo(flat ? x : w, flat ? h : y);
         pen.stroke();
-        pen.fillStyle = colours.quiet;
-        pen.textAlign = flat ? "center" : "left";
-        pen.textBaseline = flat ? "bottom" : "middle";
-        const text = number(Math.abs(k * step * parts) * Math.sign(k), digits);
-        if (flat ? x > 46 && x < w - 40 : y > 24 && y < h - 26) this.label(pen, text, flat ? x : 5, flat ? h - 5 : y);
+        const text = number(Math.abs(k * step * parts) * (run.lathe && axis === 0 ? 1 : Math.sign(k)), digits);
+        if (flat ? x > 46 && x < w - 48 : y > 26 && y < h - 26) words.push([text, flat ? x : 5, flat ? h - 5 : y, flat ? "center" : "left", flat ? "bottom" : "middle"]);
       }
       pen.setLineDash([]);
-      pen.textAlign = flat ? "right" : "left";
-      pen.textBaseline = flat ? "bottom" : "top";
-      pen.fillStyle = colours.ink;
       const name = (diameter(axis) > 1 ? "⌀ X" : names[axis]) + " mm";
-      this.label(pen, name, flat ? w - 6 : 5, flat ? h - 5 : 6);
+      words.push([name, flat ? w - 6 : 5, flat ? h - 5 : 6, flat ? "right" : "left", flat ? "bottom" : "top"]);
+    }
+    pen.fillStyle = colours.quiet;
+    for (const [text, x, y, align, baseline] of words) {
+      pen.textAlign = align;
+      pen.textBaseline = baseline;
+      this.label(pen, text, x, y);
     }
   }
   label(pen, text, x, y) {
     pen.strokeStyle = this.colours.paper;
-    pen.lineWidth = 3;
+    pen.lineWidth = 5;
+    pen.lineJoin = "round";
     pen.strokeText(text, x, y);
     pen.lineWidth = 1;
     pen.fillText(text, x, y);

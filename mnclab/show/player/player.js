@@ -125,9 +125,9 @@ class PlayerPage {
     this.say();
   }
   pressed() {
-    for (const [id, direction, sign] of [["play", 1, "▶"], ["play-back", -1, "◀"]]) {
+    for (const [id, direction, sign] of [["play", 1, "M4 3v10l8-5z"], ["play-back", -1, "M12 3v10L4 8z"]]) {
       this.find(id).setAttribute("aria-pressed", this.playing === direction);
-      this.find(id).textContent = this.playing === direction ? "❚❚" : sign;
+      this.find(id).querySelector("path").setAttribute("d", this.playing === direction ? "M4 3h3v10H4zM9 3h3v10H9z" : sign);
     }
   }
 
@@ -238,7 +238,15 @@ class PlayerPage {
       text.textContent = run.lathe && LATHE_KEYS.get(key) || what;
       list.append(head, text);
     }
-    find("keys").append(list);
+    const legend = document.createElement("p");
+    for (const [name, text, dashes] of [["cut", "cut", "solid"], ["rapid", "rapid", "dashed"], ["probing", "probing", "dotted"],
+      ["contour", "programmed contour", "solid"], ["now", "this move", "solid"]]) {
+      const word = document.createElement("span");
+      word.textContent = text;
+      word.style.cssText = `--colour: var(--${name}); --dashes: ${dashes}`;
+      legend.append(word);
+    }
+    find("keys").append(list, legend);
   }
   jump(act) {
     if (!this.run.items) return;

@@ -83,7 +83,7 @@ class Strokes {
       const dx = sx[i] - lx, dy = sy[i] - ly;
       if (dx * dx + dy * dy < 0.3 && i < to && kinds[i + 1] === kind) continue;
       pen.lineTo(lx = sx[i], ly = sy[i]);
-      if (++count % 1000 === 0) {  // long paths cost more than many short ones
+      if (++count % 200 === 0) {  // long paths cost more than many short ones
         pen.stroke();
         pen.beginPath();
         pen.moveTo(lx, ly);
