@@ -20,8 +20,9 @@ from mnclab.machine.history import History
 from mnclab.machine.interpreter import Interpreter, Stop
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
-from mnclab.machine.settling import paths
+from mnclab.machine.settling import paths, shifted
 from mnclab.machine.setup import Setup, Tables
+from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
@@ -51,7 +52,11 @@ class Moment(NamedTuple):
 
 
 class Run:
-    """The result of running a program: both paths, alarms, history, and where the machine stands."""
+    """The result of running a program: both paths, alarms, history, and where the machine stands.
+
+    ``gouges`` are the places where a compensated tool does not fit: the one that was refused, or with the setting
+    ``gouge = "mark"`` all of them.
+    """
 
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
         self.program, self.programs, self.setup, self.control = program, (program,), setup, control
@@ -70,6 +75,7 @@ class Run:
         self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
         self.frames = machine.frames
+        self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
         self.settings = dict(machine.settings)
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:

@@ -305,3 +305,24 @@ def test_the_setup_of_a_run_has_the_limits():
 def test_limits_that_make_no_sense(wrong, says):
     with pytest.raises(Alarm, match=says):
         Limits(**wrong)
+
+
+def test_many_short_lines_of_a_curve_run_as_fast_as_the_curve():
+    # a circle of 20 mm in 600 lines, a = 1000, jerk 1e5: v² = a r gives 141.4 mm/s for both models, v³ = j r² gives 342
+    angle = np.linspace(0, 2 * math.pi, 601)
+    points = np.stack([20 * np.cos(angle), 20 * np.sin(angle), 0 * angle], axis=1)
+    for jerk in (None, 1e5):
+        profile = Profile(path(*points, feed=1e5), Limits(rapid=1e6, jerk=jerk, corner_tolerance=0.005))
+        slowest, fastest = profile.plan.v[150:450].min(), profile.plan.v[150:450].max()
+        assert math.sqrt(1000 * 20) * 0.99 < slowest and fastest < math.sqrt(math.sqrt(2) * 1000 * 20) * 1.01
+    sharp = Profile(path(*points[::25], feed=1e5), Limits(rapid=1e6, jerk=1e5, corner_tolerance=0.005))
+    assert sharp.plan.v[6:18].max() < 20  # 24 lines are no curve at this tolerance
+
+
+@pytest.mark.parametrize("jerk", [None, 2e4])
+def test_a_corner_in_the_middle_of_short_rows_slows_only_what_it_must(jerk):
+    points = [(0.2 * k, 0, 0) for k in range(200)] + [(40, 0.2 * k, 0) for k in range(200)]
+    limits = Limits(corner_tolerance=0.01, jerk=jerk)
+    fine, coarse = Profile(path(*points), limits), Profile(path((0, 0, 0), (40, 0, 0), (40, 39.8, 0)), limits)
+    assert fine.time == pytest.approx(coarse.time, rel=0.25)
+    assert fine.time >= coarse.time * (1 - 1e-9) or jerk is None

@@ -17,6 +17,10 @@ With Δu the difference of the unit tangents (per axis Δu_k), a_k and j_k the l
 **jump**
     The speed of an axis may jump by s_k: ``v = min(s_k / |Δu_k|)``. Marlin calls this classic jerk.
 
+    Many short lines that stand for a curve, |Δu| l / 8 <= ε with l the mean length of the neighbours, may share their
+    acceleration: it follows the curvature κ = Δu / l of each corner, goes over into that of the next corner within the
+    row between them, and so ``v² <= min(a_k / |κ_k|)`` and ``v³ <= min(j_k L / |κ_k' - κ_k|)``. The greater speed counts.
+
 Tangents that differ by less than :data:`TANGENT` are no corner: rounded coordinates make tangent joints miss by that.
 Under a jerk limit a joint of line and arc is a corner too, for the centripetal acceleration v² Δκ begins at once. Spread
 over the time T = v² max(|Δκ_k| / j_k) it leaves the path by v² |Δκ| T² / 24, hence
@@ -112,3 +116,23 @@ def bend_joints(before: Array, after: Array, limits: Limits) -> Array:
         w = np.cbrt(24 * limits.corner_tolerance / (size * slow**2))
     largest = np.maximum(np.linalg.norm(before, axis=1), np.linalg.norm(after, axis=1))
     return np.where(size <= TANGENT * largest, np.inf, w)
+
+
+def curves(tangent: Array, length: Array, lines: NDArray[np.bool_], limits: Limits) -> Array:
+    """v² (n - 1,) at the corners between rows that are short lines of a curve, 0 elsewhere; for "tolerance" with jerk.
+
+    ``tangent`` (n, 3) and ``length`` (n,) of all rows; ``lines`` (n,) says which of them are lines.
+    """
+    mean = (length[1:] + length[:-1]) / 2
+    corner = lines[1:] & lines[:-1]
+    turn = np.where(corner[:, None], tangent[1:] - tangent[:-1], 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = np.where(corner[:, None], turn / mean[:, None], 0.0)
+        around = np.concatenate([np.zeros((1, 3)), bend, np.zeros((1, 3))])
+        change = np.abs(np.diff(around, axis=0)) / limits.axes("jerk")  # over each row
+        cubed = length / change.max(axis=1)
+        w = np.minimum(
+            (limits.axes("acceleration") / np.abs(bend)).min(axis=1), np.cbrt(np.minimum(cubed[1:], cubed[:-1])) ** 2
+        )
+    fits = corner & (np.linalg.norm(turn, axis=1) * mean <= 8 * limits.corner_tolerance)
+    return np.where(fits, np.nan_to_num(w, nan=0.0, posinf=np.inf), 0.0)

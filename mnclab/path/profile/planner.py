@@ -21,7 +21,7 @@ from mnclab.path.profile.lookahead import reachable
 from mnclab.path.profile.rapids import Rapids
 from mnclab.path.profile.rows import PIECE, Rows, measure
 from mnclab.path.profile.smooth import Groups, smooth
-from mnclab.path.profile.turns import PART, Turns
+from mnclab.path.profile.turns import FEWEST, PART, Turns
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
 
@@ -123,8 +123,7 @@ def _slow_arcs(found: Plan) -> NDArray[np.bool_]:
 
 def _turned(found: Plan, slow: NDArray[np.bool_], limits: Limits, override: float) -> tuple[Plan, NDArray[np.int64]]:
     """The plan with some arcs cut finer, and the row (m,) that each of its rows was part of."""
-    counts = np.where(slow, np.ceil(np.abs(found.path.sweep) / PART), 1).astype(np.int64)
-    counts = np.maximum(counts, 1)
+    counts = np.where(slow, np.maximum(np.ceil(np.abs(found.path.sweep) / PART), FEWEST), 1).astype(np.int64)
     path, part = divided(found.path, counts)
     turns = Turns(path, np.flatnonzero(slow[part]), np.append(0, np.cumsum(counts[slow])), limits)
     caps = np.full(len(path), np.nan)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +15,9 @@ from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.pieces import Pieces, pieces
 from mnclab.path.profile.planner import Plan, plan
 from mnclab.path.toolpath import Toolpath
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -63,8 +66,14 @@ class Profile:
     ) -> None:
         self.path, self.limits, self.override = path, limits or Limits(), override
         self.source = source  # the Program, for pictures that show its lines
+        self._more: dict[str, Any] = {"rapid_motion": rapid_motion, "waits": waits, "source": source}
         self.plan: Plan = plan(path, self.limits, override, rapid_motion, waits)
         self.seconds: Array = self._of_rows(self.plan.seconds)
+
+    def again(self, limits: Limits | None = None, override: float | None = None) -> Profile:
+        """The same path planned under other limits, or with another feed override."""
+        chosen = self.override if override is None else override
+        return Profile(self.path, limits or self.limits, override=chosen, **self._more)
 
     def _of_rows(self, values: Array) -> Array:
         """Sums (n,) for the rows of the path from values for planned rows."""
@@ -245,3 +254,31 @@ class Profile:
             for cause, seconds in causes.items()
         )
         return f"<table><tr><th>time</th><th>{self.time:.3f} s</th><th></th></tr>{rows}</table>"
+
+    def plot(self, **options: Any) -> Figure:
+        """Programmed and reached feed, acceleration and jerk over time, stops, limits, and which of them governs where.
+
+        ``over="path"`` shows them over the path length, ``axes=True`` adds X, Y and Z; all options are explained in
+        ``mnclab.show.plot.profile.plot_profile``.
+        """
+        from mnclab.show.plot.profile import plot_profile
+
+        return plot_profile(self, **options)
+
+    def plot_reached(self, **options: Any) -> Figure:
+        """The path coloured by the feed that is reached; options as in ``mnclab.show.plot.path.plot_path``."""
+        from mnclab.show.plot.profile import plot_reached
+
+        return plot_reached(self, **options)
+
+    def plot_lost(self, **options: Any) -> Figure:
+        """The time of each line beside its text, and how much of it the machine adds; ``most`` lines."""
+        from mnclab.show.plot.profile import plot_lost
+
+        return plot_lost(self, **options)
+
+    def panel(self, **options: Any) -> Any:
+        """Number boxes for acceleration, jerk, corner tolerance and feed override, with a picture that follows."""
+        from mnclab.show.forms import profile_panel
+
+        return profile_panel(self, **options)

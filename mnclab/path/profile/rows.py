@@ -129,6 +129,12 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array |
         np.minimum(w, rows.cap[first + 1 : j], out=rows.corner[first + 1 : j])
         last = [each[-1:].copy() for each in before]
     if jerky:
+        if limits.corner_speed == "tolerance" and limits.corner_tolerance > 0:
+            lines = (path.kind == Kind.LINE) & (rows.length > 0)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                tangent = (path.end - path.start) / rows.length[:, None]
+            w = corners.curves(tangent, rows.length, lines, limits)
+            np.maximum(rows.corner[1:-1], np.minimum(w, np.minimum(rows.cap[1:], rows.cap[:-1])), out=rows.corner[1:-1])
         _bend_joints(path, rows, limits)
     _stops(path, rows)
     return rows

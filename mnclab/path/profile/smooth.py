@@ -3,9 +3,9 @@
 A jerk limit is not additive in v², so the scans of the look-ahead do not carry over. Instead:
 
 1. Nodes at which the acceleration is zero, the *knots*, are chosen: stops, ends of rows that are long against a ramp,
-   sharp corners among gentle ones, changes of feed, and otherwise one in every :data:`SHARE` of the length of a ramp from
-   rest to the feed. The rows between two knots are a *group*; it has the least speed, acceleration and jerk of its rows
-   and of the corners inside it.
+   sharp corners among gentle ones, changes of feed, and otherwise one in every :data:`SHARE` of the length of a ramp
+   from rest to the greatest speed between two stops. The rows between two knots are a *group*; it has the least speed,
+   acceleration and jerk of its rows and of the corners inside it.
 2. The acceleration alone bounds the speeds at the knots from above, by the two scans.
 3. Where a ramp between two knots does not fit into its group, its faster end is slowed to what does; this may unsettle
    the neighbours, so it is repeated for these. Should :data:`ROUNDS` not be enough, a scan that needs no repetition
@@ -21,8 +21,6 @@ stops take about 1.2 to 2 times as long as the best, and what runs at its feed c
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,7 +28,7 @@ from mnclab.path.profile import ramps
 from mnclab.path.profile.lookahead import reachable, running_sum
 from mnclab.path.profile.rows import Rows
 
-SHARE = 0.5  # of a ramp from rest to the feed: the least length of a group of short rows
+SHARE = 0.5  # of a ramp from rest to the greatest speed: the least length of a group of short rows
 SHARP = 0.64  # of its neighbours: a corner with less v² gets a knot
 ROUNDS = 200
 STEPS = 60  # of Newton for the time at a place; seven or so are usual
@@ -39,31 +37,43 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 
-@dataclass
 class Groups:
-    """Moves over groups of rows: ``knots`` (g + 1,) are nodes of the path; ``seconds`` (g, 7) of the phases.
+    """Moves over groups of rows: ``knots`` (g + 1,) are nodes of the path, with the speeds ``v`` (g + 1,).
 
-    ``s``, ``v``, ``a``, ``j`` (g, 7) are those at the start of each phase. For the rows (n,) and nodes (n + 1,) of the
-    path: ``group`` (n,), and ``since`` (n,), the time from the start of the group to the start of the row.
+    ``length``, ``a``, ``j`` (g,) are those of the groups, and ``above`` by how much their peak is above the greater of
+    their ends. For the rows (n,) of the path: ``group``, and ``since``, the time from its start to that of the row.
     """
 
-    knots: Index
-    seconds: Array
-    s: Array
-    v: Array
-    a: Array
-    j: Array
-    group: Index
-    since: Array
+    def __init__(self, knots: Index, length: Array, v: Array, cap: Array, a: Array, j: Array) -> None:
+        self.knots, self.length, self.v, self.a, self.j = knots, length, v, a, j
+        self.above = ramps.peak(length, v[:-1], v[1:], cap, a, j)
+        self.top = np.maximum(v[:-1], v[1:]) + self.above
+        many = np.diff(knots)
+        self.group: Index = np.arange(len(many)) if len(many) == knots[-1] else np.repeat(np.arange(len(many)), many)
+        self.since = np.zeros(knots[-1])
+
+    def phases(self, which: Index | slice = slice(None)) -> tuple[Array, tuple[Array, Array, Array, Array]]:
+        """Seconds (k, 7) of the phases of some groups; place, speed, acceleration and jerk at the start of each."""
+        v0, a, j = self.v[:-1][which], self.a[which], self.j[which]
+        seconds = ramps.phases(self.length[which], v0, self.v[1:][which], self.above[which], a, j)
+        return seconds, ramps.starts(seconds, v0, a, j)
+
+    def times(self) -> tuple[Array, Array, Array]:
+        """Seconds (g,) of the groups, and from when to when they are at their greatest speed."""
+        up, down = (ramps.ramp_time(self.top - v, self.a, self.j) for v in (self.v[:-1], self.v[1:]))
+        rest = self.length - 0.5 * ((self.v[:-1] + self.top) * up + (self.v[1:] + self.top) * down)
+        cruise = np.divide(rest, self.top, out=np.zeros(len(rest)), where=rest > 0)
+        return up + cruise + down, up, up + cruise
 
     def items(self, row_seconds: Array, left_out: Index) -> tuple[NDArray[np.generic], ...]:
         """Pieces: row, order, seconds, length, speed, acceleration, jerk; ``left_out`` rows have none.
 
         ``row_seconds`` (n,) is the time of the rows, which for rows without length is not in the groups.
         """
-        ends = np.cumsum(self.seconds, axis=1)
-        begins = ends - self.seconds
-        used = self.seconds > 0
+        seconds, starts = self.phases()
+        ends = np.cumsum(seconds, axis=1)
+        begins = ends - seconds
+        used = seconds > 0
         phase = np.flatnonzero(used)  # of all phases of all groups, in order
         first = self.knots[:-1]
         inside = np.ones(len(self.group), dtype=bool)
@@ -81,12 +91,12 @@ class Groups:
         until[last] = ends[group[last], 6]
         dt = np.maximum(until - at, 0.0)
         tau = np.maximum(at - begins.ravel()[which], 0.0)
-        v, a, j = (each.ravel()[which] for each in (self.v, self.a, self.j))
+        v, a, j = (each.ravel()[which] for each in starts[1:])
         v, a = v + tau * (a + tau * j / 2), a + tau * j
         ds = dt * (v + dt * (a / 2 + dt * j / 6))
         kept = (dt > 0) & ~np.isin(row, left_out)
         found = [each[kept] for each in (row, np.arange(len(row)), dt, ds, v, a, j)]
-        still = np.flatnonzero((self.seconds.sum(axis=1) == 0)[self.group] & (row_seconds > 0))
+        still = np.flatnonzero((seconds.sum(axis=1) == 0)[self.group] & (row_seconds > 0))
         still = still[~np.isin(still, left_out)]
         none = np.zeros(len(still))
         rest = [still, none, row_seconds[still], none, none, none, none]
@@ -110,33 +120,29 @@ def smooth(rows: Rows, w: Array) -> tuple[Array, Array, Array, Groups]:
     edge[:-1] = np.minimum(edge[:-1], cap)
     edge[1:] = np.minimum(edge[1:], cap)
     v = _settle(np.sqrt(reachable(edge, 2 * a * length)), length, np.sqrt(cap), a, j)
-    v0, v1 = v[:-1], v[1:]
-    above = ramps.peak(length, v0, v1, np.sqrt(cap), a, j)
-    top = np.maximum(v0, v1) + above
-    seconds = ramps.phases(length, v0, v1, above, a, j)
-    groups = Groups(knots, seconds, *ramps.starts(seconds, v0, a, j), np.repeat(np.arange(len(first)), np.diff(knots)),
-                    np.zeros(n))  # fmt: skip
+    groups = Groups(knots, length, v, np.sqrt(cap), a, j)
+    whole, peak_from, peak_to = groups.times()
+    if len(first) == n:
+        return v, groups.top, whole, groups
     nodes = np.zeros(n + 1)
     nodes[knots] = v
     inside = np.ones(n + 1, dtype=bool)
     inside[knots] = False
     at = np.flatnonzero(inside)
-    if len(at):
-        groups.since[at], nodes[at] = _when(groups, groups.group[at], behind[at] - behind[first[groups.group[at]]])
-    whole = seconds.sum(axis=1)
+    groups.since[at], nodes[at] = _when(groups, groups.group[at], behind[at] - behind[first[groups.group[at]]])
     end = np.append(groups.since[1:], 0.0)
     end[knots[1:] - 1] = whole
-    time = np.maximum(end - groups.since, 0.0)
-    peak_from = seconds[:, :3].sum(axis=1)[groups.group]
-    peak_to = peak_from + seconds[:, 3][groups.group]
-    highest = (groups.since <= peak_to) & (end >= peak_from)
-    return nodes, np.where(highest, top[groups.group], np.maximum(nodes[:-1], nodes[1:])), time, groups
+    highest = (groups.since <= peak_to[groups.group]) & (end >= peak_from[groups.group])
+    top = np.where(highest, groups.top[groups.group], np.maximum(nodes[:-1], nodes[1:]))
+    return nodes, top, np.maximum(end - groups.since, 0.0), groups
 
 
 def _knots(rows: Rows, w: Array) -> Index:
     """Nodes (g + 1,) at which the acceleration is zero, the first and the last among them."""
     n = len(rows.length)
-    v = np.sqrt(rows.cap)
+    stops = np.flatnonzero(w[:-1] == 0)  # node 0 is one
+    fastest = np.repeat(np.maximum.reduceat(w, stops), np.diff(np.append(stops, n)))  # between two stops
+    v = np.sqrt(np.minimum(rows.cap, fastest))
     with np.errstate(divide="ignore", invalid="ignore"):
         share = rows.length / (SHARE * np.maximum(ramps.ramp_length(np.zeros(n), v, rows.a, rows.j), 1e-9))
     share = np.minimum(np.nan_to_num(share), 1.0)
@@ -149,7 +155,7 @@ def _knots(rows: Rows, w: Array) -> Index:
     chosen[1:n] |= np.minimum(cap[1:], cap[:-1]) < SHARP * np.maximum(cap[1:], cap[:-1])
     inner = corner[1:n]
     around = np.maximum(corner[:-2], corner[2:])
-    chosen[1:n] |= (inner <= corner[:-2]) & (inner <= corner[2:]) & (inner < SHARP * around) & (inner <= w[1:n])
+    chosen[1:n] |= (inner < SHARP * around) & (inner <= w[1:n])
     still = rows.length == 0  # an event is a group of its own
     chosen[:-1] |= still
     chosen[1:] |= still
@@ -186,10 +192,12 @@ def _settle(v: Array, length: Array, cap: Array, a: Array, j: Array) -> Array:
 
 def _when(groups: Groups, group: Index, place: Array) -> tuple[Array, Array]:
     """Time since the start of a group, and the speed, at places (k,) mm behind its start."""
-    phase = np.maximum((groups.s[group] <= place[:, None]).sum(axis=1) - 1, 0)
-    begins = (np.cumsum(groups.seconds, axis=1) - groups.seconds)[group, phase]
-    s, v, a, j = (each[group, phase] for each in (groups.s, groups.v, groups.a, groups.j))
-    most, rest = groups.seconds[group, phase], place - s
+    which, group = np.unique(group, return_inverse=True)
+    seconds, starts = groups.phases(which)
+    phase = np.maximum((starts[0][group] <= place[:, None]).sum(axis=1) - 1, 0)
+    begins = (np.cumsum(seconds, axis=1) - seconds)[group, phase]
+    s, v, a, j = (each[group, phase] for each in starts)
+    most, rest = seconds[group, phase], place - s
     tau = np.where(phase < 3, most, 0.0)  # speeding up, s(t) is convex: Newton comes from the right; else from the left
     todo = np.flatnonzero(most > 0)
     for _ in range(STEPS):

@@ -2,9 +2,9 @@
 
 On an arc the acceleration of an axis is ``t_k a + n_k w`` (w = v², t the tangent, n the curvature vector), and both change
 along it: where the centripetal part lies on X, the path acceleration has all of Y to itself, and an axis may bear a speed
-only while the tool brakes. So such arcs are cut into parts of at most :data:`PART` with a constant a each, and along the
-parts of one arc, of all arcs at once, the speeds are found as in H. Pham, Q.-C. Pham, "A New Approach to Time-Optimal Path
-Parameterization Based on Reachability Analysis" (2018):
+only while the tool brakes. So such arcs are cut into parts of at most :data:`PART`, and at least :data:`FEWEST`, with a
+constant a each, and along the parts of one arc, of all arcs at once, the speeds are found as in H. Pham, Q.-C. Pham, "A
+New Approach to Time-Optimal Path Parameterization Based on Reachability Analysis" (2018):
 
     backward   the greatest w at the start of a part from which an allowed a leads to no more than w at its end
     forward    from w at its start the greatest allowed a that leads to no more than that
@@ -24,7 +24,7 @@ from mnclab.path.profile import lookahead
 from mnclab.path.profile.bends import Bends
 from mnclab.path.toolpath import Toolpath
 
-PART = np.radians(4.0)
+PART, FEWEST = np.radians(4.0), 16  # of an arc
 FAR = 4  # times the v² that an axis bears without braking: there none bears any
 ROUNDS = 1000  # of going through arcs again; three or so are usual
 STEPS = 30  # of the solution for one part; three or so are usual
