@@ -27,12 +27,13 @@ class Listing {
   mark(program, from, to) {
     const moved = program !== this.program || from !== this.from;
     [this.program, this.from, this.to] = [program, from, to];
-    if (moved && from > 0) {
-      const top = (from - 1) * this.height, high = this.box.clientHeight;
-      if (top < this.box.scrollTop + this.height || top > this.box.scrollTop + high - 2 * this.height)
-        this.box.scrollTop = Math.max(0, top - high * 0.38);
-    }
+    if (moved && from > 0) this.reveal(from);
     this.draw();
+  }
+  reveal(line) {
+    const top = (line - 1) * this.height, high = this.box.clientHeight;
+    if (top < this.box.scrollTop + this.height || top > this.box.scrollTop + high - 2 * this.height)
+      this.box.scrollTop = Math.max(0, top - high * 0.38);
   }
   draw() {
     const {box, text, height} = this, first = Math.max(0, Math.floor(box.scrollTop / height) - 4);

@@ -13,6 +13,19 @@ from mnclab.show.player.payload import payload
 
 SCRIPTS = ("data", "shapes", "camera", "strokes", "picture", "curve", "listing", "state", "player")
 THEMES = ("auto", "light", "dark")
+#: Tells the frames of a notebook whether its theme is dark (JupyterLab, VS Code), when they ask and when it changes.
+#: Where the scripts of outputs do not run, a page follows the system's choice.
+FOLLOW = """
+if (!window.mnclabPlayers) {
+  window.mnclabPlayers = true;
+  const dark = () => document.body.dataset.jpThemeLight === "false" || document.body.classList.contains("vscode-dark");
+  const known = () => "jpThemeLight" in document.body.dataset || document.body.className.includes("vscode-");
+  const tell = frame => known() && frame.postMessage({mnclab: dark() ? "dark" : "light"}, "*");
+  addEventListener("message", event => event.data && event.data.mnclab === "theme?" && tell(event.source));
+  new MutationObserver(() => document.querySelectorAll("iframe.mnclab-player").forEach(each => tell(each.contentWindow)))
+    .observe(document.body, {attributes: true, attributeFilter: ["class", "data-jp-theme-light"]});
+}
+"""
 
 
 class Player:
@@ -22,7 +35,9 @@ class Player:
     scripts see nothing but the page.
     """
 
-    def __init__(self, run: Any, profile: Profile, *, height: int = 640, theme: str = "auto", speed: float = 1.0) -> None:
+    def __init__(
+        self, run: Any, profile: Profile, *, height: int = 640, theme: str = "auto", speed: float = 1.0
+    ) -> None:
         if theme not in THEMES:
             raise ValueError(f"theme must be auto, light or dark, got {theme!r}")
         if not speed > 0:
@@ -64,7 +79,8 @@ class Player:
     def _repr_html_(self) -> str:
         name = escape(f"player of {self.name}", quote=True)
         return (
-            f'<iframe title="{name}" sandbox="allow-scripts" loading="eager" '
+            f"<script>{FOLLOW}</script>"
+            f'<iframe class="mnclab-player" title="{name}" sandbox="allow-scripts" loading="eager" '
             f'style="width: 100%; height: {self.height:d}px; border: 0; border-radius: 6px" '
             f'srcdoc="{escape(self.page, quote=True)}"></iframe>'
         )

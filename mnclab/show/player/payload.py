@@ -55,9 +55,7 @@ def payload(run: Any, profile: Profile) -> str:
             "at": pack.add([step for step, _ in run.history.changed("position")]),
             "from": _columns(pack, _whole(positions, scale) - _tips(run, scale)),
         },
-        "history": {
-            name: _values(pack, *zip(*run.history.changed(name))) for name in run.history if name != "position"
-        },
+        "history": {name: _changes(pack, run.history.changed(name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
     }
     return pack.text(header)
@@ -126,6 +124,10 @@ def _log(pack: Packer, column: Any) -> dict[str, Any]:
         same = column[1:] == column[:-1]
     at = np.flatnonzero(np.append(True, ~(same.all(axis=1) if column.ndim == 2 else same)))
     return _values(pack, at, column[at].tolist())
+
+
+def _changes(pack: Packer, changes: list[tuple[int, Any]]) -> dict[str, Any]:
+    return _values(pack, [step for step, _ in changes], [value for _, value in changes])
 
 
 def _values(pack: Packer, at: ArrayLike, values: list[Any]) -> dict[str, Any]:

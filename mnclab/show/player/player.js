@@ -27,6 +27,7 @@ class PlayerPage {
     this.pointers();
     document.addEventListener("keydown", event => this.key(event));
     this.dark.addEventListener("change", () => this.theme(this.root.dataset.theme));
+    this.followNotebook();
     new ResizeObserver(() => this.resize()).observe(document.body);
     this.resize();
     if (!run.lathe && this.picture.box[1][2] - this.picture.box[0][2] < 1e-6) this.view("top");
@@ -87,8 +88,9 @@ class PlayerPage {
     const block = this.run.blockOfLine(program, line);
     if (block < 0) return this.go(this.afterItem(-1));
     const step = this.run.execution(program, block, this.step);
-    if (step < 0) this.find("said").textContent = `line ${line} is not executed`;
-    else this.go(this.afterStep(step));
+    if (step >= 0) return this.go(this.afterStep(step));
+    this.listing.reveal(line);
+    this.find("said").textContent = this.find("doing").textContent = `line ${line} is not executed`;
   }
   goRow(row, x, y) {  // to the point of a row nearest to a place on the screen
     this.stop();
@@ -193,11 +195,21 @@ class PlayerPage {
   }
   theme(name) {
     this.root.dataset.theme = name;
-    this.root.dataset.shown = name === "auto" ? (this.dark.matches ? "dark" : "light") : name;
+    this.root.dataset.shown = name === "auto" ? this.told || (this.dark.matches ? "dark" : "light") : name;
     if (!this.picture) return;
     this.picture.recolour();
     this.curve.draw(this.picture.colours);
     this.show();
+  }
+
+  followNotebook() {  // which tells whether it is dark (see FOLLOW in page.py)
+    if (window.parent === window) return;
+    addEventListener("message", event => {
+      if (event.source !== window.parent || !event.data || !["light", "dark"].includes(event.data.mnclab)) return;
+      this.told = event.data.mnclab;
+      this.theme(this.root.dataset.theme);
+    });
+    window.parent.postMessage({mnclab: "theme?"}, "*");
   }
 
   // --- what moves it --------------------------------------------------------------------------------------------------

@@ -2,8 +2,8 @@
 
 const FACETS = 28;
 
-// Rings [radius, height above the tip] of the cutting part and of the shank.
-function rings(tool, extent) {
+// The parts of a tool from above: rings [radius, height above the tip], and which colour they have.
+function parts(tool, extent) {
   const radius = Math.abs((tool.radius || 0) + (tool.dr || 0)) || extent / 80;
   const cutting = tool.cutting_length || Math.max(6 * radius, extent / 12);
   const length = Math.max(Math.min(tool.length || 0, 3 * cutting), 1.7 * cutting);
@@ -11,14 +11,14 @@ function rings(tool, extent) {
   let part = [];
   if (kind.includes("probe")) {
     part = arcRings(radius, radius, Math.PI);
-    return {cutter: part, shank: [[radius / 2, 1.8 * radius], [radius / 2, cutting], [radius * 2, cutting], [radius * 2, length]]};
+    return [[[[radius * 2, cutting], [radius * 2, length]], "shank"], [[[radius / 2, 1.8 * radius], [radius / 2, cutting]], "shank"], [part, "cutter"]];
   }
   if (tool.angle > 0 && tool.angle < 180) part = [[0, 0], [radius, radius / Math.tan(tool.angle * Math.PI / 360)]];
   else if (kind.includes("ball") || (corner > 0 && corner >= radius)) part = arcRings(radius, radius, Math.PI / 2);
   else if (corner > 0) part = arcRings(radius, corner, Math.PI / 2);
   else part = [[radius, 0]];
   const top = Math.max(cutting, part[part.length - 1][1]);
-  return {cutter: [...part, [radius, top]], shank: [[radius, top], [radius, Math.max(length, top * 1.2)]]};
+  return [[[[radius, top], [radius, Math.max(length, top * 1.2)]], "shank"], [[...part, [radius, top]], "cutter"]];
 }
 
 // A corner of a radius at the foot of a body of revolution, from the middle outwards.
@@ -66,11 +66,10 @@ function trace(pen, points) {
 
 // A mill, drill or probe with its tip at a point.
 function drawTool(pen, tool, tip, project, colours, extent) {
-  const {cutter, shank} = rings(tool, extent);
-  for (const [part, fill] of [[shank, colours.shank], [cutter, colours.cutter]]) {
+  for (const [part, colour] of parts(tool, extent)) {
     const all = part.map(each => ring(each, tip, project));
     trace(pen, hull(all.flat()));
-    pen.fillStyle = fill;
+    pen.fillStyle = colours[colour];
     pen.strokeStyle = colours.edge;
     pen.lineWidth = 1.2;
     pen.fill();
