@@ -29,6 +29,13 @@ STATE = """step => {
     return {state, tip: run.path.vertex(run.rowsDone(run.first[step + 1] - 1, true))};
 }"""
 PLACE = "() => { const p = window.player; return {step: p.step, ...p.now()}; }"
+FITTED = """
+    const {camera, box} = window.player.picture, [w, h] = camera.size;
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(k => camera.project([0, 1, 2].map(axis => box[k >> axis & 1][axis])));
+    const [wide, high] = [0, 1].map(k => Math.max(...corners.map(c => c[k])) - Math.min(...corners.map(c => c[k])));
+    if (!corners.every(([x, y]) => x > 0 && x < w && y > 0 && y < h)) throw Error("the path is not in the picture");
+    if (wide < w / 3 && high < h / 3) throw Error("the path is a speck");
+"""
 READBACK = "Multiple readback operations"  # the browser's word on FRAME, which reads a pixel to wait
 FRAME = """() => {
     const p = window.player, times = [];
@@ -136,7 +143,9 @@ def test_a_line_the_slider_and_moves_lead_there(open_file):
 
 def test_a_click_on_the_path_goes_to_that_point(open_file):
     page = open_file(mnclab.run(PROGRAM, "mnc"))
-    page.keyboard.press("1")  # from above
+    for key in "4321":  # at last from above
+        page.keyboard.press(key)
+        page.evaluate(f"() => {{ {FITTED} }}")
     canvas = page.get_by_role("img", name="tool path")
     box = canvas.bounding_box()
     x, y = page.evaluate("() => window.player.picture.camera.project([40, 20, -2])")
@@ -180,6 +189,7 @@ def test_nothing_is_cut_off_sideways(open_file, width, height):
     page = open_file(mnclab.run(PROGRAM, "mnc"), viewport={"width": width, "height": height})
     page.get_by_role("option", name="line 6:").click()
     assert page.evaluate("document.documentElement.scrollWidth") <= width
+    page.evaluate(f"() => {{ {FITTED} }}")
     cells = page.locator("td:visible, .meters dd:visible, button:visible, select:visible, #modal div:visible")
     for box in (cells.nth(k).bounding_box() for k in range(cells.count())):
         assert box["x"] >= 0 and box["x"] + box["width"] <= width + 0.5
@@ -244,6 +254,7 @@ def test_it_works_in_a_notebook_follows_its_theme_and_outlives_its_export(run_ce
     player.get_by_role("button", name="block back").click()
     said = player.get_by_role("status").filter(has_text="line 4: N40 G1 Z-2 F150; tool at X \N{MINUS SIGN}20.000")
     said.wait_for(state="attached", timeout=5000)
+    player.locator("#picture").evaluate(f"() => {{ {FITTED} }}")
     for theme in ("dark", "light"):
         set_theme = "theme => window.jupyterapp.commands.execute('apputils:change-theme', {theme})"
         page.evaluate(set_theme, f"JupyterLab {theme.title()}")

@@ -26,7 +26,7 @@ class Picture {
     this.ground = document.createElement("canvas");
     this.done = document.createElement("canvas");
     this.drawn = -1;  // the last point of the strokes in the layer of what is done
-    this.stale = true;
+    this.stale = this.fitted = true;
     this.recolour();
   }
   recolour() {
@@ -39,15 +39,16 @@ class Picture {
     const box = this.canvas.getBoundingClientRect(), ratio = window.devicePixelRatio || 1;
     const [w, h] = [Math.max(1, Math.round(box.width)), Math.max(1, Math.round(box.height))];
     if (this.camera.size[0] === w && this.camera.size[1] === h && this.ratio === ratio) return;
-    const first = this.ratio === undefined, scale = Math.min(w / this.camera.size[0], h / this.camera.size[1]);
+    const scale = Math.min(w / this.camera.size[0], h / this.camera.size[1]);
     this.ratio = ratio;
     this.camera.size = [w, h];
     for (const each of [this.canvas, this.ground, this.done]) [each.width, each.height] = [w * ratio, h * ratio];
-    if (first || !(this.camera.zoom > 0)) this.camera.fit(this.room); else this.camera.zoom *= scale;
+    if (this.fitted) this.camera.fit(this.room); else this.camera.zoom *= scale;
     this.stale = true;
   }
   fit() {
     this.camera.fit(this.room);
+    this.fitted = true;  // until a person zooms or shifts: a frame may get its size late
     this.stale = true;
   }
   view(name) {

@@ -189,6 +189,7 @@ class PlayerPage {
     this.show();
   }
   change(act) {  // of the camera
+    this.picture.fitted = false;
     act(this.picture.camera);
     this.picture.stale = true;
     this.views();
