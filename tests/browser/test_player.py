@@ -154,6 +154,61 @@ def test_a_click_on_the_path_goes_to_that_point(open_file):
     assert shown(page, "tool") == pytest.approx([40, 20, -2], abs=0.4)
 
 
+REPEATED = """BEGIN PGM REP MM
+TOOL CALL 1 Z S2000
+L X+0 Y+0 Z+5 R0 FMAX M3
+LBL 1
+L IX+10 R0 F500
+L IY+5
+CALL LBL 1 REP2
+END PGM REP MM
+"""
+
+
+def test_a_click_on_a_repeated_line_goes_from_pass_to_pass(open_file):
+    run = mnclab.run(REPEATED, "tnc-620")
+    assert run.ok
+    page = open_file(run)
+    line = page.get_by_role("option", name="line 5: L IX+10")
+    for times in (1, 2, 3, 1):
+        line.click()
+        assert shown(page, "tool") == [10 * times, 5 * (times - 1), 5]
+        moment = run.at(line=5, pass_=times)
+        assert page.evaluate(PLACE)["step"] == moment.step
+    for step in range(len(run.steps.block)):
+        found = page.evaluate(STATE, step)["state"]
+        expected = {name: plain(value) for name, value in run.at(step=step).state.items()}
+        assert found.pop("position") == pytest.approx(expected.pop("position"))
+        assert found == expected
+
+
+@pytest.mark.parametrize("limits", [mnclab.Limits(), mnclab.Limits(rapid=4000, acceleration=300, jerk=4000)])
+def test_at_any_time_the_tool_is_where_the_profile_says(open_file, limits):
+    run = mnclab.run(PROGRAM, "mnc", mnclab.Setup(limits=limits))
+    times = [run.profile().time * (k + 0.5) / 300 for k in range(300)]
+    page = open_file(run)
+    found = page.evaluate("times => times.map(t => window.player.run.tool(window.player.run.itemAt(t), t))", times)
+    instant = run.profile().at(times)
+    assert abs([each["point"] for each in found] - instant.position).max() < 2e-3
+    assert abs([each["speed"] for each in found] - instant.v).max() < 0.1
+
+
+def test_fingers_tap_and_pinch(open_file):
+    page = open_file(mnclab.run(PROGRAM, "mnc"), viewport={"width": 390, "height": 844}, has_touch=True)
+    page.get_by_role("button", name="Top").tap()
+    box = page.get_by_role("img", name="tool path").bounding_box()
+    x, y = page.evaluate("() => window.player.picture.camera.project([40, 20, -2])")
+    page.touchscreen.tap(box["x"] + x, box["y"] + y)
+    assert page.locator(".line.now code").all_inner_texts() == ["N70 G1 Y30"]
+    before = page.evaluate("() => window.player.picture.camera.zoom")
+    fingers, middle = page.context.new_cdp_session(page), [box["x"] + 150, box["y"] + 150]
+    for apart, kind in ((30, "touchStart"), (45, "touchMove"), (60, "touchMove")):
+        points = [{"x": middle[0] + sign * apart, "y": middle[1], "id": k} for k, sign in enumerate((-1, 1))]
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    fingers.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    assert page.evaluate("() => window.player.picture.camera.zoom") == pytest.approx(2 * before, rel=0.02)
+
+
 def test_it_plays_forwards_and_backwards(open_file):
     page = open_file(mnclab.run(PROGRAM, "mnc"))
     page.get_by_role("combobox", name="Speed").select_option("10")

@@ -36,6 +36,7 @@ function valueText(name, value) {
   if (value === null || value === undefined) return "none";
   if (name.startsWith("frame ")) return frameText(value);
   if (value && value.radius !== undefined) return toolText(value);
+  if (name === "side") return ["right", "none", "left"][value + 1];
   if (typeof value === "number") return short(value);
   if (typeof value === "boolean") return value ? "on" : "off";
   if (Array.isArray(value)) return value.map(each => valueText("", each)).join(" ");
