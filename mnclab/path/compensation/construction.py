@@ -29,8 +29,8 @@ class Construction:
     """m corners and q offset vectors; points (…, 3) mm, relative to the path's origin.
 
     ``path`` is the contour with its roundings and chamfers. ``place`` (m, 3) are its corners, ``rule`` (m,) what was
-    done there, ``line`` (m,) the block that leads to it, ``along`` (m, 3) the unit tangent into the contour. Vectors lead from ``foot`` (q, 3) to ``tip`` (q, 3) and belong
-    to the corner ``of`` (q,).
+    done there, ``line`` (m,) the block that leads to it, ``along`` (m, 3) the unit tangent into the contour. Vectors
+    lead from ``foot`` (q, 3) to ``tip`` (q, 3) and belong to the corner ``of`` (q,).
     """
 
     path: Toolpath

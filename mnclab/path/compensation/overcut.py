@@ -82,8 +82,7 @@ def overcuts(made: Construction, steps: Iterable[int]) -> Iterator[Overcut]:
         return
     el = found.el
     bad = np.isin(made.path.step[el.rows], list(steps)) & (el.on | el.exit)
-    contour = np.cumsum(el.entry | el.change | el.exit)
-    contour[el.exit] -= 1  # an exit belongs to what it leaves
+    contour = np.cumsum(el.entry | el.change | el.exit, dtype=np.int64) - el.exit  # an exit belongs to what it leaves
     for which in np.unique(contour[bad]):
         k = np.flatnonzero((contour == which) & el.wall)
         if not len(k):
