@@ -7,7 +7,7 @@ The map of the house, floor by floor (a folder imports only from those above its
 
     text        what a programmer wrote: Alarm, Program, words, expressions
     geometry    frames, arcs, contours, offsets, regions: numbers, no CNC word
-    path        what the tool does: Toolpath in columns, and passes over it (corners, compensation)
+    path        what the tool does: Toolpath in columns, passes over it (corners, compensation), and the feed profile
     workpiece   what the tool meets: the part a probe touches
     machining   how metal is cut, whatever the control: depths, pockets, facing, turning
     comparison  strategies side by side: way, time, engagement, what is left
@@ -24,6 +24,7 @@ from mnclab.machine.run import Run
 from mnclab.machine.setup import Datum, Probe, Setup
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
+from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
@@ -37,6 +38,7 @@ __all__ = [
     "Kind",
     "Limits",
     "Probe",
+    "Profile",
     "Program",
     "Run",
     "Setup",

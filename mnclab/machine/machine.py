@@ -24,6 +24,7 @@ from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
 from mnclab.machine.variables import Measured, Variables
+from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
@@ -86,6 +87,7 @@ class Machine:
         self.settled: list[Toolpath] = []
         self.altered = False  # whether a pass changed anything
         self.cut: int | None = None  # the step of a fault found in a pass: nothing from there on counts
+        self.gouges: list[Gouge] = []  # where the tool does not fit
         self._state: int | None = None
         self.log("position", self.programmed)
 
@@ -126,7 +128,7 @@ class Machine:
         """Note a new value of a name in the history; while a contour is recorded only what outlives it."""
         if self.recorded_only and name not in self.variables:
             return
-        self.logs.add(name, max(self.step, 0), value)
+        self.logs.add(name, self.step if self.step > 0 else 0, value)
 
     def change(self, name: str, value: Any) -> None:
         """Set an attribute that rows carry (feed, side, plane, …) and note it in the history.

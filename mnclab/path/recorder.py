@@ -173,9 +173,9 @@ class Recorder:
         if not chunks:
             return self._path({}, self.start[None])
         sizes = [len(chunk["kind"]) for chunk in chunks]
-        columns = {
-            name: _column([chunk.get(name, PLAIN.get(name)) for chunk in chunks], sizes, COLUMNS.get(name, STATE)[0])
-            for name in dict.fromkeys(name for chunk in chunks for name in chunk)
+        columns = {  # each part is let go when its column is made
+            name: _column([chunk.pop(name, PLAIN.get(name)) for chunk in chunks], sizes, COLUMNS.get(name, STATE)[0])
+            for name in list(dict.fromkeys(name for chunk in chunks for name in chunk))
             if name != "end"
         }
         vertices = self._vertices[: self._count + 1]

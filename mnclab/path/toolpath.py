@@ -44,6 +44,8 @@ COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
     "radius": (np.float64, (), 0.0, "effective tool radius, mm"),
     "side": (np.int8, (), 0, "radius compensation: +1 left, -1 right, 0 none"),
     "corner_rule": (np.uint8, (), 0, "how outside corners are joined"),
+    "rule": (np.uint8, (), 0, "Rule of radius compensation that made the row"),
+    "gouge": (np.bool_, (), False, "the tool cuts into the contour on this row (setting gouge = mark)"),
     "exact": (np.bool_, (), False, "stop exactly at the end"),
     "synchronous": (np.bool_, (), False, "spindle and feed locked"),
     "joint": (np.int16, (), -1, "index into joints"),
@@ -73,6 +75,8 @@ class Move(NamedTuple):
     radius: float
     side: int
     corner_rule: int
+    rule: int
+    gouge: bool
     exact: bool
     synchronous: bool
     joint: Any
@@ -105,6 +109,8 @@ class Toolpath:
     radius: NDArray[np.float64]
     side: NDArray[np.int8]
     corner_rule: NDArray[np.uint8]
+    rule: NDArray[np.uint8]
+    gouge: NDArray[np.bool_]
     exact: NDArray[np.bool_]
     synchronous: NDArray[np.bool_]
     joint: NDArray[np.int16]
@@ -170,7 +176,7 @@ class Toolpath:
     @property
     def is_motion(self) -> NDArray[np.bool_]:
         """Which rows move the tool (n,)."""
-        return np.isin(self.kind, MOTION_KINDS)
+        return np.asarray(self.kind <= max(MOTION_KINDS))
 
     @property
     def motion(self) -> Toolpath:

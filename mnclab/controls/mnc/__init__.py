@@ -25,7 +25,7 @@ PHASES = (
 
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
-    {f"G{n}": _LATER for n in (84, 85, 161, 162, *range(301, 308), 309, 320, 321, 343, 344)}
+    {f"G{n}": _LATER for n in (84, 85, *range(301, 308), 309, 320, 321, 343, 344)}
     | {f"G{n}": _LATER for n in (201, 202, 203, 204, 208, 241)}  # other names, table 1.2 and 2.5
     | {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
     | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
@@ -55,7 +55,7 @@ CONTROL = Control(
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),
-    compensation=Compensation(approach="corner"),
+    compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=language.power_on,
     looks_like=looks_like,
     refused=REFUSED,
