@@ -9,7 +9,8 @@ The map of the house, floor by floor (a folder imports only from those above its
     geometry    frames, arcs, contours, offsets, regions: numbers, no CNC word
     path        what the tool does: Toolpath in columns, passes over it (corners, compensation), and the feed profile
     workpiece   what the tool meets: the part a probe touches
-    machining   how metal is cut, whatever the control: depths, pockets, turning
+    machining   how metal is cut, whatever the control: depths, holes, threads, pockets, facing, turning
+    comparison  strategies side by side: way, time, engagement, what is left
     machine     who obeys: Machine, Control, Cycle, interpreter, bulk tier, history, Run
     controls    who speaks: a folder a control
     show        what people see and take away: plots, forms, files
@@ -43,6 +44,7 @@ __all__ = [
     "Setup",
     "Tool",
     "Toolpath",
+    "compare",
     "controls",
     "form",
     "help",
@@ -50,6 +52,13 @@ __all__ = [
     "read",
     "run",
 ]
+
+
+def compare(region: object, tool: object, *strategies: object, **options: object) -> object:
+    """Strategies for clearing an area side by side, a table when shown (needs shapely): `comparison.strategies`."""
+    from mnclab.comparison.strategies import compare as build
+
+    return build(region, tool, *strategies, **options)  # type: ignore[arg-type]
 
 
 def form(code: str, control: str) -> object:

@@ -24,11 +24,11 @@ FLOORS = {
 }  # fmt: skip
 
 OUTSIDE = {  # package -> the only modules of mnclab that import it
-    "shapely": ("geometry.regions",),
+    "shapely": ("geometry.regions", "geometry.sweeps"),
     "matplotlib": ("show.plot",),
     "pyvista": ("show.scene", "show.export"),
     "vtkmodules": ("show.scene", "show.export"),
-    "ezdxf": ("show.export",),
+    "ezdxf": ("show.export", "geometry.dxf"),
     "ipywidgets": ("show.forms",),
     "IPython": ("show.magic",),
 }

@@ -16,7 +16,7 @@ import numpy as np
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import sweep_of_one
 from mnclab.geometry.frames import FrameChain, Matrix
-from mnclab.machine.circles import centre_by_radius, check_radii
+from mnclab.machine.circles import centre_by_radius, check_radii, turn
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
 from mnclab.machine.settings import chosen
@@ -310,7 +310,13 @@ class Machine:
         self._row(Kind.ARC, tip, self.to_machine(middle), angle, feed)
         self.programmed, self.tip = point, tip
 
-    def _arc_sense(self, word: Word | None) -> int:
+    def turn(
+        self, centre: tuple[float, float], angle: float, level: float | None = None, f: float | None = None
+    ) -> None:
+        """Round a point of the plane by an angle (rad, any number of turns), to a level along its normal."""
+        turn(self, PLANES[self.plane], centre, angle, level, f)
+
+    def _arc_sense(self, word: Word | None = None) -> int:
         """The orientation; an alarm when the frame would turn the circle into an ellipse."""
         if not self.keeps_circles:
             self.alarm("an arc under unequal scales of its plane would be an ellipse", word)
@@ -382,6 +388,12 @@ class Machine:
             self.change("turning", turning)
         if self.spindle_speed != before:
             self._row(Kind.SPINDLE, self.tip)
+
+    def orient(self, angle: float) -> None:
+        """Stop the spindle at an angle, degrees."""
+        self.change("turning", 0)
+        self.log("spindle angle", float(angle))
+        self._row(Kind.SPINDLE, self.tip)
 
     def change_tool(self, tool: Tool, frame_axis: int = 2) -> None:
         """Put a tool into the spindle: the machine stands still, the tip jumps by the difference of the lengths."""

@@ -133,6 +133,10 @@ class Run:
         limits = limits or self.setup.limits
         return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
 
+    def again(self, setup: Setup) -> Run:
+        """The same program on the same control, with another setup."""
+        return run_program(self.program, self.control, setup)
+
     # --- doors -------------------------------------------------------------------------------------------------------
 
     def plot(self, **options: Any) -> Figure:
@@ -156,6 +160,16 @@ class Run:
         from mnclab.show.player import player
 
         return player(self, self.profile(limits), **options)
+
+    def plot_compensation(self, **options: Any) -> Figure:
+        """The contour, the tool-centre path beside it, and how its corners were found.
+
+        ``rules=("G160", "G161", "G162")`` and ``radii=(2, 5)`` run the program once more for each and show the results
+        side by side; ``discs=True`` draws the tool; more in ``mnclab.show.plot.compensation.compensation``.
+        """
+        from mnclab.show.plot.compensation import compensation
+
+        return compensation(self, **options)
 
     def save(self, path: str | Path) -> Path:
         """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player)."""

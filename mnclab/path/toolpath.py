@@ -28,7 +28,7 @@ COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
     "line": (np.int32, (), 0, "source line, from 1"),
     "program": (np.int16, (), 0, "index into Run.programs"),
     "step": (np.int32, (), 0, "which execution of a block made the row"),
-    "label": (np.int16, (), 0, "index into labels"),
+    "label": (np.int32, (), 0, "index into labels"),
     "start": (np.float64, (3,), 0.0, "tool tip before the row, mm"),
     "end": (np.float64, (3,), 0.0, "tool tip after the row, mm"),
     "centre": (np.float64, (3,), np.nan, "centre of an arc, mm"),
@@ -93,7 +93,7 @@ class Toolpath:
     line: NDArray[np.int32]
     program: NDArray[np.int16]
     step: NDArray[np.int32]
-    label: NDArray[np.int16]
+    label: NDArray[np.int32]
     start: NDArray[np.float64]
     end: NDArray[np.float64]
     centre: NDArray[np.float64]

@@ -10,7 +10,7 @@ import csv
 import json
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,15 @@ from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import COLUMNS, Toolpath
 from mnclab.text.alarm import Alarm
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-def save(run: Any, path: str | Path) -> Path:
-    """Write a run to one file and return its path; an Alarm when nothing of this suffix can be written."""
+
+def save(run: Any, path: str | Path, picture: Callable[[Any], Figure] | None = None) -> Path:
+    """Write a run to one file and return its path; an Alarm when nothing of this suffix can be written.
+
+    ``picture`` draws another figure of the run than the views of its path.
+    """
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix in LATER:
@@ -29,19 +35,25 @@ def save(run: Any, path: str | Path) -> Path:
     if suffix not in WRITERS:
         what = f"cannot write {suffix} files" if suffix else f"{path.name!r} has no suffix to say what to write"
         raise Alarm(what, hint=f"known: {', '.join(WRITERS)}")
+    writer = WRITERS[suffix]
+    if picture is not None and writer is not write_figure:
+        raise Alarm(f"a picture cannot be written as {suffix}", hint="known: .svg, .pdf, .png")
     try:
-        WRITERS[suffix](run, path)
+        if picture is None:
+            writer(run, path)
+        else:
+            write_figure(run, path, picture)
     except OSError as error:
         raise Alarm(f"{path} cannot be written: {error.strerror or error}") from None
     return path
 
 
-def write_figure(run: Any, path: Path) -> None:
-    """The views of the path."""
+def write_figure(run: Any, path: Path, picture: Callable[[Any], Figure] | None = None) -> None:
+    """The views of the path, or another picture."""
     from mnclab.show.plot.path import plot_run
     from mnclab.show.plot.picture import write
 
-    write(plot_run(run), path)
+    write((picture or plot_run)(run), path)
 
 
 def write_csv(run: Any, path: Path) -> None:

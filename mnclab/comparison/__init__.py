@@ -1,0 +1,1 @@
+"""Strategies side by side: what they cut, how long it takes, how hard the tool works."""
