@@ -83,7 +83,11 @@ def parser() -> argparse.ArgumentParser:
     sub = command("plot", plot, "run a program and save what it does")
     sub.add_argument("file", metavar="FILE")
     sub.add_argument(
-        "-o", "--output", required=True, metavar="OUT", help="the suffix says what: svg, pdf, png, csv, json"
+        "-o",
+        "--output",
+        required=True,
+        metavar="OUT",
+        help="the suffix says what: svg, pdf, png, csv, json, dxf, ngc, …",
     )
     options(sub)
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function")

@@ -26,9 +26,8 @@ FLOORS = {
 OUTSIDE = {  # package -> the only modules of mnclab that import it
     "shapely": ("geometry.regions",),
     "matplotlib": ("show.plot",),
-    "pyvista": ("show.scene", "show.export"),
-    "vtkmodules": ("show.scene", "show.export"),
-    "ezdxf": ("show.export",),
+    "pyvista": ("show.scene",),
+    "vtkmodules": ("show.scene",),
     "ipywidgets": ("show.forms",),
     "IPython": ("show.magic",),
 }

@@ -118,11 +118,14 @@ class Run:
 
         return plot_run(self, **options)
 
-    def save(self, path: str | Path) -> Path:
-        """Write one file; the suffix says what: svg, pdf, png, csv, json."""
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write one file; the suffix says what: svg, pdf, png, csv, json, dxf, ngc, stl, gltf, glb, vtk.
+
+        Pictures take the options of :meth:`plot`; ``true_size=True`` makes an svg in true millimetres.
+        """
         from mnclab.show.export import save
 
-        return save(self, path)
+        return save(self, path, **options)
 
     # --- shown -------------------------------------------------------------------------------------------------------
 
