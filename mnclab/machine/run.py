@@ -28,6 +28,7 @@ from mnclab.text.program import Block, Program
 if TYPE_CHECKING:
     from pathlib import Path
 
+    import pyvista
     from matplotlib.figure import Figure
 
 
@@ -117,6 +118,16 @@ class Run:
         from mnclab.show.plot.path import plot_run
 
         return plot_run(self, **options)
+
+    def scene(self, colour: str = "kind", **options: Any) -> pyvista.Plotter:
+        """Path, tool and blank in three dimensions (needs pyvista); shows itself as a still picture.
+
+        ``colour`` of the cuts: "kind", "feed", "tool", "z", "line"; ``row``: where the tool stands; ``stock``: corners
+        of a blank. All of them are explained in ``mnclab.show.scene.scene``.
+        """
+        from mnclab.show.scene import scene
+
+        return scene(self, colour, **options)
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write one file; the suffix says what: svg, pdf, png, csv, json, dxf, ngc, stl, gltf, glb, vtk.

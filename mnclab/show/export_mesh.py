@@ -20,8 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import Toolpath
-from mnclab.show.solids import Body, size_of, stock_of, tool_of, tubes
+from mnclab.show.solids import Body, size_of, stock_of, strokes, tool_of, tubes
 
 CHORD = 0.01  # mm
 TUBE = 1 / 500  # radius of a tube in parts of the path's size
@@ -43,18 +42,6 @@ def write_stl(run: Any, path: Path) -> None:
     length = np.linalg.norm(normal, axis=1, keepdims=True)
     table["normal"], table["corner"] = normal / np.where(length > 0, length, 1.0), facets
     path.write_bytes(b"mnclab tool path, millimetres".ljust(80) + struct.pack("<I", len(table)) + table.tobytes())
-
-
-def segments(path: Toolpath, kinds: tuple[Kind, ...]) -> NDArray[np.float64]:
-    """Strokes (n, 2, 3) of the moves of some kinds, arcs within :data:`CHORD`."""
-    points, row = path.points(CHORD)
-    if not len(row):
-        return np.empty((0, 2, 3))
-    start = points[:-1].copy()
-    first = row[1:] != row[:-1]
-    first[0] = True
-    start[first] = path.start[row[1:][first]]  # after a tool change the tip begins elsewhere
-    return np.stack([start, points[1:]], axis=1)[np.isin(path.kind[row[1:]], kinds)]
 
 
 class Gltf:
@@ -86,10 +73,10 @@ class Gltf:
         self.materials.append(look | ({"alphaMode": "BLEND"} if alpha < 1 else {}))
         return len(self.materials) - 1
 
-    def lines(self, name: str, strokes: NDArray[np.float64], colour: tuple[float, float, float]) -> None:
+    def lines(self, name: str, pieces: NDArray[np.float64], colour: tuple[float, float, float]) -> None:
         """Separate strokes (n, 2, 3)."""
-        if len(strokes):
-            part = {"attributes": {"POSITION": self.array(strokes.reshape(-1, 3), "VEC3", 34962)}, "mode": 1}
+        if len(pieces):
+            part = {"attributes": {"POSITION": self.array(pieces.reshape(-1, 3), "VEC3", 34962)}, "mode": 1}
             self.meshes.append({"name": name, "primitives": [part | {"material": self.material(name, colour)}]})
 
     def body(self, name: str, body: Body, colour: tuple[float, float, float], alpha: float = 1.0) -> None:
@@ -118,8 +105,9 @@ class Gltf:
 def write_gltf(run: Any, path: Path) -> None:
     """Write lines, tool and blank as glTF; the suffix .glb makes the binary form."""
     gltf = Gltf()
+    pieces, row = strokes(run.toolpath, CHORD)
     for name, (colour, kinds) in CLASSES.items():
-        gltf.lines(name, segments(run.toolpath, kinds), colour)
+        gltf.lines(name, pieces[np.isin(run.toolpath.kind[row], kinds)], colour)
     if tool := tool_of(run):
         gltf.body("tool", tool, TOOL)
     if stock := stock_of(run):

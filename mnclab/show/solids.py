@@ -69,25 +69,33 @@ def tool_body(tool: Tool, size: float = 10.0) -> Body:
     radius = tool.effective_radius
     if radius <= 0:
         return revolved([(0.0, 0.0), (size / 16, size / 8), (size / 16, size / 4)], 16)
-    length = max(tool.cutting_length or SHANK * 2 * radius, radius)
+    length = max(tool.cutting_length or SHANK * 2 * radius, 2 * radius)
     angle = tool.angle or (DRILL_POINT if tool.kind == "drill" else 0.0)
     if 0 < angle < 180:
-        return revolved([(0.0, 0.0), (radius, radius / np.tan(np.radians(angle / 2))), (radius, 2 * length)])
+        return revolved([(0.0, 0.0), (radius, radius / np.tan(np.radians(angle / 2))), (radius, length)])
     corner = min(max(tool.corner, 0.0), radius)
     bend = np.linspace(0, np.pi / 2, 9 if corner else 1)
     rounding = [(radius - corner + corner * np.sin(a), corner - corner * np.cos(a)) for a in bend]
     straight = [(radius, 0.0)] if not corner else rounding
-    return revolved([*straight, (radius, length), (0.9 * radius, length), (0.9 * radius, 2 * length)])
+    return revolved([*straight, (radius, length), (0.9 * radius, length), (0.9 * radius, 1.3 * length)])
+
+
+def strokes(path: Toolpath, chord_error: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The motion as straight strokes (n, 2, 3), mm, and the row (n,) of each."""
+    points, row = path.points(chord_error)
+    if not len(row):
+        return np.empty((0, 2, 3)), row
+    start = points[:-1].copy()
+    first = row[1:] != row[:-1]
+    first[0] = True
+    start[first] = path.start[row[1:][first]]  # after a tool change the tip begins elsewhere
+    return np.stack([start, points[1:]], axis=1), row[1:]
 
 
 def tubes(path: Toolpath, radius: float, chord_error: float = 0.02, sides: int = TUBE_SIDES) -> Body:
     """The cuts of a path as prisms of ``radius`` mm around every stroke, each closed by itself."""
-    points, row = path.points(chord_error)
-    cut = np.isin(path.kind[row[1:]], (Kind.LINE, Kind.ARC)) if len(row) else np.empty(0, dtype=bool)
-    first_of_row = np.concatenate([[True], row[1:] != row[:-1]])[1:] if len(row) else cut
-    start = points[:-1].copy()
-    start[first_of_row] = path.start[row[1:][first_of_row]]  # after a tool change the tip begins elsewhere
-    start, end = start[cut], points[1:][cut]
+    pieces, row = strokes(path, chord_error)
+    start, end = pieces[np.isin(path.kind[row], (Kind.LINE, Kind.ARC))].transpose(1, 0, 2)
     travel = end - start
     length = np.linalg.norm(travel, axis=1)
     long = length > 0
@@ -127,10 +135,12 @@ def stock_of(run: Any) -> Body | None:
 def tool_of(run: Any, row: int = -1) -> Body | None:
     """The tool where a row of the toolpath ends, by default the last; None for a path without rows.
 
-    On a lathe the tip is a small peak: a turning tool has no outline in the table.
+    On a lathe the tip is a small peak with its shank along +X: a turning tool has no outline in the table.
     """
     path = run.toolpath
     if not len(path):
         return None
-    tool = run.tables.tools.get(int(path.tool[row]), Tool())
-    return tool_body(Tool() if path.lathe else tool, size_of(path)).at(path.end[row])
+    if path.lathe:
+        points, triangles = tool_body(Tool(), size_of(path))
+        return Body(points[:, [2, 1, 0]], triangles[:, ::-1]).at(path.end[row])
+    return tool_body(run.tables.tools.get(int(path.tool[row]), Tool()), size_of(path)).at(path.end[row])
