@@ -10,12 +10,15 @@ The map of the house, floor by floor (a folder imports only from those above its
     path        what the tool does: Toolpath in columns, and passes over it (corners, compensation)
     workpiece   what the tool meets: the part a probe touches
     machining   how metal is cut, whatever the control: depths, pockets, turning
+    comparison  two paths side by side
     machine     who obeys: Machine, Control, Cycle, interpreter, bulk tier, history, Run
     controls    who speaks: a folder a control
     show        what people see and take away: plots, forms, files
 
 This module is the front door, and nothing else: it imports numpy only.
 """
+
+from typing import TYPE_CHECKING
 
 from mnclab.controls import CONTROLS as controls
 from mnclab.controls.choice import Help, help, read, run
@@ -27,6 +30,9 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Program
+
+if TYPE_CHECKING:
+    from mnclab.comparison.deviation import Deviation
 
 __version__ = "0.1.0"
 __all__ = [
@@ -42,12 +48,27 @@ __all__ = [
     "Tool",
     "Toolpath",
     "controls",
+    "diff",
     "form",
     "help",
     "panel",
     "read",
     "run",
 ]
+
+
+def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) -> "Deviation":
+    """Two runs, or two paths, laid over one another: the largest deviation (mm) and where; ``.plot()`` shows both.
+
+    Two programs, two controls, two tool radii, two settings; ``step`` mm is how closely the paths are looked at.
+    """
+    from mnclab.comparison.deviation import deviation
+
+    paths = [each.toolpath if isinstance(each, Run) else each for each in (one, other)]
+    names = [each.program.name if isinstance(each, Run) else "path" for each in (one, other)]
+    if names[0] == names[1]:
+        names = [f"the first {names[0]}", f"the second {names[1]}"]
+    return deviation(paths[0], paths[1], (names[0], names[1]), step)
 
 
 def form(code: str, control: str) -> object:
