@@ -49,6 +49,7 @@ __all__ = [
     "Toolpath",
     "controls",
     "diff",
+    "editor",
     "form",
     "help",
     "panel",
@@ -71,6 +72,13 @@ def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) 
     return deviation(paths[0], paths[1], (names[0], names[1]), step)
 
 
+def editor(path: str, control: str | None = None, setup: Setup | None = None) -> object:
+    """A part program to type in, with alarms and picture that follow, and a button that saves it (needs ipywidgets)."""
+    from mnclab.show.editor import editor as build
+
+    return build(path, control, setup)
+
+
 def form(code: str, control: str) -> object:
     """The parameters of a cycle as a form with a live picture (needs ipywidgets and matplotlib)."""
     from mnclab.show.forms import form as build
@@ -83,3 +91,10 @@ def panel(template: str, control: str | None = None, /, **numbers: object) -> ob
     from mnclab.show.forms import panel as build
 
     return build(template, control, **numbers)  # type: ignore[arg-type]
+
+
+def load_ipython_extension(shell: object) -> None:
+    """What ``%load_ext mnclab`` calls: makes the cell magic ``%%mnc``."""
+    from mnclab.show.magic import load_ipython_extension as load
+
+    load(shell)

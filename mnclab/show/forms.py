@@ -187,8 +187,8 @@ def _live(
         except Alarm as alarm:
             alarms.value = alarm._repr_html_()
             return
-        picture.value = DRAWING.submit(_image, live.run, view).result()
-        alarms.value = _verdict(live.run)
+        picture.value = DRAWING.submit(picture_of, live.run, view).result()
+        alarms.value = verdict(live.run)
 
     live.boxes, live.picture, live.alarms, live.run = dict(boxes), picture, alarms, None
     redraw()
@@ -197,13 +197,14 @@ def _live(
     return live
 
 
-def _image(run: Run, view: str) -> str:
+def picture_of(run: Run, view: str) -> str:
+    """The views of a run as an HTML image with a name; to be drawn in :data:`DRAWING`."""
     from mnclab.show.plot.path import image
 
     return image(run, view)
 
 
-def _verdict(run: Run) -> str:
+def verdict(run: Run) -> str:
     """The alarms of a run, each with its line and caret, and its figures in one line."""
     s = run.summary()
     figures = (
