@@ -7,9 +7,9 @@ The map of the house, floor by floor (a folder imports only from those above its
 
     text        what a programmer wrote: Alarm, Program, words, expressions
     geometry    frames, arcs, contours, offsets, regions: numbers, no CNC word
-    path        what the tool does: Toolpath in columns, and passes over it (corners, compensation)
+    path        what the tool does: Toolpath in columns, passes over it (corners, compensation), and the feed profile
     workpiece   what the tool meets: the part a probe touches
-    machining   how metal is cut, whatever the control: depths, pockets, turning
+    machining   how metal is cut, whatever the control: depths, holes, threads, pockets, turning
     comparison  two paths side by side
     machine     who obeys: Machine, Control, Cycle, interpreter, bulk tier, history, Run
     controls    who speaks: a folder a control
@@ -26,6 +26,7 @@ from mnclab.machine.run import Run
 from mnclab.machine.setup import Datum, Probe, Setup
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
+from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
@@ -42,6 +43,7 @@ __all__ = [
     "Kind",
     "Limits",
     "Probe",
+    "Profile",
     "Program",
     "Run",
     "Setup",
@@ -61,15 +63,19 @@ __all__ = [
 def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) -> "Deviation":
     """Two runs, or two paths, laid over one another: the largest deviation (mm) and where; ``.plot()`` shows both.
 
-    Two programs, two controls, two tool radii, two settings; ``step`` mm is how closely the paths are looked at.
+    Two programs, two controls, two tool radii, two limits (of their setups: the times differ); ``step`` mm is how
+    closely the paths are looked at.
     """
     from mnclab.comparison.deviation import deviation
 
+    times = None
+    if isinstance(one, Run) and isinstance(other, Run):
+        times = one.profile().time, other.profile().time
     paths = [each.toolpath if isinstance(each, Run) else each for each in (one, other)]
     names = [each.program.name if isinstance(each, Run) else "path" for each in (one, other)]
     if names[0] == names[1]:
         names = [f"the first {names[0]}", f"the second {names[1]}"]
-    return deviation(paths[0], paths[1], (names[0], names[1]), step)
+    return deviation(paths[0], paths[1], (names[0], names[1]), step, times=times)
 
 
 def editor(path: str, control: str | None = None, setup: Setup | None = None) -> object:

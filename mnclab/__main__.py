@@ -1,4 +1,4 @@
-"""mnclab from a shell: check, run, plot, help, lab; ``python -m mnclab`` is the same as ``mnclab``.
+"""mnclab from a shell: check, run, plot, time, help, lab; ``python -m mnclab`` is the same as ``mnclab``.
 
 Exit status: 0 clean, 1 alarms, 2 a command line that makes no sense. Alarms go to stderr, one line each, in the form
 that editors understand: ``FILE:LINE:COLUMN: alarm: message (hint)``.
@@ -17,7 +17,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import mnclab
+from mnclab.machine.machine_file import load as load_machine
 from mnclab.machine.setup_file import FORMAT, load
+from mnclab.show import times
 from mnclab.text.alarm import ALARM, Alarm
 
 Result = TypeVar("Result")
@@ -90,6 +92,11 @@ def parser() -> argparse.ArgumentParser:
         help="the suffix says what: svg, pdf, png, csv, json, dxf, ngc, …",
     )
     options(sub)
+    sub = command("time", time, "say how long a program takes on a machine, and where the time goes")
+    sub.add_argument("file", metavar="FILE")
+    options(sub, "the times on stdout as one object instead")
+    sub.add_argument("--machine", metavar="M", help="a named machine, or a .toml file (default: limits of the setup)")
+    sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function")
     sub.add_argument("code", nargs="+", metavar="CODE", help="such as G83 or CYCL DEF 200")
     sub.add_argument("--control", choices=list(mnclab.controls), required=True)
@@ -170,6 +177,21 @@ def plot(chosen: argparse.Namespace) -> int:
         return ALARMS
     sensible(result.save, chosen.output)
     return verdict(result)
+
+
+def time(chosen: argparse.Namespace) -> int:
+    """Print how long a program takes: in all, by cause, by tool, and the lines that cost most."""
+    machine = sensible(load_machine, chosen.machine) if chosen.machine else None
+    result = obey(chosen)
+    if result is None:
+        return ALARMS
+    limits = machine.limits if machine else result.setup.limits
+    profile = sensible(lambda: result.profile(limits, override=chosen.override / 100))
+    if chosen.json:
+        print(json.dumps(times.document(profile, machine), indent=1))
+    else:
+        print(times.report(profile, machine))
+    return verdict(result, quiet=chosen.json)
 
 
 def verdict(result: mnclab.Run, quiet: bool = False) -> int:

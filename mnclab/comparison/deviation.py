@@ -39,13 +39,17 @@ class Traces:
 
 @dataclass(frozen=True)
 class Deviation:
-    """Where two paths differ. ``one`` and ``other`` are the traces, ``names`` and ``paths`` what was compared."""
+    """Where two paths differ.
+
+    ``one`` and ``other`` are the traces, ``names`` and ``paths`` what was compared, ``times`` s of both.
+    """
 
     paths: tuple[Toolpath, Toolpath]
     names: tuple[str, str]
     one: Traces
     other: Traces
     step: float
+    times: tuple[float, float] | None = None
 
     @property
     def largest(self) -> float:
@@ -74,13 +78,15 @@ class Deviation:
     def rows(self) -> list[tuple[str, str, str]]:
         """What the table shows: a quantity, and its value on each path."""
         one, other = self.paths
-        motion = [(str(int(path.is_motion.sum())), f"{figure(path.length, 3)} mm") for path in (one, other)]
-        places = [(point(place),) for place in self.where[:2]] if self.where else [("",), ("",)]
-        return [
-            ("farthest apart", places[0][0], places[1][0]),
-            ("moves", motion[0][0], motion[1][0]),
-            ("length", motion[0][1], motion[1][1]),
+        places = [point(place) for place in self.where[:2]] if self.where else ["", ""]
+        found = [
+            ("farthest apart", places[0], places[1]),
+            ("moves", str(int(one.is_motion.sum())), str(int(other.is_motion.sum()))),
+            ("length", f"{figure(one.length, 3)} mm", f"{figure(other.length, 3)} mm"),
         ]
+        if self.times:
+            found.append(("time", f"{figure(self.times[0], 3)} s", f"{figure(self.times[1], 3)} s"))
+        return found
 
     @property
     def sentence(self) -> str:
@@ -112,7 +118,7 @@ class Deviation:
 
 def deviation(
     one: Toolpath, other: Toolpath, names: tuple[str, str] = ("first", "second"),
-    step: float | None = None, chord_error: float = 0.001,
+    step: float | None = None, chord_error: float = 0.001, times: tuple[float, float] | None = None,
 ) -> Deviation:  # fmt: skip
     """Lay two paths over one another; ``step`` mm, by default a four-thousandth of the longer one."""
     step = step or max(one.length, other.length, 1e-3) / PLACES
@@ -121,7 +127,7 @@ def deviation(
     strokes = [_strokes(path, chord_error) for path in (one, other)]
     looks = [_places(*parts, step) for parts in strokes]
     traces = [Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1])]
-    return Deviation((one, other), names, traces[0], traces[1], step)
+    return Deviation((one, other), names, traces[0], traces[1], step, times)
 
 
 def _strokes(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[np.int64]]:

@@ -33,13 +33,21 @@ def cross(a: Array, b: Array) -> Array:
 
 
 def dot(a: Array, b: Array) -> Array:
-    """The scalar product along the last axis."""
-    return (a * b).sum(axis=-1)
+    """The scalar product of vectors (..., 2)."""
+    return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1])
 
 
 def left(v: Array) -> Array:
     """Vectors (..., 2) turned by +90 degrees."""
     return np.stack([-v[..., 1], v[..., 0]], axis=-1)
+
+
+def beside(p: Array, t: Array, shift: Array) -> Array:
+    """Points p (n, 2), or one (1, 2), moved by ``shift`` (n,) along the left normals of vectors t (n, 2)."""
+    moved = np.empty(t.shape)
+    np.subtract(p[:, 0], shift * t[:, 1], out=moved[:, 0])
+    np.add(p[:, 1], shift * t[:, 0], out=moved[:, 1])
+    return moved
 
 
 def meet(first: Element, second: Element, near: Array) -> Array:

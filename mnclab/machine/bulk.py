@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import centre_from_radius, sweep
+from mnclab.machine.pattern import repeat_hole
 from mnclab.path.kinds import Kind
 from mnclab.text.program import Program
 
@@ -101,7 +102,11 @@ class Bulk:
             return 0
         rule = self.rule
         assert rule is not None
-        if self.machine.position_cycle or self.machine.per_rev or not rule.ready(self.machine):
+        if self.machine.position_cycle:
+            done = repeat_hole(self, first, end, SHORTEST)
+            self.size = min(8 * self.size, LARGEST) if done == end - first - 1 else SHORTEST
+            return done
+        if self.machine.per_rev or not rule.ready(self.machine):
             return 0
         run = self.work_out(first, end)
         good = int(np.argmax(run.fault)) if run.fault.any() else end - first

@@ -1,5 +1,7 @@
 """What an arc must be before a machine runs it: a radius that reaches, a centre as far from its end as from its start.
 
+And turns about a centre, which have no such faults.
+
 Points are pairs in mm in the axes of the plane.
 """
 
@@ -9,6 +11,7 @@ import math
 from typing import TYPE_CHECKING
 
 from mnclab.geometry.arcs import centre_of_one
+from mnclab.path.kinds import Kind
 from mnclab.text.program import Word
 
 if TYPE_CHECKING:
@@ -46,3 +49,23 @@ def check_radii(m: Machine, s: Point, e: Point, c: Point, tolerance: float, word
             f"allowed difference {tolerance:g} mm",
             word,
         )
+
+
+def turn(
+    m: Machine, axes: tuple[int, int, int], centre: tuple[float, float], angle: float, level: float | None,
+    f: float | None,
+) -> None:  # fmt: skip
+    """Round a centre in the first two axes by an angle, to a level of the third; a whole turn ends where it began."""
+    first, second, normal = axes
+    feed, sense = m.feed_of(f), m._arc_sense()
+    point, middle = list(m.programmed), list(m.programmed)
+    middle[first], middle[second] = centre
+    u, v = point[first] - centre[0], point[second] - centre[1]
+    if abs(rest := math.remainder(angle, 2 * math.pi)) > 1e-12:
+        c, s = math.cos(rest), math.sin(rest)
+        point[first], point[second] = centre[0] + c * u - s * v, centre[1] + s * u + c * v
+    if level is not None:
+        point[normal] = level
+    x, y, z = point
+    m._row(Kind.ARC, m.to_machine(point), m.to_machine(middle), angle * sense, feed)
+    m.programmed, m.tip = (x, y, z), m.to_machine(point)

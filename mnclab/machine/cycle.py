@@ -14,9 +14,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, field, fields
+from functools import cache
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
+from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
@@ -54,6 +56,7 @@ class Parameter:
     note: str = ""
     mark: int = 0
     several: bool = False
+    example: float | None = None
 
     @property
     def allowed(self) -> str:
@@ -107,25 +110,30 @@ def param(
     note: str = "",
     mark: int = 0,
     several: bool = False,
+    example: float | None = None,
 ) -> Any:
     """Declare one parameter of a cycle in one line of its class.
 
     No ``default`` means required, unless ``instead`` of it another is given (a parameter by its name);
     ``default_means`` says in words what a default of None stands for. ``several``: the address may be repeated, and the
-    value is a tuple. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …).
+    value is a tuple. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …). ``example`` is a value to begin
+    with where the cycle is tried out; it must obey the limits, or the declaration is a ValueError.
     """
     first, *others = (address,) if isinstance(address, str) else address
     required = default is MISSING
     declared = Parameter(
         first, meaning, unit, "", tuple(others), required, None if required else default, default_means, choices, above,
         at_least, below, at_most, incremental, modal, instead, also, "choice" if choices else type, predef, note, mark, several,
+        example,
     )  # fmt: skip
+    if example is not None and declared.refuses(example):
+        raise ValueError(f"the example of {first} must be {declared.allowed}, got {example:g}")
     return field(default=declared.default, kw_only=True, metadata={"parameter": declared})
 
 
 @dataclass(frozen=True)
 class Cycle:
-    """A cycle bound to its values. Subclasses declare parameters, :meth:`check` what joins several, and :meth:`moves`."""
+    """A cycle bound to its values. Subclasses declare parameters, :meth:`contradictions`, :meth:`check` and :meth:`moves`."""
 
     code: ClassVar[str] = ""
     title: ClassVar[str] = ""
@@ -135,6 +143,7 @@ class Cycle:
     """Addresses that run a "position" cycle in a later block."""
 
     @classmethod
+    @cache
     def parameters(cls) -> tuple[Parameter, ...]:
         """The declared parameters, in order."""
         declared = []
@@ -154,8 +163,12 @@ class Cycle:
         """
         return values
 
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """Faults among the values alone, as (name of the parameter to mark, sentence); found where it is defined."""
+        yield from ()
+
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Faults that join several parameters, as (name of the parameter to mark, sentence)."""
+        """Faults of the values on this machine now: its tool, its spindle, its state; found where the cycle runs."""
         yield from ()
 
     def moves(self, m: Machine) -> None:
@@ -202,22 +215,33 @@ class Definition:
 
 def bind(definition: Definition, m: Machine) -> Cycle:
     """The frozen cycle with its values, or an Alarm at the word that is wrong (or at the cycle's own word)."""
+    bound = instance(definition)
+    for name, sentence in bound.check(m):
+        raise fault(definition, named(definition, name), sentence)
+    return bound
+
+
+def instance(definition: Definition) -> Cycle:
+    """The frozen cycle with its values, which are there, within their limits and without contradiction."""
     cycle, values = definition.cycle, {}
     for parameter in cycle.parameters():
         value = definition.values.get(parameter.name)
         if value is None and parameter.required and definition.values.get(parameter.instead) is None:
-            others = {p.name: p.address for p in cycle.parameters()}
-            neither = f", and so is {others[parameter.instead]}" if parameter.instead else ""
-            raise fault(definition, parameter, f"is missing{neither}")
+            other = named(definition, parameter.instead)
+            raise fault(definition, parameter, "is missing" + (f", and so is {other.address}" if other else ""))
         if value is None:
             value = parameter.default
         check_value(definition, parameter, value)
         values[parameter.name] = value
-    bound = cycle(**values)
-    for name, sentence in bound.check(m):
-        named = next((p for p in cycle.parameters() if p.name == name), None)
-        raise fault(definition, named, sentence)
-    return bound
+    made = cycle(**values)
+    for name, sentence in made.contradictions():
+        raise fault(definition, named(definition, name), sentence)
+    return made
+
+
+def named(definition: Definition, name: str) -> Parameter | None:
+    """The parameter of a name; None for the cycle as a whole."""
+    return next((p for p in definition.cycle.parameters() if p.name == name), None)
 
 
 def check_value(definition: Definition, parameter: Parameter, value: Any) -> None:
@@ -225,6 +249,14 @@ def check_value(definition: Definition, parameter: Parameter, value: Any) -> Non
     for number in value if isinstance(value, tuple) else (value,):
         if isinstance(number, int | float) and parameter.refuses(number):
             raise fault(definition, parameter, f"must be {parameter.allowed}, got {number:g}")
+
+
+def too_many(name: str, levels: Callable[[], object]) -> Iterator[tuple[str, str]]:
+    """A fault of the parameter that makes more levels or turns than any hole has."""
+    try:
+        levels()
+    except TooMany as error:
+        yield name, str(error)
 
 
 def fault(definition: Definition, parameter: Parameter | None, sentence: str) -> Alarm:

@@ -26,14 +26,6 @@ class Log:
         self.values: list[Any] = []
         self._chunks: list[tuple[NDArray[np.integer[Any]], Values]] = []
 
-    def add(self, step: int, value: Any) -> None:
-        """The value changed at a step."""
-        if self.steps and self.steps[-1] == step:
-            self.values[-1] = value
-        else:
-            self.steps.append(step)
-            self.values.append(value)
-
     def extend(self, steps: NDArray[np.integer[Any]], values: Values) -> None:
         """Changes of many steps at once."""
         if len(steps):
@@ -73,7 +65,12 @@ class Logs:
         log = self.by_name.get(name)
         if log is None:
             log = self.by_name[name] = Log()
-        log.add(step, value)
+        steps = log.steps
+        if steps and steps[-1] == step:
+            log.values[-1] = value
+        else:
+            steps.append(step)
+            log.values.append(value)
 
     def extend(self, name: str, steps: NDArray[np.integer[Any]], values: Values) -> None:
         """New values at many steps."""

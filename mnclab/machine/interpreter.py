@@ -15,9 +15,10 @@ import numpy as np
 from mnclab.machine.bulk import Bulk
 from mnclab.machine.calls import Flow
 from mnclab.machine.control import Control, Function, Words
-from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault
+from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
+from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import NONE, NUMBER, Program, Word, place_of
@@ -163,7 +164,10 @@ class Interpreter:
         if code != cycle.code:
             machine.warn(f"{code} is another name of {cycle.code} ({cycle.title})", head)
         if cycle.runs == "call":
-            verify(definition)
+            if self.control.storage == "variables":  # which may still change
+                verify(definition)
+            else:
+                instance(definition)
             machine.cycle, machine.position_cycle = definition, None
         else:
             machine.cycle, machine.position_cycle = None, definition
@@ -254,5 +258,8 @@ def run_cycle(machine: Machine, definition: Definition) -> None:
             definition.extra,
         )
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
-    bind(definition, machine).moves(machine)
+    try:
+        bind(definition, machine).moves(machine)
+    except TooMany as error:
+        raise fault(definition, None, str(error)) from None
     machine.label = label

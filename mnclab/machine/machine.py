@@ -16,7 +16,7 @@ import numpy as np
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import sweep_of_one
 from mnclab.geometry.frames import FrameChain, Matrix
-from mnclab.machine.circles import centre_by_radius, check_radii
+from mnclab.machine.circles import centre_by_radius, check_radii, turn
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
 from mnclab.machine.settings import chosen
@@ -24,6 +24,7 @@ from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
 from mnclab.machine.variables import Measured, Variables
+from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
@@ -86,6 +87,7 @@ class Machine:
         self.settled: list[Toolpath] = []
         self.altered = False  # whether a pass changed anything
         self.cut: int | None = None  # the step of a fault found in a pass: nothing from there on counts
+        self.gouges: list[Gouge] = []  # where the tool does not fit
         self._state: int | None = None
         self.log("position", self.programmed)
 
@@ -126,7 +128,7 @@ class Machine:
         """Note a new value of a name in the history; while a contour is recorded only what outlives it."""
         if self.recorded_only and name not in self.variables:
             return
-        self.logs.add(name, max(self.step, 0), value)
+        self.logs.add(name, self.step if self.step > 0 else 0, value)
 
     def change(self, name: str, value: Any) -> None:
         """Set an attribute that rows carry (feed, side, plane, …) and note it in the history.
@@ -308,7 +310,13 @@ class Machine:
         self._row(Kind.ARC, tip, self.to_machine(middle), angle, feed)
         self.programmed, self.tip = point, tip
 
-    def _arc_sense(self, word: Word | None) -> int:
+    def turn(
+        self, centre: tuple[float, float], angle: float, level: float | None = None, f: float | None = None
+    ) -> None:
+        """Round a point of the plane by an angle (rad, any number of turns), to a level along its normal."""
+        turn(self, PLANES[self.plane], centre, angle, level, f)
+
+    def _arc_sense(self, word: Word | None = None) -> int:
         """The orientation; an alarm when the frame would turn the circle into an ellipse."""
         if not self.keeps_circles:
             self.alarm("an arc under unequal scales of its plane would be an ellipse", word)
@@ -380,6 +388,12 @@ class Machine:
             self.change("turning", turning)
         if self.spindle_speed != before:
             self._row(Kind.SPINDLE, self.tip)
+
+    def orient(self, angle: float) -> None:
+        """Stop the spindle at an angle, degrees."""
+        self.change("turning", 0)
+        self.log("spindle angle", float(angle))
+        self._row(Kind.SPINDLE, self.tip)
 
     def change_tool(self, tool: Tool, frame_axis: int = 2) -> None:
         """Put a tool into the spindle: the machine stands still, the tip jumps by the difference of the lengths."""

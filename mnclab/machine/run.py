@@ -20,9 +20,14 @@ from mnclab.machine.explanation import Explanation
 from mnclab.machine.history import History
 from mnclab.machine.interpreter import Interpreter, Stop
 from mnclab.machine.machine import Machine
+from mnclab.machine.machine_file import load
 from mnclab.machine.moments import Moments, when
-from mnclab.machine.settling import paths
+from mnclab.machine.settling import paths, shifted
 from mnclab.machine.setup import Setup, Tables
+from mnclab.path.compensation import Gouge
+from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
+from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place
 from mnclab.text.program import Block, Program
@@ -55,7 +60,11 @@ class Moment(NamedTuple):
 
 
 class Run:
-    """The result of running a program: both paths, alarms, history, and where the machine stands."""
+    """The result of running a program: both paths, alarms, history, and where the machine stands.
+
+    ``gouges`` are the places where a compensated tool does not fit: the one that was refused, or with the setting
+    ``gouge = "mark"`` all of them.
+    """
 
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
         self.program, self.programs, self.setup, self.control = program, (program,), setup, control
@@ -74,6 +83,7 @@ class Run:
         self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
         self.frames = machine.frames
+        self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
         self.settings = dict(machine.settings)
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
@@ -130,6 +140,23 @@ class Run:
     def explain(self, line: int | None = None, pass_: int = 1, step: int | None = None) -> Explanation:
         """A block in plain words: what each word means and changed, and the way from the programmed point to the tool."""
         return Explanation(self, self.at(line, pass_, step))
+
+    def profile(self, limits: Limits | str | None = None, *, override: float = 1.0) -> Profile:
+        """When the tool is where, and how fast, under the limits of a machine: those of the setup, others, or those
+        of a named machine ("small-mill"; see ``data/machines``).
+
+        ``override`` is the feed override, 1 for 100 %. How a rapid goes is the control's (its setting ``rapid_motion``)
+        unless the limits say; the program waits for the spindle unless its supervision is off (MNC G25).
+        """
+        path, spindle = self.toolpath, self.toolpath.kind == Kind.SPINDLE
+        waits = np.ones(len(path), dtype=bool)
+        if "supervision" in self.history:
+            waits[spindle] = [self.history.value("supervision", int(step)) != "G25" for step in path.step[spindle]]
+        motion = str(self.settings.get("rapid_motion", "line"))
+        if isinstance(limits, str):
+            limits = load(limits).limits
+        limits = limits or self.setup.limits
+        return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
 
     # --- doors -------------------------------------------------------------------------------------------------------
 

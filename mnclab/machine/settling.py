@@ -5,6 +5,7 @@ Settled once at the end of a run, and before anything that observes the tool: a 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +14,7 @@ from mnclab.path import compensation, corners, rapids
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import join
 from mnclab.path.toolpath import Toolpath, concatenate
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import WARNING, Alarm
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -38,18 +39,24 @@ def settle(m: Machine, unfinished: bool = False) -> None:
     start = end_of_settled(m)
     if start is not None and start != tuple(piece.start[0].tolist()):
         piece = piece.replace(start=np.concatenate([[start], piece.start[1:]]))
+    report = compensation.Report()
     try:
-        passed = _passes(m, piece, unfinished)
+        passed = _passes(m, piece, unfinished, report)
     except PathFault as fault:
         m.cut = fault.step
+        m.gouges += report.gouges
         m.settled.append(_before(m, piece[piece.step < fault.step]))
         raise Alarm(fault.message, m.flow.span_of_step(fault.step), hint=fault.hint) from None
+    m.gouges += report.gouges
+    for message, step, hint in report.remarks():
+        m.alarms.append(Alarm(message, m.flow.span_of_step(step), WARNING, hint))
     m.altered |= passed is not piece
     m.settled.append(passed)
 
 
-def _passes(m: Machine, piece: Toolpath, unfinished: bool) -> Toolpath:
-    path = compensation.apply(corners.apply(piece, unfinished), m.control.compensation, unfinished)
+def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.Report | None = None) -> Toolpath:
+    turned, gouge = corners.apply(piece, unfinished), str(m.settings.get("gouge", "refuse"))
+    path = compensation.apply(turned, m.control.compensation, unfinished, gouge, report)
     return rapids.broken(path, m.setup.limits.rapid) if m.settings.get("rapid_path") == "broken" else path
 
 
@@ -94,3 +101,11 @@ def _shown(m: Machine, path: Toolpath) -> Toolpath:
     return path.annotated(
         labels=tuple(recorder.labels), joints=tuple(recorder.joints), origin=tuple(origin), lathe=m.control.lathe
     )
+
+
+def shifted(m: Machine) -> Iterator[compensation.Gouge]:
+    """The places where the tool did not fit, relative to the origin of the paths."""
+    origin = m.origin or (0.0, 0.0, 0.0)
+    for gouge in m.gouges:
+        x, y, z = (a - b for a, b in zip(gouge.place, origin, strict=True))
+        yield gouge._replace(place=(x, y, z))

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from mnclab.machine.setup import Datum, Probe, Setup
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.nearest import hint
+
+Result = TypeVar("Result")
 
 #: The format, as the help of the command line shows it.
 FORMAT = """\
@@ -28,7 +30,8 @@ length = 80                    # and in degrees angle (of the point) and plunge_
 2 = { x = 300, y = 50, z = -200, rotation = 30 }
 
 [presets]                      # written like datums, where a control has them
-[limits]                       # rapid, acceleration, jerk, corner_tolerance
+[limits]                       # rapid, acceleration, jerk, corner_speed, corner_tolerance, corner_jump, rapid_motion,
+                               # spindle, spindle_acceleration, tool_change; a number, or [x, y, z] per axis
 [probe]                        # clearance, reach, feed, rapid
 [settings]                     # choices of the control: mnclab help settings --control NAME lists them
 [files]                        # names that programs call -> files, seen from this one
@@ -36,6 +39,7 @@ length = 80                    # and in degrees angle (of the point) and plunge_
 
 ROWS = {"tools": Tool, "datums": Datum, "presets": Datum}
 RECORDS = {"limits": Limits, "probe": Probe}
+TEXTS = ("name", "kind", "corner_speed", "rapid_motion")  # of a tool; of the limits
 KNOWN = ("start", *ROWS, *RECORDS, "settings", "files")
 
 
@@ -56,15 +60,19 @@ class _File:
 
 def load(path: str | Path) -> Setup:
     """The setup of a file; an Alarm names what is wrong in it."""
-    path = Path(path)
+    return parse(Path(path), lambda table, file: _setup(table, file.parent), "setup")
+
+
+def parse(path: Path, build: Callable[[dict[str, Any], Path], Result], what: str) -> Result:
+    """What ``build`` makes of the table in a TOML file; alarms show the line of the file."""
     try:
         text = path.read_text("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-        raise Alarm(f"the setup cannot be read: {reason}", source=_File(str(path), "")) from None
+        raise Alarm(f"the {what} cannot be read: {reason}", source=_File(str(path), "")) from None
     file = _File(str(path), text)
     try:
-        return _setup(tomllib.loads(text), path.parent)
+        return build(tomllib.loads(text), path)
     except tomllib.TOMLDecodeError as error:
         place = re.search(r"line (\d+), column (\d+)", str(error))
         span = Span(int(place[1]), int(place[2])) if place else file.end
@@ -75,17 +83,17 @@ def load(path: str | Path) -> Setup:
 
 
 def _setup(table: Mapping[str, Any], folder: Path) -> Setup:
-    _check_names(table, KNOWN, "a setup")
+    check_names(table, KNOWN, "a setup")
     found: dict[str, Any] = {}
     if "start" in table:
         found["start"] = _point(table["start"], "start")
     for name, kind in ROWS.items():
         if name in table:
             rows = _table(table[name], name)
-            found[name] = {_row(number, name): _record(kind, row, f"{name}.{number}") for number, row in rows.items()}
+            found[name] = {_row(number, name): record(kind, row, f"{name}.{number}") for number, row in rows.items()}
     for name, kind in RECORDS.items():
         if name in table:
-            found[name] = _record(kind, table[name], name)
+            found[name] = record(kind, table[name], name)
     if "settings" in table:
         found["settings"] = _table(table["settings"], "settings")
     if "files" in table:
@@ -93,17 +101,17 @@ def _setup(table: Mapping[str, Any], folder: Path) -> Setup:
     return Setup(**found)
 
 
-def _record(kind: Any, value: Any, where: str) -> Any:
+def record(kind: Any, value: Any, where: str) -> Any:
     """A Tool, Datum, Limits or Probe from a table of its fields, or a datum from a list."""
     if kind is Datum and isinstance(value, list):
         return Datum(*_point(value, where))
     names = kind._fields if hasattr(kind, "_fields") else [field.name for field in fields(kind)]
-    _check_names(_table(value, where), names, where)
+    check_names(_table(value, where), names, where)
     return kind(**{name: _field(item, f"{where}.{name}", name) for name, item in value.items()})
 
 
 def _field(value: Any, where: str, name: str) -> Any:
-    if name in ("name", "kind"):
+    if name in TEXTS:
         if not isinstance(value, str):
             raise Alarm(f"{where} must be a text, got {value!r}")
         return value
@@ -139,7 +147,8 @@ def _table(value: Any, where: str) -> Mapping[str, Any]:
     return value
 
 
-def _check_names(table: Mapping[str, Any], known: Any, where: str) -> None:
+def check_names(table: Mapping[str, Any], known: Any, where: str) -> None:
+    """An Alarm for the first name that is not known."""
     for name in table:
         if name not in known:
             raise Alarm(f"{where} has no {name!r}", hint=hint(name, known, 1) or f"known: {', '.join(known)}")

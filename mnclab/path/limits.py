@@ -1,18 +1,41 @@
-"""What the axes of a machine can do."""
+"""What the axes of a machine can do, and how it takes corners and rapids."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.text.alarm import Alarm
+
 PerAxis = float | tuple[float, ...]
+
+CORNERS = {
+    "tolerance": "a corner is cut by at most corner_tolerance, within the axes' acceleration (and jerk)",
+    "deviation": "junction deviation: the speed of a circle that leaves the corner by corner_tolerance",
+    "jump": "no axis may change its speed at a corner by more than corner_jump",
+}
+RAPIDS = {
+    "axes": "each axis at its own speed and acceleration, until it arrives",
+    "proportional": "speeds in the ratio of the distances, each axis with its own acceleration",
+    "line": "along the straight line, as a feed move at the greatest speed",
+}
 
 
 @dataclass(frozen=True)
 class Limits:
     """Per axis, or one number for all: ``rapid`` mm/min, ``acceleration`` mm/s², ``jerk`` mm/s³ (None: no limit).
 
-    ``corner_tolerance`` mm is how far a corner may be cut; 0 stops wherever an axis would jump. ``travel`` holds the
-    lower and upper machine position of each axis, mm, or None. The defaults are those of a small machining centre.
+    ``rapid`` is the greatest speed of an axis, at feed too. ``corner_speed`` (:data:`CORNERS`) says how fast a corner is
+    taken, ``corner_tolerance`` mm how far it may be cut (0 stops wherever an axis would jump), ``corner_jump`` mm/min by
+    how much the speed of an axis may jump under "jump". ``rapid_motion`` (:data:`RAPIDS`) is how a rapid goes, None: as
+    the control has it. ``spindle`` is the greatest speed, rev/min; ``spindle_acceleration`` rev/min in a second, None: at
+    once; ``tool_change`` seconds. ``travel`` holds the lower and upper machine position of each axis, mm, or None.
+    The defaults are those of a small machining centre whose spindle and tool changer take no time.
+
+    An Alarm names a limit that makes no sense.
     """
 
     rapid: PerAxis = 10_000.0
@@ -20,3 +43,39 @@ class Limits:
     jerk: PerAxis | None = None
     corner_tolerance: float = 0.0
     travel: tuple[tuple[float, float], ...] | None = None
+    corner_speed: str = "tolerance"
+    corner_jump: PerAxis = 0.0
+    rapid_motion: str | None = None
+    spindle: float = math.inf
+    spindle_acceleration: float | None = None
+    tool_change: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("rapid", "acceleration", "jerk", "spindle", "spindle_acceleration"):
+            if getattr(self, name) is not None:
+                self._check(name, above=True)
+        for name in ("corner_tolerance", "corner_jump", "tool_change"):
+            self._check(name, above=False)
+        for name, known in (("corner_speed", (*CORNERS,)), ("rapid_motion", (*RAPIDS, None))):
+            if getattr(self, name) not in known:
+                names = ", ".join(each for each in known if each)
+                raise Alarm(f"limit {name} must be one of {names}, got {getattr(self, name)!r}")
+
+    def _check(self, name: str, above: bool) -> None:
+        """An Alarm unless each value is a number greater than 0, or not below it."""
+        value = getattr(self, name)
+        many = name in ("rapid", "acceleration", "jerk", "corner_jump")
+        values = tuple(value) if many and isinstance(value, tuple | list) else (value,)
+        if len(values) not in ((1, 3) if many else (1,)) and many:
+            raise Alarm(f"limit {name} takes one number or three (X Y Z), got {len(values)}")
+        for each in values:
+            if isinstance(each, bool) or not isinstance(each, int | float | np.number):
+                raise Alarm(f"limit {name} must be a number, got {each!r}")
+            if not (each > 0 if above else 0 <= each < math.inf):
+                raise Alarm(f"limit {name} must be {'greater than' if above else 'at least'} 0, got {each:g}")
+
+    def axes(self, name: str) -> NDArray[np.float64]:
+        """A limit (3,) for X, Y, Z in mm and s; infinite where there is none."""
+        value = getattr(self, name)
+        per_second = 60.0 if name in ("rapid", "corner_jump") else 1.0
+        return np.broadcast_to(np.asarray(math.inf if value is None else value, np.float64), 3) / per_second

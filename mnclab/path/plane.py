@@ -25,24 +25,45 @@ def basis(axis: Array) -> Array:
     return np.stack([first, np.cross(axis, first), axis], axis=-2)
 
 
+PIECE = 1 << 14  # rows worked on at once
+
+
 class PlaneView:
     """Rows of a path in the coordinates (u, v, w) of their planes."""
 
     def __init__(self, path: Toolpath) -> None:
-        self.basis = basis(path.axis)
-        self.start, self.end, centre = (
-            np.einsum("nij,nj->ni", self.basis, points) for points in (path.start, path.end, path.centre)
-        )
+        same = path.axis.strides[0] == 0 or bool((path.axis == path.axis[:1]).all())
+        self.basis = basis(path.axis[:1] if same and len(path) else path.axis)  # one plane for all, or one a row
+        self.flat = len(self.basis) == 1 and bool((self.basis[0] == np.eye(3)).all())
+        self.start, self.end = self.to_plane(path.start), self.to_plane(path.end)
         self.arc = path.kind == Kind.ARC
-        self.sweep = path.sweep.copy()
-        self.centre = centre[:, :2]
-        travel = self.end[:, :2] - self.start[:, :2]
-        length = np.hypot(travel[:, 0], travel[:, 1])
-        self.moves = path.is_motion & (self.arc | (length > 1e-9))
-        line = travel / np.where(length > 0, length, 1.0)[:, None]
+        self.sweep = path.sweep
+        n = len(path)
+        self.moves, line = np.empty(n, dtype=bool), np.empty((n, 2))
+        for first in range(0, n, PIECE):  # a piece at a time stays in the cache
+            piece = slice(first, first + PIECE)
+            travel = self.end[piece, :2] - self.start[piece, :2]
+            length = np.hypot(travel[:, 0], travel[:, 1])
+            self.moves[piece] = length > 1e-9
+            np.divide(travel, np.where(length > 0, length, 1.0)[:, None], out=line[piece])
+        self.moves = path.is_motion & (self.arc | self.moves)
+        self.radius = np.broadcast_to(np.nan, (n,))
+        self.tangent_start, self.tangent_end = line, line
+        if not self.arc.any():
+            self.centre = np.broadcast_to(np.array([np.nan, np.nan]), (len(path), 2))
+            return
+        self.centre = self.to_plane(path.centre)[:, :2]
         self.radius = np.where(self.arc, np.hypot(*(self.start[:, :2] - self.centre).T), np.nan)
         self.tangent_start = np.where(self.arc[:, None], self._along_arc(self.start), line)
         self.tangent_end = np.where(self.arc[:, None], self._along_arc(self.end), line)
+
+    def to_plane(self, points: Array) -> Array:
+        """Points (n, 3) of all rows in the coordinates of their planes."""
+        if self.flat:
+            return points
+        if len(self.basis) == 1:
+            return np.asarray(points @ self.basis[0].T)
+        return np.asarray(np.einsum("nij,nj->ni", self.basis, points))
 
     def _along_arc(self, at: Array) -> Array:
         spoke = at[:, :2] - self.centre
@@ -52,4 +73,8 @@ class PlaneView:
 
     def to_space(self, rows: NDArray[np.int64], uvw: Array) -> Array:
         """Points (m, 3) of the planes of ``rows`` in machine axes."""
-        return np.einsum("nji,nj->ni", self.basis[rows], uvw)
+        if self.flat:
+            return uvw
+        if len(self.basis) == 1:
+            return np.asarray(uvw @ self.basis[0])
+        return np.asarray(np.einsum("nji,nj->ni", self.basis[rows], uvw))

@@ -68,6 +68,10 @@ class Recorder:
         self._vertices = np.array([tuple(point)], dtype=np.float64)  # (room + 1, 3), of which the first are filled
         self._count = 0  # rows that have their vertices there
 
+    def expect(self, count: int) -> None:
+        """So many rows are to come; room made once is not made anew."""
+        self.expected = max(self.expected, self._count + len(self.rows) // len(ROW) + count)
+
     def room(self, count: int) -> NDArray[np.float64]:
         """Where the vertices (count + 1, 3) of the next rows will lie; the first one is the end of the last row."""
         self._flush()
@@ -103,6 +107,7 @@ class Recorder:
     def bulk(self, columns: dict[str, NDArray[Any]], ends: NDArray[np.float64]) -> None:
         """Rows (n,) as columns: ``kind`` and what differs from :data:`PLAIN`; one value stands for all.
 
+        A column but ``kind`` may also be (k, n / k), which is read row by row: what repeats need not be written out.
         ``ends`` (n, 3) may lie in :meth:`room` already.
         """
         self._flush()
@@ -147,10 +152,10 @@ class Recorder:
         chunk, row = last
         end = chunk["end"][row]
         if chunk["kind"][row] == Kind.ARC:
-            state = np.broadcast_to(chunk["state"], chunk["kind"].shape)[row]
+            state, turn = (_column([chunk[name]], [len(chunk["kind"])], np.float64)[row] for name in ("state", "sweep"))
             axis = np.array(self.states[int(state)].axis)
             spoke = end - chunk["centre"][row]
-            travel = np.cross(axis, spoke) * np.sign(chunk["sweep"][row])
+            travel = np.cross(axis, spoke) * np.sign(turn)
         else:
             before = [self.start, *(c["end"][-1] for c in self._done)]
             index = next(i for i, c in enumerate(self._done) if c is chunk)
@@ -162,9 +167,10 @@ class Recorder:
         if not self.rows:
             return
         table = np.frombuffer(self.rows).reshape(-1, len(ROW))
-        named = {name: table[:, i] for i, name in enumerate(ROW) if len(name) > 2}
+        named = {name: _plain(name, table[:, i]) for i, name in enumerate(ROW) if len(name) > 2}
         self.rows = array("d")
-        self._append({**named, "centre": table[:, 7:10]}, table[:, 4:7])
+        centre = PLAIN["centre"] if np.isnan(table[:, 7]).all() else table[:, 7:10]
+        self._append({**named, "centre": centre}, table[:, 4:7])
 
     def take(self) -> Toolpath:
         """The rows since the last call as a path that begins at :attr:`start`, which moves on to its end."""
@@ -173,9 +179,9 @@ class Recorder:
         if not chunks:
             return self._path({}, self.start[None])
         sizes = [len(chunk["kind"]) for chunk in chunks]
-        columns = {
-            name: _column([chunk.get(name, PLAIN.get(name)) for chunk in chunks], sizes, COLUMNS.get(name, STATE)[0])
-            for name in dict.fromkeys(name for chunk in chunks for name in chunk)
+        columns = {  # each part is let go when its column is made
+            name: _column([chunk.pop(name, PLAIN.get(name)) for chunk in chunks], sizes, COLUMNS.get(name, STATE)[0])
+            for name in list(dict.fromkeys(name for chunk in chunks for name in chunk))
             if name != "end"
         }
         vertices = self._vertices[: self._count + 1]
@@ -201,17 +207,30 @@ class Recorder:
         return Toolpath.chain(vertices, columns, labels=tuple(self.labels), joints=tuple(self.joints))
 
 
+def _plain(name: str, column: NDArray[np.float64]) -> NDArray[Any]:
+    """One value for all rows of a column (n,) where it is that of :data:`PLAIN`, so that it costs nothing."""
+    if name == "state" or name not in PLAIN:
+        return column[0] if name == "state" and (column == column[0]).all() else column
+    usual = PLAIN[name]
+    return np.asarray(usual) if (column == usual).all() or (usual != usual and np.isnan(column).all()) else column
+
+
 def _column(parts: list[Any], sizes: list[int], dtype: Any) -> NDArray[Any]:
     """One column from parts, some of which are a single value for all their rows; a constant column costs nothing."""
     if all(np.ndim(part) == 0 for part in parts) and len({repr(float(part)) for part in parts}) == 1:
         return np.broadcast_to(np.asarray(parts[0], dtype=dtype), (sum(sizes),))
     if all(part is PLAIN["centre"] for part in parts):
         return np.broadcast_to(PLAIN["centre"], (sum(sizes), 3))
-    vector = any(np.ndim(part) == 2 or part is PLAIN["centre"] for part in parts)
+    vector = any(
+        part is PLAIN["centre"] or np.shape(part) == (size, 3) for part, size in zip(parts, sizes, strict=True)
+    )
     result = np.empty((sum(sizes), 3) if vector else (sum(sizes),), dtype=dtype)
     at = 0
     for part, size in zip(parts, sizes, strict=True):
-        result[at : at + size] = part
+        to = result[at : at + size]
+        if np.ndim(part) == 2 and not vector:
+            to = to.reshape(np.shape(part))
+        to[...] = part
         at += size
     return result
 

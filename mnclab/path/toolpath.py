@@ -28,7 +28,7 @@ COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
     "line": (np.int32, (), 0, "source line, from 1"),
     "program": (np.int16, (), 0, "index into Run.programs"),
     "step": (np.int32, (), 0, "which execution of a block made the row"),
-    "label": (np.int16, (), 0, "index into labels"),
+    "label": (np.int32, (), 0, "index into labels"),
     "start": (np.float64, (3,), 0.0, "tool tip before the row, mm"),
     "end": (np.float64, (3,), 0.0, "tool tip after the row, mm"),
     "centre": (np.float64, (3,), np.nan, "centre of an arc, mm"),
@@ -44,6 +44,8 @@ COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
     "radius": (np.float64, (), 0.0, "effective tool radius, mm"),
     "side": (np.int8, (), 0, "radius compensation: +1 left, -1 right, 0 none"),
     "corner_rule": (np.uint8, (), 0, "how outside corners are joined"),
+    "rule": (np.uint8, (), 0, "Rule of radius compensation that made the row"),
+    "gouge": (np.bool_, (), False, "the tool cuts into the contour on this row (setting gouge = mark)"),
     "exact": (np.bool_, (), False, "stop exactly at the end"),
     "synchronous": (np.bool_, (), False, "spindle and feed locked"),
     "joint": (np.int16, (), -1, "index into joints"),
@@ -73,6 +75,8 @@ class Move(NamedTuple):
     radius: float
     side: int
     corner_rule: int
+    rule: int
+    gouge: bool
     exact: bool
     synchronous: bool
     joint: Any
@@ -89,7 +93,7 @@ class Toolpath:
     line: NDArray[np.int32]
     program: NDArray[np.int16]
     step: NDArray[np.int32]
-    label: NDArray[np.int16]
+    label: NDArray[np.int32]
     start: NDArray[np.float64]
     end: NDArray[np.float64]
     centre: NDArray[np.float64]
@@ -105,6 +109,8 @@ class Toolpath:
     radius: NDArray[np.float64]
     side: NDArray[np.int8]
     corner_rule: NDArray[np.uint8]
+    rule: NDArray[np.uint8]
+    gouge: NDArray[np.bool_]
     exact: NDArray[np.bool_]
     synchronous: NDArray[np.bool_]
     joint: NDArray[np.int16]
@@ -170,7 +176,7 @@ class Toolpath:
     @property
     def is_motion(self) -> NDArray[np.bool_]:
         """Which rows move the tool (n,)."""
-        return np.isin(self.kind, MOTION_KINDS)
+        return np.asarray(self.kind <= max(MOTION_KINDS))
 
     @property
     def motion(self) -> Toolpath:

@@ -10,15 +10,19 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from difflib import get_close_matches
 from html import escape
 from typing import Any
+
+import numpy as np
 
 from mnclab.controls.choice import help as help_on
 from mnclab.controls.choice import run as run_text
 from mnclab.machine.cycle import Cycle, Parameter
 from mnclab.machine.run import Run
 from mnclab.machine.setup import Setup
+from mnclab.path.profile import Profile
 from mnclab.show import trial
 from mnclab.text.alarm import Alarm
 
@@ -81,6 +85,43 @@ def form(code: str, control: str) -> Any:
     setup = Setup(start=(30, 0, 20)) if help_page.control.lathe else None  # clear of the chuck's axis
     live = _live(boxes, [title, *rows], text, help_page.control.name, setup, "auto", also=ticks, listed=True)
     live.ticks = ticks
+    return live
+
+
+def profile_panel(profile: Profile, **options: Any) -> Any:
+    """Number boxes for the limits of a machine, with the profile and its times following.
+
+    A jerk of 0 means no limit. ``options`` are those of :func:`mnclab.show.plot.profile.plot_profile`. The result has
+    ``boxes`` (by name) and ``profile``, the last one planned.
+    """
+    import ipywidgets
+
+    limits = profile.limits
+    units = {"acceleration": "mm/s²", "jerk": "mm/s³", "corner_tolerance": "mm", "override": "%"}
+    first = {name: float(np.min(getattr(limits, name, None) or 0.0)) for name in units} | {
+        "override": 100 * profile.override
+    }
+    boxes = {name: _number_box(f"{name.replace('_', ' ')} [{units[name]}]", value) for name, value in first.items()}
+    for box in boxes.values():
+        box.style, box.layout = {"description_width": "13em"}, {"width": "21em"}
+    picture, alarms = _html(), _html()
+    live: Any = ipywidgets.VBox([ipywidgets.VBox(list(boxes.values())), picture, alarms])
+
+    def redraw(_: Any = None) -> None:
+        wanted = {name: box.value for name, box in boxes.items()}
+        part = wanted.pop("override") / 100
+        try:
+            live.profile = profile.again(replace(limits, **wanted | {"jerk": wanted["jerk"] or None}), part)
+        except Alarm as alarm:
+            alarms.value = alarm._repr_html_()
+            return
+        picture.value = DRAWING.submit(lambda: live.profile.plot(**options).html()).result()
+        alarms.value = f'<div role="status">{live.profile._repr_html_()}</div>'
+
+    live.boxes, live.picture, live.alarms, live.profile = boxes, picture, alarms, profile
+    redraw()
+    for box in boxes.values():
+        box.observe(redraw, "value")
     return live
 
 

@@ -1,7 +1,8 @@
 """A short program around one cycle, so that a form can show what the cycle does on its own.
 
 How a cycle stands in a program is each control's way, so there is one function a control, in :data:`PROGRAMS`. Values
-to begin with are guessed from what a parameter means and allows; they are a start to play from, not advice.
+to begin with are the examples of the declaration, or guessed from what a parameter means and allows; they are a start to
+play from, not advice.
 """
 
 from __future__ import annotations
@@ -47,7 +48,9 @@ def number(value: float) -> str:
 
 
 def first_value(parameter: Any) -> float:
-    """A value to begin with: the default, or a likely one that the limits of the parameter allow."""
+    """A value to begin with: the example, the default, or a likely one that the limits of the parameter allow."""
+    if parameter.example is not None:
+        return float(parameter.example)
     if parameter.default is not None:
         return float(parameter.default)
     if parameter.choices:
@@ -60,6 +63,8 @@ def first_value(parameter: Any) -> float:
 
 def written_first(parameter: Any) -> bool:
     """Whether a word that may be left out is written to begin with."""
+    if parameter.example is not None:
+        return not parameter.instead
     return any(piece in parameter.meaning.lower() for piece in WRITTEN)
 
 

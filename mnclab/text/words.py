@@ -97,7 +97,9 @@ def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
         counts.append((piece.count * piece.clean)[:lines].astype(np.int32))
         cleans.append(piece.clean[:lines])
         found, begin = stop, end
-    letter, value, offset, length = (column[:found] for column in columns)
+    for column in columns:
+        column.resize(found, refcheck=False)  # gives back what was not needed
+    letter, value, offset, length = columns
     return Scan(
         letter, value, offset, length, np.concatenate(counts), np.concatenate(cleans), np.concatenate(starts)
     )  # fmt: skip

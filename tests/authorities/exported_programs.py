@@ -10,11 +10,10 @@ PROGRAMS = {
         "mnc",
         "G90 G54\nG1 X1 F200\nG3 X30 Y0.3 Z-4 R40\nG3 I5 Z-7\nG2 X30.0000001 I2000\nG2 X30.004 I0.002\nG1 X7 F50.5\n",
     ),
-    "pecks, rotation, mirror image, compensation": (
+    "rotation, mirror image, poles, tools": (
         "mnc",
-        "G90 G54\nT1\nG0 X0 Y0 Z5\nG83 X3 Y4 Z-9 R2 K5 F120\nX13.3\nG80\nG17 G39 X5 Y5 A30\nG1 X20 F300\nG3 X30 Y10 R10\n"
-        "G38\nG0 X-20 Y-20\nG41 G1 X0 Y0\nY40\nX40 Y30\nG2 X50 Y0 R30\nG1 X0\nG40 X-20 Y-20\nG16 X1 Y1\n"
-        "G11 R10 A33.3\nG13 A250\n",
+        "G90 G54\nT1\nG0 X0 Y0 Z5\nG17 G39 X5 Y5 A30\nG1 X20 F300\nG3 X30 Y10 R10\nG38\nG51 X1\nG0 X-20 Y-20\n"
+        "G2 X-10 Y-10 R10\nG50\nT2\nG0 X0 Y0\nG16 X1 Y1\nG11 R10 A33.3\nG13 A250\n",
     ),
     "klartext": (
         "tnc-620",

@@ -1,4 +1,4 @@
-"""Examples, codes, parameters and open readings of the MNC manual, copied from a catalogue: writes the files of catalogue/.
+"""Examples, codes, parameters and open readings of manuals, copied from a catalogue: writes the files of catalogue/.
 
     python3 tests/authorities/extract_checks.py FOLDER
 
@@ -24,15 +24,20 @@ EXAMPLES = {
         *("G41", "G42", "CRC entry (table 7.1)", "CRC travel (table 7.2)", "G40", "CRC exit (table 7.3)"),
         *("S", "G26", "G25", "M word", "M3", "M4", "M5", "M99"),
     ],
-    "mnc-drilling": ["drilling cycles G83-G85", "G80", "G98", "G99", "G83", "prepared cycles", "G300"],
+    "mnc-drilling": [
+        *("drilling cycles G83-G85", "G80", "G98", "G99", "G83", "G84", "G85", "prepared cycles", "G300", "G301"),
+        *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
+    ],
 }
 
-#: Files whose cycles give their parameters, and those whose G and M codes are listed.
-CYCLES = ["mnc-drilling", "mnc-milling"]
+#: Files whose G and M codes are listed.
 CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
 #: Files whose ambiguities are listed: what the manual leaves open, and the reading to adopt.
 AMBIGUITIES = ["mnc-language"]
-KEYS = ("address", "meaning", "unit", "type", "range", "choices", "default", "required", "modal", "incremental")
+KEYS = (
+    *("address", "name", "unit", "type", "range", "alternatives", "choices", "default", "required", "modal"),
+    "incremental",
+)
 
 
 def entries(folder, name):
@@ -51,13 +56,17 @@ def examples(folder, name, codes):
             yield {"code": code, **kept, "check": check}
 
 
-def parameters(folder, names):
-    """Parameters of every cycle, with the codes that mean the same."""
-    for name in names:
-        for code, entry in entries(folder, name).items():
-            if entry["kind"] == "cycle":
-                rows = [{key: row[key] for key in KEYS if key in row} for row in entry["parameters"]]
-                yield {"code": code, "title": entry["title"], "aliases": entry.get("aliases", []), "parameters": rows}
+def parameters(folder):
+    """Parameters of every cycle by control, with the codes that mean the same."""
+    controls = {}
+    for file in sorted(folder.glob("*.yaml")):
+        loaded = yaml.safe_load(file.read_text(encoding="utf-8"))
+        for entry in loaded.get("entries") or []:
+            if entry.get("kind") == "cycle" and entry.get("parameters"):
+                rows = [{key: row[key] for key in KEYS if row.get(key) is not None} for row in entry["parameters"]]
+                record = {"code": str(entry["code"]), "aliases": entry.get("aliases") or [], "parameters": rows}
+                controls.setdefault(loaded["control"], []).append(record)
+    return controls
 
 
 def listed(folder, names):
@@ -95,7 +104,8 @@ def save(name, records):
 def main(folder):
     for name, codes in EXAMPLES.items():
         save(name, examples(folder, name, codes))
-    save("parameters", parameters(folder, CYCLES))
+    for control, records in parameters(folder).items():
+        save(f"parameters-{control}", records)
     save("codes", listed(folder, CODES))
     save("ambiguities", ambiguities(folder, AMBIGUITIES))
 

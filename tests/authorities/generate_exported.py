@@ -22,7 +22,9 @@ def main():
     """Write the file."""
     records = []
     for name, (control, text) in PROGRAMS.items():
-        blocks = list(lines(mnclab.run(text, control)))
+        run = mnclab.run(text, control)
+        assert run.ok, run.alarms
+        blocks = [block for block in lines(run) if not block.startswith("(")]
         asked = "\n".join("" if TOOL_CHANGE.fullmatch(block) else block for block in blocks) + "\n"
         records.append({"name": name, "blocks": blocks, **ask(asked)})
     record = {"authority": version(), "programs": records}

@@ -10,22 +10,21 @@ from hypothesis import strategies as st
 import mnclab
 from mnclab.comparison.deviation import _nearest, deviation
 
-RING = "G90 G54 G17\nG0 X-20 Y0 Z0\nG41 G1 X-10 Y-20 F300\nX0\nG3 I0 J20\nG40 G1 X10 Y0\n"
+PATH = "G90 G54 G17\nG0 X-20 Y0 Z0\nG41 G1 X-10 Y-20 F300\nX0\nG3 I0 J20\nG40 G1 X10 Y0\n"
 
 
 def test_the_same_path_has_none():
-    run = mnclab.run(RING, "mnc")
+    run = mnclab.run(PATH, "mnc")
     found = mnclab.diff(run, run)
     assert found.largest == pytest.approx(0, abs=1e-12) and found.sentence == "the paths are the same"
     assert found.first() is None
 
 
-def test_two_radii_differ_by_their_difference():
-    runs = [mnclab.run(f"T1\nX1 F100\n{RING}", "mnc", mnclab.Setup(tools={1: mnclab.Tool(radius=r)})) for r in (5, 3)]
-    found = mnclab.diff(*runs)
-    ring = found.other.row == int(np.flatnonzero(runs[1].toolpath.kind == mnclab.Kind.ARC)[0])
-    assert found.other.distance[ring].max() == pytest.approx(2, abs=0.002)  # one ring in the other: radii 15 and 17
-    assert runs[1].toolpath.line[found.first(0.01)] == 5
+def test_two_rings_about_one_centre_differ_by_their_radii():
+    found = mnclab.diff(*(mnclab.run(f"G1 X{r} F100\nG3 I-{r}\n", "mnc") for r in (15, 17)))
+    ring = found.other.row == 1
+    assert found.other.distance[ring] == pytest.approx(2, abs=0.002)
+    assert found.largest == pytest.approx(2, abs=0.002) and found.first(0.01) == 0
 
 
 def test_the_place_of_a_dent():
@@ -83,3 +82,12 @@ def test_a_step_must_be_positive():
     path = mnclab.run("G0 X5\n", "mnc").toolpath
     with pytest.raises(ValueError, match="greater than 0"):
         deviation(path, path, step=-1)
+
+
+def test_two_limits_differ_in_time_alone():
+    slow, fast = (mnclab.Setup(limits=mnclab.Limits(acceleration=a)) for a in (100, 400))
+    found = mnclab.diff(*(mnclab.run("G1 X10 F6000\n", "mnc", setup) for setup in (slow, fast)))
+    assert found.largest < 1e-12
+    # 10 mm from rest to rest never reach 100 mm/s: 2 sqrt(10 / a)
+    assert found.times == pytest.approx((2 * math.sqrt(10 / 100), 2 * math.sqrt(10 / 400)))
+    assert "<td>time</td><td>0.632 s</td><td>0.316 s</td>" in found._repr_html_()

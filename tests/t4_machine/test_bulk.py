@@ -6,34 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab
-from mnclab import Setup
 from mnclab.machine.bulk import SHORTEST
-from mnclab.path.toolpath import COLUMNS
 
 HEAD = "G17 G90 G54 T1\nG92 X3 Y-2.5\nG1 X0 Y0 Z0 F100\n"
-
-
-def both(text, control="mnc", **settings):
-    """The same program through both tiers."""
-    datums = {1: (10.5, -20.25, 3)}
-    return [
-        mnclab.run(text, control, Setup(datums=datums, settings={**settings, "bulk": bulk})) for bulk in (True, False)
-    ]
-
-
-def assert_equal(bulk, single):
-    assert [str(a) for a in bulk.alarms] == [str(a) for a in single.alarms]
-    assert len(bulk.toolpath) == len(single.toolpath)
-    for name in COLUMNS:
-        left, right = getattr(bulk.toolpath, name), getattr(single.toolpath, name)
-        assert np.allclose(left, right, rtol=0, atol=1e-12, equal_nan=True), name
-    assert np.array_equal(bulk.steps.block, single.steps.block)
-    assert set(bulk.history) == set(single.history)
-    for name in single.history:
-        for step in range(len(single.steps.block)):
-            left, right = bulk.history.value(name, step), single.history.value(name, step)
-            assert left == right or np.allclose(left, right, rtol=0, atol=1e-12), (name, step)
-            assert (name in bulk.history.changes(step)) == (name in single.history.changes(step)), (name, step)
 
 
 number = st.integers(-20_000, 20_000).map(lambda n: f"{n / 1000:g}")
@@ -51,13 +26,13 @@ odd = st.sampled_from(
 
 
 @given(st.lists(st.one_of(plain, plain, plain, arc, full), min_size=2 * SHORTEST, max_size=90), st.booleans())
-def test_runs_of_plain_blocks(blocks, incremental):
+def test_runs_of_plain_blocks(both, assert_equal, blocks, incremental):
     text = HEAD + ("G91\n" if incremental else "") + "\n".join(blocks) + "\n"
     assert_equal(*both(text))
 
 
 @given(st.lists(st.one_of(*[plain] * 12, arc, odd), min_size=2 * SHORTEST, max_size=120))
-def test_runs_with_other_blocks_between(blocks):
+def test_runs_with_other_blocks_between(both, assert_equal, blocks):
     assert_equal(*both(HEAD + "\n".join(blocks) + "\n"))
 
 
@@ -75,19 +50,19 @@ near = st.tuples(
     st.sampled_from([*TURNED, "G37 X2 Y3"]), st.booleans(),
     st.lists(st.one_of(plain, plain, near, arc, full), min_size=2 * SHORTEST, max_size=90),
 )  # fmt: skip
-def test_runs_under_a_transformation(head, incremental, blocks):
+def test_runs_under_a_transformation(both, assert_equal, head, incremental, blocks):
     """Points, arcs and whole circles; the run begins while the tool still stands where it was before the switch."""
     assert_equal(*both(HEAD + head + ("\nG91\n" if incremental else "\n") + "\n".join(blocks) + "\n"))
 
 
 @given(st.lists(st.one_of(*[plain] * 15, near, switch), min_size=2 * SHORTEST, max_size=120))
-def test_runs_with_switches_between(blocks):
+def test_runs_with_switches_between(both, assert_equal, blocks):
     assert_equal(*both(HEAD + "\n".join(blocks) + "\n"))
 
 
 @pytest.mark.parametrize("head", [*TURNED, "G18 G39 Z1 X2 A50", "G19 G51 Y3"])
 @pytest.mark.parametrize("first", ["G1 X1 Y2 Z3", "", "F150", "a whole circle"])
-def test_circles_stay_circles_in_bulk(head, first):
+def test_circles_stay_circles_in_bulk(both, assert_equal, executed, head, first):
     """Only a few blocks go one by one; an arc that would not begin at the tool stops both tiers alike."""
     u, v = {"G18": "ZX", "G19": "YZ"}.get(head[:3], "XY")
     first = first.replace("a whole circle", f"G2 {'IJK'['XYZ'.index(u)]}5")
@@ -103,7 +78,7 @@ def test_circles_stay_circles_in_bulk(head, first):
 
 
 @pytest.mark.parametrize("still", ["", "F150\nF160"])
-def test_the_tool_stands_where_it_was_until_a_block_moves(still):
+def test_the_tool_stands_where_it_was_until_a_block_moves(both, assert_equal, still):
     """A switch keeps the programmed point: the first block moves although its coordinates are the old ones.
 
     The machine starts at 0, which G92 calls X3 Y-2.5, so that X0 Y0 lies at -3, 2.5; X10 turned by 90 degrees is Y10.
@@ -115,17 +90,7 @@ def test_the_tool_stands_where_it_was_until_a_block_moves(still):
     assert bulk.toolpath.kind[-2:].tolist() == [mnclab.Kind.LINE] * 2
 
 
-def executed(text):
-    """How many blocks went one by one."""
-    from mnclab.machine.interpreter import Interpreter
-    from mnclab.machine.machine import Machine
-
-    machine = Machine(mnclab.controls["mnc"], Setup())
-    Interpreter(mnclab.controls["mnc"], machine, mnclab.read(text, "mnc")).run()
-    return len(machine.flow.steps().block) - machine.flow.in_bulk
-
-
-def test_a_long_run_is_really_obeyed_in_bulk():
+def test_a_long_run_is_really_obeyed_in_bulk(both, assert_equal, executed):
     """10 000 blocks of a helix of lines; the flow counts what went one by one."""
     angle = np.arange(10_000) / 50
     lines = [f"X{20 * np.cos(a):.3f} Y{20 * np.sin(a):.3f} Z{-a / 10:.4f}" for a in angle]
@@ -134,7 +99,7 @@ def test_a_long_run_is_really_obeyed_in_bulk():
 
 
 @pytest.mark.parametrize("fault", ["G2 X1 Y1 R0.1", "X1 F-1", "G1 R5", "X1 W2", "G5"])
-def test_a_fault_in_a_run_is_worded_by_the_other_tier(fault):
+def test_a_fault_in_a_run_is_worded_by_the_other_tier(both, assert_equal, fault):
     blocks = [f"X{k}" for k in range(100)]
     blocks[70] = fault
     bulk, single = both(HEAD + "\n".join(blocks) + "\n")

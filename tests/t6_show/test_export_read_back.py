@@ -46,7 +46,8 @@ def moves(path, kinds):
 def test_linuxcnc_reads_the_plain_blocks_as_the_same_path(record):
     control, text = PROGRAMS[record["name"]]
     run = mnclab.run(text, control)
-    assert list(lines(run)) == record["blocks"], "record again: tests/authorities/generate_exported.py"
+    blocks = [block for block in lines(run) if not block.startswith("(")]
+    assert blocks == record["blocks"], "record again: tests/authorities/generate_exported.py"
     path, found = run.toolpath.motion, record["motion"]
     if path.kind[0] != Kind.RAPID:
         found = found[1:]  # the rapid to where the path begins

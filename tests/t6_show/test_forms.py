@@ -88,20 +88,21 @@ def test_all_figures_are_drawn_in_one_thread(monkeypatch):
 def test_a_form_is_made_from_the_declaration_of_its_cycle():
     live = mnclab.form("G83", "mnc")
     assert set(live.boxes) == {p.name for p in mnclab.controls["mnc"].cycles["G83"].parameters()}
-    assert live.boxes["k"].description == "K depth of one peck [mm]"
-    assert "greater than 0" in live.boxes["k"].tooltip
-    assert list(live.boxes)[:2] == ["z", "r"]  # required ones first
+    assert live.boxes["peck_depth"].description == "K depth of one peck [mm]"
+    assert "greater than 0" in live.boxes["peck_depth"].tooltip
+    assert list(live.boxes)[:2] == ["bottom", "r_level"]  # required ones first
     assert not any(isinstance(widget, ipywidgets.FloatSlider | ipywidgets.IntSlider) for widget in widgets(live))
 
 
 def test_a_form_runs_its_cycle():
     live = mnclab.form("G83", "mnc")
-    live.boxes["z"].value, live.boxes["r"].value, live.boxes["k"].value = -20, 2, 4
+    for name, value in (("bottom", -20), ("r_level", 2), ("peck_depth", 4)):
+        live.boxes[name].value = value
     assert live.run.ok and live.run.toolpath.bounds[0, 2] == -20
     levels = live.run.toolpath[live.run.toolpath.kind == mnclab.Kind.LINE].end[:, 2]
     assert levels == pytest.approx([-2, -6, -10, -14, -18, -20])  # from level R in steps of 4
-    live.ticks["k"].value = False
-    assert live.boxes["k"].disabled
+    live.ticks["peck_depth"].value = False
+    assert live.boxes["peck_depth"].disabled
     assert "K" not in live.run.program.text.splitlines()[3]
     assert (live.run.toolpath.kind == mnclab.Kind.LINE).sum() == 1
 
@@ -123,7 +124,11 @@ def test_every_cycle_has_a_form(control, code):
         box = live.boxes[parameter.name]
         assert parameter.address in box.description and parameter.meaning in box.description
         assert not parameter.refuses(box.value), "the first value is outside what is allowed"
+        if parameter.example is not None:
+            assert box.value == parameter.example
     assert live.run is not None or "no picture yet" in live.picture.value
+    if all(parameter.example is not None for parameter in declared):
+        assert live.run.alarms == () and len(live.run.toolpath) > 5, "examples make a program that runs"
 
 
 def test_a_function_has_no_form():

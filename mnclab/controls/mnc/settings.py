@@ -7,6 +7,7 @@ to the cycles, ``block_skip`` is a switch of the operator's panel, ``bulk`` is a
 from __future__ import annotations
 
 from mnclab.machine.settings import Setting
+from mnclab.path.limits import RAPIDS
 
 REMARKS = {"warn": "allowed, with a warning", "accept": "allowed, without a word", "refuse": "an alarm"}
 
@@ -38,6 +39,7 @@ MOTION = (
         "rapid_path", "straight", "the path of a rapid along several axes", "MNC-G0-PATH",
         {"straight": "a straight line", "broken": "each axis at its own rapid speed until it arrives"},
     ),
+    Setting("rapid_motion", "axes", "how a rapid goes, for profiles and times", "3.1", RAPIDS),
     Setting(
         "g18_axes", "ZX", "order of the axes of G18: arcs, polar angles, rotation and sides turn over", "MNC-G18-ORDER",
         {"ZX": "G3 turns from +Z to +X", "XZ": "G3 turns from +X to +Z"},
@@ -88,6 +90,10 @@ COORDINATES = (
 )  # fmt: skip
 
 TECHNOLOGY = (
+    Setting(
+        "gouge", "refuse", "what happens where a compensated tool does not fit", "MNC-CRC-GOUGE",
+        {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
+    ),
     Setting(
         "feed_mode_switch", "kept", "the feed when G94 and G95 change", "MNC-G95-SWITCH",
         {

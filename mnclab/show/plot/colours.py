@@ -75,3 +75,27 @@ POLE = Mark("pole", "#8a5a00", "+", 8, True, 3.5)
 START = Mark("start", INK, "o", 9, False, 4.0)
 END = Mark("end", INK, "s", 4, True, 4.1)
 ALARM = Mark("alarm", "#b3261e", "x", 9, True, 4.2)
+
+#: Curves of a feed-rate profile: what was programmed, what is reached, and limits.
+WANTED = Line("programmed feed", "#8c8c8c", (0, (4, 1.5)), 1.3, 2.2)
+REACHED = Line("reached feed", "#1259a8", "-", 1.5, 2.8)
+LIMIT = Line("limit", "#b3261e", (0, (1, 1.5)), 1.2, 2.0)
+AXES = (
+    Line("X", "#1259a8", "-", 1.3, 2.8),
+    Line("Y", "#b3261e", (0, (5, 1.5)), 1.3, 2.7),
+    Line("Z", "#00695c", (0, (1.5, 1.2)), 1.5, 2.6),
+)
+STANDS = Mark("stop", INK, "|", 7, True, 3.6)
+SLOW_CORNER = Mark("corner", "#8a5a00", "v", 4, False, 3.5)
+
+#: What holds the speed, from dark to light: colour, and the hatching that tells them apart in grey print.
+HOLDS = {
+    "acceleration": ("#1259a8", ""),
+    "jerk": ("#7b1fa2", "////"),
+    "corner": ("#8a5a00", "...."),
+    "turning": ("#00897b", "xxxx"),
+    "axis speed": ("#e07b39", "\\\\\\\\"),
+    "feed": ("#cfd8dc", ""),
+    "standing": ("#ffffff", ""),
+}
+USEFUL, LOST = ("#1259a8", ""), ("#f2c14e", "////")

@@ -263,6 +263,35 @@ def test_rapids_of_axes_that_do_not_wait():
 # --- one declaration ---------------------------------------------------------------------------------------------------
 
 
+def test_gouge():
+    """A groove 3 mm wide for a tool of radius 2: its floor is lost, so the tool would turn back by 1 mm."""
+    groove = "T1 G0 X-9|G41 G1 X0 F60|X10|Y-9|X13|Y0|X20|G40 X30"
+    refused, marked = (run(groove, {"gouge": value}) for value in ("refuse", "mark"))
+    assert [(alarm.span.line, alarm.severity) for alarm in refused.alarms] == [(4, "alarm")]
+    assert [gouge.largest for gouge in refused.gouges] == [1.5] and refused.toolpath.line.max() == 2
+    assert marked.ok and {alarm.severity for alarm in marked.alarms} == {"warning"}
+    assert set(marked.toolpath.line[marked.toolpath.gouge].tolist()) >= {4, 5}
+    floor = marked.toolpath[marked.toolpath.line == 5]
+    assert floor.start[0, :2].tolist() == [12, -7] and floor.end[0, :2].tolist() == [11, -7]
+    assert {gouge.largest for gouge in marked.gouges} == {1.5}
+
+
+def test_rapid_motion():
+    limits = Limits(acceleration=(1000, 100, 1000))
+    v = 10_000 / 60
+    # X takes L/v + v/a for its 100 mm; Y never reaches v on 20 mm: 2 sqrt(L/a)
+    times = {"axes": max(100 / v + v / 1000, 2 * math.sqrt(20 / 100))}
+    # Y in the ratio of the distances: v/5, which it needs v/5/100 to reach
+    times["proportional"] = 100 / v + v / 5 / 100
+    # along the line of 101.98 mm, u = (100, 20)/101.98: v/u_x, and 100/u_y
+    length = math.hypot(100, 20)
+    times["line"] = length / (v * length / 100) + (v * length / 100) / (100 * length / 20)
+    for motion, seconds in times.items():
+        found = run("G90 G54|G0 X100 Y20", {"rapid_motion": motion}, datums={}).profile(limits)
+        assert found.time == pytest.approx(seconds)
+    assert times["axes"] < times["line"] == pytest.approx(times["proportional"])
+
+
 def test_every_setting_is_tested_here_or_with_its_cycle():
     text = open(__file__, encoding="utf-8").read()
     for setting in SETTINGS.values():

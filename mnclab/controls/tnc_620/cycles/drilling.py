@@ -9,13 +9,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
+from mnclab.machine.performing import perform
 from mnclab.machining.depths import infeeds
+from mnclab.machining.holes import drill
+from mnclab.machining.steps import Go
 
 CYCLES = CycleTable()
 FAR = 99999.9999  # mm, the largest length of a cycle
-MOST = 10_000  # infeeds of one hole
 TIP: dict[float, str] = {0: "depth refers to the tool tip", 1: "depth refers to the cylindrical part of the tool"}
 
 
@@ -47,8 +49,7 @@ class Drilling(Cycle):
             yield "depth", f"must be negative, got {self.depth:g}: a positive depth works upwards"
         if self.reference == 1 and not 0 < m.tool.angle < 180:
             yield "reference", f"needs the point angle of tool {m.tool.number} (T-ANGLE of the tool table)"
-        if self.infeed and abs(self.depth) / self.infeed > MOST:
-            yield "infeed", f"{self.infeed:g} divides the depth {self.depth:g} into more than {MOST} infeeds"
+        yield from too_many("infeed", lambda: infeeds(0.0, self.depth, self.infeed))
         if self.feed == 0:
             yield "feed", "must be greater than 0 to drill with, got 0"
 
@@ -59,18 +60,13 @@ class Drilling(Cycle):
         down = -math.copysign(1.0, self.depth)  # +1 downwards
         above = self.surface + down * self.clearance
         bottom = self.surface + self.depth - down * self.point(m)
-        name = m.label
-        m.rapid(z=above)
-        levels = infeeds(self.surface, bottom, self.infeed or None)
-        for number, level in enumerate(levels, 1):
-            m.label = f"{name} infeed {number} of {len(levels)}"
-            m.line(z=level, f=self.feed)
-            m.dwell(self.dwell_bottom)
-            if number < len(levels):
-                m.rapid(z=above)
-                m.dwell(self.dwell_top)
-                m.rapid(z=level + down * self.clearance)
-        m.label = f"{name} retract"
+        code = self.code
+        perform(m, code, [Go("to the set-up clearance", above)])
+        steps = drill(
+            infeeds(self.surface, bottom, self.infeed or None), above=above, feed=self.feed, reenter=self.clearance,
+            dwell_top=self.dwell_top, dwell_each=self.dwell_bottom, dwell_bottom=self.dwell_bottom,
+        )  # fmt: skip
+        perform(m, code, steps)
         self.leave(m, above, down)
 
     def point(self, m: Machine) -> float:
@@ -80,6 +76,5 @@ class Drilling(Cycle):
     def leave(self, m: Machine, above: float, down: float) -> None:
         """To the second set-up clearance if it is greater than the first, upwards drilling over the set-up plane."""
         end = self.surface + max(self.second_clearance, self.clearance)
-        if down < 0:
-            m.rapid(z=above)
-        m.rapid(z=end)
+        levels = [above, end] if down < 0 else [end]
+        perform(m, self.code, [Go("retract", level) for level in levels])

@@ -1,0 +1,41 @@
+"""Rigid tapping (MNC, 9.12): G309, called by M99. G84 is a fixed cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mnclab.controls.mnc.cycles.prepared import PreparedCycle, depth
+from mnclab.machine.cycle import CycleTable, param
+from mnclab.machine.machine import Machine
+from mnclab.machine.performing import perform
+from mnclab.machining.tapping import tap
+
+CYCLES = CycleTable()
+
+
+@CYCLES("G309", "Tapping with controlled spindle", runs="call", source="MNC 9.12")
+class RigidTapping(PreparedCycle):
+    """Taps in one pass with the spindle locked to the feed; the spindle stands still afterwards."""
+
+    depth: float = depth("depth of the thread from the surface")
+    pitch: float = param("P", "pitch", "mm/rev", note="positive right-hand, negative left-hand", example=1.25)
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """There is a pitch."""
+        if self.pitch == 0:
+            yield "pitch", "must not be 0"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """There is a speed."""
+        if not m.speed:
+            yield "", "needs a spindle speed: write S before"
+
+    def moves(self, m: Machine) -> None:
+        """Steps 1 to 4 of the manual: the sign of the pitch is the hand, whatever way the spindle turned before."""
+        end = self.approach(m)
+        steps = tap(
+            [self.surface + self.depth], above=self.level, pitch=abs(self.pitch), sense=1 if self.pitch > 0 else -1,
+            end=0,
+        )  # fmt: skip
+        perform(m, self.code, steps)
+        self.leave(m, end)

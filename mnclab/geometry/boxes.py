@@ -1,0 +1,60 @@
+"""Which of many boxes lie near each other: a grid of cells, so that far ones are never compared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+BATCH = 1 << 18  # pairs handed out at once
+
+
+def near(low: Array, high: Array, gap: float) -> Iterator[tuple[Index, Index]]:
+    """Pairs a < b of boxes (n, 2) nearer than ``gap`` mm along both axes, each pair once, in batches."""
+    n = len(low)
+    if n < 2:
+        return
+    low, high = low - gap / 2, high + gap / 2
+    size = float(np.maximum(np.median(high - low), 1e-9))
+    origin = low.min(axis=0)
+    while True:  # every box lies in all the cells that it touches, in about four of them on average
+        first = np.floor((low - origin) / size).astype(np.int64)
+        count = np.floor((high - origin) / size).astype(np.int64) - first + 1
+        cells = count[:, 0] * count[:, 1]
+        if cells.sum() <= 8 * n + 64:
+            break
+        size *= 1.5
+    box = np.repeat(np.arange(n), cells)
+    nth = np.arange(len(box)) - np.repeat(np.cumsum(cells) - cells, cells)
+    column = first[box, 0] + nth % count[box, 0]
+    row = first[box, 1] + nth // count[box, 0]
+    key = row * (int(first[:, 0].max() + count[:, 0].max()) + 1) + column
+    order = np.argsort(key, kind="stable")
+    box, key, column, row = box[order], key[order], column[order], row[order]
+    # each entry is compared with those after it in its cell
+    ends = np.searchsorted(key, key, "right")
+    partners = ends - np.arange(len(key)) - 1
+    total = np.cumsum(partners)
+    begin = 0
+    while begin < len(key):
+        done = total[begin - 1] if begin else 0
+        stop = max(begin + 1, int(np.searchsorted(total, done + BATCH, "right")))
+        here = np.repeat(np.arange(begin, stop), partners[begin:stop])
+        if len(here):
+            there = (
+                here
+                + 1
+                + np.arange(len(here))
+                - np.repeat(total[begin:stop] - partners[begin:stop] - done, partners[begin:stop])
+            )
+            a, b = box[here], box[there]
+            corner = np.maximum(first[a], first[b])  # of all cells that both lie in only the first counts
+            meet = (low[a] <= high[b]).all(axis=1) & (low[b] <= high[a]).all(axis=1)
+            meet &= (column[here] == corner[:, 0]) & (row[here] == corner[:, 1])
+            if meet.any():
+                yield np.minimum(a[meet], b[meet]), np.maximum(a[meet], b[meet])
+        begin = stop

@@ -1,0 +1,73 @@
+"""Lines and arcs as plain curves, and how far points are from them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry.offsets import cross, dot
+
+Array = NDArray[np.float64]
+
+
+class Curves(NamedTuple):
+    """n lines and arcs: ``start``, ``end``, ``centre`` (n, 2) mm, radius ``r`` (n,), nan for lines, ``sweep`` (n,) rad."""
+
+    start: Array
+    end: Array
+    centre: Array
+    r: Array
+    sweep: Array
+
+    @property
+    def arc(self) -> NDArray[np.bool_]:
+        """Which of them are arcs (n,)."""
+        return ~np.isnan(self.r)
+
+    def take(self, k: NDArray[np.int64] | NDArray[np.bool_]) -> Curves:
+        """Some of them."""
+        return Curves(*(column[k] for column in self))
+
+
+def share(p: Array, curve: Curves) -> Array:
+    """Where the point of a curve nearest to p (n, 2) lies, 0 at its start and 1 at its end; beyond is not on it.
+
+    For an arc the foot is where the ray from its centre through p meets its circle.
+    """
+    travel = curve.end - curve.start
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = dot(p - curve.start, travel) / dot(travel, travel)
+    k = np.flatnonzero(curve.arc)
+    if len(k):
+        a, b = curve.start[k] - curve.centre[k], p[k] - curve.centre[k]
+        sense, sweep = np.sign(curve.sweep[k]), np.abs(curve.sweep[k])
+        angle = np.arctan2(cross(a, b), dot(a, b)) * sense
+        # seen from the middle of the arc, so that what lies before the start is negative
+        half = sweep / 2
+        angle = (angle - half + np.pi) % (2 * np.pi) - np.pi + half
+        angle = np.where(sweep >= 2 * np.pi, np.minimum(np.maximum(angle, 0), sweep), angle)
+        found[k] = angle / sweep
+    return np.asarray(found)
+
+
+def foot(p: Array, curve: Curves) -> Array:
+    """The point (n, 2) of the whole line or circle nearest to p (n, 2); for the centre of an arc nan."""
+    travel = curve.end - curve.start
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = curve.start + (dot(p - curve.start, travel) / dot(travel, travel))[:, None] * travel
+        k = np.flatnonzero(curve.arc)
+        if len(k):
+            spoke = p[k] - curve.centre[k]
+            found[k] = curve.centre[k] + spoke * (curve.r[k] / np.hypot(spoke[:, 0], spoke[:, 1]))[:, None]
+    return found
+
+
+def distance(p: Array, curve: Curves) -> Array:
+    """Distance (n,) of points p (n, 2) from curves, each from its own."""
+    at_ends = np.minimum(np.hypot(*(p - curve.start).T), np.hypot(*(p - curve.end).T))
+    where = share(p, curve)
+    beside = np.hypot(*(p - foot(p, curve)).T)
+    on = (where >= 0) & (where <= 1) & np.isfinite(beside)
+    return np.asarray(np.where(on, np.minimum(beside, at_ends), at_ends))

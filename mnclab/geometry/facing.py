@@ -1,0 +1,287 @@
+"""Places where the walls of a contour face each other: the shortest ways across from wall to wall.
+
+A wall is a line or an arc with a free side, where the tool is. A *chord* is a straight way between two points of the walls
+that is shortest among its neighbours: it leaves both walls at a right angle into the free side, or leads from a vertex into
+the wedge between the normals of the two walls that meet there. A tool wider than a chord cannot pass it; growing a tool
+from nothing, it first touches two walls that are no neighbours at the ends of a chord, opposite each other.
+
+Two walls can face each other only if a normal of one is opposite to a normal of the other. So the walls are taken in
+chunks of neighbours with a box and a cone of normals each, and only chunks near each other with opposite cones are
+looked into: along a smooth contour there are hardly any.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry.boxes import near
+from mnclab.geometry.curves import Curves, foot, share
+from mnclab.geometry.offsets import cross, dot
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+EXACT = 1e-9  # mm, and rad between a chord and a normal
+COARSE, FINE = 64, 8  # walls in a chunk
+PIECE = 1 << 14  # walls summed up at once
+BATCH = 1 << 16  # pairs of walls worked on at once
+
+
+class Walls(NamedTuple):
+    """n walls in the order of travel: curves, unit normals towards the tool at start and end (n, 2), ``joined`` (n,):
+    whether the wall begins where the one before ends, ``s`` (n,) the side: +1 left, -1 right; ``group`` (n,): only walls
+    of one group are compared, and they follow each other."""
+
+    curves: Curves
+    n_in: Array
+    n_out: Array
+    joined: Mask
+    s: Array
+    group: Index
+
+
+class Chords(NamedTuple):
+    """m chords: the walls ``i`` < ``j`` (m,), the points ``p`` on i and ``q`` on j (m, 2), and the length (m,) mm."""
+
+    i: Index
+    j: Index
+    p: Array
+    q: Array
+    length: Array
+
+
+def facing(walls: Walls, width: Array, coarse: Chunks) -> Chords:
+    """The shortest chord of every pair of walls that is shorter than ``width`` (n,) mm, the same within a group.
+
+    ``coarse`` are their :func:`chunks`.
+    """
+    found = [chords(walls, i, j) for i, j in _pairs(walls, width, coarse)]
+    if not found:
+        none = np.zeros(0, dtype=np.int64)
+        return Chords(none, none, np.empty((0, 2)), np.empty((0, 2)), np.empty(0))
+    i, j = np.concatenate([c.i for c in found]), np.concatenate([c.j for c in found])
+    p, q = np.concatenate([c.p for c in found]), np.concatenate([c.q for c in found])
+    length = np.concatenate([c.length for c in found])
+    short = length < width[i] - EXACT
+    return Chords(i[short], j[short], p[short], q[short], length[short])
+
+
+# --- pairs worth a look -----------------------------------------------------------------------------------------------
+
+
+class Chunks(NamedTuple):
+    """Boxes (m, 2) of chunks of walls, and cones of their normals: middle (m, 2) and half angle (m,) rad."""
+
+    low: Array
+    high: Array
+    middle: Array
+    spread: Array
+
+    def opposed(self, a: Index, b: Index) -> Mask:
+        """Whether a normal of chunk a (k,) can be opposite to one of chunk b."""
+        most = np.minimum(self.spread[a] + self.spread[b] + 1e-6, np.pi)
+        return np.asarray(-dot(self.middle[a], self.middle[b]) >= np.cos(most) - 1e-9)
+
+    def near(self, a: Index, b: Index, gap: float) -> Mask:
+        """Whether the boxes of chunks a and b (k,) are nearer than a gap."""
+        return np.asarray(((self.low[a] - gap <= self.high[b]) & (self.low[b] - gap <= self.high[a])).all(axis=1))
+
+
+def chunks(walls: Walls, size: int = COARSE) -> Chunks:
+    """Chunks of ``size`` walls; the last may be shorter."""
+    n = len(walls.s)
+    step = size * max(1, PIECE // size)  # a piece at a time stays in the cache
+    pieces = [_chunks(walls, k, min(k + step, n), size) for k in range(0, n, step)]
+    if len(pieces) == 1:
+        return pieces[0]
+    return Chunks(*(np.concatenate(columns) for columns in zip(*pieces, strict=True)))
+
+
+def _chunks(walls: Walls, begin: int, end: int, size: int) -> Chunks:
+    piece, n = slice(begin, end), len(walls.s)
+    c, n_in = walls.curves, walls.n_in[piece]
+    arc = c.arc[piece]
+    at = np.arange(0, end - begin, size)
+    low, high = np.empty((len(at), 2)), np.empty((len(at), 2))
+    k = np.flatnonzero(arc)
+    bulge = np.zeros(end - begin)
+    if len(k):
+        turned, r = np.abs(c.sweep[piece][k]), c.r[piece][k]
+        bulge[k] = r * np.where(turned < np.pi, 1 - np.cos(np.minimum(turned, np.pi) / 2), 2.0)
+    for axis in (0, 1):
+        one, two = c.start[piece, axis], c.end[piece, axis]
+        least, most = np.minimum(one, two), np.maximum(one, two)
+        if len(k):
+            least, most = least - bulge, most + bulge
+        low[:, axis], high[:, axis] = np.minimum.reduceat(least, at), np.maximum.reduceat(most, at)
+    total = np.stack([np.add.reduceat(n_in[:, 0], at), np.add.reduceat(n_in[:, 1], at)], axis=1)
+    length = np.hypot(total[:, 0], total[:, 1])
+    middle = total / np.where(length > 0, length, 1.0)[:, None]
+    each = np.repeat(middle, np.diff(np.append(at, end - begin)), axis=0)
+    least = dot(n_in, each)
+    if len(k):
+        least = np.minimum(least, dot(walls.n_out[piece], each))
+        least[np.abs(c.sweep[piece]) > np.pi / 2] = -1.0
+    least = np.minimum.reduceat(least, at)
+    # the vertices at both ends belong to the chunk, with the normals beyond them
+    least = np.minimum(least, dot(walls.n_out[np.maximum(begin + at - 1, 0)], middle))
+    least = np.minimum(least, dot(walls.n_in[np.minimum(begin + at + size, n - 1)], middle))
+    spread = np.where((least > 0) & (length > 0), np.arccos(np.clip(least, -1.0, 1.0)), np.pi)
+    return Chunks(low, high, middle, spread)
+
+
+def around(coarse: Chunks, at: Array, reach: float, n: int) -> Index:
+    """The walls of all n in chunks whose boxes are nearer than ``reach`` to a point (2,)."""
+    there = ((coarse.low - reach <= at) & (coarse.high + reach >= at)).all(axis=1)
+    k = (np.flatnonzero(there)[:, None] * COARSE + np.arange(COARSE)).ravel()
+    return k[k < n]
+
+
+def _pairs(walls: Walls, width: Array, coarse: Chunks) -> Iterator[tuple[Index, Index]]:
+    """Pairs i < j of walls that may face each other, in batches."""
+    n, gap = len(walls.s), float(width.max(initial=0.0))
+    fine: Chunks | None = None
+    itself = np.flatnonzero(coarse.spread > np.pi / 2 - 1e-3)
+    for a, b in _batches(near(coarse.low, coarse.high, gap), (itself, itself)):
+        opposed = coarse.opposed(a, b)
+        if not opposed.any():
+            continue
+        fine = chunks(walls, FINE) if fine is None else fine
+        for c, d in _inside(a[opposed], b[opposed], COARSE // FINE, len(fine.spread)):
+            keep = fine.near(c, d, gap) & fine.opposed(c, d)
+            for i, j in _inside(c[keep], d[keep], FINE, n):
+                keep_pair = (i < j) & (walls.group[i] == walls.group[j])
+                if keep_pair.any():
+                    yield i[keep_pair], j[keep_pair]
+
+
+def _batches(pairs: Iterator[tuple[Index, Index]], more: tuple[Index, Index]) -> Iterator[tuple[Index, Index]]:
+    yield from pairs
+    yield more
+
+
+def _inside(a: Index, b: Index, size: int, n: int) -> Iterator[tuple[Index, Index]]:
+    """The parts of chunks a and b (k,), each with each, where a chunk has ``size`` of them and there are n in all."""
+    one, two = np.divmod(np.arange(size * size), size)
+    step = max(1, BATCH // (size * size))
+    for k in range(0, len(a), step):
+        i = (a[k : k + step, None] * size + one).ravel()
+        j = (b[k : k + step, None] * size + two).ravel()
+        there = (i < n) & (j < n) & (i <= j)
+        yield i[there], j[there]
+
+
+# --- chords of pairs --------------------------------------------------------------------------------------------------
+
+
+class _Best:
+    """The shortest chord found so far for each of m pairs."""
+
+    def __init__(self, m: int) -> None:
+        self.length, self.p, self.q = np.full(m, np.inf), np.full((m, 2), np.nan), np.full((m, 2), np.nan)
+
+    def offer(self, k: Index, p: Array, q: Array, valid: Mask) -> None:
+        """Chords from p to q (len(k), 2) of the pairs k, where valid."""
+        length = np.hypot(*(q - p).T)
+        better = valid & (length > EXACT) & (length < self.length[k])
+        self.length[k[better]], self.p[k[better]], self.q[k[better]] = length[better], p[better], q[better]
+
+
+def chords(walls: Walls, i: Index, j: Index) -> Chords:
+    """The shortest chord between walls i and j (m,); infinite where there is none."""
+    c, best, every = walls.curves, _Best(len(i)), np.arange(len(i))
+    one, two = c.take(i), c.take(j)
+    ends = [
+        (k, curve.end if last else curve.start, last, _own(walls, k, last))
+        for k, curve in ((i, one), (j, two))
+        for last in (False, True)
+    ]
+    for a, p, p_last, p_own in ends[:2]:
+        for b, q, q_last, q_own in ends[2:]:
+            u = _unit(q - p)
+            valid = p_own & q_own & _in_cone(walls, a, p_last, u) & _in_cone(walls, b, q_last, -u)
+            best.offer(every, p, q, valid)
+    for near_ends, b, curve, turned in ((ends[:2], j, two, False), (ends[2:], i, one, True)):
+        for a, p, p_last, p_own in near_ends:
+            q = foot(p, curve)
+            u = _unit(q - p)
+            valid = p_own & _on(q, curve) & _in_cone(walls, a, p_last, u) & (dot(u, _normal(walls, b, q)) < 0)
+            best.offer(every, *((q, p) if turned else (p, q)), valid)
+    _between_curves(walls, i, j, best)
+    k = np.flatnonzero(np.isfinite(best.length))
+    return Chords(i[k], j[k], best.p[k], best.q[k], best.length[k])
+
+
+def _between_curves(walls: Walls, i: Index, j: Index, best: _Best) -> None:
+    """Chords that end inside both walls; one of them must be an arc that curves away from the tool."""
+    c = walls.curves
+    away = c.arc & (walls.s * c.sweep < 0)
+    for a, b, turned in ((i, j, False), (j, i, True)):
+        k = np.flatnonzero(away[a] & ~c.arc[b])  # round wall and straight wall: the perpendicular through the centre
+        if len(k):
+            arc, line = c.take(a[k]), c.take(b[k])
+            q = foot(arc.centre, line)
+            p = arc.centre + arc.r[:, None] * _unit(q - arc.centre)
+            clear = np.hypot(*(q - arc.centre).T) > arc.r
+            valid = clear & _on(p, arc) & _on(q, line) & (dot(p - q, walls.n_in[b[k]]) > 0)
+            best.offer(k, *((q, p) if turned else (p, q)), valid)
+        k = np.flatnonzero(away[a] & c.arc[b] & (~away[b] | (not turned)))  # the line of the centres
+        if len(k):
+            arc, other = c.take(a[k]), c.take(b[k])
+            between, both = other.centre - arc.centre, away[b[k]]
+            apart = np.hypot(between[:, 0], between[:, 1])
+            clear = np.where(both, apart > arc.r + other.r, apart + arc.r < other.r) & (apart > EXACT)
+            u = _unit(between) * np.where(both, 1.0, -1.0)[:, None]
+            p = arc.centre + arc.r[:, None] * u
+            q = other.centre + np.where(both, -other.r, other.r)[:, None] * u
+            best.offer(k, *((q, p) if turned else (p, q)), clear & _on(p, arc) & _on(q, other))
+
+
+def _own(walls: Walls, k: Index, last: bool) -> Mask:
+    """Whether the vertex at the start or the end belongs to walls k: a vertex between two is that of the second."""
+    if not last:
+        return np.ones(len(k), dtype=bool)
+    after = np.minimum(k + 1, len(walls.s) - 1)
+    return np.asarray(~(walls.joined[after] & (after > k)))
+
+
+def _unit(v: Array) -> Array:
+    length = np.hypot(v[:, 0], v[:, 1])
+    return np.asarray(v / np.where(length > 0, length, 1.0)[:, None])
+
+
+def _on(p: Array, curve: Curves) -> Mask:
+    where = share(p, curve)
+    return np.asarray((where >= -1e-12) & (where <= 1 + 1e-12) & np.isfinite(p[:, 0]))
+
+
+def _normal(walls: Walls, k: Index, at: Array) -> Array:
+    """The normals towards the tool of walls k at points (m, 2) on them."""
+    c = walls.curves
+    inward = (c.centre[k] - at) / c.r[k, None]
+    return np.where(c.arc[k, None], (walls.s[k] * np.sign(c.sweep[k]))[:, None] * inward, walls.n_in[k])
+
+
+def _in_cone(walls: Walls, k: Index, last: bool, u: Array) -> Mask:
+    """Whether directions u (m, 2) lie in the wedge between the normals at the end or the start of walls k.
+
+    At an inside corner there is no wedge, only the normals themselves.
+    """
+    if last:
+        after = np.minimum(k + 1, len(walls.s) - 1)
+        follows = walls.joined[after] & (after > k)
+        first, second = walls.n_out[k], np.where(follows[:, None], walls.n_in[after], walls.n_out[k])
+    else:
+        before = np.maximum(k - 1, 0)
+        follows = walls.joined[k] & (before < k)
+        first, second = np.where(follows[:, None], walls.n_out[before], walls.n_in[k]), walls.n_in[k]
+    from_first, to_second = cross(first, u), cross(u, second)
+    s = walls.s[k]
+    wedge = (s * from_first <= EXACT) & (s * to_second <= EXACT) & (dot(u, first + second) >= -EXACT)
+    along = (np.abs(from_first) <= EXACT) & (dot(first, u) > 0) | (np.abs(to_second) <= EXACT) & (dot(second, u) > 0)
+    return np.asarray(wedge | along)

@@ -1,0 +1,63 @@
+"""Steps at a hole carried out by a machine: each becomes a verb, under the name of its cycle and its own label.
+
+The axis of the hole is where the tool stands in the plane XY, and the holes of every control lie along Z.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from mnclab.machining.steps import Coolant, Go, Orient, Spin, Step, Thread, Turn, Wait
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+
+
+def perform(m: Machine, name: str, steps: Iterable[Step]) -> None:
+    """Carry the steps out; rows are labelled ``name`` and the label of the step."""
+    x, y, _ = m.programmed
+    for step in steps:
+        m.label = f"{name} {step.label}"
+        match step:
+            case Go():
+                to = None if step.x is None else x + step.x, None if step.y is None else y + step.y, step.z
+                m.line(*to, f=step.feed)
+            case Wait():
+                m.dwell(step.seconds)
+            case Thread():
+                with locked(m, step.pitch):
+                    m.line(z=step.z)
+            case Turn():
+                with in_plane(m, "XY"):
+                    m.turn((x + step.centre[0], y + step.centre[1]), step.angle, step.z, step.feed)
+            case Spin():
+                m.spindle(step.speed, step.turning)
+            case Orient():
+                m.orient(step.angle)
+            case Coolant():
+                m.coolant()
+
+
+@contextmanager
+def locked(m: Machine, pitch: float) -> Iterator[None]:
+    """Inside, moves run at ``pitch`` mm for each revolution, spindle and feed locked; the history does not see it."""
+    kept = m.feed, m.per_rev, m.synchronous
+    m.feed, m.per_rev, m.synchronous, m._state = pitch, True, True, None
+    try:
+        yield
+    finally:
+        m.feed, m.per_rev, m.synchronous = kept
+        m._state = None
+
+
+@contextmanager
+def in_plane(m: Machine, plane: str) -> Iterator[None]:
+    """Inside, arcs lie in a plane, whatever the program has chosen."""
+    kept = m.plane
+    m.plane, m._state = plane, None
+    try:
+        yield
+    finally:
+        m.plane, m._state = kept, None

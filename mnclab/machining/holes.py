@@ -1,0 +1,165 @@
+"""Drilling, reaming and boring as steps at a hole; who calls them brings the tool to ``above`` before, and away after.
+
+Levels are coordinates along the tool axis, mm; ``above`` is the level over the hole from which a tool drills and to which
+it is withdrawn, so that a hole may also be drilled upwards.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from mnclab.machining.depths import infeeds
+from mnclab.machining.steps import RAPID, Coolant, Go, Orient, Spin, Step, Wait
+
+#: Where a tool is shifted to before it leaves a bore: unit steps along the two axes of the plane.
+DIRECTIONS = {1: (-1.0, 0.0), 2: (0.0, -1.0), 3: (1.0, 0.0), 4: (0.0, 1.0)}
+DISENGAGED = 0.2  # mm, the shift after boring
+
+
+def drill(
+    levels: Sequence[float],
+    *,
+    above: float,
+    feed: float | None,
+    reenter: float | Sequence[float],
+    withdraw: float | None = RAPID,
+    dwell_top: float = 0.0,
+    dwell_each: float = 0.0,
+    dwell_bottom: float = 0.0,
+    breaks: int = 0,
+    break_every: float = 0.0,
+    back: float = 0.0,
+    approach: float | None = None,
+) -> Iterator[Step]:
+    """Drill to each of the ``levels``; between two, break the chip or withdraw to ``above`` at the feed ``withdraw``.
+
+    A withdrawal waits ``dwell_top`` seconds and returns at rapid to ``reenter`` mm over the last depth: one distance, or
+    one for each return (advanced stop distances). ``breaks`` chips are broken, by ``back`` mm, before each withdrawal; 0:
+    every level is followed by one. ``break_every`` breaks a chip after that much within a level, with a return to the
+    depth at the feed ``approach``. ``dwell_each`` acts at every level but the last, ``dwell_bottom`` there.
+    """
+    up, start, returns = math.copysign(1.0, above - levels[-1]), above, 0
+    for number, level in enumerate(levels, 1):
+        peck = f"peck {number} of {len(levels)}" if len(levels) > 1 else "drill"
+        first = levels[number - 2] if number > 1 else start
+        for depth in infeeds(first, level, break_every)[:-1] if break_every else ():
+            yield Go(peck, depth, feed)
+            yield Go("break the chip", depth + up * back, withdraw)
+            yield Go("break the chip", depth, approach)
+        yield Go(peck, level, feed)
+        if number == len(levels):
+            break
+        yield Wait("dwell", dwell_each)
+        if number % (breaks + 1):
+            yield Go("break the chip", level + up * back, withdraw)
+            continue
+        yield Go("clear the chips", above, withdraw)
+        yield Wait("dwell at the top", dwell_top)
+        stop = level + up * (reenter if isinstance(reenter, float | int) else reenter[returns])
+        yield Go("return", min(stop, above) if up > 0 else max(stop, above))
+        returns += 1
+    yield Wait("dwell at the bottom", dwell_bottom)
+
+
+def ream(
+    bottom: float, *, above: float, feed: float | None, retract: float | None, dwell: float = 0.0, name: str = "ream"
+) -> Iterator[Step]:
+    """In at one feed, out at another."""
+    yield Go(name, bottom, feed)
+    yield Wait("dwell at the bottom", dwell)
+    yield Go("retract", above, retract)
+
+
+def bore(
+    bottom: float,
+    *,
+    above: float,
+    feed: float | None,
+    retract: float | None,
+    dwell: float = 0.0,
+    angle: float = 0.0,
+    direction: int = 0,
+) -> Iterator[Step]:
+    """Bore, stop the spindle at an angle, leave the wall in a direction (one of :data:`DIRECTIONS`, 0 none), retract.
+
+    The tool ends at ``above``, still shifted.
+    """
+    yield Go("bore", bottom, feed)
+    yield Wait("dwell at the bottom", dwell)
+    yield Orient(f"orient the spindle to {angle:g} degrees", angle)
+    if direction:
+        x, y = DIRECTIONS[direction]
+        yield Go("leave the wall", x=DISENGAGED * x, y=DISENGAGED * y)
+    yield Go("retract", above, retract)
+
+
+def back_bore(
+    *,
+    above: float,
+    below: float,
+    bottom: float,
+    eccentricity: float,
+    direction: int,
+    angle: float,
+    feed: float | None,
+    travel: float | None,
+    dwell: float,
+    turning: int,
+) -> Iterator[Step]:
+    """Counterbore from below: shifted through the hole, back to its axis, up to the ``bottom`` of the counterbore.
+
+    Levels are those of the tip: ``below`` with the edge free under the workpiece. ``travel`` is the feed through the hole.
+    The tool ends at ``above``, still shifted, with the spindle stopped.
+    """
+    x, y = (eccentricity * step for step in DIRECTIONS[direction])
+    oriented = Orient(f"orient the spindle to {angle:g} degrees", angle)
+    yield oriented
+    yield Go("shift off the axis", x=x, y=y)
+    yield Go("through the hole", below, travel)
+    yield Go("back to the axis", x=0.0, y=0.0)
+    yield Spin("spindle on", turning)
+    yield Go("counterbore", bottom, feed)
+    yield Wait("dwell at the bottom", dwell)
+    yield Go("leave the counterbore", below, travel)
+    yield oriented
+    yield Go("shift off the axis", x=x, y=y)
+    yield Go("retract", above, travel)
+
+
+def gun_drill(
+    levels: Sequence[float],
+    *,
+    above: float,
+    start: float,
+    feed: float | None,
+    approach: float | None,
+    retract: float | None,
+    entry: tuple[int, float | None],
+    speed: float | None,
+    dwell: float = 0.0,
+    pause: float | None = None,
+    feed_after: float | None = None,
+) -> Iterator[Step]:
+    """Single-lip drilling: in and out with the spindle as ``entry`` (turning, speed), drilling at ``speed`` with coolant.
+
+    Drilling begins at ``start``, reached at the feed ``approach``; at each of the ``levels``, and at the level ``pause``,
+    the tool dwells. From ``pause`` on it drills at ``feed_after``, where that is given.
+    """
+    yield Spin("spindle for the entry", *entry)
+    yield Go("to the start of the drilling", start, approach)
+    yield Spin("spindle for the drilling", 1, speed)
+    yield Coolant("coolant on", True)
+    last = start
+    for number, level in enumerate(levels, 1):
+        name = f"peck {number} of {len(levels)}" if len(levels) > 1 else "drill"
+        if pause is not None and (last - pause) * (pause - level) > 0:
+            yield Go(name, pause, feed)
+            yield Wait("dwell on the way", dwell)
+            feed = feed if feed_after is None else feed_after
+        yield Go(name, level, feed)
+        yield Wait("dwell at the bottom" if number == len(levels) else "dwell", dwell)
+        last = level
+    yield Coolant("coolant off", False)
+    yield Spin("spindle for the exit", *entry)
+    yield Go("retract", above, retract)

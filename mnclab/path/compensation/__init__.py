@@ -1,0 +1,21 @@
+"""The tool-centre path beside a programmed contour.
+
+With R the tool radius, s = +1 to the left of the travel and -1 to the right, t the unit tangent and
+n(t) = s (-t_v, t_u) the normal towards the tool, a corner P between two elements turns by tau; s tau < 0 is an outside
+corner. The offsets end at A1 = P + R n1 and begin at A2 = P + R n2::
+
+        A1 ___ A2          A1 --- I            an inside corner is cut off at I, where the offsets meet; an outside
+      -----+   \\         -----+    |            corner is closed by an arc about P (G160), or both offsets are
+           P \\  |              P \\  |            prolonged to I (G161); G162 takes the arc for acute corners only
+              \\ |                 \\ |
+
+``elements`` are the rows that move in the plane, ``equidistant`` finds all corners at once, ``fit`` looks for places
+where the tool has no room, over any number of blocks, ``rows`` makes the path. Everything is done in columns.
+"""
+
+from __future__ import annotations
+
+from mnclab.path.compensation.equidistant import apply
+from mnclab.path.compensation.rules import ACUTE, CORNER, ROUND, STRAIGHT, Compensation, Gouge, Report
+
+__all__ = ["ACUTE", "CORNER", "ROUND", "STRAIGHT", "Compensation", "Gouge", "Report", "apply"]

@@ -1,0 +1,74 @@
+"""The rows of a path that move in the plane, as elements of a contour."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry.offsets import Element, left
+from mnclab.path.plane import PlaneView
+from mnclab.path.toolpath import Toolpath
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+
+class Elements(NamedTuple):
+    """n elements in the order of travel, lengths in mm, angles in rad.
+
+    ``rows`` (n,) are their rows in the path; ``start``, ``end``, ``centre`` (n, 2); ``t_in``, ``t_out`` (n, 2) unit
+    tangents; ``r`` (n,) radii of arcs, nan for lines; ``sweep`` (n,). ``on`` (n,): compensated; ``s``, ``R`` (n,) side
+    and radius there, 0 elsewhere. ``entry``, ``exit``, ``change`` (n,): first element, the one after the last, and the
+    one that leads to the other side. ``corner`` (n,) is the rule for the corner before the element.
+    """
+
+    rows: Index
+    start: Array
+    end: Array
+    centre: Array
+    t_in: Array
+    t_out: Array
+    r: Array
+    sweep: Array
+    arc: Mask
+    on: Mask
+    s: Array
+    R: Array
+    entry: Mask
+    exit: Mask
+    change: Mask
+    corner: NDArray[np.uint8]
+
+    @classmethod
+    def of(cls, path: Toolpath, view: PlaneView, rows: Index) -> Elements:
+        """The elements of a path."""
+        take = slice(None) if len(rows) == len(path) else rows
+        side, radius = path.side[take], path.radius[take]
+        on = (side != 0) & (radius != 0)
+        s = np.where(on, np.sign(side * radius), 0.0)  # a negative radius is the other side
+        before = np.concatenate([[False], on[:-1]])
+        turned = np.concatenate([[False], s[1:] != s[:-1]]) & on & before
+        return cls(
+            rows, view.start[take, :2], view.end[take, :2], view.centre[take], view.tangent_start[take],
+            view.tangent_end[take], view.radius[take], view.sweep[take], view.arc[take],
+            on, s, np.where(on, np.abs(radius), 0.0), on & ~before, before & ~on, turned, path.corner_rule[take],
+        )  # fmt: skip
+
+    @property
+    def lead(self) -> Mask:
+        """The elements that lead to a contour: no wall is there."""
+        return self.entry | self.change
+
+    @property
+    def wall(self) -> Mask:
+        """The elements beside which the tool cuts."""
+        return self.on & ~self.entry & ~self.change
+
+    def offset(self, k: Index, at_end: bool, shift: Array, s: Array) -> Element:
+        """Elements k (m,) moved by ``shift`` mm to the side ``s`` (m,), seen from their end or their start."""
+        t, p = (self.t_out[k], self.end[k]) if at_end else (self.t_in[k], self.start[k])
+        radius = self.r[k] - s * np.sign(self.sweep[k]) * shift
+        return Element(p + (shift * s)[:, None] * left(t), t, self.centre[k], radius)

@@ -1,0 +1,295 @@
+"""Whether the tool fits: what it needs, what there is, and the largest radius for the whole contour.
+
+Four things are looked at. An *arc* on the inside must have a greater radius than the tool; an *element* must not be
+used up by its inside corners; a *bottleneck* is a pair of walls, any number of blocks apart, that face each other nearer
+than the tool is wide; at the *ends* of a contour, where the tool arrives and leaves, and at the points of straight
+outside *corners*, it must stand clear of all other walls. An *entry* (and an *exit*) must begin where the tool does not
+yet cut into the element it leads to.
+
+Growing the tool from nothing, the first place that fails is one of these; so the largest radius is the least of their
+own, each from a closed form or, for elements between two corners, from narrowing an interval on the exact condition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry.curves import Curves, distance
+from mnclab.geometry.facing import Chunks, Walls, around, chunks, facing
+from mnclab.geometry.offsets import beside
+from mnclab.path.compensation.corners import ends, remaining
+from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.rules import Compensation, Gouge, Report
+from mnclab.path.compensation.tips import clearance, near_tips
+from mnclab.path.fault import PathFault
+from mnclab.path.kinds import Rule
+from mnclab.path.plane import PlaneView
+from mnclab.path.toolpath import Toolpath
+
+if TYPE_CHECKING:
+    from mnclab.path.compensation.equidistant import Equidistant
+
+EXACT = 1e-9  # mm
+HINT = "take a smaller tool"
+
+
+class Places(NamedTuple):
+    """m places of one kind that do not fit: the elements concerned, the ones they cut into, the width that is there,
+    what is missing (mm), and the largest radius for the place alone (all (m,)), with the words for them."""
+
+    kind: str
+    k: Index
+    other: Index
+    width: Array
+    missing: Array
+    largest: Array
+    message: str
+    hint: str = HINT
+
+
+def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, report: Report) -> Mask:
+    """Which elements (n,) cut into the contour. PathFault at the first, unless ``gouge`` is "mark"."""
+    el = found.el
+    marked = np.zeros(len(el.rows), dtype=bool)
+    # one number from each entry or change to the next
+    contour = np.cumsum(el.entry | el.change | el.exit, dtype=np.int64)
+    places = _places(found, contour)
+    if not places:
+        return marked
+    least = _least(found, contour, places)
+    for place in places:
+        marked[place.k] = True
+    every = [(int(k), float(place.largest[m]), n, m) for n, place in enumerate(places) for m, k in enumerate(place.k)]
+    order = sorted({one[0]: one for one in sorted(every, reverse=True)}.values())  # of each element the narrowest
+    refuse = gouge != "mark"
+    for k, _, n, m in order[:1] if refuse else order:
+        report.gouges.append(_worded(places[n], m, k, el, path, view, float(least[contour[places[n].other[m]]])))
+    if refuse:
+        first = report.gouges[-1]
+        raise PathFault(first.message, first.step, first.hint)
+    return marked
+
+
+def _places(found: Equidistant, contour: Index) -> list[Places]:
+    places = _local(found)
+    if found.rules.look_ahead:
+        places += [*_leads(found.el), *_global(found, contour)]
+    return [place for place in places if len(place.k)]
+
+
+def _least(found: Equidistant, contour: Index, places: list[Places]) -> Array:
+    """The largest radius of each contour.
+
+    With arcs at all corners what does not fit a tool does not fit a larger one. A straight corner may become an arc for
+    a larger tool (R > AB), so there the radius found is tried, and what fails then counts too.
+    """
+    least = np.full(int(contour[-1]) + 1, np.inf)
+    while places:
+        before = least.copy()
+        for place in places:
+            np.minimum.at(least, contour[place.other], place.largest)
+        if (
+            (np.isinf(before) == np.isinf(least)).all()
+            and (least >= before - EXACT)[np.isfinite(least)].all()
+            or not (found.rule == Rule.OUTSIDE_STRAIGHT).any()
+        ):
+            break
+        el = found.el
+        found = type(found)(el._replace(R=np.minimum(el.R, least[contour])), found.rules)
+        places = _places(found, contour)
+    return least
+
+
+def _worded(place: Places, m: int, k: int, el: Elements, path: Toolpath, view: PlaneView, largest: float) -> Gouge:
+    row, other, R = int(el.rows[k]), int(el.rows[place.other[m]]), float(el.R[k] or el.R[k - 1])
+    width, missing = float(place.width[m]), float(place.missing[m])
+    text = place.message.format(R=R, r=width, other=int(path.line[other]))
+    fits = f"the largest radius for the whole contour is {largest:.7g} mm" if largest > EXACT else "no radius fits"
+    at = view.to_space(np.array([row]), np.array([[*el.end[k], view.end[row, 2]]]))[0].tolist()
+    return Gouge(
+        place.kind, int(path.line[row]), int(path.step[row]), int(path.line[other]), (at[0], at[1], at[2]), R,
+        width, missing, largest, f"{text}: {missing:.4g} mm are missing, {fits}", place.hint,
+    )  # fmt: skip
+
+
+# --- elements and their neighbours ------------------------------------------------------------------------------------
+
+
+def _local(found: Equidistant) -> list[Places]:
+    """Arcs that are too small, and elements that their corners use up."""
+    el = found.el
+    wall = el.wall
+    curve = np.where(el.arc, el.r, np.inf)
+    toward = el.arc & (el.s * el.sweep > 0)
+    small = np.flatnonzero(wall & toward & (curve - el.R <= EXACT))
+    bound = np.where(el.arc, -1e-12, -EXACT)
+    lost = found.apart.copy()
+    lost[:-1] |= found.apart[1:]
+    used_up = wall & (lost | ~(found.left_over > bound))
+    used_up[small] = False
+    short = np.flatnonzero(used_up)
+    result = [
+        Places(
+            "arc", small, small, el.r[small], el.R[small] - el.r[small], el.r[small],
+            "the inside arc of radius {r:.4g} is not greater than the tool radius {R:.4g}",
+        )
+    ]  # fmt: skip
+    if len(short):
+        largest = narrowed(lambda at, R: _fits(el, short[at], R, found.rules), el.R[short])
+        per_mm = np.where(el.arc[short], el.r[short], 1.0)
+        lack = -np.nan_to_num(found.left_over[short], posinf=0.0, neginf=0.0) * per_mm
+        missing = np.where(lack > EXACT, lack, el.R[short] - largest)
+        length = np.where(
+            el.arc[short], np.abs(el.sweep[short]) * el.r[short], np.hypot(*(el.end[short] - el.start[short]).T)
+        )
+        message = (
+            "the element is too short for the tool radius {R:.4g}: the offsets of its neighbours do not meet on it"
+        )
+        hint = "take a smaller tool, or lengthen the element"
+        result.append(Places("element", short, short, length, missing, largest, message, hint))
+    return result
+
+
+def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
+    """Whether the corners of elements k (m,) leave something of them, for a radius each."""
+    begin, end, apart = ends(el, k, radius, rules)
+    left_over, _ = remaining(el, k, begin, end, radius)
+    return ~apart & (left_over >= 0)
+
+
+def narrowed(fits: Callable[[Index, Array], Mask], radius: Array, parts: int = 16) -> Array:
+    """The largest radii (m,) below the given ones for which something fits, by dividing the interval again and again.
+
+    ``fits(which, radius)`` tells for the things ``which`` (n,) of the m whether they fit (n,); all fit at zero.
+    """
+    m = len(radius)
+    low, high, which = np.zeros(m), radius.copy(), np.repeat(np.arange(m), parts - 1)
+    steps = np.arange(1, parts) / parts
+    for _ in range(14):
+        width = high - low
+        tried = low[:, None] + width[:, None] * steps
+        good = fits(which, tried.ravel()).reshape(m, parts - 1)
+        first = np.where(good.all(axis=1), parts - 1, np.argmin(good, axis=1))  # the first that does not fit
+        low, high = low + width * first / parts, np.where(first < parts - 1, low + width * (first + 1) / parts, high)
+        if (high - low <= 1e-13 * radius).all():
+            break
+    return low
+
+
+# --- entry and exit ---------------------------------------------------------------------------------------------------
+
+
+def _leads(el: Elements) -> list[Places]:
+    """Where the tool stands before it enters and after it left, it must be clear of the end of the contour."""
+    n, result = len(el.rows), []
+    for kind, leads, step in (("entry", el.entry, 1), ("exit", el.exit, -1)):
+        k = np.flatnonzero(leads)
+        k = k[(k + step >= 0) & (k + step < n)]
+        k = k[el.wall[k + step]]
+        R, width = el.R[k + step], np.hypot(*(el.end[k] - el.start[k]).T)
+        bad = width < R - EXACT
+        verb = "begins" if step > 0 else "ends"
+        message = (
+            f"the {kind} {verb} {{r:.4g}} mm from the contour, where the tool of radius {{R:.4g}} cuts into it already"
+        )
+        hint = f"take a smaller tool, or let the {kind} {verb[:-1]} farther away"
+        where = (k[bad], k[bad] + step, width[bad], (R - width)[bad], width[bad])
+        result.append(Places(kind, *where, message, hint))
+    return result
+
+
+# --- any number of blocks apart ---------------------------------------------------------------------------------------
+
+
+def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
+    """Bottlenecks, ends and straight corners."""
+    el = found.el
+    k = np.flatnonzero(el.wall)
+    if not len(k):
+        return []
+    run = slice(int(k[0]), int(k[-1]) + 1) if k[-1] - k[0] + 1 == len(k) else k  # without a copy where possible
+    s, group = el.s[run], contour[run]
+    joined = np.concatenate([[False], group[1:] == group[:-1]])
+    n_in = beside(np.zeros((1, 2)), el.t_in[run], s)
+    n_out = beside(np.zeros((1, 2)), el.t_out[run], s) if el.arc.any() else n_in
+    curves = Curves(el.start[run], el.end[run], el.centre[run], el.r[run], el.sweep[run])
+    walls = Walls(curves, n_in, n_out, joined, s, group)
+    coarse = chunks(walls)
+    return [_bottlenecks(el, k, walls, coarse), *_ends(el, k, walls, coarse), *_tips(found, contour)]
+
+
+def _bottlenecks(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> Places:
+    """Walls that face each other nearer than the tool is wide; the largest radius is half of what there is."""
+    chords = facing(walls, 2 * el.R[k], coarse)
+    if not len(chords.i):
+        return Places("bottleneck", k[:0], k[:0], el.R[:0], el.R[:0], el.R[:0], "")
+    i, j, slack = k[chords.i], k[chords.j], _misfit(el)
+    bad = chords.length < 2 * el.R[i] - EXACT - slack[i] - slack[j]
+    i, j, width = i[bad], j[bad], chords.length[bad]
+    message = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
+    return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, message)
+
+
+def _tips(found: Equidistant, contour: Index) -> list[Places]:
+    """Straight corners that reach into another wall."""
+    el, rules = found.el, found.rules
+    if not (found.rule == Rule.OUTSIDE_STRAIGHT).any():
+        return []
+    c, w = near_tips(found, contour)
+    if not len(c):
+        return []
+    lack = -clearance(el, c, w, el.R[c], rules)
+    bad = lack > EXACT + _misfit(el)[w]
+    c, w, lack = c[bad], w[bad], lack[bad]
+    largest = narrowed(lambda at, R: clearance(el, c[at], w[at], R, rules) >= 0, el.R[c])
+    message = "the straight corner after this element leads the tool of radius {R:.4g} into the element of line {other}"
+    return [Places("corner", c, w, el.R[c] - lack, lack, largest, message, "take a smaller tool, or G160")]
+
+
+def _misfit(el: Elements) -> Array:
+    """By how much the end of each arc misses its circle (n,), mm: the tolerance of programmed centres."""
+    slack = np.zeros(len(el.rows))
+    k = np.flatnonzero(el.arc)
+    slack[k] = np.abs(np.hypot(*(el.end[k] - el.centre[k]).T) - el.r[k])
+    return slack
+
+
+def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
+    """Where the tool arrives at the first wall of a contour, and where it leaves the last, other walls must be clear."""
+    slack, places = _misfit(el), []
+    last = np.append(~walls.joined[1:], True)
+    for edge, at_end in ((~walls.joined, False), (last, True)):
+        for e in np.flatnonzero(edge):  # two for a contour
+            P, normal = (el.end[k[e]], walls.n_out[e]) if at_end else (el.start[k[e]], walls.n_in[e])
+            R = el.R[k[e]]
+            group = around(coarse, P + R * normal, R, len(k))
+            group = group[(walls.group[group] == walls.group[e]) & (group != e)]
+            if not len(group):
+                continue
+            c = walls.curves.take(group)
+            allowed = EXACT + slack[k[e]] + slack[k[group]]
+
+            def clear(radius: Array, which: Index, c: Curves = c, P: Array = P, normal: Array = normal) -> Array:
+                return distance(P + radius[:, None] * normal, c.take(which)) - radius
+
+            bad = np.flatnonzero(clear(np.full(len(group), R), np.arange(len(group))) < -allowed)
+            if not len(bad):
+                continue
+            largest = narrowed(partial(_clears, clear, bad, allowed[bad]), np.full(len(bad), R))
+            worst = int(np.argmin(largest))
+            width = R + clear(np.array([R]), bad[[worst]])
+            one = np.array([k[e]])
+            verb = "leaves" if at_end else "arrives at"
+            message = f"where the tool of radius {{R:.4g}} {verb} the contour, the element of line {{other}} is {{r:.6g}} mm away"
+            other = k[group[bad[[worst]]]]
+            places.append(Places("end", one, other, width, R - width, largest[[worst]], message))
+    return places
+
+
+def _clears(clear: Callable[[Array, Index], Array], of: Index, allowed: Array, which: Index, radius: Array) -> Mask:
+    return clear(radius, of[which]) >= -allowed[which]

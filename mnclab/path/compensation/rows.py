@@ -1,0 +1,88 @@
+"""The tool-centre path in rows: ends moved to the equidistant, arcs inserted about outside corners."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.compensation.elements import Mask
+from mnclab.path.compensation.rules import CORNER
+from mnclab.path.kinds import Kind, Rule
+from mnclab.path.plane import PlaneView
+from mnclab.path.toolpath import COLUMNS, Toolpath
+
+if TYPE_CHECKING:
+    from mnclab.path.compensation.equidistant import Equidistant
+
+
+def tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked: Mask) -> Toolpath:
+    """The rows of ``path`` along the equidistant; rows without motion in the plane stand where the one before ends."""
+    el = found.el
+    rows, n = el.rows, len(path)
+    if len(rows) == n:
+        flat, keep = found.end, ~el.on
+    else:
+        at = np.full(n, -1)
+        at[rows] = np.arange(len(rows))
+        where = np.maximum.accumulate(at)  # the last element up to each row
+        flat = found.end.take(where, axis=0, mode="clip")
+        keep = (where < 0) | ~el.on[where]
+    ends = view.to_space(np.arange(n), _joined(flat, view.end[:, 2]))
+    ends[keep] = path.end[keep]  # not compensated: exactly as it was
+
+    columns: dict[str, NDArray[Any]] = {name: getattr(path, name) for name in COLUMNS if name not in ("start", "end")}
+    columns["sweep"], columns["rule"], columns["gouge"] = path.sweep.copy(), np.zeros(n, np.uint8), np.zeros(n, bool)
+    columns["sweep"][rows], columns["rule"][rows], columns["gouge"][rows] = found.sweep, found.rule, marked
+    labels = path.labels if CORNER in path.labels else (*path.labels, CORNER)
+    k = np.flatnonzero(found.insert)
+    if len(k):
+        like, before = rows[k], rows[k - 1]
+        w = view.start[like, 2]
+        made: dict[str, Any] = {
+            "kind": Kind.ARC,
+            "centre": view.to_space(like, _joined(el.end[k - 1], w)),
+            "sweep": found.turn[k],
+            "label": labels.index(CORNER),
+            "side": path.side[before],
+            "radius": path.radius[before],
+            "rule": np.where(found.apart[k], Rule.INSIDE, Rule.OUTSIDE_ARC),
+            "gouge": found.apart[k],
+            "joint": -1,
+            "time": np.nan,
+        }
+        # row i of the path comes from row source[i]; the inserted ones are copies of those that they lead to
+        count = np.ones(n, dtype=np.int64)
+        count[like] = 2
+        source = np.repeat(np.arange(n), count)
+        inserted = like + np.arange(len(k))
+        for name, column in columns.items():
+            columns[name] = _spread(column, source, inserted, made.get(name))
+        ends = ends.take(source, axis=0, mode="clip")
+        ends[inserted] = view.to_space(like, _joined(found.begin[k], w))
+    vertices = np.concatenate([path.start[:1], ends])
+    return Toolpath.chain(vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe)
+
+
+def _joined(flat: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points (n, 3) from coordinates in the plane (n, 2) and along its normal (n,)."""
+    points = np.empty((len(flat), 3))
+    points[:, 0], points[:, 1], points[:, 2] = flat[:, 0], flat[:, 1], w
+    return points
+
+
+def _spread(column: NDArray[Any], source: NDArray[np.int64], at: NDArray[np.int64], value: Any) -> NDArray[Any]:
+    """A column gathered from its old rows, other values in the rows ``at``; a constant one stays so."""
+    same = value is None or (
+        np.ndim(value) == 0 and (value == column[0] or (value != value and column[0] != column[0]))
+    )
+    if column.strides[0] == 0 and same:
+        return np.broadcast_to(column[0], (len(source), *column.shape[1:]))
+    if column.strides[0] == 0:
+        found = np.full((len(source), *column.shape[1:]), column[0])
+    else:
+        found = column.take(source, axis=0, mode="clip")  # faster than column[source]
+    if value is not None:
+        found[at] = value
+    return found

@@ -1,0 +1,68 @@
+"""What controls differ in when they compensate the radius, and the words that all parts of the pass share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from mnclab.path.fault import PathFault
+
+TANGENT = np.radians(0.001)  # corners that turn less are none (setting tangent_tolerance of the MNC)
+ACUTE_TURN = np.pi / 2 + TANGENT  # a corner that turns more is acute
+SPIKE_TURN = np.radians(170)  # straight corners that turn more are worth a notice (MNC-G161-SPIKE)
+CORNER = "outside corner"  # label of inserted arcs
+
+#: Values of the column ``corner_rule``: how outside corners are joined (MNC: G160, G161, G162).
+ROUND, STRAIGHT, ACUTE = 0, 1, 2
+
+
+@dataclass(frozen=True)
+class Compensation:
+    """How a control enters, leaves and changes the equidistant.
+
+    ``approach`` "perpendicular": the entry ends, and the exit begins, square to the contour; "corner": outside, the
+    first and last corners are built like any other (MNC tables 7.1 and 7.3). ``rapid``: entry and exit may run at
+    rapid. ``change``: the side may change on the way, by a straight line that leads over like an entry. ``look_ahead``:
+    the whole contour is looked at, else each element with its neighbours only.
+    """
+
+    approach: str = "perpendicular"
+    rapid: bool = False
+    change: bool = False
+    look_ahead: bool = False
+
+
+class Gouge(NamedTuple):
+    """A place where the tool does not fit.
+
+    ``kind`` is "arc", "element", "bottleneck", "end", "corner", "entry" or "exit"; ``line`` and ``step`` are those of
+    the block in which the tool would cut into the contour, ``other`` is the line that it would cut into. ``place``
+    (x, y, z) is the point of the contour, mm; ``width`` mm is what there is and ``missing`` mm what it lacks;
+    ``largest`` is the largest radius for the whole contour, from its entry to its exit or change of side.
+    """
+
+    kind: str
+    line: int
+    step: int
+    other: int
+    place: tuple[float, float, float]
+    radius: float
+    width: float
+    missing: float
+    largest: float
+    message: str
+    hint: str = ""
+
+
+@dataclass
+class Report:
+    """What the pass has to say: places that do not fit, and remarks at a step."""
+
+    gouges: list[Gouge] = field(default_factory=list)
+    notices: list[PathFault] = field(default_factory=list)
+
+    def remarks(self) -> list[tuple[str, int, str]]:
+        """Message, step and hint of everything."""
+        return [(g.message, g.step, g.hint) for g in self.gouges] + [(n.message, n.step, n.hint) for n in self.notices]

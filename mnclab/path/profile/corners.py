@@ -1,0 +1,138 @@
+"""How fast a corner is taken: the square of the speed from the two tangents that meet there.
+
+With Δu the difference of the unit tangents (per axis Δu_k), a_k and j_k the limits of the axes, ε the corner tolerance:
+
+**tolerance**
+    The corner is replaced by a piece in which the velocity changes from v u1 to v u2 in a time T. A constant
+    acceleration needs T = v max(|Δu_k| / a_k) and leaves the corner by e = v |Δu| T / 8, so
+    ``v² = 8 ε / (|Δu| max(|Δu_k| / a_k))``. This is the parabolic blend of J. J. Craig, *Introduction to Robotics*,
+    ch. 7. Under a jerk limit the acceleration rises and falls in a triangle, T = 2 v max(|Δu_k| / a_k) or
+    2 sqrt(v max(|Δu_k| / j_k)), whichever is longer, and e = v |Δu| T / 12. The piece must fit into half of either
+    neighbour: ``v T <= the shorter one``.
+**deviation**
+    A circle touches both legs and leaves the corner by ε; it is run with v² = a r:
+    ``v² = a ε sin(β/2) / (1 - sin(β/2))``, β the angle between the legs (180° is straight on) and a the smaller path
+    acceleration of the two rows. S. K. Jeon, "Improving Grbl: Cornering Algorithm" (2011); Grbl, Klipper and Marlin
+    plan so.
+**jump**
+    The speed of an axis may jump by s_k: ``v = min(s_k / |Δu_k|)``. Marlin calls this classic jerk.
+
+    Many short lines that stand for a curve, |Δu| l / 8 <= ε with l the mean length of the neighbours, may share their
+    acceleration: it follows the curvature κ = Δu / l of each corner, goes over into that of the next corner within the
+    row between them, and so ``v² <= min(a_k / |κ_k|)`` and ``v³ <= min(j_k L / |κ_k' - κ_k|)``. The greater speed counts.
+
+Tangents that differ by less than :data:`TANGENT` are no corner: rounded coordinates make tangent joints miss by that.
+Under a jerk limit a joint of line and arc is a corner too, for the centripetal acceleration v² Δκ begins at once. Spread
+over the time T = v² max(|Δκ_k| / j_k) it leaves the path by v² |Δκ| T² / 24, hence
+``v⁶ = 24 ε / (|Δκ| max(|Δκ_k| / j_k)²)``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.limits import Limits
+
+TANGENT = 5e-4  # rad
+
+Array = NDArray[np.float64]
+Columns = Sequence[Array]  # X, Y and Z
+Rule = Callable[[Columns, Columns, Array, Array, Array, Array], Array]
+
+
+def rule(limits: Limits) -> Rule:
+    """v² (m,) from the tangents before and after, the path accelerations and the lengths of both rows."""
+    accelerations, jerks = limits.axes("acceleration"), limits.axes("jerk")
+    jumps, slack = limits.axes("corner_jump"), limits.corner_tolerance
+    smooth = bool(np.isfinite(jerks).any())
+
+    def tolerance(before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array) -> Array:
+        turn, slow, slower = _changes(before, after, accelerations, jerks if smooth else None)
+        if slack == 0:
+            return np.where(turn < TANGENT, np.inf, 0.0)
+        with np.errstate(divide="ignore", invalid="ignore"):  # straight on, or a row of no length
+            if not smooth:
+                w = np.minimum(8 * slack / (turn * slow), np.minimum(l0, l1) / slow)
+            else:
+                short = np.minimum(l0, l1)
+                w = np.minimum(6 * slack / (turn * slow), short / (2 * slow))
+                w = np.minimum(w, (6 * slack / (turn * np.sqrt(slower))) ** (4 / 3))
+                w = np.minimum(w, (short / (2 * np.sqrt(slower))) ** (4 / 3))
+        w[turn < TANGENT] = np.inf
+        return w
+
+    def deviation(before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array) -> Array:
+        half = before[0] * after[0]
+        half += before[1] * after[1]
+        half += before[2] * after[2]
+        half += 1.0
+        half *= 0.5
+        np.sqrt(np.maximum(half, 0.0, out=half), out=half)  # sin(β/2) = cos(turn / 2)
+        np.minimum(half, 1.0 - TANGENT**2 / 8, out=half)
+        w = np.minimum(a0, a1)
+        w *= slack
+        w *= half
+        w /= 1.0 - half
+        if slack == 0:
+            w[half >= 1.0 - TANGENT**2 / 8] = np.inf
+        return w
+
+    def jump(before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array) -> Array:
+        w = np.full(len(a0), np.inf)
+        turn = np.zeros(len(a0))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            for b, c, most in zip(before, after, jumps):
+                change = np.abs(c - b)
+                turn += change**2
+                w = np.fmin(w, (most / change) ** 2)
+        w[turn < TANGENT**2] = np.inf
+        return w
+
+    return {"tolerance": tolerance, "deviation": deviation, "jump": jump}[limits.corner_speed]
+
+
+def _changes(before: Columns, after: Columns, accelerations: Array, jerks: Array | None) -> tuple[Array, Array, Array]:
+    """|Δu|, max(|Δu_k| / a_k) and max(|Δu_k| / j_k), each (m,)."""
+    turn, slow, slower = (np.zeros(len(before[0])) for _ in range(3))
+    for k in range(3):
+        change = after[k] - before[k]
+        turn += change * change
+        np.abs(change, out=change)
+        np.maximum(slow, change / accelerations[k], out=slow)
+        if jerks is not None:
+            np.maximum(slower, change / jerks[k], out=slower)
+    return np.sqrt(turn, out=turn), slow, slower
+
+
+def bend_joints(before: Array, after: Array, limits: Limits) -> Array:
+    """v² (m,) where the curvature vector (m, 3) changes, under a jerk limit."""
+    change = np.abs(after - before)
+    slow = (change / limits.axes("jerk")).max(axis=1)
+    size = np.linalg.norm(change, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        w = np.cbrt(24 * limits.corner_tolerance / (size * slow**2))
+    largest = np.maximum(np.linalg.norm(before, axis=1), np.linalg.norm(after, axis=1))
+    return np.where(size <= TANGENT * largest, np.inf, w)
+
+
+def curves(tangent: Array, length: Array, lines: NDArray[np.bool_], limits: Limits) -> Array:
+    """v² (n - 1,) at the corners between rows that are short lines of a curve, 0 elsewhere; for "tolerance" with jerk.
+
+    ``tangent`` (n, 3) and ``length`` (n,) of all rows; ``lines`` (n,) says which of them are lines.
+    """
+    mean = (length[1:] + length[:-1]) / 2
+    corner = lines[1:] & lines[:-1]
+    turn = np.where(corner[:, None], tangent[1:] - tangent[:-1], 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = np.where(corner[:, None], turn / mean[:, None], 0.0)
+        around = np.concatenate([np.zeros((1, 3)), bend, np.zeros((1, 3))])
+        change = np.abs(np.diff(around, axis=0)) / limits.axes("jerk")  # over each row
+        cubed = length / change.max(axis=1)
+        w = np.minimum(
+            (limits.axes("acceleration") / np.abs(bend)).min(axis=1), np.cbrt(np.minimum(cubed[1:], cubed[:-1])) ** 2
+        )
+    fits = corner & (np.linalg.norm(turn, axis=1) * mean <= 8 * limits.corner_tolerance)
+    return np.where(fits, np.nan_to_num(w, nan=0.0, posinf=np.inf), 0.0)

@@ -1,0 +1,284 @@
+"""When the tool is where, and how fast: the feed-rate profile of a path."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
+from mnclab.path.profile.bends import Bends
+from mnclab.path.profile.lookahead import running_sum
+from mnclab.path.profile.pieces import Pieces, pieces
+from mnclab.path.profile.planner import Plan, plan
+from mnclab.path.toolpath import Toolpath
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+
+#: What time goes to. "cutting" is what the programmed feed alone would take, "rapid" the axes' greatest speed;
+#: "acceleration" is all that speeding up, braking, corners and other limits of the machine add.
+CAUSES = ("cutting", "rapid", "probing", "acceleration", "dwell", "tool change", "spindle", "stop")
+_EVENTS = {Kind.DWELL: "dwell", Kind.TOOL: "tool change", Kind.SPINDLE: "spindle"}
+
+
+class Instant(NamedTuple):
+    """The tool at a time, or at many (k,): vectors are (3,) or (k, 3); mm and s.
+
+    ``s`` is the length of path behind it, ``move`` the row of the path and ``line`` its source line. ``velocity`` and
+    ``acceleration`` are those of the axes; ``v``, ``a`` and ``j`` those along the path.
+    """
+
+    t: Any
+    s: Any
+    v: Any
+    a: Any
+    j: Any
+    position: Array
+    velocity: Array
+    acceleration: Array
+    move: Any
+    line: Any
+
+
+class Profile:
+    """A path under limits, as pieces of constant jerk, or of constant acceleration without a jerk limit.
+
+    Columns: ``t`` s, ``s`` mm, ``v`` mm/s at the nodes (m + 1,); ``a`` mm/s² at the start and ``j`` mm/s³ of each piece
+    (m,), and ``move`` (m,), the row of the path it belongs to. For every row (n,): ``seconds`` and ``starts`` (n + 1,),
+    when it begins. Where rapids go axis by axis, s, v, a, j are those of the tool's projection on the straight line.
+    """
+
+    def __init__(
+        self,
+        path: Toolpath,
+        limits: Limits | None = None,
+        *,
+        override: float = 1.0,
+        rapid_motion: str = "line",
+        waits: NDArray[np.bool_] | None = None,
+        source: Any = None,
+    ) -> None:
+        self.path, self.limits, self.override = path, limits or Limits(), override
+        self.source = source  # the Program, for pictures that show its lines
+        self._more: dict[str, Any] = {"rapid_motion": rapid_motion, "waits": waits, "source": source}
+        self.plan: Plan = plan(path, self.limits, override, rapid_motion, waits)
+        self.seconds: Array = self._of_rows(self.plan.seconds)
+
+    def again(self, limits: Limits | None = None, override: float | None = None) -> Profile:
+        """The same path planned under other limits, or with another feed override."""
+        chosen = self.override if override is None else override
+        return Profile(self.path, limits or self.limits, override=chosen, **self._more)
+
+    def _of_rows(self, values: Array) -> Array:
+        """Sums (n,) for the rows of the path from values for planned rows."""
+        row = self.plan.row
+        return values if row is None else np.asarray(np.bincount(row, values, len(self.path)), np.float64)
+
+    @cached_property
+    def starts(self) -> Array:
+        """When each row begins (n + 1,), s; the last is the end."""
+        return running_sum(self.seconds)
+
+    @property
+    def time(self) -> float:
+        """Seconds from the first row to the end of the last."""
+        return float(self.starts[-1])
+
+    # --- pieces ------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def pieces(self) -> Pieces:
+        """The columns, made when first asked for."""
+        return pieces(self.plan)
+
+    @property
+    def t(self) -> Array:
+        """Time at the nodes (m + 1,), s."""
+        return self.pieces.t
+
+    @property
+    def s(self) -> Array:
+        """Length of path behind the nodes (m + 1,), mm."""
+        return self.pieces.s
+
+    @property
+    def v(self) -> Array:
+        """Speed along the path at the nodes (m + 1,), mm/s."""
+        return self.pieces.v
+
+    @property
+    def a(self) -> Array:
+        """Acceleration along the path at the start of each piece (m,), mm/s²."""
+        return self.pieces.a
+
+    @property
+    def j(self) -> Array:
+        """Jerk along the path (m,), mm/s³."""
+        return self.pieces.j
+
+    @property
+    def move(self) -> NDArray[np.int64]:
+        """The row of the path that each piece belongs to (m,)."""
+        return self.pieces.row
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """The columns (m,) at the start of each piece and its row, for pandas, polars or pyarrow."""
+        p = self.pieces
+        return {"t": p.t[:-1], "s": p.s[:-1], "v": p.v[:-1], "a": p.a, "j": p.j, "move": p.row}
+
+    def __len__(self) -> int:
+        return len(self.pieces.row)
+
+    # --- at a time ---------------------------------------------------------------------------------------------------
+
+    def at(self, t: ArrayLike) -> Instant:
+        """The tool at ``t`` seconds (a number or an array (k,)); before the start and after the end it stands."""
+        times = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        p = self.pieces
+        if not len(p.row):
+            nothing = np.zeros((len(times), 3)) + (self.path.end[-1] if len(self.path) else 0.0)
+            zero, row = np.zeros(len(times)), np.full(len(times), len(self.path) - 1)
+            found = Instant(times, zero, zero, zero, zero, nothing, 0 * nothing, 0 * nothing, row, 0 * row)
+        else:
+            i = np.clip(np.searchsorted(p.t, times, "right") - 1, 0, len(p.row) - 1)
+            dt = np.clip(times, p.t[0], p.t[-1]) - p.t[i]
+            s = p.s[i] + dt * (p.v[i] + dt * (p.a[i] / 2 + dt * p.j[i] / 6))
+            v = np.maximum(p.v[i] + dt * (p.a[i] + dt * p.j[i] / 2), 0.0)
+            a, j, row = p.a[i] + dt * p.j[i], p.j[i], p.row[i]
+            outside = (times < p.t[0]) | (times > p.t[-1])
+            v, a, j = (np.where(outside, 0.0, each) for each in (v, a, j))
+            first = np.searchsorted(p.row, row)  # the piece that the row begins with
+            within = np.clip(s - p.s[first], 0.0, self.path.lengths[row])
+            place, velocity, rate = self._axes(row, within, v, a, p.t[i] + dt)
+            found = Instant(times, s, v, a, j, place, velocity, rate, row, self.path.line[row])
+        if np.ndim(t):
+            return found
+        return Instant(*(each[0] if each.ndim == 2 else each[0].item() for each in found))
+
+    def _axes(self, row: NDArray[np.int64], within: Array, v: Array, a: Array, t: Array) -> tuple[Array, Array, Array]:
+        """Place, velocity and acceleration (k, 3) of the axes, ``within`` mm after the start of the row."""
+        path = self.path
+        length = path.lengths[row]
+        moving = length > 0
+        start, end = path.start[row], path.end[row]
+        share = np.divide(within, length, out=np.ones(len(row)), where=moving)[:, None]
+        tangent = np.where(moving[:, None], (end - start) / np.where(moving, length, 1.0)[:, None], 0.0)
+        place, rate = start + share * (end - start), tangent * a[:, None]
+        arcs = np.flatnonzero((path.kind[row] == Kind.ARC) & moving)
+        if len(arcs):
+            bends = Bends(path, row[arcs], length[arcs])
+            along = share[arcs, 0]
+            place[arcs], tangent[arcs] = bends.place(along), bends.tangent(along)
+            rate[arcs] = tangent[arcs] * a[arcs, None] + bends.curvature(along) * v[arcs, None] ** 2
+        velocity = tangent * v[:, None]
+        rapids = self.plan.rapids
+        if rapids is not None:
+            own = np.flatnonzero(np.isin(row, self._rapid_rows))
+            if len(own):
+                which = np.searchsorted(self._rapid_rows, row[own])
+                since = np.clip(t[own] - self.starts[row[own]], 0.0, rapids.seconds[which])
+                place[own], velocity[own], rate[own], _ = rapids.state(which, since)
+        return place, velocity, rate
+
+    @cached_property
+    def _rapid_rows(self) -> NDArray[np.int64]:
+        """The rows of the path whose axes go by themselves."""
+        rapids = self.plan.rapids
+        assert rapids is not None
+        return rapids.rows if self.plan.row is None else self.plan.row[rapids.rows]
+
+    # --- where the time goes -----------------------------------------------------------------------------------------
+
+    @cached_property
+    def lost(self) -> Array:
+        """Seconds of each row (n,) beyond what its programmed feed (rapids: the axes' greatest speed) would take."""
+        p = self.plan
+        with np.errstate(divide="ignore", invalid="ignore"):
+            speed = np.where(np.isfinite(p.rows.feed), p.rows.feed, np.sqrt(p.rows.cap))
+            ideal = np.where(p.rows.length > 0, p.rows.length / speed, p.seconds)
+        if p.rapids is not None:
+            ideal[p.rapids.rows] = p.rapids.ideal
+        lost = np.maximum(p.seconds - ideal, 0.0)
+        return self._of_rows(lost)
+
+    def time_by(self, key: str) -> dict[Any, float]:
+        """Seconds by "line", "tool", "kind" or "cause" (:data:`CAUSES`); the values sum to :attr:`time`.
+
+        A line of a program that was called is a pair (program, line). A ValueError for another key.
+        """
+        path = self.path
+        if key == "cause":
+            return self._causes()
+        if key == "kind":
+            found = np.bincount(path.kind, self.seconds, max(Kind) + 1)
+            return {kind.name.lower(): float(found[kind]) for kind in Kind if (path.kind == kind).any()}
+        if key == "tool":
+            tools, where = np.unique(path.tool, return_inverse=True)
+            return dict(zip(tools.tolist(), np.bincount(where, self.seconds, len(tools)).tolist()))
+        if key != "line":
+            raise ValueError(f"key must be line, tool, kind or cause, got {key!r}")
+        place = path.program.astype(np.int64) << 32 | path.line
+        places, where = np.unique(place, return_inverse=True)
+        total = np.bincount(where, self.seconds, len(places)).tolist()
+        names = zip((places >> 32).tolist(), (places & 0xFFFFFFFF).tolist())
+        return {(line if program == 0 else (program, line)): time for (program, line), time in zip(names, total)}
+
+    def _causes(self) -> dict[Any, float]:
+        kind, useful = self.path.kind, self.seconds - self.lost
+        of_kind = np.bincount(kind, useful, max(Kind) + 1)
+        found = dict.fromkeys(CAUSES, 0.0)
+        found["rapid"], found["probing"] = float(of_kind[Kind.RAPID]), float(of_kind[Kind.PROBE])
+        found["cutting"] = float(of_kind[Kind.LINE] + of_kind[Kind.ARC])
+        found["acceleration"] = float(self.lost.sum())
+        for event, cause in _EVENTS.items():
+            found[cause] = float(of_kind[event])
+        found["stop"] = float(of_kind[Kind.COOLANT] + of_kind[Kind.STOP])
+        return {cause: seconds for cause, seconds in found.items() if seconds > 0}
+
+    # --- shown -------------------------------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        causes = ", ".join(f"{cause} {seconds:.3f}" for cause, seconds in self.time_by("cause").items())
+        return f"<Profile: {self.time:.3f} s{': ' if causes else ''}{causes}>"
+
+    def _repr_html_(self) -> str:
+        causes = self.time_by("cause")
+        rows = "".join(
+            f"<tr><td>{cause}</td><td>{seconds:.3f} s</td><td>{100 * seconds / self.time:.1f} %</td></tr>"
+            for cause, seconds in causes.items()
+        )
+        return f"<table><tr><th>time</th><th>{self.time:.3f} s</th><th></th></tr>{rows}</table>"
+
+    def plot(self, **options: Any) -> Figure:
+        """Programmed and reached feed, acceleration and jerk over time, stops, limits, and which of them governs where.
+
+        ``over="path"`` shows them over the path length, ``axes=True`` adds X, Y and Z; all options are explained in
+        ``mnclab.show.plot.profile.plot_profile``.
+        """
+        from mnclab.show.plot.profile import plot_profile
+
+        return plot_profile(self, **options)
+
+    def plot_reached(self, **options: Any) -> Figure:
+        """The path coloured by the feed that is reached; options as in ``mnclab.show.plot.path.plot_path``."""
+        from mnclab.show.plot.profile import plot_reached
+
+        return plot_reached(self, **options)
+
+    def plot_lost(self, **options: Any) -> Figure:
+        """The time of each line beside its text, and how much of it the machine adds; ``most`` lines."""
+        from mnclab.show.plot.profile import plot_lost
+
+        return plot_lost(self, **options)
+
+    def panel(self, **options: Any) -> Any:
+        """Number boxes for acceleration, jerk, corner tolerance and feed override, with a picture that follows."""
+        from mnclab.show.forms import profile_panel
+
+        return profile_panel(self, **options)

@@ -1,0 +1,131 @@
+"""One move by itself: from a speed to a speed over a length, in the least time.
+
+Between two speeds a *ramp* begins and ends with no acceleration. Over a change D it takes
+
+    T = D / a + a / j       when it reaches the acceleration a, D >= a² / j
+    T = 2 sqrt(D / j)       when it does not
+
+and, being symmetrical, the length T (v0 + v1) / 2. Without a jerk limit T = D / a. A *move* is a ramp up to a peak speed,
+a stretch at that speed, and a ramp down: up to seven phases of constant jerk (L. Biagiotti, C. Melchiorri, *Trajectory
+Planning for Automatic Machines and Robots*, 3.4). Everything takes arrays (n,); mm and s; ``j`` may be inf.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+STEPS = 80  # of a solution; seven or so are usual
+
+#: The sign of the jerk in the seven phases of a move.
+SIGNS = np.array([1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0])
+
+
+def ramp_time(change: Array, a: Array, j: Array) -> Array:
+    """Seconds (n,) for a change of speed >= 0."""
+    full = a * a / j
+    return np.where(change >= full, change / a + a / j, 2 * np.sqrt(np.minimum(change, full) / j))
+
+
+def ramp_length(v0: Array, v1: Array, a: Array, j: Array) -> Array:
+    """Millimetres (n,) of a ramp."""
+    return 0.5 * (v0 + v1) * ramp_time(np.abs(v1 - v0), a, j)
+
+
+def gain(v: Array, length: Array, a: Array, j: Array) -> Array:
+    """By how much (n,) a ramp from ``v`` changes the speed upwards within ``length``.
+
+    With D the change and y = sqrt D the length is (2 v + D) y / sqrt j below D = a² / j, so y solves the cubic equation
+    y³ + 2 v y = L sqrt j; above, (2 v + D) (D + a² / j) = 2 a L.
+    """
+    full = a * a / j
+    with np.errstate(divide="ignore", invalid="ignore"):
+        q = length * np.sqrt(j)
+        root = np.sqrt(2 * v / 3)
+        y = 2 * root * np.sinh(np.arcsinh(q / (2 * root**3)) / 3)
+        bent = np.where(2 * v * np.cbrt(q) < 1e-9 * q, np.cbrt(q), y) ** 2
+    half = v + 0.5 * full
+    rest = 2 * (a * length - v * full)
+    straight = rest / (half + np.sqrt(np.maximum(half * half + rest, 0.0)))
+    return np.where(full > 0, np.where(straight >= full, straight, np.minimum(bent, full)), straight)
+
+
+def peak(length: Array, v0: Array, v1: Array, cap: Array, a: Array, j: Array) -> Array:
+    """By how much (n,) the greatest speed of a move is above the greater of its ends, which a ramp must be able to join.
+
+    That number, not the speed, because a ramp over a change of 1e-14 still takes 1e-9 s.
+    """
+    low, other = np.maximum(v0, v1), np.minimum(v0, v1)
+    found = np.maximum(cap - low, 0.0)
+    room = length - ramp_length(other, low, a, j)
+    open_ = np.flatnonzero(_need(low, other, found, a, j)[0] > length)
+    low, other, length, a, j, room = (each[open_] for each in (low, other, length, a, j, room))
+    most = np.minimum(found[open_], gain(low, np.maximum(room, 0.0), a, j))
+    least, x = np.zeros(len(open_)), most
+    for _ in range(STEPS):
+        if not len(open_):
+            break
+        total, growth = _need(low, other, x, a, j)
+        over = total > length
+        most, least = np.where(over, x, most), np.where(over, least, x)
+        with np.errstate(invalid="ignore"):
+            new = x - (total - length) / growth
+        new = np.where((new > least) & (new < most), new, 0.5 * (least + most))
+        go_on = np.abs(new - x) > 1e-15 * most
+        found[open_] = new
+        open_ = open_[go_on]
+        low, other, length, a, j, x, most, least = (
+            each[go_on] for each in (low, other, length, a, j, new, most, least)
+        )
+    return found
+
+
+def _need(low: Array, other: Array, x: Array, a: Array, j: Array) -> tuple[Array, Array]:
+    """The length of the ramps from both ends to low + x, and how it grows with x."""
+    full = a * a / j
+    total, growth = np.zeros(len(x)), np.zeros(len(x))
+    top = low + x
+    for v, change in ((low, x), (other, x + (low - other))):
+        bent = np.sqrt(np.minimum(change, full) / j)
+        whole = change >= full
+        time = np.where(whole, change / a + a / j, 2 * bent)
+        with np.errstate(divide="ignore", invalid="ignore"):  # at x = 0, where peak halves instead
+            growth += 0.5 * (time + (v + top) * np.where(whole, 1 / a, 1 / (bent * j)))
+        total += 0.5 * (v + top) * time
+    return total, growth
+
+
+def phases(length: Array, v0: Array, v1: Array, above: Array, a: Array, j: Array) -> Array:
+    """The seconds (n, 7) of the phases of a move whose peak is ``above`` the greater of its ends."""
+    low = np.maximum(v0, v1)
+    top = low + above
+    found = np.zeros((len(length), 7))
+    smooth, full = np.isfinite(j), a * a / j
+    rest = length.copy()
+    for at, v in ((0, v0), (4, v1)):
+        change = above + (low - v)
+        whole = change >= full
+        bent = np.where(smooth, np.where(whole, a / j, np.sqrt(np.minimum(change, full) / j)), 0.0)
+        found[:, at] = found[:, at + 2] = bent
+        found[:, at + 1] = np.where(whole, change / a - bent, 0.0)
+        rest -= 0.5 * (v + top) * (2 * bent + found[:, at + 1])
+    np.divide(rest, top, out=found[:, 3], where=rest > 0)
+    return found
+
+
+def starts(seconds: Array, v0: Array, a: Array, j: Array) -> tuple[Array, Array, Array, Array]:
+    """Place, speed, acceleration and jerk (n, 7) at the start of each phase of moves that begin at speed ``v0``."""
+    smooth = np.isfinite(j)
+    jerk = np.where(smooth, j, 0.0)[:, None] * SIGNS
+    rise, fall = (np.where(smooth, np.where(smooth, j, 0.0) * seconds[:, k], a) for k in (0, 4))
+    none = np.zeros(len(seconds))
+    before = np.stack([none, rise, rise, none, none, -fall, -fall], axis=1)
+    s, v = np.zeros_like(seconds), np.empty_like(seconds)
+    v[:, 0] = v0
+    for k in range(6):
+        dt = seconds[:, k]
+        s[:, k + 1] = s[:, k] + dt * (v[:, k] + dt * (before[:, k] / 2 + dt * jerk[:, k] / 6))
+        v[:, k + 1] = v[:, k] + dt * (before[:, k] + dt * jerk[:, k] / 2)
+    return s, v, before, jerk

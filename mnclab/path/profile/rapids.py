@@ -1,0 +1,73 @@
+"""Rapids whose axes are not coordinated: each runs its own profile from stop to stop (MNC 3.1).
+
+The row takes as long as its slowest axis. While the axes are uneven the tool leaves the straight line; a place on it, s,
+is the projection of the tool on the line from start to end, so that the pieces of the profile join as they do elsewhere.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.limits import Limits
+from mnclab.path.profile import ramps
+from mnclab.path.toolpath import Toolpath
+
+SAME = 1e-12  # s
+
+Array = NDArray[np.float64]
+
+
+class Rapids:
+    """The rapid rows (m,) of a path: ``seconds`` (m,), ``top`` speed (m,) and what each axis does."""
+
+    def __init__(self, path: Toolpath, rows: NDArray[np.int64], limits: Limits, motion: str) -> None:
+        self.rows = rows
+        self.start, self.travel = path.start[rows], path.end[rows] - path.start[rows]
+        distance = np.abs(self.travel)
+        self.length = np.linalg.norm(self.travel, axis=1)
+        speeds = np.broadcast_to(limits.axes("rapid"), distance.shape)
+        cruise = (distance / speeds).max(axis=1)  # seconds at full speed
+        if motion == "proportional":
+            with np.errstate(divide="ignore", invalid="ignore"):
+                speeds = np.where(cruise[:, None] > 0, distance / cruise[:, None], speeds)
+        self.ideal = cruise
+        flat = distance.ravel()
+        moves = np.flatnonzero(flat > 0)
+        a, j = (np.tile(limits.axes(name), len(rows)) for name in ("acceleration", "jerk"))
+        still, v = np.zeros(len(moves)), speeds.ravel()[moves]
+        above = ramps.peak(flat[moves], still, still, v, a[moves], j[moves])
+        seconds = np.zeros((len(flat), 7))
+        seconds[moves] = ramps.phases(flat[moves], still, still, above, a[moves], j[moves])
+        #: Seconds (m, 3, 7) of the phases of each axis.
+        self.phases = seconds.reshape(-1, 3, 7)
+        self._starts = [
+            each.reshape(-1, 3, 7) for each in ramps.starts(seconds, np.zeros(len(flat)), np.where(flat > 0, a, 0.0), j)
+        ]
+        self.seconds = self.phases.sum(axis=2).max(axis=1)
+
+    def breaks(self) -> Array:
+        """Seconds (m, 22) from the start of each row at which any axis changes its phase, in rising order."""
+        ends = np.cumsum(self.phases, axis=2).reshape(len(self.rows), -1)
+        ends = np.minimum(ends, self.seconds[:, None])  # the sums of the slowest axis are rounded in another order
+        breaks = np.sort(np.concatenate([np.zeros((len(self.rows), 1)), ends], axis=1), axis=1)
+        for k in range(breaks.shape[1] - 2, 0, -1):  # what rounding alone keeps apart is one
+            breaks[:, k] = np.where(breaks[:, k + 1] - breaks[:, k] < SAME, breaks[:, k + 1], breaks[:, k])
+        return breaks
+
+    def state(self, which: NDArray[np.int64], t: Array) -> tuple[Array, Array, Array, Array]:
+        """Place, velocity, acceleration and jerk (q, 3) of some of the rows, ``t`` (q,) seconds after their start."""
+        begin = np.cumsum(self.phases[which], axis=2)
+        phase = (begin <= t[:, None, None]).sum(axis=2)  # 7: the axis has arrived
+        done = phase == 7
+        phase = np.minimum(phase, 6)[:, :, None]
+        dt = (
+            t[:, None]
+            - (np.take_along_axis(begin, phase, 2) - np.take_along_axis(self.phases[which], phase, 2))[..., 0]
+        )
+        s, v, a, j = (np.take_along_axis(each[which], phase, 2)[..., 0] for each in self._starts)
+        sign, distance = np.sign(self.travel[which]), np.abs(self.travel[which])
+        place = np.where(done, distance, s + dt * (v + dt * (a / 2 + dt * j / 6)))
+        speed = np.where(done, 0.0, v + dt * (a + dt * j / 2))
+        rate = np.where(done, 0.0, a + dt * j)
+        return self.start[which] + sign * place, sign * speed, sign * rate, sign * np.where(done, 0.0, j)

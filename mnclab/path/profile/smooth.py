@@ -1,0 +1,213 @@
+"""The planner under a jerk limit: S-curves over groups of rows.
+
+A jerk limit is not additive in v², so the scans of the look-ahead do not carry over. Instead:
+
+1. Nodes at which the acceleration is zero, the *knots*, are chosen: stops, ends of rows that are long against a ramp,
+   sharp corners among gentle ones, changes of feed, and otherwise one in every :data:`SHARE` of the length of a ramp
+   from rest to the greatest speed between two stops. The rows between two knots are a *group*; it has the least speed,
+   acceleration and jerk of its rows and of the corners inside it.
+2. The acceleration alone bounds the speeds at the knots from above, by the two scans.
+3. Where a ramp between two knots does not fit into its group, its faster end is slowed to what does; this may unsettle
+   the neighbours, so it is repeated for these. Should :data:`ROUNDS` not be enough, a scan that needs no repetition
+   settles the stretches that are left: within the time that a group takes at its greatest speed, any change of speed
+   that is possible at all fits into its length.
+4. Every group is one move of up to seven phases (:mod:`~mnclab.path.profile.ramps`).
+
+No limit is exceeded, but it costs time against the optimum: the acceleration is zero at every knot, a group is as slow as
+its slowest part, and arcs share their jerk between turning and braking by fixed parts. A single move is optimal; on
+contours with long rows only corners that are taken at speed cost a little; on chains of short rows the ramps from and to
+stops take about 1.2 to 2 times as long as the best, and what runs at its feed costs nothing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.profile import ramps
+from mnclab.path.profile.lookahead import reachable, running_sum
+from mnclab.path.profile.rows import Rows
+
+SHARE = 0.5  # of a ramp from rest to the greatest speed: the least length of a group of short rows
+SHARP = 0.64  # of its neighbours: a corner with less v² gets a knot
+ROUNDS = 200
+STEPS = 60  # of Newton for the time at a place; seven or so are usual
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+class Groups:
+    """Moves over groups of rows: ``knots`` (g + 1,) are nodes of the path, with the speeds ``v`` (g + 1,).
+
+    ``length``, ``a``, ``j`` (g,) are those of the groups, and ``above`` by how much their peak is above the greater of
+    their ends. For the rows (n,) of the path: ``group``, and ``since``, the time from its start to that of the row.
+    """
+
+    def __init__(self, knots: Index, length: Array, v: Array, cap: Array, a: Array, j: Array) -> None:
+        self.knots, self.length, self.v, self.a, self.j = knots, length, v, a, j
+        self.above = ramps.peak(length, v[:-1], v[1:], cap, a, j)
+        self.top = np.maximum(v[:-1], v[1:]) + self.above
+        many = np.diff(knots)
+        self.group: Index = np.arange(len(many)) if len(many) == knots[-1] else np.repeat(np.arange(len(many)), many)
+        self.since = np.zeros(knots[-1])
+
+    def phases(self, which: Index | slice = slice(None)) -> tuple[Array, tuple[Array, Array, Array, Array]]:
+        """Seconds (k, 7) of the phases of some groups; place, speed, acceleration and jerk at the start of each."""
+        v0, a, j = self.v[:-1][which], self.a[which], self.j[which]
+        seconds = ramps.phases(self.length[which], v0, self.v[1:][which], self.above[which], a, j)
+        return seconds, ramps.starts(seconds, v0, a, j)
+
+    def times(self) -> tuple[Array, Array, Array]:
+        """Seconds (g,) of the groups, and from when to when they are at their greatest speed."""
+        up, down = (ramps.ramp_time(self.top - v, self.a, self.j) for v in (self.v[:-1], self.v[1:]))
+        rest = self.length - 0.5 * ((self.v[:-1] + self.top) * up + (self.v[1:] + self.top) * down)
+        cruise = np.divide(rest, self.top, out=np.zeros(len(rest)), where=rest > 0)
+        return up + cruise + down, up, up + cruise
+
+    def items(self, row_seconds: Array, left_out: Index) -> tuple[NDArray[np.generic], ...]:
+        """Pieces: row, order, seconds, length, speed, acceleration, jerk; ``left_out`` rows have none.
+
+        ``row_seconds`` (n,) is the time of the rows, which for rows without length is not in the groups.
+        """
+        seconds, starts = self.phases()
+        ends = np.cumsum(seconds, axis=1)
+        begins = ends - seconds
+        used = seconds > 0
+        phase = np.flatnonzero(used)  # of all phases of all groups, in order
+        first = self.knots[:-1]
+        inside = np.ones(len(self.group), dtype=bool)
+        inside[first] = False
+        inside = np.flatnonzero(inside)  # rows that begin within a group
+        at = np.concatenate([begins.ravel()[phase], self.since[inside]])
+        group = np.concatenate([phase // 7, self.group[inside]])
+        which = np.concatenate([phase, np.full(len(inside), -1)])
+        row = np.concatenate([np.where(begins.ravel()[phase] == 0, first[phase // 7], -1), inside])
+        order = np.lexsort((which < 0, at, group))
+        at, group, which, row = at[order], group[order], which[order], row[order]
+        which, row = np.maximum.accumulate(which), np.maximum.accumulate(row)
+        until = np.append(at[1:], 0.0)
+        last = np.append(group[1:] != group[:-1], True)[: len(group)]
+        until[last] = ends[group[last], 6]
+        dt = np.maximum(until - at, 0.0)
+        tau = np.maximum(at - begins.ravel()[which], 0.0)
+        v, a, j = (each.ravel()[which] for each in starts[1:])
+        v, a = v + tau * (a + tau * j / 2), a + tau * j
+        ds = dt * (v + dt * (a / 2 + dt * j / 6))
+        kept = (dt > 0) & ~np.isin(row, left_out)
+        found = [each[kept] for each in (row, np.arange(len(row)), dt, ds, v, a, j)]
+        still = np.flatnonzero((seconds.sum(axis=1) == 0)[self.group] & (row_seconds > 0))
+        still = still[~np.isin(still, left_out)]
+        none = np.zeros(len(still))
+        rest = [still, none, row_seconds[still], none, none, none, none]
+        return tuple(np.concatenate(each) for each in zip(found, rest))
+
+
+def smooth(rows: Rows, w: Array) -> tuple[Array, Array, Array, Groups]:
+    """Speeds at the nodes (n + 1,), top speeds and times (n,) and the groups; ``w`` bounds v² at the nodes."""
+    n = len(rows.length)
+    knots = _knots(rows, w)
+    first = knots[:-1]
+    behind = running_sum(rows.length)
+    length = np.diff(behind[knots])
+    single = np.diff(knots) == 1
+    length[single] = rows.length[first[single]]
+    corner = rows.corner.copy()
+    corner[knots] = np.inf
+    cap = np.minimum(np.minimum.reduceat(rows.cap, first), np.minimum.reduceat(corner[:-1], first))
+    a, j = np.minimum.reduceat(rows.a, first), np.minimum.reduceat(rows.j, first)
+    edge = rows.corner[knots]
+    edge[:-1] = np.minimum(edge[:-1], cap)
+    edge[1:] = np.minimum(edge[1:], cap)
+    v = _settle(np.sqrt(reachable(edge, 2 * a * length)), length, np.sqrt(cap), a, j)
+    groups = Groups(knots, length, v, np.sqrt(cap), a, j)
+    whole, peak_from, peak_to = groups.times()
+    if len(first) == n:
+        return v, groups.top, whole, groups
+    nodes = np.zeros(n + 1)
+    nodes[knots] = v
+    inside = np.ones(n + 1, dtype=bool)
+    inside[knots] = False
+    at = np.flatnonzero(inside)
+    groups.since[at], nodes[at] = _when(groups, groups.group[at], behind[at] - behind[first[groups.group[at]]])
+    end = np.append(groups.since[1:], 0.0)
+    end[knots[1:] - 1] = whole
+    highest = (groups.since <= peak_to[groups.group]) & (end >= peak_from[groups.group])
+    top = np.where(highest, groups.top[groups.group], np.maximum(nodes[:-1], nodes[1:]))
+    return nodes, top, np.maximum(end - groups.since, 0.0), groups
+
+
+def _knots(rows: Rows, w: Array) -> Index:
+    """Nodes (g + 1,) at which the acceleration is zero, the first and the last among them."""
+    n = len(rows.length)
+    stops = np.flatnonzero(w[:-1] == 0)  # node 0 is one
+    fastest = np.repeat(np.maximum.reduceat(w, stops), np.diff(np.append(stops, n)))  # between two stops
+    v = np.sqrt(np.minimum(rows.cap, fastest))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = rows.length / (SHARE * np.maximum(ramps.ramp_length(np.zeros(n), v, rows.a, rows.j), 1e-9))
+    share = np.minimum(np.nan_to_num(share), 1.0)
+    grid = np.floor(running_sum(share))
+    chosen = np.zeros(n + 1, dtype=bool)
+    chosen[0] = chosen[n] = True
+    chosen[1:] |= grid[1:] != grid[:-1]
+    chosen |= rows.corner == 0
+    corner, cap = rows.corner, rows.cap
+    chosen[1:n] |= np.minimum(cap[1:], cap[:-1]) < SHARP * np.maximum(cap[1:], cap[:-1])
+    inner = corner[1:n]
+    around = np.maximum(corner[:-2], corner[2:])
+    chosen[1:n] |= (inner < SHARP * around) & (inner <= w[1:n])
+    still = rows.length == 0  # an event is a group of its own
+    chosen[:-1] |= still
+    chosen[1:] |= still
+    long = share >= 1.0
+    chosen[:-1] |= long
+    chosen[1:] |= long
+    return np.flatnonzero(chosen)
+
+
+def _settle(v: Array, length: Array, cap: Array, a: Array, j: Array) -> Array:
+    """Speeds (g + 1,) not above ``v`` such that a ramp fits between any two neighbours."""
+    v = v.copy()
+    active = np.arange(len(length))
+    for _ in range(ROUNDS):
+        v0, v1 = v[active], v[active + 1]
+        tight = ramps.ramp_length(v0, v1, a[active], j[active]) > length[active] * (1 + 1e-12)
+        active, v0, v1 = active[tight], v0[tight], v1[tight]
+        if not len(active):
+            return v
+        low, high = np.minimum(v0, v1), np.maximum(v0, v1)
+        slower = np.minimum(low + ramps.gain(low, length[active], a[active], j[active]), high)
+        node = active + (v1 > v0)
+        np.minimum.at(v, node, slower)
+        near = np.concatenate([node - 1, node])
+        active = np.unique(near[(near >= 0) & (near < len(length))])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        time = np.where(cap > 0, length / cap, 0.0)
+    change = np.where(time > 2 * a / j, a * (time - a / j), j * time**2 / 4)
+    settled = reachable(v, change)
+    chain = np.cumsum(v == 0)
+    left = np.isin(chain, np.unique(np.concatenate([chain[active], chain[active + 1]])))
+    return np.where(left, settled, v)
+
+
+def _when(groups: Groups, group: Index, place: Array) -> tuple[Array, Array]:
+    """Time since the start of a group, and the speed, at places (k,) mm behind its start."""
+    which, group = np.unique(group, return_inverse=True)
+    seconds, starts = groups.phases(which)
+    phase = np.maximum((starts[0][group] <= place[:, None]).sum(axis=1) - 1, 0)
+    begins = (np.cumsum(seconds, axis=1) - seconds)[group, phase]
+    s, v, a, j = (each[group, phase] for each in starts)
+    most, rest = seconds[group, phase], place - s
+    tau = np.where(phase < 3, most, 0.0)  # speeding up, s(t) is convex: Newton comes from the right; else from the left
+    todo = np.flatnonzero(most > 0)
+    for _ in range(STEPS):
+        t, s_, v_, a_, j_ = tau[todo], rest[todo], v[todo], a[todo], j[todo]
+        miss = t * (v_ + t * (a_ / 2 + t * j_ / 6)) - s_
+        speed = v_ + t * (a_ + t * j_ / 2)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            new = np.clip(np.where(speed > 0, t - miss / speed, t), 0.0, most[todo])
+        tau[todo] = new
+        todo = todo[np.abs(new - t) > 1e-15 * most[todo]]
+        if not len(todo):
+            break
+    return begins + tau, v + tau * (a + tau * j / 2)

@@ -1,0 +1,308 @@
+"""Feed-rate profiles as pictures: over time or path length, on the path, and beside the lines of the program."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from mnclab.path.kinds import Kind
+from mnclab.path.profile import Profile
+from mnclab.path.profile.bends import divided
+from mnclab.show.plot import colours
+from mnclab.show.plot.path import plot_path
+from mnclab.show.plot.picture import SMALL, Picture, columns
+
+SIZE = (7.0, 6.0)  # inches
+FINE, MANY = 9, 20_000  # points of a piece, as long as all of them are not more than so many
+BAND, FEW = 500, 60  # steps of the band that says what holds the speed; boxes of it that are hatched
+MOST = 30  # lines of a program beside their bars
+PARTS = 3000  # of a path that is coloured by the speed reached
+
+Array = NDArray[np.float64]
+
+
+class Curve(NamedTuple):
+    """Points (k,) of a profile: time, place, speed, acceleration and jerk, and the piece each belongs to."""
+
+    t: Array
+    s: Array
+    v: Array
+    a: Array
+    j: Array
+    piece: NDArray[np.int64]
+
+
+def curve(profile: Profile, over: str = "path") -> Curve:
+    """Enough points of a profile for a picture: both ends of every piece, and some between."""
+    p = profile.pieces
+    m = len(p.row)
+    straight = over == "time" and not p.j.any()
+    points = 2 if straight else max(2, min(FINE, MANY // max(m, 1)))
+    share = np.linspace(0, 1, points)
+    dt = np.diff(p.t)[:, None] * share
+    a, j, v = p.a[:, None], p.j[:, None], p.v[:-1, None]
+    place = p.s[:-1, None] + dt * (v + dt * (a / 2 + dt * j / 6))
+    speed = np.maximum(v + dt * (a + dt * j / 2), 0.0)
+    t, s, v, a, j = (one.ravel() for one in (p.t[:-1, None] + dt, place, speed, a + dt * j, j + 0 * dt))
+    return Curve(t, s, v, a, j, np.repeat(np.arange(m), points))
+
+
+def holds(profile: Profile) -> NDArray[np.int64]:
+    """What holds the speed in each piece (m,): an index into ``colours.HOLDS``."""
+    p, names = profile.pieces, list(colours.HOLDS)
+    at = {name: names.index(name) for name in names}
+    feed, cap = (
+        _of_rows(profile, profile.plan.rows.feed)[p.row],
+        np.sqrt(_of_rows(profile, profile.plan.rows.cap)[p.row]),
+    )
+    v, kind = p.v[:-1], profile.path.kind[p.row]
+    found = np.full(len(v), at["corner"])
+    found[v >= cap * (1 - 1e-9)] = at["axis speed"]
+    found[(kind == Kind.ARC)] = at["turning"]
+    found[(kind == Kind.RAPID)] = at["axis speed"]
+    found[v >= feed * (1 - 1e-9)] = at["feed"]
+    found[p.a != 0] = at["acceleration"]
+    found[p.j != 0] = at["jerk"]
+    found[(kind > Kind.PROBE)] = at["standing"]
+    return found
+
+
+def _of_rows(profile: Profile, values: Array) -> Array:
+    """A value for each row of the path from those of planned rows."""
+    row = profile.plan.row
+    return values if row is None else values[np.searchsorted(row, np.arange(len(profile.path)))]
+
+
+def plot_profile(
+    profile: Profile,
+    ax: Axes | None = None,
+    *,
+    over: str = "time",
+    axes: bool = False,
+    limits: bool = True,
+    size: tuple[float, float] = SIZE,
+) -> Figure:
+    """Feed, acceleration and, under a limit, jerk along the path. Returns the figure, which Jupyter shows.
+
+    - ``ax``: draw only the feed, into these axes of one's own.
+    - ``over``: "time" (s) or "path" (mm of path length).
+    - ``axes``: also the speed and acceleration of X, Y and Z.
+    - ``limits``: dotted lines at the limits, and a band below the feed that says what holds the speed: the acceleration,
+      the jerk, a corner, the turning on an arc, the speed of an axis, or nothing but the programmed feed.
+    - ``size``: width and height in inches.
+
+    Bars on the time axis are stops, triangles corners that slow the tool.
+    """
+    if over not in ("time", "path"):
+        raise ValueError(f"over must be time or path, got {over!r}")
+    drawn = curve(profile, over)
+    x = drawn.t if over == "time" else drawn.s
+    if ax is not None:
+        _feed(ax, profile, drawn, x, over, limits)
+        _label(ax, over)
+        figure: Any = ax.get_figure(root=True)
+        return figure
+    titles = ["feed, mm/min", "acceleration, mm/s²"]
+    titles += ["jerk, mm/s³"] if len(profile.plan.rows.j) else []
+    titles += ["axis speed, mm/min", "axis acc., mm/s²"] if axes else []
+    heights = [2.2 if k == 0 else 1.35 for k in range(len(titles))]  # inches, at least
+    picture = Picture((size[0], max(size[1], 1.2 + 1.05 * sum(heights))), _in_words(profile))
+    width, height = picture.get_size_inches()
+    names = list(colours.HOLDS) if limits else []
+    above = 0.3 + 0.2 * (1 + (len(names) > 0))
+    grid = picture.add_gridspec(
+        len(titles), 1, height_ratios=heights, left=0.85 / width, right=1 - 0.15 / width, bottom=0.5 / height,
+        top=1 - above / height, hspace=0.1,
+    )  # fmt: skip
+    rows = [picture.add_subplot(grid[0, 0])]
+    rows += [picture.add_subplot(grid[k, 0], sharex=rows[0]) for k in range(1, len(titles))]
+    for each, title in zip(rows, titles):
+        _dress(each, title)
+    handles = _feed(rows[0], profile, drawn, x, over, limits)
+    most = _of_rows(profile, profile.plan.rows.a).copy()
+    most[profile.path.kind > Kind.PROBE] = np.nan
+    if profile.plan.rapids is not None:
+        most[profile.path.kind == Kind.RAPID] = np.nan  # its axes have their own
+    if profile.plan.ramps is not None:
+        most[profile.path.kind == Kind.ARC] = np.nan  # it changes along them
+    most = most[profile.move[drawn.piece]]
+    rows[1].plot(x, drawn.a, **{**colours.REACHED.style(), "label": "_a"})
+    for sign in (1, -1) if limits else ():
+        handles += rows[1].plot(
+            x, sign * most, **{**colours.LIMIT.style(), "label": "limit" if sign > 0 else "_limit"}
+        )[:sign]
+    if len(profile.plan.rows.j):
+        rows[2].plot(x, drawn.j, **{**colours.REACHED.style(), "label": "_j"})
+    if axes:
+        handles += _axes(rows[-2:], profile, drawn, x, limits)
+    for each in rows[:-1]:
+        each.tick_params(labelbottom=False)
+        each.set_xlabel("")
+    _label(rows[-1], over)
+    _legends(picture, handles)
+    return picture
+
+
+def plot_reached(profile: Profile, **options: Any) -> Figure:
+    """The path coloured by the feed that is reached; the options are those of ``mnclab.show.plot.path.plot_path``."""
+    path, drawn = profile.path, curve(profile)
+    total = max(path.length, 1e-9)
+    counts = np.where(np.isin(path.kind, (Kind.LINE, Kind.ARC)), np.ceil(path.lengths / total * PARTS), 1)
+    parts, _ = divided(path, np.clip(counts, 1, PARTS).astype(np.int64))
+    middle = np.cumsum(parts.lengths) - parts.lengths / 2
+    reached = np.interp(middle, drawn.s, drawn.v) * 60 if len(drawn.s) else np.zeros(len(parts))
+    cut = np.isfinite(parts.feed)
+    shown = parts.replace(feed=np.where(cut, reached, parts.feed))
+    return plot_path(shown, **{"colour": "feed", "arrows": False, **options})
+
+
+def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = MOST, width: float = 7.0) -> Figure:
+    """Seconds of each line beside its text: what feed and rapid need, dwells and changes, and what the machine adds.
+
+    Of a long program the ``most`` lines that lose the most; ``width`` in inches.
+    """
+    path, lost = profile.path, profile.lost
+    own = path.program == 0
+    lines, where = np.unique(path.line[own], return_inverse=True)
+    extra = np.bincount(where, lost[own], len(lines))
+    whole = np.bincount(where, profile.seconds[own], len(lines))
+    keep = np.sort(np.argsort(-extra - 1e-9 * whole, kind="stable")[:most])
+    lines, extra, whole = lines[keep], extra[keep], whole[keep]
+    texts = [_text(profile, int(line)) for line in lines]
+    picture = None
+    if ax is None:
+        room = 0.3 + 0.068 * max(map(len, texts), default=4)
+        height = 0.75 + 0.2 * max(len(lines), 2)
+        said = f"time lost in {len(lines)} lines, {extra.sum():.3f} of {whole.sum():.3f} s"
+        picture = Picture((width, height), said)
+        ax = picture.add_axes((room / width, 0.45 / height, 1 - (room + 0.2) / width, 1 - 0.75 / height))
+    place = np.arange(len(lines))
+    looks = (("as programmed", whole - extra, 0.0, colours.USEFUL), ("lost", extra, whole - extra, colours.LOST))
+    for name, values, left, (shade, hatch) in looks:
+        ax.barh(place, values, left=left, height=0.72, color=shade, hatch=hatch, edgecolor=colours.PAPER, label=name)
+    ax.set_yticks(place, texts, fontfamily="monospace", parse_math=False)
+    ax.set_ylim(len(lines) - 0.4, -0.6)
+    ax.set_xlim(0, max(1.05 * float(whole.max(initial=0.0)), 1e-3))
+    ax.tick_params(labelsize=SMALL)
+    ax.grid(True, axis="x", color=colours.FAINT, linewidth=0.6)
+    ax.set_axisbelow(True)
+    ax.set_xlabel("time, s", fontsize=SMALL + 1)
+    if picture is None:
+        figure: Any = ax.get_figure(root=True)
+        return figure
+    _legends(picture, [Patch(facecolor=shade, hatch=hatch, edgecolor=colours.PAPER, label=name)
+                       for name, _, _, (shade, hatch) in looks])  # fmt: skip
+    return picture
+
+
+# --- parts of the pictures -------------------------------------------------------------------------------------------
+
+
+def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits: bool) -> list[Any]:
+    """Programmed and reached feed, stops, corners, and the band of what holds the speed; returns legend entries."""
+    feed, row = _of_rows(profile, profile.plan.rows.feed), profile.move[drawn.piece]
+    known = np.isfinite(feed) & (profile.path.kind <= Kind.PROBE)
+    wanted = np.where(known, feed * 60, np.nan)[row]
+    lines: list[Any] = [
+        ax.plot(x, wanted, **colours.WANTED.style())[0],
+        ax.plot(x, drawn.v * 60, **colours.REACHED.style())[0],
+    ]
+    top = 1.08 * max(float(drawn.v.max(initial=0.0)) * 60, float(np.nanmax(wanted, initial=0.0)), 1e-3)
+    if not np.isfinite(top) or top > 40 * max(float(drawn.v.max(initial=0.0)) * 60, 1e-3):
+        top = 1.08 * float(drawn.v.max(initial=0.0)) * 60  # a feed far beyond what is reached would flatten all else
+    p = profile.pieces
+    at = p.t if over == "time" else p.s
+    ax.set_xlim(0, max(float(at[-1]), 1e-9) if len(at) else 1.0)
+    ax.set_ylim(-0.14 * top if limits else -0.03 * top, top)
+    stops = at[np.flatnonzero(p.v <= 1e-9)]
+    if len(stops) <= 300:
+        lines.append(ax.plot(stops, 0 * stops, **colours.STANDS.style())[0])
+    turn = np.zeros(len(p.v), dtype=bool)
+    turn[1:-1] = (p.row[1:] != p.row[:-1]) & (p.v[1:-1] > 1e-9) & (p.v[1:-1] < p.v[:-2]) & (p.v[1:-1] < p.v[2:])
+    if 0 < turn.sum() <= 60:
+        lines.append(ax.plot(at[turn], p.v[turn] * 60, **colours.SLOW_CORNER.style())[0])
+    if not limits or not len(p.row):
+        return lines
+    which, edges = holds(profile), at
+    if len(which) > BAND:  # more pieces than the band can show
+        edges = np.linspace(at[0], at[-1], BAND + 1)
+        middle = (edges[1:] + edges[:-1]) / 2
+        which = which[np.clip(np.searchsorted(at, middle, "right") - 1, 0, len(which) - 1)]
+    for k, (name, (shade, hatch)) in enumerate(colours.HOLDS.items()):
+        first = np.flatnonzero((which == k) & np.append(True, which[1:] != which[:-1]))
+        last = np.flatnonzero((which == k) & np.append(which[1:] != which[:-1], True)) + 1
+        if not len(first) or name == "standing":
+            continue
+        low, high = -0.12 * top, -0.05 * top
+        boxes = [[(a, low), (b, low), (b, high), (a, high)] for a, b in zip(edges[first], edges[last])]
+        looks: dict[str, Any] = {
+            "facecolor": shade,
+            "hatch": hatch if len(boxes) < FEW else "",
+            "edgecolor": colours.PAPER,
+            "linewidth": 0.0,
+        }
+        ax.add_collection(PolyCollection(boxes, **looks, zorder=2))
+        lines.append(Patch(**looks | {"hatch": hatch}, label=f"held by {name}"))
+    return lines
+
+
+def _axes(rows: list[Axes], profile: Profile, drawn: Curve, x: Array, limits: bool) -> list[Line2D]:
+    """Speed and acceleration of each axis."""
+    begin, end = profile.t[:-1][drawn.piece], profile.t[1:][drawn.piece]
+    now = profile.at(np.clip(drawn.t, begin + 1e-9 * (end - begin), end - 1e-9 * (end - begin)))  # within the piece
+    handles = []
+    for k, look in enumerate(colours.AXES):
+        if not np.abs(now.velocity[:, k]).max(initial=0.0) > 1e-9:
+            continue
+        handles.append(rows[0].plot(x, now.velocity[:, k] * 60, **look.style())[0])
+        rows[1].plot(x, now.acceleration[:, k], **{**look.style(), "label": f"_{look.name}"})
+        for row, most in zip(
+            rows if limits else [], (profile.limits.axes("rapid") * 60, profile.limits.axes("acceleration"))
+        ):
+            low, high = row.get_ylim()
+            for value in (most[k], -most[k]):
+                if low <= value <= high:
+                    row.axhline(value, **{**colours.LIMIT.style(), "label": "_limit"})
+    return handles
+
+
+def _legends(picture: Picture, handles: list[Any]) -> None:
+    """The names of everything in the room above the pictures."""
+    names = [str(handle.get_label()) for handle in handles]
+    picture.legend(
+        handles=handles, loc="upper left", bbox_to_anchor=(0.06 / picture.get_figwidth(), 1 - 0.04 / picture.get_figheight()),
+        ncols=columns(names, float(picture.get_figwidth())), fontsize=SMALL, frameon=False, borderaxespad=0, borderpad=0.2,
+        handlelength=2.2, columnspacing=1.2,
+    )  # fmt: skip
+
+
+def _dress(ax: Axes, title: str) -> None:
+    ax.set_ylabel(title, fontsize=SMALL)
+    ax.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+    ax.tick_params(labelsize=SMALL)
+    ax.grid(True, color=colours.FAINT, linewidth=0.6)
+    ax.set_axisbelow(True)
+    for side in ax.spines.values():
+        side.set_color("#9a9a9a")
+
+
+def _label(ax: Axes, over: str) -> None:
+    ax.set_xlabel("time, s" if over == "time" else "path, mm", fontsize=SMALL + 1)
+
+
+def _in_words(profile: Profile) -> str:
+    causes = ", ".join(f"{cause} {seconds:.3g} s" for cause, seconds in profile.time_by("cause").items())
+    return f"feed-rate profile: {profile.time:.4g} s; {causes}"
+
+
+def _text(profile: Profile, line: int) -> str:
+    text = profile.source.line_text(line).strip() if profile.source is not None else ""
+    return f"{line:>4}  {text[:36]}"

@@ -1,0 +1,225 @@
+"""Every declared cycle of every control against the tables of its manual, address by address.
+
+The tables stand in tests/authorities/catalogue/parameters-CONTROL.json (how they were made: tests/authorities/README.md).
+Every key of them must agree; where a declaration differs on purpose, :data:`EXPLAINED` says what it has and why.
+"""
+
+import json
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+import mnclab
+from mnclab.machine.cycle import param
+
+CATALOGUE = Path(__file__).parents[1] / "authorities" / "catalogue"
+
+
+def tables(control):
+    """The rows of each cycle by its code."""
+    entries = json.loads((CATALOGUE / f"parameters-{control}.json").read_text(encoding="utf-8"))
+    return {code: entry["parameters"] for entry in entries for code in (entry["code"], *entry["aliases"])}
+
+
+TABLES = {control: tables(control) for control in mnclab.controls}
+CYCLES = [(control, code) for control in mnclab.controls for code in mnclab.controls[control].cycles]
+
+#: Our names where the table has a longer one: the word that the address does not say already.
+NAMES = {
+    "set_up_clearance": "clearance",
+    "feed_rate_for_plunging": ("feed", "plunge_feed"),
+    "infeed_depth": "infeed",
+    "workpiece_surface_coordinate": "surface",
+    "second_set_up_clearance": "second_clearance",
+    "dwell_at_top": "dwell_top",
+    "dwell_at_depth": "dwell_bottom",
+    "depth_reference": "reference",
+    "label_numbers_for_the_contour": "labels",
+    "milling_depth": "depth",
+    "path_overlap_factor": "overlap",
+    "finishing_allowance_for_side": "side_allowance",
+    "finishing_allowance_for_floor": "floor_allowance",
+    "surface_coordinate": "surface",
+    "clearance_height": "height",
+    "inside_corner_radius": "corner",
+    "rotational_direction": "sense",
+    "plunging_depth": "infeed",
+    "feed_rate_for_roughing": "feed",
+    "coarse_roughing_tool": "coarse_tool",
+    "feed_rate_for_reciprocation": "swing_feed",
+    "retraction_feed_rate": "retract_feed",
+    "feed_rate_factor": "factor",
+    "fine_roughing_strategy": "fine_strategy",
+    "datum_shift": ("x", "y", "z"),  # one row for all axes
+    "first_point_axis_1": "x",
+    "first_point_axis_2": "y",
+    "measuring_height": "z",
+    "measuring_axis": "axis",
+    "traverse_direction": "direction",
+    "number_in_table": "row",
+    "datum_ts_axis": "datum",
+    "measured_value_transfer": "transfer",
+}
+
+ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
+FEED = "the range of the word F (4.1)"
+TIME = "the table has no range; a time is not negative"
+#: (control, code, address, key) -> what the declaration has, and why.
+EXPLAINED = {
+    **{("mnc", code, "P", "limits"): ({">=": 0}, TIME) for code in ("G83", "G84", "G85")},
+    **{("mnc", code, "F", "limits"): ({">": 0}, FEED) for code in ("G83", "G84", "G85")},
+    **{("mnc", "G305", address, "limits"): ({}, ONCE) for address in "HD"},
+    ("mnc", "G306", "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-G306-L)"),
+    ("mnc", "G307", "K", "limits"): ({">=": 0}, "its other limit is H: a check"),
+    ("mnc", "G309", "P", "limits"): ({}, "not 0: a check"),
+    ("tnc-620", "CYCL DEF 22", "Q208", "limits"): ({">=": 0}, "FMAX is infinite; the upper limit is a check"),
+    ("tnc-620", "CYCL DEF 22", "Q208", "default"): (math.inf, "FMAX"),
+    ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
+    ("tnc-620", "CYCL DEF 14", "LBL", "limits"): ({">=": 1, "<=": 65535}, "of each; twelve at most are a check"),
+    **{("nc-31", "G77", axis, "limits"): ({}, "any whole number of its unit") for axis in "XZ"},
+    **{("nc-31", "G77", axis, "type"): ("number", "the reader refuses what is not whole") for axis in "XZ"},
+    ("nc-31", "G77", "X", "unit"): ("0.01 mm", "that X is a diameter is in its meaning"),
+    ("nc-31", "G77", "P", "unit"): ("0.01 mm", "that P1 is on the diameter is in its meaning"),
+}
+
+#: Parameters without a row: marks of the word that calls the cycle.
+MARKS = {("nc-31", "G77"): ["~", "@"]}
+
+
+def rows(control, code):
+    """Parameters of a cycle with their rows; a repeated address takes the rows in their order."""
+    taken = []
+    for parameter in mnclab.controls[control].cycles[code].parameters():
+        if not parameter.mark:
+            fitting = [row for row in TABLES[control][code] if parameter.address in row["address"].split("|")]
+            alike = [row for row in fitting if row not in taken or "|" in row["address"]]
+            assert alike, f"{code} {parameter.address} has no row"
+            taken.append(alike[0])
+            yield parameter, alike[0]
+
+
+CASES = [
+    pytest.param(control, code, parameter, row, id=f"{control} {code} {parameter.name}")
+    for control, code in CYCLES
+    for parameter, row in rows(control, code)
+]
+NUMBER = r"[-+]?\d+(?:\.\d+)?"
+
+
+def limits(text):
+    """The limits in a range as it is written: ``0 to 9``, ``-3 .. 3``, ``> 0``; what a reading adopts counts."""
+    text = (text or "").rpartition("adopt ")[2]
+    if found := re.match(rf"({NUMBER})(?: to | \.\. )({NUMBER})(?!.*excluded)", text):
+        return {">=": float(found[1]), "<=": float(found[2])}
+    if found := re.fullmatch(rf"(>=?|<=?) ({NUMBER})", text):
+        return {found[1]: float(found[2])}
+    if not text or re.fullmatch(rf"{NUMBER}(, (or )?({NUMBER}|PREDEF))*", text):  # a list of choices
+        return {}
+    return text
+
+
+def declared(parameter):
+    """A declaration in the keys of the tables."""
+    signs = {">": parameter.above, ">=": parameter.at_least, "<": parameter.below, "<=": parameter.at_most}
+    return {
+        "limits": {sign: limit for sign, limit in signs.items() if limit is not None},
+        "choices": {float(choice) for choice in parameter.choices or ()},
+        "default": parameter.default,
+        "also": {*parameter.also} | ({"PREDEF"} if parameter.predef else set()),
+        **{key: getattr(parameter, key) for key in ("unit", "type", "required", "modal", "incremental")},
+    }
+
+
+def tabled(row):
+    """A row in the same keys; None is what it does not say."""
+    default = row.get("default")
+    adopted = re.fullmatch(rf".*adopt ({NUMBER})", str(default))
+    return {
+        "limits": limits(row.get("range")),
+        "choices": {float(choice) for choice in row.get("choices") or ()},
+        "default": float(adopted[1]) if adopted else default if isinstance(default, int | float) else None,
+        "also": {*re.findall(r"\b(F[A-Z]+|PREDEF)\b", row.get("range", "")), *row.get("alternatives", ())},
+        **{key: row.get(key) for key in ("unit", "type", "required", "modal", "incremental")},
+    }
+
+
+def differences(control, code, parameter, row):
+    """What differs from the table: key, ours, theirs."""
+    ours, theirs = declared(parameter), tabled(row)
+    if theirs["incremental"] is None:
+        del theirs["incremental"]
+    return [(key, ours[key], value) for key, value in theirs.items() if ours[key] != value]
+
+
+@pytest.mark.parametrize(("control", "code"), CYCLES)
+def test_a_cycle_declares_the_addresses_of_its_table(control, code):
+    parameters = mnclab.controls[control].cycles[code].parameters()
+    marks = [parameter.address for parameter in parameters if parameter.mark]
+    assert marks == MARKS.get((control, code), [])
+    found = [row for _, row in rows(control, code)]
+    assert [row["address"] for row in TABLES[control][code] if row not in found] == []
+    assert mnclab.controls[control].cycles[code].source
+
+
+@pytest.mark.parametrize(("control", "code", "parameter", "row"), CASES)
+def test_a_parameter_is_that_of_the_table(control, code, parameter, row):
+    for key, ours, theirs in differences(control, code, parameter, row):
+        first = mnclab.controls[control].cycles[code].code
+        allowed, _ = EXPLAINED.get((control, first, parameter.address, key), (theirs, ""))
+        assert ours == allowed, key
+    names = NAMES.get(row["name"], row["name"])
+    assert parameter.name in (names if isinstance(names, tuple) else (names,))
+    default = row.get("default")
+    if isinstance(default, str) and parameter.default is None:  # said in words: then in ours too
+        assert parameter.default_means or parameter.note or parameter.instead
+
+
+def test_the_explanations_are_needed():
+    """No entry for what agrees, and none of a longer name that no table has."""
+    differ = {
+        (case.values[0], mnclab.controls[case.values[0]].cycles[case.values[1]].code, case.values[2].address, key)
+        for case in CASES
+        for key, _, _ in differences(*case.values)
+    }
+    assert set(EXPLAINED) - differ == set()
+    assert set(NAMES) - {case.values[3]["name"] for case in CASES} == set()
+
+
+@pytest.mark.parametrize(("control", "code", "parameter", "row"), CASES)
+def test_a_limit_refuses_its_neighbour_and_takes_what_is_allowed(control, code, parameter, row):
+    whole = parameter.type == "integer"
+    for limit, itself, direction in (
+        (parameter.above, False, 1), (parameter.at_least, True, 1),
+        (parameter.below, False, -1), (parameter.at_most, True, -1),
+    ):  # fmt: skip
+        if limit is not None:
+            assert parameter.refuses(limit) != itself
+            assert parameter.refuses(math.nextafter(limit, -direction * math.inf))
+            assert not parameter.refuses(limit + direction if whole else math.nextafter(limit, direction * math.inf))
+    if parameter.default is not None:
+        assert not parameter.refuses(parameter.default)
+    if parameter.example is not None:
+        assert not parameter.refuses(parameter.example)
+
+
+def test_an_example_must_obey_its_own_limits():
+    with pytest.raises(ValueError, match="the example of K must be greater than 0, got 0"):
+        param("K", "depth of one peck", above=0, example=0)
+    with pytest.raises(ValueError, match="one of 1, 2"):
+        param("D", "direction", choices={1: "x", 2: "y"}, example=3)
+
+
+@pytest.mark.parametrize("code", mnclab.controls["mnc"].cycles)
+def test_every_parameter_of_a_drilling_cycle_has_an_example(code):
+    assert all(parameter.example is not None for parameter in mnclab.controls["mnc"].cycles[code].parameters())
+
+
+@pytest.mark.parametrize(("control", "code", "parameter", "row"), CASES)
+def test_a_parameter_can_be_explained(control, code, parameter, row):
+    """A meaning short enough for an alarm, and a line in the help table."""
+    assert parameter.meaning and parameter.unit and len(parameter.meaning) <= 50
+    lines = [line.split()[:1] for line in str(mnclab.help(code, control)).splitlines()]
+    assert [parameter.address] in lines
+    assert f"<code>{parameter.address}</code>" in mnclab.help(code, control)._repr_html_()

@@ -1,0 +1,118 @@
+"""Every parameter of every drilling cycle, changed alone, changes what the manual says it changes and nothing else.
+
+What that is follows from its unit: a time changes dwells, a feed changes feeds, a speed changes the spindle, a length
+changes the path. Cycles begin with the examples of their declaration.
+"""
+
+import numpy as np
+import pytest
+
+import mnclab
+from mnclab import Kind
+from mnclab.show import trial
+
+CYCLES = {code: cycle for code, cycle in mnclab.controls["mnc"].cycles.items() if code == cycle.code}
+
+#: What must be given beside a parameter for it to act.
+BESIDE = {
+    ("G305", "diameter"): {"mode": 1},
+    ("G306", "predrilled_diameter"): {"diameter": 14},
+}
+#: A second value, where half of the first, or the next choice, would be refused.
+OTHER = {
+    ("G303", "break_retract"): 1,
+    ("G303", "chip_breaks"): 2,
+    ("G303", "min_infeed"): 1,
+    ("G304", "edge_height"): 9,
+    ("G306", "diameter"): 14,
+    ("G306", "predrilled_diameter"): 6,
+    ("G307", "depth"): -12,
+    ("G307", "spindle_direction"): 5,
+}
+#: Parameters that act beside the path, or not at all: what they do change.
+SPINDLE_ONLY = {("G307", "spindle_direction")}
+NOTHING = {("G306", "predrilled_diameter")}  # it only allows wider holes (MNC-G306-C); refusals are tested as such
+
+CASES = [(code, parameter) for code, cycle in CYCLES.items() for parameter in cycle.parameters()]
+
+
+def run(code, values):
+    found = mnclab.run(trial.program("mnc", CYCLES[code], values), "mnc")
+    assert found.ok, found.alarms
+    return found.toolpath
+
+
+def beginning(code, name):
+    """The examples, with one of two parameters that stand for each other."""
+    declared = CYCLES[code].parameters()
+    instead = {p.instead for p in declared if p.name == name}
+    values = {p.name: p.example for p in declared if p.name == name or (trial.written_first(p) or p.required)}
+    return {key: value for key, value in values.items() if key not in instead} | BESIDE.get((code, name), {})
+
+
+def another(code, parameter):
+    if (code, parameter.name) in OTHER:
+        return OTHER[code, parameter.name]
+    if parameter.choices:
+        return next(choice for choice in parameter.choices if choice != parameter.example)
+    return parameter.example / 2 if parameter.example else 3.5
+
+
+def seen(path):
+    """What can be seen of a path, by the kind of thing."""
+    cut, motion = path.kind != Kind.RAPID, path.is_motion
+    return {
+        "path": [path.end[motion].round(9).tolist(), path.sweep[motion].round(9).tolist()],
+        "feeds": path.feed[motion & cut].round(9).tolist(),
+        "dwells": path.time[path.kind == Kind.DWELL].tolist(),
+        "spindle": path.spindle[path.kind == Kind.SPINDLE].tolist(),
+        "labels": [path.labels[k] for k in path.label[path.kind == Kind.SPINDLE]],
+    }
+
+
+CHANGES = {"s": "dwells", "mm/min": "feeds", "rev/min": "spindle", "deg": "labels", "mm": "path", "count": "path"}
+
+
+@pytest.mark.parametrize(("code", "parameter"), CASES, ids=lambda case: getattr(case, "name", case))
+def test_a_parameter_changes_what_it_means(code, parameter):
+    values = beginning(code, parameter.name)
+    before = seen(run(code, values))
+    after = seen(run(code, values | {parameter.name: another(code, parameter)}))
+    changed = {key for key in before if before[key] != after[key]}
+    if (code, parameter.name) in NOTHING:
+        assert changed == set()
+        return
+    if (code, parameter.name) in SPINDLE_ONLY:
+        assert changed == {"spindle"}
+        return
+    if parameter.unit == "mm/rev" or (code, parameter.name) == ("G84", "feed"):
+        assert changed == {"feeds"}
+        return
+    kind = CHANGES.get(parameter.unit, "path")
+    assert kind in changed
+    if kind in ("dwells", "feeds", "spindle", "labels"):
+        assert changed == {kind}
+    else:
+        assert changed <= {"path", "feeds", "dwells"}  # more or fewer pecks have more or fewer of them
+
+
+@pytest.mark.parametrize(("code", "parameter"), CASES, ids=lambda case: getattr(case, "name", case))
+def test_left_out_it_is_its_default_or_missing(code, parameter):
+    values = beginning(code, parameter.name)
+    text = trial.program("mnc", CYCLES[code], {k: v for k, v in values.items() if k != parameter.name})
+    found = mnclab.run(text, "mnc")
+    if parameter.required:
+        assert f"{code} {parameter.address} ({parameter.meaning}) is missing" in found.alarms[0].message
+        assert found.alarms[0].span[:2] == (4, 1)
+    elif parameter.default is not None and (code, parameter.name) not in BESIDE:
+        assert found.ok, found.alarms
+        assert seen(found.toolpath) == seen(run(code, values | {parameter.name: parameter.default}))
+
+
+def test_every_event_and_every_step_of_a_cycle_is_labelled():
+    """The row after each positioning says what is happening, in the name of its cycle."""
+    for code in CYCLES:
+        path = run(code, beginning(code, "clearance"))
+        rows = path[path.line >= 4]
+        rows = rows[~((rows.line == 5) & (np.arange(len(rows)) == 0))]  # the block with M99 positions first
+        assert all(rows.labels[k].startswith(f"{code} ") and len(rows.labels[k]) > len(code) + 1 for k in rows.label)

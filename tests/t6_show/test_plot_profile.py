@@ -1,0 +1,120 @@
+"""Pictures of a profile, and the panel of its limits."""
+
+import numpy as np
+import pytest
+
+import mnclab
+from mnclab import Limits
+from mnclab.show.plot import colours
+from mnclab.show.plot.profile import curve, holds, plot_profile
+
+PROGRAM = """G90 G54 T1 S1000 M3
+G0 X0 Y0 Z5
+G1 Z-2 F600
+G1 X40 F3000
+Y20
+G3 X20 Y40 I-20 J0
+G1 X10
+X0 Y30
+Y0
+G4 P0.2
+G0 Z5
+"""
+LIMITS = Limits(acceleration=500, corner_tolerance=0.02)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return mnclab.run(PROGRAM, "mnc")
+
+
+@pytest.mark.parametrize("over", ["time", "path"])
+@pytest.mark.parametrize("jerk", [None, 5000])
+def test_the_curves_are_those_of_the_profile(run, over, jerk):
+    profile = run.profile(Limits(acceleration=500, corner_tolerance=0.02, jerk=jerk))
+    drawn = curve(profile, over)
+    inside = slice(1, -1)
+    now = profile.at(drawn.t[inside])
+    assert np.allclose(now.v, drawn.v[inside], atol=1e-6) and np.allclose(now.s, drawn.s[inside], atol=1e-6)
+    picture = profile.plot(over=over, axes=True)
+    reached = [line for line in picture.axes[0].lines if line.get_label() == colours.REACHED.name][0]
+    assert reached.get_xdata()[-1] == pytest.approx(profile.time if over == "time" else profile.path.length)
+    assert max(reached.get_ydata()) == pytest.approx(drawn.v.max() * 60)
+    assert len(picture.axes) == (4 if jerk is None else 5)
+
+
+def test_nothing_covers_anything_else(run):
+    picture = run.profile(Limits(acceleration=500, jerk=5000)).plot(axes=True)
+    picture.png()
+    drawing = picture.canvas.get_renderer()
+    legend = picture.legends[0].get_window_extent(drawing)
+    boxes = [ax.get_tightbbox(drawing) for ax in picture.axes]
+    assert all(legend.y0 >= box.y1 for box in boxes)
+    assert all(upper.y0 >= lower.y1 - 8 for upper, lower in zip(boxes, boxes[1:]))  # ticks at the edge touch
+    labels = [ax.yaxis.label.get_window_extent(drawing) for ax in picture.axes]
+    assert all(upper.y0 > lower.y1 for upper, lower in zip(labels, labels[1:]))
+    assert all(0 <= box.x0 and box.x1 <= picture.bbox.x1 and box.y0 >= 0 for box in boxes)
+
+
+def test_what_holds_the_speed(run):
+    profile = run.profile(LIMITS)
+    names = np.array(list(colours.HOLDS))[holds(profile)]
+    assert set(names) == {"acceleration", "feed", "standing"}
+    dt = np.diff(profile.t)
+    assert dt[names == "standing"].sum() == pytest.approx(0.2)
+    assert (profile.a[names == "acceleration"] != 0).all()
+    slow = mnclab.run("G90 G54\nG1 X40 F30000\n", "mnc").profile(Limits(rapid=6000))
+    assert "axis speed" in np.array(list(colours.HOLDS))[holds(slow)]
+
+
+def test_the_path_is_coloured_by_what_is_reached(run):
+    picture = run.profile(LIMITS).plot_reached(view="XY")
+    assert "feed" in [text.get_text().split(",")[0] for text in picture.texts]
+    # the diagonal of 14 mm between two corners begins and ends slowly: more than one class lies on it
+    points = [np.array(line.get_data(), dtype=float) for line in picture.axes[0].lines]
+    on = [1 for x, y in points if ((np.abs(y - x - 30) < 1e-6) & (y < 40)).any()]
+    assert len(on) > 2
+
+
+def test_lost_time_stands_beside_the_lines(run):
+    profile = run.profile(LIMITS)
+    picture = profile.plot_lost()
+    ax = picture.axes[0]
+    texts = [label.get_text() for label in ax.get_yticklabels()]
+    assert texts[4].split() == ["5", "Y20"]
+    bars = ax.containers[0], ax.containers[1]
+    whole = [a.get_width() + b.get_width() for a, b in zip(*bars)]
+    assert sum(whole) == pytest.approx(profile.time)
+    assert len(profile.plot_lost(most=3).axes[0].get_yticklabels()) == 3
+
+
+def test_wrong_options_and_empty_programs(run):
+    with pytest.raises(ValueError, match="time or path"):
+        run.profile().plot(over="lines")
+    nothing = mnclab.run("G90\n", "mnc").profile()
+    assert nothing.plot().png() and nothing.plot_lost().png()
+
+
+def test_into_axes_of_ones_own(run):
+    from matplotlib.figure import Figure
+
+    figure = Figure()
+    ax = figure.add_subplot()
+    assert plot_profile(run.profile(LIMITS), ax) is figure
+    assert ax.get_xlabel() == "time, s"
+
+
+def test_the_panel_follows_its_boxes(run):
+    panel = run.profile(LIMITS).panel()
+    before, picture = panel.profile.time, panel.picture.value
+    panel.boxes["acceleration"].value = 100.0
+    assert panel.profile.time > before and panel.picture.value != picture
+    assert panel.profile.limits.acceleration == 100.0
+    panel.boxes["jerk"].value = 2000.0
+    assert panel.profile.limits.jerk == 2000.0
+    panel.boxes["acceleration"].value = 0.0
+    assert "must be greater than 0" in panel.alarms.value
+    panel.boxes["acceleration"].value = 100.0
+    panel.boxes["override"].value = 50.0
+    assert panel.profile.override == 0.5
+    assert f"{panel.profile.time:.3f}" in panel.alarms.value
