@@ -191,6 +191,15 @@ class Run:
 
         return save(self, path, **options)
 
+    def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
+        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program.
+
+        ``options`` are those of :meth:`plot`.
+        """
+        from mnclab.show.report import save_report
+
+        return save_report(self, path, title, **options)
+
     # --- shown -------------------------------------------------------------------------------------------------------
 
     def summary(self) -> dict[str, Any]:
