@@ -9,8 +9,8 @@ The map of the house, floor by floor (a folder imports only from those above its
     geometry    frames, arcs, contours, offsets, regions: numbers, no CNC word
     path        what the tool does: Toolpath in columns, passes over it (corners, compensation), and the feed profile
     workpiece   what the tool meets: the part a probe touches
-    machining   how metal is cut, whatever the control: depths, holes, threads, pockets, turning
-    comparison  two paths side by side
+    machining   how metal is cut, whatever the control: depths, holes, threads, pockets, facing, turning
+    comparison  two paths, or strategies, side by side
     machine     who obeys: Machine, Control, Cycle, interpreter, bulk tier, history, Run
     controls    who speaks: a folder a control
     show        what people see and take away: plots, forms, files
@@ -49,6 +49,7 @@ __all__ = [
     "Setup",
     "Tool",
     "Toolpath",
+    "compare",
     "controls",
     "diff",
     "editor",
@@ -58,6 +59,13 @@ __all__ = [
     "read",
     "run",
 ]
+
+
+def compare(region: object, tool: object, *strategies: object, **options: object) -> object:
+    """Strategies for clearing an area side by side, a table when shown (needs shapely): `comparison.strategies`."""
+    from mnclab.comparison.strategies import compare as build
+
+    return build(region, tool, *strategies, **options)  # type: ignore[arg-type]
 
 
 def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) -> "Deviation":

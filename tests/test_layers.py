@@ -24,10 +24,11 @@ FLOORS = {
 }  # fmt: skip
 
 OUTSIDE = {  # package -> the only modules of mnclab that import it
-    "shapely": ("geometry.regions",),
+    "shapely": ("geometry.regions", "geometry.sweeps"),
     "matplotlib": ("show.plot",),
     "pyvista": ("show.scene",),
     "vtkmodules": ("show.scene",),
+    "ezdxf": ("geometry.dxf",),
     "ipywidgets": ("show.forms", "show.editor"),
     "IPython": ("show.magic",),
 }

@@ -1,4 +1,1 @@
-"""Runs and paths side by side: how far one is from the other, and where.
-
-May import ``path``, ``workpiece`` and ``machining``; knows no machine and no control.
-"""
+"""Side by side: two paths and how far they are apart; strategies, what they cut and how hard the tool works."""

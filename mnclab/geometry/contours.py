@@ -217,6 +217,17 @@ class Contour:
         i = int(off[0].argmin())
         return float(self.lengths[:i].sum() + fraction[0, i] * self.lengths[i])
 
+    def nearest_points(self, points: ArrayLike) -> Floats:
+        """The point of the contour nearest to each of the points `(k, 2)`, `(k, 2)`."""
+        spots = np.asarray(points, dtype=float).reshape(-1, 2)
+        block = max(1, 2_000_000 // len(self.starts))
+        feet = [np.zeros((0, 2))]
+        for i in range(0, len(spots), block):
+            off, fraction = self._feet(spots[i : i + block])
+            element = off.argmin(axis=1)
+            feet.append(self._at(fraction[np.arange(len(element)), element], element)[0])
+        return np.vstack(feet)
+
     def winding(self, points: ArrayLike) -> NDArray[np.int_]:
         """Rounds of a closed contour about each of the points `(k, 2)`, + counter-clockwise, `(k,)`."""
         spots = np.asarray(points, dtype=float).reshape(-1, 2)

@@ -1,4 +1,4 @@
-"""Steps at a hole carried out by a machine: each becomes a verb, under the name of its cycle and its own label.
+"""Steps at a hole or in a pocket carried out by a machine: each becomes a verb, under the name of its cycle and its own label.
 
 The axis of the hole is where the tool stands in the plane XY, and the holes of every control lie along Z.
 """
@@ -9,21 +9,30 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from mnclab.machining.steps import Coolant, Go, Orient, Spin, Step, Thread, Turn, Wait
+from mnclab.geometry.contours import Contour
+from mnclab.machine.following import follow
+from mnclab.machining.steps import Along, Coolant, Go, Orient, Spin, Step, Thread, Turn, Wait
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 
-def perform(m: Machine, name: str, steps: Iterable[Step]) -> None:
-    """Carry the steps out; rows are labelled ``name`` and the label of the step."""
-    x, y, _ = m.programmed
+def perform(m: Machine, name: str, steps: Iterable[Step], about: tuple[float, float] | None = None) -> None:
+    """Carry the steps out; rows are labelled ``name`` and the label of the step.
+
+    x and y count from ``about``, which is where the tool stands if nothing else is said.
+    """
+    x, y = m.programmed[:2] if about is None else about
     for step in steps:
         m.label = f"{name} {step.label}"
         match step:
             case Go():
                 to = None if step.x is None else x + step.x, None if step.y is None else y + step.y, step.z
                 m.line(*to, f=step.feed)
+            case Along():
+                contour = Contour(step.contour.points + (x, y), step.contour.bulge, step.contour.closed)
+                with in_plane(m, "XY"):
+                    follow(m, contour, step.feed)
             case Wait():
                 m.dwell(step.seconds)
             case Thread():

@@ -86,10 +86,16 @@ class Planner:
             if function.moves:
                 self.hand_out(function, index)
         self.refuse_motion([f for f, _ in functions])
+        at_once = cycle is not None and self.control.cycles[cycle[0]].runs == "definition"
+        if at_once and cycle and not self.control.one_command:
+            self.refuse_beside(cycle[0])
         self.word_functions()
         if self.control.one_command and self.actions:
             self.refuse_strangers(self.actions[0])
-        if not (cycle and self.control.cycles[cycle[0]].runs == "call"):  # preparing a cycle moves nothing
+        prepared = cycle is not None and self.control.cycles[cycle[0]].runs == "call"
+        if not (
+            prepared or at_once
+        ):  # preparing a cycle moves nothing; one that runs at once makes all moves of its block
             self.modal_motion([f for f, _ in functions])
         self.refuse_leftovers([f for f, _ in functions])
         self.refuse_repeated()
@@ -229,6 +235,16 @@ class Planner:
             self.alarm(
                 f"{still} stands in a block without motion, {word} does not belong to it", moved, "write two blocks"
             )
+
+    def refuse_beside(self, code: str) -> None:
+        """Another motion, or the call of a cycle, in the block of one that runs at once."""
+        for action in self.actions:
+            if isinstance(action.what, Function) and (
+                action.what.phase == "call" or action.what.moves and action.takes
+            ):
+                index = action.takes[0] if action.takes else action.head
+                sentence = f"{code} runs in a block of its own, {self.words[index]} does not belong to it"
+                self.alarm(sentence, index, "write two blocks")
 
     def refuse_leftovers(self, functions: list[Function]) -> None:
         still = next((f.code for f in functions if f.still), None)

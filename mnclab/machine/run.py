@@ -158,6 +158,10 @@ class Run:
         limits = limits or self.setup.limits
         return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
 
+    def again(self, setup: Setup) -> Run:
+        """The same program on the same control, with another setup."""
+        return run_program(self.program, self.control, setup)
+
     # --- doors -------------------------------------------------------------------------------------------------------
 
     def plot(self, **options: Any) -> Figure:
@@ -171,6 +175,16 @@ class Run:
         from mnclab.show.plot.path import plot_run
 
         return plot_run(self, **options)
+
+    def plot_compensation(self, **options: Any) -> Figure:
+        """The contour, the tool-centre path beside it, and how its corners were found.
+
+        ``rules=("G160", "G161", "G162")`` and ``radii=(2, 5)`` run the program once more for each and show the results
+        side by side; ``discs=True`` draws the tool; more in ``mnclab.show.plot.compensation.compensation``.
+        """
+        from mnclab.show.plot.compensation import compensation
+
+        return compensation(self, **options)
 
     def scene(self, colour: str = "kind", **options: Any) -> pyvista.Plotter:
         """Path, tool and blank in three dimensions (needs pyvista); shows itself as a still picture.

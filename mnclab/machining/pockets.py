@@ -11,51 +11,23 @@ stands then, in sharp corners and along narrow arms between two rings, is the pr
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mnclab.geometry.contours import Contour, Curve, Floats, cross, left
 from mnclab.geometry.regions import Region
+from mnclab.machining.clearing import Clearing, Piece, links, numbered, piecewise, room_for
 
 MOST_RINGS = 2000
 SHARP = 1e-6  # rad and mm, the least turn of a corner and the shortest element
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
-    """A connected piece of the tool-centre area: one plunge, then its passes in order.
+class Ring:
+    """A closed pass: its `level` in stepovers inward from the boundary of the tool-centre area, and what it goes round."""
 
-    `linked[i]` tells whether the tool may go straight from the end of pass i to the start of pass i + 1;
-    if not, it must lift.
-    """
-
-    centres: Region
-    passes: tuple[Contour, ...]
-    linked: tuple[bool, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Clearing:
-    """All passes that clear an area, piece by piece; `centres` is where the tool centre may go."""
-
-    centres: Region
-    pieces: tuple[Piece, ...]
-
-    @property
-    def passes(self) -> tuple[Contour, ...]:
-        return tuple(ring for piece in self.pieces for ring in piece.passes)
-
-    @property
-    def length(self) -> float:
-        """Length of all rings, without the ways between them."""
-        return sum(ring.length for ring in self.passes)
-
-
-@dataclass(frozen=True, eq=False)
-class _Ring:
-    level: float  # in stepovers inward from the boundary of the tool-centre area
+    level: float
     island: bool
     contour: Contour
 
@@ -75,18 +47,10 @@ def rings(
     the spindle turning clockwise, walls are followed counter-clockwise and islands clockwise. `corner_radius`
     rounds the inside corners of the passes along the final contour, as measured on the tool centre.
     """
-    if not radius > 0:
-        raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
-    if not 0 < stepover <= 2 * radius:
-        raise ValueError(f"the stepover must lie above 0 and not above twice the radius, got {stepover:g}")
     if corner_radius < 0:
         raise ValueError(f"the corner radius must not be negative, got {corner_radius:g}")
-    centres = region.inset(radius + allowance)
-    if not centres.loops:
-        rest = f" with an allowance of {allowance:g}" if allowance else ""
-        raise ValueError(f"a tool of radius {radius:g}{rest} does not fit into the contour")
-    pieces = [_piece(part, radius, stepover, climb, corner_radius) for part in centres.parts]
-    return Clearing(centres, tuple(pieces))
+    centres = room_for(region, radius, stepover, allowance)
+    return piecewise(centres, radius, lambda part: _piece(part, radius, stepover, climb, corner_radius))
 
 
 def rounded(loop: Contour, radius: float) -> Contour:
@@ -140,12 +104,18 @@ def _way(curve: Curve, sweep: float, start: Floats, end: Floats) -> float:
 
 def _piece(centres: Region, radius: float, stepover: float, climb: bool, corner_radius: float) -> Piece:
     """The rings of one connected piece of the tool-centre area, in order and joined."""
-    passes = tuple(_ordered(list(_rings(centres, radius, stepover, corner_radius))))
-    linked = tuple(centres.holds(a.points[0], b.points[0]) for a, b in pairwise(passes))
-    return Piece(centres, passes if climb else tuple(ring.reversed() for ring in passes), linked)
+    passes = tuple(ring.contour for ring in rings_in_order(centres, radius, stepover, corner_radius))
+    linked = links(centres, passes, stepover)
+    turned = passes if climb else tuple(ring.reversed() for ring in passes)
+    return Piece(centres, turned, linked, numbered("ring", len(passes)))
 
 
-def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[_Ring]:
+def rings_in_order(centres: Region, radius: float, stepover: float, corner_radius: float = 0.0) -> Iterator[Ring]:
+    """The rings of one connected piece of the tool-centre area, islands first, each from the inside out."""
+    return _ordered(list(_rings(centres, radius, stepover, corner_radius)))
+
+
+def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[Ring]:
     """The rings of a piece, with a core ring wherever one more step would leave a core standing."""
     if np.ptp(centres.loops[0].bounds, axis=0).min() / 2 > MOST_RINGS * stepover:
         raise ValueError(f"a stepover of {stepover:g} makes more than {MOST_RINGS} rings")
@@ -153,7 +123,7 @@ def _rings(centres: Region, radius: float, stepover: float, corner_radius: float
     while here.loops:
         for loop in here.loops:
             face = rounded(loop, corner_radius) if level == 0 else loop
-            yield _Ring(level, loop.area < 0, face)
+            yield Ring(level, loop.area < 0, face)
         level += 1
         deeper = centres.inset(level * stepover)
         if stepover > radius:
@@ -161,11 +131,11 @@ def _rings(centres: Region, radius: float, stepover: float, corner_radius: float
             for core in cores:
                 if not any(core.contains(loop.points[:1])[0] for loop in deeper.loops):
                     for loop in core.loops:
-                        yield _Ring(level - 1 + radius / stepover, loop.area < 0, loop)
+                        yield Ring(level - 1 + radius / stepover, loop.area < 0, loop)
         here = deeper
 
 
-def _ordered(todo: list[_Ring]) -> Iterator[Contour]:
+def _ordered(todo: list[Ring]) -> Iterator[Ring]:
     """Rings from the inside out, each begun where it comes nearest to the end of the one before.
 
     A ring round an island waits for the deeper rings about it; a ring along a wall for all islands and for
@@ -191,6 +161,6 @@ def _ordered(todo: list[_Ring]) -> Iterator[Contour]:
             contour = todo[k].contour
             way = contour.nearest(spot)
         left_over[k] = False
-        ring = contour.started_at(way)
-        here = ring.points[0]
+        ring = replace(todo[k], contour=contour.started_at(way))
+        here = ring.contour.points[0]
         yield ring

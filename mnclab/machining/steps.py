@@ -1,14 +1,16 @@
-"""What a tool does at a hole, step by step: plain data, made by strategies and carried out by a machine or a picture.
+"""What a tool does at a hole or in a pocket, step by step: plain data, made by strategies, carried out by a machine.
 
-z is a coordinate along the tool axis, x and y count from the axis of the hole; mm, mm/min, rev/min, s, angles of turns in
-rad. None keeps a coordinate. A feed of inf is rapid, a feed of None the feed that is active. ``label`` says what is
-happening, for listings and pictures.
+z is a coordinate along the tool axis, x and y count from the axis of the hole or the middle of the pocket; mm, mm/min,
+rev/min, s, angles of turns in rad. None keeps a coordinate. A feed of inf is rapid, a feed of None the feed that is
+active. ``label`` says what is happening, for listings and pictures.
 """
 
 from __future__ import annotations
 
 import math
 from typing import NamedTuple
+
+from mnclab.geometry.contours import Contour
 
 RAPID = math.inf
 
@@ -31,6 +33,14 @@ class Turn(NamedTuple):
     z: float | None = None
     feed: float | None = None
     centre: tuple[float, float] = (0.0, 0.0)
+
+
+class Along(NamedTuple):
+    """Along a contour of the plane, level, from its start, where the tool stands."""
+
+    label: str
+    contour: Contour
+    feed: float | None = None
 
 
 class Thread(NamedTuple):
@@ -70,4 +80,4 @@ class Coolant(NamedTuple):
     on: bool
 
 
-Step = Go | Turn | Thread | Wait | Spin | Orient | Coolant
+Step = Go | Turn | Along | Thread | Wait | Spin | Orient | Coolant

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.geometry.contours import Contour
+from mnclab.path.kinds import Kind
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
@@ -34,3 +35,20 @@ def _turned(point: np.ndarray, centre: np.ndarray, angle: float) -> np.ndarray:
     c, s = np.cos(angle), np.sin(angle)
     x, y = point - centre
     return centre + np.array([c * x - s * y, s * x + c * y])
+
+
+def outlines(path: Toolpath, tolerance: float = 0.01) -> tuple[Contour, ...]:
+    """Every closed contour that a path cuts: runs of cuts in the plane that end within `tolerance` of their start.
+
+    A rapid or a move along the tool axis parts runs. What is cut and does not close, an approach for one, is left out.
+    """
+    view = PlaneView(path)
+    cuts = view.moves & (path.kind != Kind.RAPID) & (path.kind != Kind.PROBE)
+    level = np.abs(view.end[:, 2] - view.start[:, 2]) < tolerance
+    edges = np.diff(np.concatenate([[0], (cuts & level).astype(int), [0]]))
+    found = []
+    for first, last in zip(np.flatnonzero(edges == 1), np.flatnonzero(edges == -1), strict=True):
+        gap = view.end[last - 1, :2] - view.start[first, :2]
+        if np.hypot(*gap) <= tolerance and (last - first > 1 or view.arc[first]):
+            found.append(outline(path[int(first) : int(last)]))
+    return tuple(found)

@@ -12,7 +12,7 @@ import json
 from collections.abc import Callable, Iterable
 from inspect import signature
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,11 +25,15 @@ from mnclab.show.export_mesh import write_gltf, write_stl, write_vtk
 from mnclab.show.export_svg import write_true_size
 from mnclab.text.alarm import Alarm
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-def save(run: Any, path: str | Path, **options: Any) -> Path:
+
+def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = None, **options: Any) -> Path:
     """Write a run to one file and return its path; an Alarm when nothing of this suffix can be written.
 
     Figures take the options of :meth:`Run.plot`; an svg also ``true_size=True``, a drawing in true millimetres.
+    ``picture`` draws another figure of the run than the views of its path.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -39,6 +43,10 @@ def save(run: Any, path: str | Path, **options: Any) -> Path:
         what = f"cannot write {suffix} files" if suffix else f"{path.name!r} has no suffix to say what to write"
         raise Alarm(what, hint=f"known: {', '.join(WRITERS)}")
     writer = WRITERS[suffix]
+    if picture is not None:
+        if suffix not in FIGURES:
+            raise Alarm(f"a picture cannot be written as {suffix}", hint=f"known: {', '.join(FIGURES)}")
+        writer, options = write_figure, {"picture": picture, **options}
     if options and len(signature(writer).parameters) == 2:
         raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
     try:
@@ -48,12 +56,12 @@ def save(run: Any, path: str | Path, **options: Any) -> Path:
     return path
 
 
-def write_figure(run: Any, path: Path, **options: Any) -> None:
-    """The views of the path."""
+def write_figure(run: Any, path: Path, picture: Callable[..., Figure] | None = None, **options: Any) -> None:
+    """The views of the path, or another picture."""
     from mnclab.show.plot.path import plot_run
     from mnclab.show.plot.picture import write
 
-    write(plot_run(run, **options), path)
+    write((picture or plot_run)(run, **options), path)
 
 
 def write_svg(run: Any, path: Path, true_size: bool = False, **options: Any) -> None:
@@ -123,6 +131,7 @@ def _plain(column: NDArray[Any]) -> list[Any]:
     return values.tolist()
 
 
+FIGURES = (".svg", ".pdf", ".png")
 WRITERS: dict[str, Callable[..., None]] = {
     ".svg": write_svg,
     ".pdf": write_figure,

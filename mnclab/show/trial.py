@@ -76,6 +76,8 @@ def program(control: str, cycle: Any, values: Mapping[str, float]) -> str | None
 
 def _mnc(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
     block = " ".join([cycle.code, *(address + number(value) for address, value in words)])
+    if cycle.runs == "definition":  # milling
+        return f"G17 G90 G54\nT1 S1000 M3\nG0 X20 Y10 Z20 F100\n{block}\n"
     call = "G80" if cycle.runs == "position" else "G0 X20 Y10 M99"
     return f"G17 G90 G54\nT2 S1000 M3\nG0 X0 Y0 Z20 F100\n{block}\n{call}\n"
 

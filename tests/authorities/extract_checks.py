@@ -28,6 +28,7 @@ EXAMPLES = {
         *("drilling cycles G83-G85", "G80", "G98", "G99", "G83", "G84", "G85", "prepared cycles", "G300", "G301"),
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
+    "mnc-milling": ["G320", "G321", "G343", "G344"],
 }
 
 #: Files whose G and M codes are listed.

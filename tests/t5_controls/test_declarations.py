@@ -65,11 +65,15 @@ NAMES = {
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
 FEED = "the range of the word F (4.1)"
+MILLING = ("G320", "G321", "G343", "G344")
 TIME = "the table has no range; a time is not negative"
 #: (control, code, address, key) -> what the declaration has, and why.
 EXPLAINED = {
     **{("mnc", code, "P", "limits"): ({">=": 0}, TIME) for code in ("G83", "G84", "G85")},
     **{("mnc", code, "F", "limits"): ({">": 0}, FEED) for code in ("G83", "G84", "G85")},
+    **{("mnc", code, address, "limits"): ({">": 0}, FEED) for code in MILLING for address in "FV"},
+    **{("mnc", code, "T", "limits"): ({">=": 0}, "an example writes T0: then it is F") for code in MILLING},
+    **{("mnc", code, "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-POCKET-L)") for code in ("G343", "G344")},
     **{("mnc", "G305", address, "limits"): ({}, ONCE) for address in "HD"},
     ("mnc", "G306", "L", "choices"): ({1, -1, 0}, "L0 is L1 (MNC-G306-L)"),
     ("mnc", "G307", "K", "limits"): ({">=": 0}, "its other limit is H: a check"),

@@ -1,9 +1,9 @@
 """The MNC milling control (Mechatronics, 2015): the namesake.
 
 ``language`` holds motion, offsets and feed, ``auxiliary`` tool, spindle and M functions, ``polar`` polar motion,
-``transforms`` scaling, mirror image, rotation and datums, ``compensation`` the radius functions, ``cycles`` the drilling
-cycles of chapter 9, ``settings`` what a machine may need otherwise. Still to come are the milling cycles and probing; their
-codes are refused by name.
+``transforms`` scaling, mirror image, rotation and datums, ``compensation`` the radius functions, ``cycles`` those of
+drilling and milling (chapters 9 and 10), ``settings`` what a machine may need otherwise. Still to come is probing; its codes
+are refused by name.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.mnc import auxiliary, compensation, language, polar, transforms
-from mnclab.controls.mnc.cycles import boring, drilling, fixed, prepared, tapping
+from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared, tapping
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.bulk import PlainWords
@@ -26,8 +26,7 @@ PHASES = (
 
 _LATER = "it is part of this control but not built yet"
 REFUSED = (
-    {f"G{n}": _LATER for n in (320, 321, 343, 344)}
-    | {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
+    {f"G{n}": _LATER for n in (400, 404, *range(408, 416), 417, *range(419, 427), *range(460, 463))}
     | {f"G{n}": _LATER for n in (470, 471, 472, 480, 481, 482, 490, 491, 492, 499)}
     | {f"G{n}": "this control has no such cycle, G83 does its work" for n in (81, 82)}
 )
@@ -51,7 +50,7 @@ CONTROL = Control(
     suffixes=(".mnc",),
     read=reader("mnc"),
     functions=FUNCTIONS,
-    cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | tapping.CYCLES,
+    cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | tapping.CYCLES | milling.CYCLES | pockets.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),

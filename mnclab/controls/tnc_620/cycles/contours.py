@@ -12,6 +12,7 @@ from typing import Any
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.following import follow
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.recording import Recording
 from mnclab.machining.depths import infeeds
@@ -214,15 +215,3 @@ class RoughOut(Cycle):
 
 def _start(ring: Contour) -> tuple[float, float]:
     return float(ring.points[0, 0]), float(ring.points[0, 1])
-
-
-def follow(m: Machine, ring: Contour, feed: float) -> None:
-    """Run along a contour at a feed, arcs as arcs."""
-    sweeps, centres, ends = ring.sweeps, ring.centres, ring.ends
-    for k in range(len(ends)):
-        x, y = float(ends[k, 0]), float(ends[k, 1])
-        if sweeps[k]:
-            centre = {0: float(centres[k, 0]), 1: float(centres[k, 1])}
-            m.arc(x, y, sense=1 if sweeps[k] > 0 else -1, centre=centre, f=feed)
-        else:
-            m.line(x, y, f=feed)

@@ -1,0 +1,244 @@
+"""Strategies on one area, side by side: way, time, what is left, and how hard the tool works.
+
+Lengths in mm, feeds in mm/min, times in s; angles in rad inside and in degrees wherever they are shown.
+
+    reachable = where the tool centre may go, grown by the tool radius
+    rest      = reachable less what the passes cover         corners = the area less its allowance less reachable
+
+Engagement and removal are those of one level of the given depth, for everything that runs at it: passes and links. The
+entries clear what is below them and are not counted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mnclab.comparison.engagement import Engagement, engagement
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+from mnclab.geometry.sweeps import covered, left_over, polygons
+from mnclab.machining.clearing import Clearing, begin, end
+from mnclab.machining.entries import VERTICAL, Entry, descent
+from mnclab.machining.layers import toolpath
+from mnclab.machining.strategies import STRATEGIES, clear
+from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
+from mnclab.path.profile import Profile
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath
+
+if TYPE_CHECKING:
+    from mnclab.show.plot.picture import Picture
+
+Strategies = Iterable[str] | Mapping[str, str | Clearing | Callable[[Region, float, float], Clearing]]
+
+DISCS = 10  # to a tool radius; the angles are within half a degree from 10° on
+
+#: Every column of a comparison: what it is and how it is written.
+COLUMNS = {
+    "strategy": ("strategy", "{}"),
+    "length": ("cutting length, mm", "{:.0f}"),
+    "rapid": ("rapid length, mm", "{:.0f}"),
+    "moves": ("moves", "{}"),
+    "lifts": ("lifts", "{}"),
+    "time": ("time, s", "{:.1f}"),
+    "covered": ("covered, %", "{:.2f}"),
+    "rest": ("rest, mm²", "{:.2f}"),
+    "corners": ("corners, mm²", "{:.2f}"),
+    "mean": ("engagement: mean, °", "{:.0f}"),
+    "most": ("greatest, °", "{:.0f}"),
+    "above": ("above the limit, %", "{:.1f}"),
+    "removal": ("removal: mean, cm³/min", "{:.2f}"),
+    "removal_most": ("greatest, cm³/min", "{:.2f}"),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """One strategy on one area: its passes, the whole path, and what comes of it."""
+
+    name: str
+    region: Region
+    clearing: Clearing
+    path: Toolpath
+    engagement: Engagement
+    depth: float
+    feed: float
+    limit: float
+    allowance: float
+    limits: Limits | None
+    rapid_rate: float
+
+    @property
+    def entries(self) -> np.ndarray:
+        """Where the tool goes down into material, `(n, 2)`."""
+        spots = []
+        for piece in self.clearing.pieces:
+            lifted = [k for k, linked in enumerate(piece.linked, 1) if not linked and not piece.begins_cleared(k)]
+            spots += [piece.entry, *(begin(piece.passes[k]) for k in lifted)]
+        return np.array(spots).reshape(-1, 2)
+
+    @cached_property
+    def _areas(self) -> tuple[Any, Any, Any]:
+        whole = polygons(self.region.inset(self.allowance))
+        reach = polygons(self.clearing.centres.offset(self.clearing.radius)) if self.clearing.centres.loops else whole
+        return whole, reach, covered(self.clearing.passes, self.clearing.radius)
+
+    @cached_property
+    def rest(self) -> Region:
+        """What the tool could have reached and has left standing."""
+        return left_over(*self._areas[1:], self.clearing.radius * 1e-3)
+
+    @cached_property
+    def corners(self) -> Region:
+        """What the tool is too large for."""
+        return left_over(*self._areas[:2], self.clearing.radius * 1e-3)
+
+    @cached_property
+    def covered(self) -> float:
+        """The share of the reachable area that is cleared."""
+        reach = self._areas[1]
+        return float(1 - self.rest.area / reach.area) if reach.area else 1.0
+
+    @cached_property
+    def time(self) -> float:
+        """Seconds: by the feed-rate profile where axis limits are given, else length over feed."""
+        if self.limits is not None:
+            return Profile(self.path, self.limits).time
+        feed = np.where(np.isinf(self.path.feed), self.rapid_rate, self.path.feed)
+        return float((self.path.lengths / feed).sum() * 60)
+
+    @property
+    def row(self) -> dict[str, Any]:
+        """The values of :data:`COLUMNS`."""
+        rapid = self.path.kind == Kind.RAPID
+        rate = self.engagement.width * self.depth * self.feed / 1000
+        weight = self.engagement.step
+        return {
+            "strategy": self.name,
+            "length": float(self.path.lengths[~rapid].sum()),
+            "rapid": float(self.path.lengths[rapid].sum()),
+            "moves": len(self.path),
+            "lifts": sum(not linked for piece in self.clearing.pieces for linked in piece.linked),
+            "time": self.time,
+            "covered": 100 * self.covered,
+            "rest": self.rest.area,
+            "corners": self.corners.area,
+            "mean": float(np.degrees(self.engagement.mean())),
+            "most": float(np.degrees(self.engagement.most())),
+            "above": 100 * self.engagement.share_above(self.limit),
+            "removal": float(np.average(rate, weights=weight)) if weight.sum() else 0.0,
+            "removal_most": float(rate.max(initial=0.0)),
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Trials of several strategies on one area; a table when shown."""
+
+    trials: tuple[Trial, ...]
+
+    def __len__(self) -> int:
+        return len(self.trials)
+
+    def __getitem__(self, key: int | str) -> Trial:
+        if isinstance(key, str):
+            found = [trial for trial in self.trials if trial.name == key]
+            if not found:
+                raise KeyError(f"{key!r} was not compared; there are {', '.join(t.name for t in self.trials)}")
+            return found[0]
+        return self.trials[key]
+
+    @cached_property
+    def rows(self) -> tuple[dict[str, Any], ...]:
+        """One dict of :data:`COLUMNS` a strategy."""
+        return tuple(trial.row for trial in self.trials)
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """The table as arrays, for pandas, polars or matplotlib."""
+        return {name: np.array([row[name] for row in self.rows]) for name in COLUMNS}
+
+    def plot(self, **options: Any) -> Picture:
+        """The paths side by side, coloured by engagement (needs matplotlib)."""
+        from mnclab.show.plot.strategy import plot_strategies
+
+        return plot_strategies(self, **options)
+
+    def _lines(self) -> list[list[str]]:
+        titles = [title for title, _ in COLUMNS.values()]
+        return [titles, *([form.format(row[name]) for name, (_, form) in COLUMNS.items()] for row in self.rows)]
+
+    def __repr__(self) -> str:
+        lines = self._lines()
+        wide = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        return "\n".join("  ".join(f"{text:>{w}}" for text, w in zip(line, wide)) for line in lines)
+
+    def _repr_html_(self) -> str:
+        head, *rows = self._lines()
+        cells = "".join(f"<th style='white-space:normal'>{escape(text)}</th>" for text in head)
+        body = "".join("<tr>" + "".join(f"<td>{escape(text)}</td>" for text in row) + "</tr>" for row in rows)
+        return f"<table><thead><tr>{cells}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def compare(
+    region: Region, tool: Tool | float, strategies: Strategies = tuple(STRATEGIES), *, overlap: float = 0.5,
+    stepover: float | None = None, allowance: float = 0.0, depth: float = 1.0, feed: float = 500.0,
+    plunge_feed: float = 150.0, rapid: float = 10000.0, entry: Entry = VERTICAL, climb: bool = True,
+    limit: float = 90.0, limits: Limits | None = None,
+) -> Comparison:  # fmt: skip
+    """Try strategies on an area with one tool (a `Tool`, or its radius) and put what comes of it side by side.
+
+    `strategies` are names of :data:`STRATEGIES`, or a mapping from names to a strategy, a `Clearing`, or a function of
+    region, tool radius and stepover. `overlap` is the share of the tool diameter that two passes have in common;
+    `stepover` says it in mm instead. `limit` is the engagement in degrees above which the share is counted. With axis
+    `limits` the time comes from the feed-rate profile. Raises ValueError where the tool does not fit.
+    """
+    radius = tool.effective_radius if isinstance(tool, Tool) else float(tool)
+    if stepover is None:
+        if not 0 <= overlap < 1:
+            raise ValueError(f"the overlap must lie from 0 to below 1, got {overlap:g}")
+        stepover = 2 * radius * (1 - overlap)
+    named = strategies if isinstance(strategies, Mapping) else {name: name for name in strategies}
+    trials = []
+    for name, how in named.items():
+        if isinstance(how, Clearing):
+            clearing = how
+        elif callable(how):
+            clearing = how(region, radius, stepover)
+        else:
+            clearing = clear(how, region, radius, stepover, allowance=allowance, climb=climb)
+        path = toolpath(clearing, (-depth,), entry=entry, feed=feed, plunge_feed=plunge_feed, climb=climb)
+        moves, counted = level_moves(clearing, entry, depth, climb)
+        found = engagement(moves, radius, spacing=radius / DISCS)
+        found = found.chosen(np.array(counted, dtype=bool)[found.move])
+        trials.append(
+            Trial(name, region, clearing, path, found, depth, feed, np.radians(limit), allowance, limits, rapid)
+        )
+    return Comparison(tuple(trials))
+
+
+def level_moves(clearing: Clearing, entry: Entry, depth: float, climb: bool) -> tuple[list[Contour], list[bool]]:
+    """Everything that a clearing runs at its level, in order, and which of it is counted: all but the entries."""
+    moves: list[Contour] = []
+    counted: list[bool] = []
+    for piece in clearing.pieces:
+        for k in range(max(1, len(piece.passes))):
+            if not (k and piece.linked[k - 1]) and (piece.passes or piece.place is not None):
+                down = descent(piece, entry, clearing.radius, 0.0, -depth, climb, k)
+                moves.append(down.contour if down.clears else Contour(down.contour.points[[0, 0]], closed=False))
+                counted.append(False)
+            if not piece.passes:
+                continue
+            before, contour = end(moves[-1]), piece.passes[k]
+            if np.hypot(*(begin(contour) - before)) > 1e-9:
+                moves.append(Contour([before, begin(contour)], closed=False))
+                counted.append(True)
+            moves.append(contour)
+            counted.append(True)
+    return moves, counted

@@ -1,0 +1,215 @@
+"""What the milling cycles share (MNC, chapter 10), and facing: G320 and G321.
+
+They run at once, in the block that they stand in. z0 is the level where the tool stands then, R the effective tool radius.
+Coordinates are absolute under G90 and G91 (MNC-MILL-ABS); no parameter is kept for a later block.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.machine import Machine
+from mnclab.machine.performing import perform
+from mnclab.machining.clearing import Clearing, numbered
+from mnclab.machining.depths import MOST
+from mnclab.machining.face_milling import Layer, face
+from mnclab.machining.facing import lines, rows
+from mnclab.machining.steps import Go
+
+CYCLES = CycleTable()
+STRATEGY: dict[float, str] = {
+    0: "meander, stepover outside the surface",
+    1: "meander, stepover within the surface",
+    2: "one way, back above the surface",
+}
+MOST_PASSES = 100_000  # of one cycle, all its levels together
+
+
+def clearance(meaning: str) -> Any:
+    """Q: how far above the material the tool moves at rapid."""
+    return param("Q", meaning, above=0, incremental=True, example=2)
+
+
+def feed() -> Any:
+    """F: in mm/min whatever G94 or G95 says; it does not become the modal feed."""
+    return param("F", "milling feed", "mm/min", default=None, default_means="the modal feed", above=0, example=500)
+
+
+def second_feed(meaning: str, example: float) -> Any:
+    """T: a feed that is F where it is not written, or 0."""
+    return param(
+        "T", meaning, "mm/min", default=None, default_means="F", at_least=0, note="0: the same as F", example=example
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class MillingCycle(Cycle):
+    """What all of them need of the machine: a tool with a radius, a feed, no radius compensation."""
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """Tool, feed, compensation; and no machine coordinates."""
+        if m.side:
+            yield "", "cannot run under radius compensation"
+        if "machine coordinates" in m.memory:
+            yield "", "and G53 stand in one block: the cycle counts from the workpiece"
+        if m.radius <= 0:
+            yield "", f"needs a tool with a radius, got {m.radius:g}"
+        if getattr(self, "feed", None) is None and m.feed is None:
+            yield "feed", "is missing, and no feed rate was programmed before"
+
+
+def few_passes(name: str, levels: int, passes: int) -> Iterator[tuple[str, str]]:
+    """A fault where nobody would wait for so many passes."""
+    if levels * passes > MOST_PASSES:
+        yield name, f"makes {levels} levels of {passes} passes, more than {MOST_PASSES} together"
+
+
+@dataclass(frozen=True)
+class Surface(MillingCycle):
+    """The rectangle that is milled, from one of its corners."""
+
+    start_x: float = param("X", "start corner along X", note="absolute", example=0)
+    start_y: float = param("Y", "start corner along Y", note="absolute", example=0)
+    length_x: float = param("A", "length along X", at_least=0, incremental=True, example=60)
+    length_y: float = param("B", "length along Y", at_least=0, incremental=True, example=40)
+    clearance: float = clearance("clearance above the milling height")
+    feed: float | None = feed()
+
+    def approach(self, m: Machine, above: float) -> None:
+        """Up to the clearance level from below it, so that nothing is cut on the way to the start."""
+        perform(m, self.code, [Go("to the clearance level", max(m.programmed[2], above))])
+
+
+@CYCLES("G320", "Line-by-line milling", runs="definition", source="MNC 10.1")
+class LineMilling(Surface):
+    """Mills a surface at one height on a given number of lines along X, to and fro."""
+
+    level: float = param("Z", "height of the milled surface", note="absolute", example=-1)
+    passes: float = param(
+        "K", "number of lines", "count", type="integer", at_least=0, example=6, note="0 mills nothing"
+    )
+    plunge_feed: float = param("V", "feed down to the height", "mm/min", above=0, example=150)
+    stepover_feed: float | None = second_feed("feed to the next line", 250)
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """Not more lines than somebody would wait for."""
+        if self.passes > MOST:
+            yield "passes", f"must be at most {MOST}, got {self.passes:g}"
+
+    def across(self, radius: float) -> tuple[float, ...]:
+        """Where the lines lie: the first and the last one flush with the edges (MNC-G320-STEP)."""
+        first, last, count = self.start_y + radius, self.start_y + self.length_y - radius, int(self.passes)
+        if count == 1 or last <= first:
+            return (first,)
+        return tuple(first + (last - first) * k / (count - 1) for k in range(count))
+
+    def remarks(self, radius: float) -> Iterator[str]:
+        """What somebody may not have meant."""
+        width, count = self.length_y, int(self.passes)
+        if not count:
+            yield "K (number of lines) is 0: nothing is milled"
+        elif count > 1 and width <= 2 * radius:
+            yield f"one line is as wide as B{width:g}: K{count} lines are not needed"
+        elif (step := width - 2 * radius if count == 1 else (width - 2 * radius) / (count - 1)) > 2 * radius:
+            yield f"K{count} lines leave strips uncut: they lie {step:g} mm apart, the tool is {2 * radius:g} mm wide"
+
+    def moves(self, m: Machine) -> None:
+        """Steps 1 to 7 of the manual; the tool stays at the clearance level."""
+        for sentence in self.remarks(m.radius):
+            m.warn(f"{self.code} {sentence}")
+        if not self.passes:
+            return
+        left, right, above = (
+            self.start_x - m.radius,
+            self.start_x + self.length_x + m.radius,
+            self.level + self.clearance,
+        )
+        passes = lines(self.across(m.radius), left, right, m.radius)
+        self.approach(m, above)
+        layer = Layer("", self.level, passes, self.feed, self.stepover_feed or self.feed, self.plunge_feed)
+        perform(m, self.code, face([layer], above), (0.0, 0.0))
+        perform(m, self.code, [Go("to the clearance level", above)])
+
+
+@CYCLES("G321", "Face milling", runs="definition", source="MNC 10.2")
+class FaceMilling(Surface):
+    """Mills a surface in several infeeds, the last of them a finishing cut; each level backwards over the one before."""
+
+    strategy: float = param("L", "machining strategy", "choice", default=0, choices=STRATEGY, example=0)
+    level_from: float = param("Z", "height from which to mill", note="absolute", example=0)
+    level_to: float = param("W", "height down to which to mill", note="absolute", example=-5)
+    max_infeed: float = param("P", "greatest infeed", above=0, incremental=True, example=2)
+    overlap: float = param(
+        "K", "path overlap factor", "ratio", at_least=0.1, at_most=1.999, example=1.5, note="stepover at most K times R"
+    )  # fmt: skip
+    positioning_feed: float = param("V", "positioning feed", "mm/min", above=0, example=2000)
+    side_clearance: float = param("I", "clearance at the side", above=0, incremental=True, example=3)
+    allowance: float = param(
+        "U", "finishing allowance", default=0, at_least=0, incremental=True, example=0.5, note="the last infeed"
+    )
+    finish_feed: float | None = second_feed("finishing feed", 800)
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """Downwards, and not all of it is allowance."""
+        height = self.level_from - self.level_to
+        if height < 0:
+            yield "level_to", f"must not lie above Z, got W {self.level_to:g} and Z {self.level_from:g}"
+        if self.allowance > height:
+            yield "allowance", f"must be at most Z - W = {height:g}, got {self.allowance:g}"
+        yield from too_many("max_infeed", self.levels)
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """As all milling cycles; and not too many lines."""
+        yield from super().check(m)
+        yield from too_many("overlap", lambda: self.across(m.radius))
+        yield from few_passes("max_infeed", len(self.levels()), len(self.across(m.radius)))
+
+    def levels(self) -> tuple[float, ...]:
+        """Equal infeeds down to the allowance, and then the allowance."""
+        roughing = rows(self.level_from, self.level_to + self.allowance, self.max_infeed)[1:]
+        return (*roughing, self.level_to) if self.allowance else roughing
+
+    def across(self, radius: float) -> tuple[float, ...]:
+        """Where the lines lie: flush with the edges, or in the middle of a narrow surface."""
+        first, last = self.start_y + radius, self.start_y + self.length_y - radius
+        if last <= first:
+            return (self.start_y + self.length_y / 2,)
+        return rows(first, last, self.overlap * radius)
+
+    def clearings(self, radius: float) -> tuple[Clearing, Clearing]:
+        """The lines of the first level, and those of all others, where a stepover within the surface stays in it."""
+        across, outside = self.across(radius), radius + self.side_clearance
+        left, right = self.start_x - outside, self.start_x + self.length_x + outside
+        if self.strategy != 1:
+            found = lines(across, left, right, radius, one_way=self.strategy == 2)
+            return found, found
+        near, far = self.start_x + radius, self.start_x + self.length_x - radius
+        if far < near:  # narrower than the tool: up and down in the middle
+            near = far = self.start_x + self.length_x / 2
+        return lines(across, left, right, radius, within=(near, far)), lines(across, near, far, radius)
+
+    def layers(self, radius: float) -> Iterator[Layer]:
+        """Every second level backwards; the finishing infeed at its own feed."""
+        first, other = self.clearings(radius)
+        levels, within = self.levels(), self.strategy == 1
+        for k, (name, level) in enumerate(zip(numbered("layer", len(levels)), levels, strict=True)):
+            finishing = bool(self.allowance) and k == len(levels) - 1
+            feed = (self.finish_feed or self.feed) if finishing else self.feed
+            passes = other.reversed() if k % 2 else other if k else first
+            link = feed if within else self.positioning_feed
+            down = self.feed if within and k else self.positioning_feed
+            yield Layer("finishing" if finishing else name, level, passes, feed, link, down)
+
+    def moves(self, m: Machine) -> None:
+        """Steps 1 to 9 of the manual."""
+        if self.level_from == self.level_to:
+            m.warn(f"{self.code} Z and W are the same height: nothing is milled")
+            return
+        above = self.level_from + self.clearance
+        end = max(m.programmed[2], above)
+        self.approach(m, above)
+        perform(m, self.code, face(list(self.layers(m.radius)), above, self.clearance), (0.0, 0.0))
+        perform(m, self.code, [Go("to the start level", end)])

@@ -1,0 +1,70 @@
+"""Areas from loose contours, whatever they were drawn with: pieces joined at their ends, and what lies in what. Lengths in mm."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+
+SAME = 1e-3  # mm, below which ends of a drawing count as one point
+
+
+def area_of(contours: Iterable[Contour], tolerance: float = SAME) -> Region:
+    """The area that contours describe: those within none are pockets, those in a pocket islands, and so on inwards.
+
+    Open contours are joined where their ends meet within `tolerance`. Raises ValueError where nothing is closed, or
+    contours cross each other.
+    """
+    loops = [contour for contour in joined(contours, tolerance) if contour.closed and abs(contour.area) > tolerance**2]
+    if not loops:
+        raise ValueError("the drawing has no closed contour")
+    within = np.array([loop.winding([other.points[0] for other in loops]) != 0 for loop in loops])
+    depth = within.sum(axis=0) - np.diag(within)
+    found = Region()
+    for level in range(0, int(depth.max()) + 1, 2):
+        outer = [loop for loop, d in zip(loops, depth, strict=True) if d == level]
+        holes = [loop for loop, d in zip(loops, depth, strict=True) if d == level + 1]
+        piece = Region.of(*outer, holes=holes)
+        found = found.union(piece) if level else piece
+    return found
+
+
+def joined(contours: Iterable[Contour], tolerance: float = SAME) -> list[Contour]:
+    """Open contours strung together where an end meets another's, turned round if need be; closed ones as they are."""
+    closed = [contour for contour in contours if contour.closed]
+    loose = [contour for contour in contours if not contour.closed and contour.length > tolerance]
+    while loose:
+        chain = [loose.pop(0)]
+        while True:
+            tail, head = chain[-1].points[-1], chain[0].points[0]
+            if np.hypot(*(tail - head)) <= tolerance and (len(chain) > 1 or len(chain[0].starts) > 1):
+                closed.append(_strung(chain, True))
+                break
+            k = _meeting(loose, tail, tolerance)
+            if k is None:
+                closed.append(_strung(chain, False))
+                break
+            following = loose.pop(k)
+            near = np.hypot(*(following.points[0] - tail)) <= tolerance
+            chain.append(following if near else following.reversed())
+    return closed
+
+
+def _meeting(loose: Sequence[Contour], tail: np.ndarray, tolerance: float) -> int | None:
+    if not loose:
+        return None
+    ends = np.array([[contour.points[0], contour.points[-1]] for contour in loose])
+    away = np.hypot(*np.moveaxis(ends - tail, -1, 0)).min(axis=1)
+    k = int(away.argmin())
+    return k if away[k] <= tolerance else None
+
+
+def _strung(chain: Sequence[Contour], closed: bool) -> Contour:
+    points = np.vstack([contour.points[:-1] for contour in chain])
+    bulge = np.concatenate([contour.bulge[:-1] for contour in chain])
+    if closed:
+        return Contour(points, bulge)
+    return Contour(np.vstack([points, chain[-1].points[-1:]]), np.append(bulge, 0.0), closed=False)

@@ -1,0 +1,73 @@
+"""Contours of simple figures from numbers: rectangle, slot, regular polygon. Lengths in mm, angles in rad.
+
+All are closed and run counter-clockwise. They begin where a tool likes to begin: in the middle of a side.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mnclab.geometry.contours import Contour, Floats, left
+
+QUARTER = float(np.tan(np.pi / 8))  # the bulge of a quarter circle
+
+
+def rectangle(
+    length: float, width: float, corner: float = 0.0, *, centre: ArrayLike = (0, 0), angle: float = 0.0, begin: int = 0
+) -> Contour:
+    """A rectangle with corners of a radius; it begins where the axis `begin` (0 X, 1 Y) leaves it on the positive side.
+
+    Raises ValueError where a side is not greater than 0 or the corners do not fit.
+    """
+    a, b = length / 2, width / 2
+    if not (a > 0 and b > 0):
+        raise ValueError(f"the sides of a rectangle must be greater than 0, got {length:g} and {width:g}")
+    if not 0 <= corner <= min(a, b) + 1e-9:
+        raise ValueError(f"a corner radius of {corner:g} does not fit into {length:g} by {width:g}")
+    corner = min(corner, a, b)
+    corners = np.array([(a, b), (-a, b), (-a, -b), (a, -b)])
+    ahead = np.array([(0, 1), (-1, 0), (0, -1), (1, 0)])
+    if begin:
+        corners, ahead = np.roll(corners, -1, axis=0), np.roll(ahead, -1, axis=0)
+    if corner:
+        points = np.stack([corners - corner * ahead, corners + corner * left(ahead)], axis=1).reshape(-1, 2)
+        bulge = np.tile([QUARTER, 0.0], 4)
+    else:
+        points, bulge = corners, np.zeros(4)
+    first = np.array([(a, 0.0), (0.0, b)][begin])
+    points, bulge = np.vstack([first, points]), np.append(0.0, bulge)
+    some = np.hypot(*(np.roll(points, -1, axis=0) - points).T) > 1e-9  # two roundings may use up a side
+    return Contour(placed(points[some], centre, angle), bulge[some])
+
+
+def slot(line: Contour, width: float) -> Contour:
+    """What lies within width / 2 of one straight line or one arc; it begins beyond the end of the line.
+
+    Raises ValueError where the line has more than one element, or is bent too much for the width.
+    """
+    if line.closed or len(line.starts) != 1:
+        raise ValueError("a slot has a centre line of one straight line or one arc")
+    half, bulge = width / 2, float(line.bulge[0])
+    if not 0 < half < line.radii[0]:
+        raise ValueError(f"a slot {width:g} wide does not fit its centre line")
+    (start,), (end,) = line.starts, line.ends
+    (ahead,), (away,) = line.tangents()
+    cap = [end + half * away, end + half * left(away), start + half * left(ahead)]
+    cap += [start - half * ahead, start - half * left(ahead), end - half * left(away)]
+    return Contour(cap, [QUARTER, -bulge, QUARTER, QUARTER, bulge, QUARTER])
+
+
+def polygon(corners: int, radius: float, *, centre: ArrayLike = (0, 0), angle: float = 0.0) -> Contour:
+    """A regular polygon in a circle of a radius, its first corner at `angle`."""
+    if corners < 3 or not radius > 0:
+        raise ValueError(f"a polygon has at least 3 corners and a radius above 0, got {corners} and {radius:g}")
+    way = angle + 2 * np.pi * np.arange(corners) / corners
+    return Contour(placed(radius * np.stack([np.cos(way), np.sin(way)], axis=1), centre, 0.0))
+
+
+def placed(points: Floats, centre: ArrayLike, angle: float) -> Floats:
+    """Points `(n, 2)` turned about the origin, then moved to a centre."""
+    if angle:
+        points = np.cos(angle) * points + np.sin(angle) * left(points)
+    return np.asarray(points + np.asarray(centre, dtype=float))

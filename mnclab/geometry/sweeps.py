@@ -1,0 +1,138 @@
+"""What a disc covers that moves along contours, what it leaves of an area, and the middle line of an area.
+
+Polylines and polygons, by shapely: near, where `regions` is exact. What is covered is a little less than the truth: a
+disc is a polygon in it, off by R/13 000 at most, a path keeps `CHORD_ERROR`. Lengths in mm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.regions import Region
+
+CHORD_ERROR = 1e-3
+QUARTER_STEPS = 64  # corners of a quarter circle
+
+
+def covered(passes: Iterable[Contour], radius: float) -> Any:
+    """What a disc covers along contours, as a shapely area."""
+    import shapely
+
+    lines = [shapely.LineString(contour.points_within(CHORD_ERROR)) for contour in passes]
+    return shapely.union_all(shapely.buffer(lines, radius, quad_segs=QUARTER_STEPS))
+
+
+def polygons(region: Region) -> Any:
+    """A region as a shapely area."""
+    import shapely
+
+    pieces = [[loop.points_within(CHORD_ERROR) for loop in part.loops] for part in region.parts]
+    return shapely.union_all([shapely.make_valid(shapely.Polygon(outer, holes)) for outer, *holes in pieces])
+
+
+def stays(passes: Iterable[Contour], area: Any) -> list[bool]:
+    """Which contours lie in a shapely area, or within twice `CHORD_ERROR` of it."""
+    import shapely
+
+    lines = [shapely.LineString(contour.points_within(CHORD_ERROR)) for contour in passes]
+    room = shapely.buffer(area, 2 * CHORD_ERROR)
+    shapely.prepare(room)
+    return [bool(one) for one in shapely.covers(room, lines)]
+
+
+def left_over(area: Any, cover: Any, least: float) -> Region:
+    """What of a shapely area is not covered, without what is narrower than `least`."""
+    import shapely
+
+    rest = shapely.difference(area, cover)
+    kept = shapely.buffer(shapely.buffer(rest, -least / 2, join_style="mitre"), least / 2, join_style="mitre")
+    return outlined(shapely.intersection(rest, kept))
+
+
+def outlined(area: Any) -> Region:
+    """A shapely area as a region of polylines."""
+    import shapely
+
+    flat = shapely.get_parts(shapely.get_parts(area))
+    loops: list[Contour] = []
+    for polygon in flat:
+        if polygon.geom_type != "Polygon" or polygon.is_empty:
+            continue
+        for k, ring in enumerate((polygon.exterior, *polygon.interiors)):
+            corners = Contour(shapely.get_coordinates(ring)[:-1])
+            loops.append(corners if (corners.area > 0) == (k == 0) else corners.reversed())
+    return Region(tuple(loops))
+
+
+class Skeleton(NamedTuple):
+    """The middle line of an area: points `(n, 2)`, their distance from the boundary `(n,)`, edges `(m, 2)` between them."""
+
+    points: Floats
+    room: Floats
+    edges: NDArray[np.intp]
+
+
+def skeleton(region: Region, spacing: float) -> Skeleton:
+    """The centres of discs that touch the boundary in two places, from points `spacing` apart on it.
+
+    A branch is cut back while its last disc lies within its neighbour's but for a tenth of `spacing`: what is left are
+    the branches that reach somewhere.
+    """
+    import shapely
+
+    spots = [_spaced(loop, spacing) for loop in region.loops]
+    cells = shapely.voronoi_polygons(shapely.MultiPoint(np.vstack(spots)), only_edges=True)
+    lines = shapely.get_coordinates(shapely.get_parts(cells)).reshape(-1, 2)
+    owner = np.repeat(
+        np.arange(shapely.get_num_geometries(cells)), shapely.get_num_coordinates(shapely.get_parts(cells))
+    )
+    same = owner[1:] == owner[:-1]
+    points, index = np.unique(np.round(lines, 9), axis=0, return_inverse=True)
+    edges = np.stack([index.reshape(-1)[:-1], index.reshape(-1)[1:]], axis=1)[same]
+    edges = np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], axis=1), axis=0)
+    inside = region.contains(points)
+    edges = edges[inside[edges].all(axis=1)]
+    room = np.zeros(len(points))
+    room[inside] = region.distance(points[inside])
+    return _pruned(Skeleton(points, room, edges), spacing / 10)
+
+
+def _spaced(loop: Contour, spacing: float) -> Floats:
+    """Points on a contour, at most `spacing` apart, its corners among them."""
+    upto = np.append(0.0, np.cumsum(loop.lengths))
+    counts = np.maximum(np.ceil(loop.lengths / spacing).astype(int), 1)
+    ways = [a + (b - a) * np.arange(n) / n for a, b, n in zip(upto, upto[1:], counts, strict=False)]
+    return loop.point_at(np.concatenate(ways))[0]
+
+
+def _pruned(found: Skeleton, slack: float) -> Skeleton:
+    points, room, edges = found
+    while len(edges):
+        degree = np.bincount(edges.ravel(), minlength=len(points))
+        tip = np.where(degree[edges] == 1, edges, -1)
+        gone = np.zeros(len(edges), dtype=bool)
+        for column in (0, 1):
+            leaf, stem = edges[:, column], edges[:, 1 - column]
+            apart = np.hypot(*(points[leaf] - points[stem]).T)
+            gone |= (tip[:, column] >= 0) & (apart + room[leaf] <= room[stem] + slack * np.minimum(1, apart))
+        if not gone.any():
+            break
+        edges = edges[~gone]
+    return Skeleton(points, room, edges)
+
+
+def long_axes(rest: Region) -> Sequence[Floats]:
+    """For each piece of a region the line `(2, 2)` between its two corners farthest apart."""
+    axes = []
+    for part in rest.parts:
+        corners = part.loops[0].points
+        for _ in range(2):  # from any corner to the farthest, from there to the farthest
+            away = np.hypot(*(corners - corners[0]).T)
+            corners = np.roll(corners, -int(away.argmax()), axis=0)
+        axes.append(np.array([corners[0], corners[int(np.hypot(*(corners - corners[0]).T).argmax())]]))
+    return axes

@@ -1,0 +1,138 @@
+"""What a strategy returns: passes of the tool centre in the plane, piece by piece, each with its name. Lengths in mm.
+
+A *pass* is a contour, closed or open. Between two passes the tool either goes straight (a *link*), which never leads
+it farther from what is cleared than one stepover, or it lifts. Depths are no matter here: a cycle runs the passes on
+each of its levels, `entries` lead down to them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.regions import Region
+
+SLACK = 1e-6  # mm
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A connected piece of the tool-centre area: one entry, then its passes in order.
+
+    `linked[i]` tells whether the tool may go straight from the end of pass i to the start of pass i + 1;
+    if not, it must lift. `labels[i]` names pass i: "ring 3 of 7".
+    """
+
+    centres: Region
+    passes: tuple[Contour, ...]
+    linked: tuple[bool, ...]
+    labels: tuple[str, ...]
+    place: Floats | None = None
+
+    @property
+    def entry(self) -> Floats:
+        """Where the tool goes down, `(2,)`: at `place`, else at the start of the first pass."""
+        return begin(self.passes[0]) if self.place is None else self.place
+
+    def begins_cleared(self, k: int) -> bool:
+        """Whether pass k begins on one before it, where the tool can come straight down."""
+        spot = begin(self.passes[k])[None]
+        return any(contour.distance(spot)[0] < 1e-3 for contour in self.passes[:k])
+
+    def rest_from(self, k: int) -> Piece:
+        """The piece without its first k passes."""
+        return self if not k else Piece(self.centres, self.passes[k:], self.linked[k:], self.labels[k:])
+
+    def reversed(self) -> Piece:
+        """The same passes in the opposite order and sense; their names stay with them."""
+        backwards = tuple(contour.reversed() for contour in self.passes[::-1])
+        return Piece(self.centres, backwards, self.linked[::-1], self.labels[::-1])
+
+
+@dataclass(frozen=True, eq=False)
+class Clearing:
+    """All passes of a strategy; `centres` is where the centre of a tool of `radius` may go."""
+
+    centres: Region
+    pieces: tuple[Piece, ...]
+    radius: float
+
+    @property
+    def passes(self) -> tuple[Contour, ...]:
+        """The passes of all pieces, in order."""
+        return tuple(contour for piece in self.pieces for contour in piece.passes)
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Their names."""
+        return tuple(label for piece in self.pieces for label in piece.labels)
+
+    @property
+    def length(self) -> float:
+        """Length of all passes, without the ways between them."""
+        return sum(contour.length for contour in self.passes)
+
+    def reversed(self) -> Clearing:
+        """The same passes in the opposite order and sense, as for the way back on the next level."""
+        return replace(self, pieces=tuple(piece.reversed() for piece in self.pieces[::-1]))
+
+
+def begin(contour: Contour) -> Floats:
+    """Where a pass begins, `(2,)`."""
+    return np.asarray(contour.points[0])
+
+
+def end(contour: Contour) -> Floats:
+    """Where a pass ends, `(2,)`: a closed one where it began."""
+    return np.asarray(contour.points[0 if contour.closed else -1])
+
+
+def numbered(name: str, count: int) -> tuple[str, ...]:
+    """Names of passes: "ring 1 of 3", …; one alone has no number."""
+    return (name,) if count == 1 else tuple(f"{name} {k} of {count}" for k in range(1, count + 1))
+
+
+def links(centres: Region, passes: Sequence[Contour], stepover: float) -> tuple[bool, ...]:
+    """Which straight ways between passes stay in the tool-centre area and within a stepover of what is cleared."""
+    return tuple(
+        _clear(centres, end(a), begin(b), passes[: k + 1], stepover) for k, (a, b) in enumerate(pairwise(passes))
+    )
+
+
+def _clear(centres: Region, a: Floats, b: Floats, done: Sequence[Contour], stepover: float) -> bool:
+    way = float(np.hypot(*(b - a)))
+    if way > stepover + SLACK:
+        share = np.linspace(0, 1, int(np.ceil(4 * way / stepover)) + 1)[:, None]
+        spots = a + share * (b - a)
+        off = np.full(len(spots), np.inf)
+        for contour in reversed(done):
+            off = np.minimum(off, contour.distance(spots))
+            if (off <= stepover + SLACK).all():
+                break
+        else:
+            return False
+    return centres.holds(a, b)
+
+
+def piecewise(centres: Region, radius: float, plan: Callable[[Region], Piece]) -> Clearing:
+    """A clearing planned piece by piece; a ValueError where the tool does not fit."""
+    if not centres.loops:
+        raise ValueError(f"a tool of radius {radius:g} does not fit into the contour")
+    return Clearing(centres, tuple(plan(part) for part in centres.parts), radius)
+
+
+def room_for(region: Region, radius: float, stepover: float, allowance: float = 0.0) -> Region:
+    """Where the tool centre may go; a ValueError where the numbers are impossible or the tool does not fit."""
+    if not radius > 0:
+        raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
+    if not 0 < stepover <= 2 * radius:
+        raise ValueError(f"the stepover must lie above 0 and not above twice the radius, got {stepover:g}")
+    centres = region.inset(radius + allowance)
+    if not centres.loops:
+        rest = f" with an allowance of {allowance:g}" if allowance else ""
+        raise ValueError(f"a tool of radius {radius:g}{rest} does not fit into the contour")
+    return centres

@@ -1,0 +1,269 @@
+"""Pockets and studs of simple shape, cleared on passes of the same shape. Lengths in mm, angles in rad.
+
+    t = way from the first to the last pass, k = greatest stepover:  n = ceil(t / k) steps of t / n each
+
+All steps are equal and none is above k. A pocket is cleared from its centre outwards, a stud from the stock inwards.
+In climb milling, the spindle turning clockwise, walls of pockets are followed counter-clockwise and studs clockwise.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mnclab.geometry import shapes
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.regions import Region
+from mnclab.machining.clearing import Clearing, Piece, numbered
+from mnclab.machining.depths import MOST, TooMany
+from mnclab.machining.pockets import rounded
+from mnclab.machining.spirals import half_circles
+
+DRIFT = 1e-9  # a number of steps this little above a whole one is that whole one
+
+
+def steps(way: float, stepover: float) -> int:
+    """How many equal steps of at most `stepover` a way needs; TooMany where nobody would wait for them."""
+    if not stepover > 0:
+        raise ValueError(f"the stepover must be greater than 0, got {stepover:g}")
+    if way > MOST * stepover:
+        raise TooMany(f"{stepover:g} divides {way:g} into more than {MOST} steps")
+    return max(0, math.ceil(way / stepover - DRIFT))
+
+
+def rectangle(
+    length: float, width: float, radius: float, stepover: float, *, corner: float = 0.0, allowance: float = 0.0,
+    climb: bool = True, centre: ArrayLike = (0, 0), angle: float = 0.0, begin: int | None = None,
+) -> Clearing:  # fmt: skip
+    """A rectangular pocket on rectangles; the first one is a line there and back if the sides differ.
+
+    Each begins where the longer axis, or the one that `begin` names (0 the length, 1 the width), leaves it. `corner`
+    is the radius at the corners of the pocket, at least that of the tool. `angle` turns the pocket about its centre.
+    """
+    a, b = length / 2 - radius - allowance, width / 2 - radius - allowance
+    _must_fit(min(a, b), radius, allowance, f"a pocket of {length:g} by {width:g}")
+    inner = max(corner, radius) - radius - allowance
+    if inner > min(a, b) + DRIFT:
+        raise ValueError(f"a corner radius of {corner:g} does not fit into {length:g} by {width:g}")
+    axis, n, least = (int(a < b) if begin is None else begin), steps(min(a, b), stepover), min(a, b)
+    passes = []
+    if abs(a - b) > DRIFT:
+        far = np.array([(a - least, 0.0), (0.0, b - least)][int(a < b)])
+        passes.append(Contour(shapes.placed(np.array([far, -far, far]), centre, angle), closed=False))
+    for i in range(1, n + 1):
+        back = least * (n - i) / n
+        ring = shapes.rectangle(
+            2 * (a - back), 2 * (b - back), max(0.0, inner - back), centre=centre, angle=angle, begin=axis
+        )
+        passes.append(ring if climb else ring.reversed())
+    return _from_the_centre(passes, "ring", radius, np.asarray(centre, dtype=float))
+
+
+def circle(
+    diameter: float, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
+    centre: ArrayLike = (0, 0), angle: float = 0.0,
+) -> Clearing:  # fmt: skip
+    """A circular pocket on full circles, each begun at `angle`; no pass where the tool fills the pocket."""
+    reach = diameter / 2 - radius - allowance
+    _must_fit(reach, radius, allowance, f"a pocket of diameter {diameter:g}")
+    n = steps(reach, stepover)
+    circles = [Contour.circle(centre, reach * i / n, angle, clockwise=not climb) for i in range(1, n + 1)]
+    return _from_the_centre(circles, "circle", radius, np.asarray(centre, dtype=float))
+
+
+def circular_spiral(
+    diameter: float, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
+    centre: ArrayLike = (0, 0), angle: float = 0.0,
+) -> Clearing:  # fmt: skip
+    """A circular pocket on one spiral of half circles from the centre, and a full circle at the end."""
+    reach = diameter / 2 - radius - allowance
+    _must_fit(reach, radius, allowance, f"a pocket of diameter {diameter:g}")
+    middle, halves = np.asarray(centre, dtype=float), steps(2 * reach, stepover)
+    if not halves:
+        return Clearing(Region(), (Piece(Region(), (), (), (), middle),), radius)
+    spiral = half_circles(middle, 0.0, reach, halves, angle, clockwise=not climb)
+    last = Contour.circle(middle, reach, angle + np.pi * halves, clockwise=not climb)
+    return _joined([spiral, last], ("spiral", "last circle"), radius, Region((_turned_left(last),)), middle)
+
+
+def rectangular_spiral(
+    length: float, width: float, radius: float, stepover: float, *, corner: float = 0.0, allowance: float = 0.0,
+    climb: bool = True, centre: ArrayLike = (0, 0), angle: float = 0.0,
+) -> Clearing:  # fmt: skip
+    """A rectangular pocket on one spiral of lines and quarter circles, and the last rectangle of `rectangle` at the end.
+
+    Every round lies one step farther out than the one before; it takes the step in its corners.
+    """
+    if width > length:  # it begins along the longer axis
+        length, width, angle = width, length, angle + np.pi / 2
+    rings = rectangle(length, width, radius, stepover, corner=corner, allowance=allowance)
+    a, b = length / 2 - radius - allowance, width / 2 - radius - allowance
+    least, n = min(a, b), steps(min(a, b), stepover)
+    out = least * np.arange(n + 1) / max(n, 1)
+    x, y = a - least + out, b - least + out
+    corners = [(-x[0], -y[0])]
+    for i in range(n):
+        corners += [(x[i + 1], -y[i]), (x[i + 1], y[i + 1]), (-x[i + 1], y[i + 1]), (-x[i + 1], -y[i + 1])]
+    last = rings.passes[-1] if n else None
+    if last is None:
+        corners.append((x[0], y[0]))
+    else:
+        corners += [(0.0, -y[-1])]
+        last = last.started_at(last.nearest((0.0, -y[-1])))
+    sharp = np.array(corners)[np.append(True, np.hypot(*np.diff(corners, axis=0).T) > DRIFT)]
+    way = _softened(sharp, max(corner - radius - allowance, least / max(n, 1)))
+    passes = [way] if last is None else [way, last]
+    flip = np.array([1.0, 1.0 if climb else -1.0])
+    turned = [
+        Contour(shapes.placed(p.points * flip, centre, angle), p.bulge * flip[1], closed=p.closed) for p in passes
+    ]
+    outer = Region((_turned_left(turned[-1]),)) if last is not None else Region()
+    return _joined(turned, ("spiral", "last ring")[: len(turned)], radius, outer, turned[0].points[0])
+
+
+def slot(
+    line: Contour, width: float, radius: float, stepover: float | None = None, *, allowance: float = 0.0,
+    climb: bool = True,
+) -> Clearing:  # fmt: skip
+    """A slot about a straight or bent centre line: along the line, then round it ever wider, by `radius` at most.
+
+    A slot as wide as the tool is one pass along the line, whatever the allowance.
+    """
+    exact = abs(width - 2 * radius) <= DRIFT
+    reach = 0.0 if exact else width / 2 - radius - allowance
+    _must_fit(reach, radius, allowance, f"a slot {width:g} wide")
+    if line.closed or len(line.starts) != 1:
+        raise ValueError("a slot has a centre line of one straight line or one arc")
+    n = steps(reach, stepover or radius)
+    rounds = [shapes.slot(line, 2 * reach * i / n) for i in range(1, n + 1)]
+    outer = Region(tuple(rounds[-1:]))
+    passes = [line, *(ring if climb else ring.reversed() for ring in rounds)]
+    return _joined(passes, ("centre line", *numbered("ring", n)), radius, outer, line.points[0])
+
+
+def stud_rectangle(
+    length: float, width: float, stock: tuple[float, float], radius: float, stepover: float, *, corner: float = 0.0,
+    allowance: float = 0.0, climb: bool = True, centre: ArrayLike = (0, 0), angle: float = 0.0,
+) -> Clearing:  # fmt: skip
+    """A rectangular stud out of a stock of length and width, from the outside in.
+
+    `corner` rounds the corners of the stud, or with a minus sign bevels them; every pass has the same corner element.
+    """
+    spare = [(whole - part) / 2 - allowance for whole, part in zip(stock, (length, width), strict=True)]
+    if min(spare) < -DRIFT:
+        raise ValueError(f"a stock of {stock[0]:g} by {stock[1]:g} does not hold the stud and its allowance")
+    if 2 * abs(corner) > min(length, width):
+        raise ValueError(f"a corner of {abs(corner):g} does not fit on a stud of {length:g} by {width:g}")
+    n = max(1, steps(max(spare), stepover))
+    passes = []
+    for i in range(1, n + 1):
+        more = np.array(spare) * (n - i) / n + radius + allowance
+        whole = 2 * (length / 2 + more[0]), 2 * (width / 2 + more[1])
+        if corner < 0:
+            cut = -corner + (radius + allowance) * (2 - math.sqrt(2))
+            ring = _bevelled(*whole, cut, centre, angle)
+        else:
+            ring = shapes.rectangle(*whole, corner + allowance + radius, centre=centre, angle=angle)
+        passes.append(ring.reversed() if climb else ring)
+    return _from_outside(passes, radius)
+
+
+def stud_circle(
+    diameter: float, stock: float, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
+    centre: ArrayLike = (0, 0), angle: float = 0.0,
+) -> Clearing:  # fmt: skip
+    """A circular stud out of a round stock: a spiral inwards, whole turns, then a full circle."""
+    last = diameter / 2 + allowance + radius
+    spare = (stock - diameter) / 2 - allowance
+    if spare < -DRIFT:
+        raise ValueError(f"a stock of diameter {stock:g} does not hold the stud and its allowance")
+    n = steps(spare, stepover)
+    ring = Contour.circle(centre, last, angle, clockwise=climb)
+    if not n:
+        return _from_outside([ring], radius)
+    spiral = half_circles(centre, last + spare, last, 2 * n, angle, clockwise=climb)
+    return _joined([spiral, ring], ("spiral", "last circle"), radius, Region(), spiral.points[0])
+
+
+def stud_polygon(
+    corners: int, inscribed: float, stock: float, radius: float, stepover: float, *, corner: float = 0.0,
+    allowance: float = 0.0, climb: bool = True, centre: ArrayLike = (0, 0), angle: float = 0.0,
+) -> Clearing:  # fmt: skip
+    """A regular polygon, given by its inscribed radius, out of a round stock, from the outside in.
+
+    `corner` rounds its corners, or with a minus sign bevels them; a sharp one is gone round on an arc.
+    """
+    spare = stock / 2 - inscribed - allowance
+    if spare < -DRIFT:
+        raise ValueError(f"a stock of diameter {stock:g} does not hold the stud and its allowance")
+    stud = shapes.polygon(corners, inscribed / math.cos(math.pi / corners), centre=centre, angle=angle)
+    figure = _corners_cut(stud, -corner) if corner < 0 else _corners_rounded(stud, corner)
+    n, passes = max(1, steps(spare, stepover)), []
+    for i in range(1, n + 1):
+        (ring,) = Region.of(figure).offset(radius + allowance + max(spare, 0.0) * (n - i) / n).loops
+        start = ring.nearest(shapes.placed(np.array([[stock, 0.0]]), centre, angle)[0])
+        passes.append(ring.started_at(start).reversed() if climb else ring.started_at(start))
+    return _from_outside(passes, radius)
+
+
+# ---- beneath ----
+
+
+def _softened(corners: Floats, radius: float) -> Contour:
+    """An open way of lines that turn left by a quarter, with a quarter circle at each turn, as large as there is room."""
+    side = np.hypot(*np.diff(corners, axis=0).T)
+    size = np.minimum(radius, np.minimum(side[:-1], side[1:]) / 2)
+    ahead = np.diff(corners, axis=0) / side[:, None]
+    before, after = corners[1:-1] - size[:, None] * ahead[:-1], corners[1:-1] + size[:, None] * ahead[1:]
+    points = np.vstack([corners[:1], np.stack([before, after], axis=1).reshape(-1, 2), corners[-1:]])
+    bulge = np.concatenate([[0.0], np.tile([shapes.QUARTER, 0.0], len(size)), [0.0]])
+    some = np.append(np.hypot(*np.diff(points, axis=0).T) > DRIFT, True)
+    return Contour(points[some], bulge[some], closed=False)
+
+
+def _must_fit(room: float, radius: float, allowance: float, what: str) -> None:
+    if not radius > 0:
+        raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
+    if room < -DRIFT:
+        rest = f" and an allowance of {allowance:g}" if allowance else ""
+        raise ValueError(f"a tool of radius {radius:g}{rest} does not fit into {what}")
+
+
+def _turned_left(ring: Contour) -> Contour:
+    return ring if ring.area > 0 else ring.reversed()
+
+
+def _from_the_centre(passes: list[Contour], name: str, radius: float, centre: Floats) -> Clearing:
+    outer = Region((_turned_left(passes[-1]),)) if passes and passes[-1].closed else Region()
+    return _joined(passes, numbered(name, len(passes)), radius, outer, centre)
+
+
+def _from_outside(passes: list[Contour], radius: float) -> Clearing:
+    return _joined(passes, numbered("ring", len(passes)), radius, Region(), passes[0].points[0])
+
+
+def _joined(passes: list[Contour], labels: tuple[str, ...], radius: float, centres: Region, place: Floats) -> Clearing:
+    piece = Piece(centres, tuple(passes), (True,) * max(0, len(passes) - 1), labels, np.asarray(place))
+    return Clearing(centres, (piece,), radius)
+
+
+def _bevelled(length: float, width: float, cut: float, centre: ArrayLike, angle: float) -> Contour:
+    """A rectangle with bevels that take `cut` off each side, begun in the middle of its right side."""
+    sharp = shapes.rectangle(length, width)
+    bevelled = _corners_cut(Contour(sharp.points[1:]), cut)
+    at = bevelled.nearest((length / 2, 0.0))
+    ring = bevelled.started_at(at)
+    return Contour(shapes.placed(ring.points, centre, angle), ring.bulge)
+
+
+def _corners_cut(figure: Contour, cut: float) -> Contour:
+    """A convex figure of lines with bevels in place of its corners."""
+    before, after = figure.tangents()[1], figure.tangents()[0]
+    points = np.stack([figure.points - cut * np.roll(before, 1, axis=0), figure.points + cut * after], axis=1)
+    return Contour(points.reshape(-1, 2))
+
+
+def _corners_rounded(figure: Contour, radius: float) -> Contour:
+    return rounded(figure, radius) if radius else figure

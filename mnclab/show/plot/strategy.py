@@ -1,0 +1,113 @@
+"""Strategies side by side: the way of the tool coloured by its engagement, what it leaves hatched, entries marked."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
+
+from mnclab.comparison.strategies import Comparison, Trial
+from mnclab.geometry.regions import Region
+from mnclab.show.plot import colours
+from mnclab.show.plot.colours import Mark
+from mnclab.show.plot.picture import SMALL, VIEWS, Picture, dress, write_legend
+
+ENTRY = Mark("entry", colours.INK, "v", 5, False, 4.0)
+REST, CORNER = "#b3261e", "#8c8c8c"
+STEPS = tuple(range(0, 181, 20))  # degrees, limits of the colours
+CHORD = 0.02
+TITLE, GAP, SCALE_ROOM, TOP = 0.26, 0.55, 0.62, 0.36  # inches
+
+
+def plot_strategies(found: Comparison | Trial, width: float = 9.0, columns: int | None = None) -> Picture:
+    """One view of each trial, all at one scale, with one scale of colours below; `width` of the picture in inches."""
+    trials = found.trials if isinstance(found, Comparison) else (found,)
+    if not trials:
+        raise ValueError("there is nothing to draw: no strategy was compared")
+    bounds = np.array([loop.bounds for loop in trials[0].region.loops])
+    low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
+    margin = 0.04 * float((high - low).max())
+    low, high = low - margin, high + margin
+    wide, tall = (float(side) for side in high - low)
+    count = columns or min(len(trials), max(1, min(3, round(2.4 / math.sqrt(wide / tall)) + (len(trials) > 4))))
+    lines = math.ceil(len(trials) / count)
+    left, right = 0.62, 0.12
+    box = (width - count * (left + right)) / count
+    if lines * box * tall / wide > 9:
+        box = 9 / lines * wide / tall
+    height = box * tall / wide
+    total = TOP + lines * (TITLE + height) + (lines - 1) * GAP + GAP + SCALE_ROOM
+    picture = Picture((width, total), alt="strategies: " + ", ".join(trial.name for trial in trials))
+    cell = width / count
+    for k, trial in enumerate(trials):
+        row, column = divmod(k, count)
+        x, y = column * cell + left, total - TOP - (row + 1) * (TITLE + height) - row * GAP
+        ax = picture.add_axes((x / width, y / total, box / width, height / total))
+        dress(ax, VIEWS["XY"], (box, height), 4)
+        ax.set_xlim(low[0], high[0])
+        ax.set_ylim(low[1], high[1])
+        if column:
+            ax.set_ylabel("")
+        if k + count < len(trials):
+            ax.set_xlabel("")
+        ax.set_title(trial.name, fontsize=SMALL + 1, loc="left", pad=4)
+        draw(ax, trial)
+    _scale(picture, width, total)
+    marks: list[Any] = [Line2D([], [], **ENTRY.style())]
+    if any(trial.rest.loops for trial in trials):
+        marks.append(Patch(facecolor="none", edgecolor=REST, hatch="xxxx", label="left standing"))
+    if any(trial.corners.loops for trial in trials):
+        marks.append(Patch(facecolor="none", edgecolor=CORNER, hatch="////", label="too narrow for the tool"))
+    write_legend(picture, marks)
+    return picture
+
+
+def draw(ax: Axes, trial: Trial) -> None:
+    """One trial in its axes."""
+    _area(ax, trial.region, facecolor="#f4f1e8", edgecolor=colours.INK, linewidth=1.0, zorder=1.0)
+    _area(ax, trial.corners, facecolor="none", edgecolor=CORNER, hatch="//////", linewidth=0.4, zorder=1.6)
+    _area(ax, trial.rest, facecolor="none", edgecolor=REST, hatch="xxxxxx", linewidth=0.6, zorder=3.0)
+    found = trial.engagement
+    half = found.step[:, None] / 2 * np.stack([np.cos(found.heading), np.sin(found.heading)], axis=1)
+    strokes = np.stack([found.points - 1.05 * half, found.points + 1.05 * half], axis=1)
+    lines = LineCollection(list(strokes), cmap=_colours(), norm=_norm(), linewidth=1.5, capstyle="butt", zorder=2.4)
+    lines.set_array(np.degrees(found.angle))
+    ax.add_collection(lines)
+    ax.add_line(Line2D(*trial.entries.T, **ENTRY.style()))
+
+
+def _area(ax: Axes, region: Region, **look: Any) -> None:
+    if not region.loops:
+        return
+    rings = [loop.points_within(CHORD) for loop in region.loops]
+    codes = [np.r_[Path.MOVETO, np.full(len(ring) - 2, Path.LINETO), Path.CLOSEPOLY] for ring in rings]
+    ax.add_patch(PathPatch(Path(np.vstack(rings), np.concatenate(codes).astype(np.uint8)), **look))
+
+
+def _colours() -> ListedColormap:
+    """From pale to dark and red: the harder the tool works, the darker, in grey print too."""
+    return ListedColormap(colormaps["inferno_r"](np.linspace(0.22, 0.92, len(STEPS) - 1)))
+
+
+def _norm() -> BoundaryNorm:
+    return BoundaryNorm(STEPS, len(STEPS) - 1)
+
+
+def _scale(picture: Picture, width: float, total: float) -> None:
+    """The scale of colours, once, at the bottom."""
+    from matplotlib.cm import ScalarMappable
+
+    long = min(4.2, width - 1.2)
+    ax = picture.add_axes(((width - long) / 2 / width, 0.36 / total, long / width, 0.11 / total))
+    bar = picture.colorbar(ScalarMappable(_norm(), _colours()), cax=ax, orientation="horizontal", ticks=STEPS)
+    bar.ax.tick_params(labelsize=SMALL, length=2)
+    bar.set_label("engagement, degrees", fontsize=SMALL, labelpad=1)
+    bar.outline.set_visible(False)

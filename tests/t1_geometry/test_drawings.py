@@ -1,0 +1,151 @@
+"""Contours and areas out of drawings, against closed forms."""
+
+import numpy as np
+import pytest
+
+from mnclab.geometry import dxf, svg
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.drawings import area_of, joined
+from mnclab.geometry.shapes import rectangle
+
+PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 80" width="{}" height="{}">{}</svg>'
+
+
+def drawn(inside, size=("100mm", "80mm"), **more):
+    return svg.contours(PAGE.format(*size, inside), **more)
+
+
+def test_figures():
+    """A rectangle 30 × 20 with corners of 4, a circle r = 5; Y runs upwards: the top of the page is at 80."""
+    (box,) = drawn('<rect x="10" y="10" width="30" height="20" rx="4"/>')
+    assert abs(box.area) == pytest.approx(600 - (4 - np.pi) * 16)
+    assert box.bounds == pytest.approx(np.array([[10, 50], [40, 70]]))
+    assert sorted(set(np.round(box.radii, 6))) == [4, np.inf]
+    (ring,) = drawn('<circle cx="20" cy="30" r="5"/>')
+    assert abs(ring.area) == pytest.approx(25 * np.pi) and ring.radii == pytest.approx(5)
+    (tri,) = drawn('<polygon points="0,0 10,0 0,10"/>')
+    assert tri.closed and abs(tri.area) == pytest.approx(50)
+    (way,) = drawn('<polyline points="0,0 10,0 10,10"/>')
+    assert not way.closed and way.length == pytest.approx(20)
+
+
+def test_units_of_the_page():
+    (line,) = drawn('<line x1="0" y1="80" x2="50" y2="80"/>', size=("20cm", "16cm"))
+    assert line.points == pytest.approx(np.array([[0, 0], [100, 0]]))
+
+
+def test_all_words_of_a_path():
+    (ring,) = drawn('<path d="m10 10h20v10l-5,5H15l-5-5z"/>')
+    assert abs(ring.area) == pytest.approx(20 * 15 - 2 * 12.5)
+    (two,) = drawn('<path d="M10,10 30,10 30,20 10,20Z"/>')  # further pairs after M are lines
+    assert abs(two.area) == pytest.approx(200)
+    (half,) = drawn('<path d="M10 40a10 10 0 0120 0z"/>')  # flags need nothing between them
+    assert abs(half.area) == pytest.approx(50 * np.pi)
+    assert half.bounds[1] == pytest.approx([30, 50])  # 40 from above is 40 from below; the arc rises by 10
+    large, small = (drawn(f'<path d="M10 40A10 10 0 {flag} 1 20 50"/>')[0] for flag in (1, 0))
+    assert large.length == pytest.approx(15 * np.pi) and small.length == pytest.approx(5 * np.pi)
+
+
+@pytest.mark.parametrize("tolerance", [0.1, 0.001])
+def test_curves_keep_the_tolerance(tolerance):
+    """A quarter circle as a Bezier curve, its own formula sampled: no sample is farther off than the tolerance."""
+    (way,) = drawn('<path d="M10 10C10 30 40 50 70 20"/>', tolerance=tolerance)
+    t = np.linspace(0, 1, 400)[:, None]
+    p = np.array([(10, 70), (10, 50), (40, 30), (70, 60)])
+    curve = (1 - t) ** 3 * p[0] + 3 * (1 - t) ** 2 * t * p[1] + 3 * (1 - t) * t**2 * p[2] + t**3 * p[3]
+    assert way.distance(curve).max() <= tolerance
+    assert way.points[[0, -1]] == pytest.approx(p[[0, -1]])
+    assert len(way.points) < 30 / np.sqrt(tolerance)
+    (bow,) = drawn('<path d="M0 80Q10 60 20 80T40 80"/>', tolerance=tolerance)
+    assert bow.bounds == pytest.approx(np.array([[0, -10], [40, 10]]), abs=tolerance)
+    (smooth,) = drawn('<path d="M0 80C0 70 10 70 10 80S20 90 20 80"/>', tolerance=tolerance)
+    assert smooth.bounds == pytest.approx(np.array([[0, -7.5], [20, 7.5]]), abs=tolerance)
+
+
+def test_ellipses_are_chords():
+    (ring,) = drawn('<ellipse cx="50" cy="40" rx="20" ry="10"/>', tolerance=1e-3)
+    assert (ring.bulge == 0).all() and abs(ring.area) == pytest.approx(200 * np.pi, rel=2e-4)
+    (turned,) = drawn('<path d="M30 40A20 10 30 1 1 30.1 40"/>', tolerance=1e-3)
+    assert turned.length > 90
+
+
+def test_transformations():
+    """Turned by 90° and moved, then twice as large: a circle stays one; under unequal scales it is none."""
+    group = '<g transform="translate(20 10) rotate(90)"><g transform="scale(2)">{}</g></g>'
+    (ring,) = drawn(group.format('<circle cx="10" cy="5" r="3"/>'))
+    assert ring.radii == pytest.approx(6)
+    assert ring.bounds.mean(axis=0) == pytest.approx([20 - 10, 80 - 10 - 20])
+    (flat,) = drawn('<circle transform="scale(2 1)" cx="10" cy="5" r="3"/>', tolerance=1e-3)
+    assert abs(flat.area) == pytest.approx(18 * np.pi, rel=1e-3)
+    (mirrored,) = drawn('<path transform="matrix(-1 0 0 1 50 0)" d="M10 40a10 10 0 0 1 20 0z"/>')
+    assert mirrored.bounds == pytest.approx(np.array([[20, 40], [40, 50]]))
+    (skewed,) = drawn('<rect transform="skewX(45)" width="10" height="10"/>')
+    assert abs(skewed.area) == pytest.approx(100)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("<svg", "no SVG"),
+        (PAGE.format(1, 1, '<path d="M1 2L3"/>'), "number is missing after 'L'"),
+        (PAGE.format(1, 1, '<path d="M1 2Z3"/>'), "cannot go on"),
+        (PAGE.format(1, 1, '<path d="1 2"/>'), "cannot go on"),
+        (PAGE.format(1, 1, '<g transform="twist(3)"/>'), "twist"),
+    ],
+)
+def test_what_is_no_drawing(text, message):
+    with pytest.raises(ValueError, match=message):
+        svg.contours(text)
+    with pytest.raises(ValueError, match="tolerance"):
+        svg.contours("<svg/>", tolerance=0)
+
+
+def test_what_lies_in_what():
+    """A pocket with an island, in the island a smaller pocket; a second pocket beside it."""
+    boxes = [rectangle(side, side) for side in (60, 30, 10)]
+    found = area_of([*boxes[::-1], rectangle(8, 8, centre=(50, 0))])
+    assert found.area == pytest.approx(3600 - 900 + 100 + 64)
+    assert len(found.parts) == 3
+    with pytest.raises(ValueError, match="no closed contour"):
+        area_of([Contour([(0, 0), (9, 0)], closed=False)])
+
+
+def test_pieces_are_joined():
+    """Four pieces in any order and sense: a slot 20 long and 10 wide."""
+    bent = np.tan(np.pi / 4)
+    pieces = [
+        Contour([(0, 0), (20, 0)], closed=False),
+        Contour([(0, 10), (20, 10.0005)], closed=False),
+        Contour([(0, 10), (0, 0)], [bent, 0], closed=False),
+        Contour([(20, 10), (20, 0)], [-bent, 0], closed=False),
+    ]
+    (ring,) = joined(pieces)
+    assert ring.closed and abs(ring.area) == pytest.approx(200 + 25 * np.pi, abs=0.01)
+    assert len(joined(pieces[:2])) == 2
+
+
+def test_a_dxf_file(tmp_path):
+    """Lines and an arc, a polyline with a bulge, a circle and an ellipse, in inches."""
+    ezdxf = pytest.importorskip("ezdxf")
+    drawing = ezdxf.new()
+    drawing.header["$INSUNITS"] = 1
+    space = drawing.modelspace()
+    space.add_line((0, 0), (4, 0))
+    space.add_line((4, 2), (0, 2))
+    space.add_arc((4, 1), 1, -90, 90)
+    space.add_arc((0, 1), 1, 90, 270)
+    space.add_circle((2, 1), 0.5)
+    space.add_lwpolyline(
+        [(10, 0, 0), (12, 0, 1), (12, 2, 0), (10, 2, 0)], format="xyb", close=True, dxfattribs={"layer": "B"}
+    )
+    space.add_ellipse((20, 0), (2, 0), 0.5)
+    drawing.saveas(tmp_path / "part.dxf")
+    found = dxf.contours(tmp_path / "part.dxf", tolerance=1e-3)
+    inch2 = 25.4**2
+    (only,) = dxf.contours(tmp_path / "part.dxf", layer="B")
+    assert only.area == pytest.approx((4 + np.pi / 2) * inch2)
+    slot = 8 + np.pi - np.pi / 4
+    assert area_of(found).area == pytest.approx((slot + 4 + np.pi / 2 + 2 * np.pi) * inch2, rel=1e-4)
+    (tmp_path / "no.dxf").write_text("nothing")
+    with pytest.raises(ValueError, match="no DXF"):
+        dxf.contours(tmp_path / "no.dxf")

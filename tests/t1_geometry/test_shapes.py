@@ -1,0 +1,56 @@
+"""Rectangles, slots and polygons against their closed forms."""
+
+import numpy as np
+import pytest
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.shapes import polygon, rectangle, slot
+
+
+def test_rectangle():
+    """80 by 60 with corners of 10: area 4800 - (4 - π)·100, perimeter 280 - 8·10 + 2π·10."""
+    ring = rectangle(80, 60, 10, centre=(5, 7), angle=np.pi / 6)
+    assert ring.area == pytest.approx(4800 - (4 - np.pi) * 100)
+    assert ring.length == pytest.approx(280 - 80 + 20 * np.pi)
+    assert ring.points[0] == pytest.approx((5 + 40 * np.cos(np.pi / 6), 7 + 20))
+    assert rectangle(80, 60, begin=1).points[0] == pytest.approx((0, 30))
+    assert rectangle(80, 60).area == pytest.approx(4800)
+
+
+def test_corners_may_use_up_the_sides():
+    assert rectangle(20, 20, 10).area == pytest.approx(np.pi * 100)
+    assert rectangle(40, 20, 10).length == pytest.approx(40 + 20 * np.pi)
+
+
+def test_straight_and_bent_slots():
+    """Along a line of 30 and 8 wide: 240 + π·16; about an arc of 90° with r = 20: 20·π/2·8 + π·16."""
+    straight = slot(Contour([(0, 0), (30, 0)], closed=False), 8)
+    assert straight.area == pytest.approx(240 + 16 * np.pi)
+    assert straight.points[0] == pytest.approx((34, 0))
+    bent = slot(Contour([(20, 0), (0, 20)], [np.tan(np.pi / 8), 0], closed=False), 8)
+    assert bent.area == pytest.approx(80 * np.pi + 16 * np.pi)
+    assert bent.length == pytest.approx(24 * np.pi / 2 + 16 * np.pi / 2 + 8 * np.pi)
+    assert bent.turns() == pytest.approx(np.zeros(6), abs=1e-9)
+
+
+def test_polygon():
+    """A hexagon in a circle r = 10 has sides of 10."""
+    assert polygon(6, 10).length == pytest.approx(60)
+    assert polygon(4, 10, centre=(3, 4), angle=np.pi / 4).bounds == pytest.approx(
+        np.array([[3, 4], [3, 4]]) + np.sqrt(50) * np.array([[-1, -1], [1, 1]])
+    )
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: rectangle(0, 5), "sides"),
+        (lambda: rectangle(10, 5, 2.6), "corner radius of 2.6"),
+        (lambda: slot(Contour([(0, 0), (9, 0), (9, 9)], closed=False), 2), "one straight line or one arc"),
+        (lambda: slot(Contour([(5, 0), (0, 5)], [0.4142, 0], closed=False), 20), "does not fit"),
+        (lambda: polygon(2, 5), "at least 3"),
+    ],
+)
+def test_what_is_no_figure(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()

@@ -1,0 +1,189 @@
+"""Passes of simple pockets and studs against the numbers of the catalogue, and against formulas."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import shapely
+
+from mnclab.geometry.contours import Contour
+from mnclab.machining import concentric
+
+
+def half_sides(passes):
+    return np.array([np.ptp(contour.bounds, axis=0) / 2 for contour in passes])
+
+
+def starts(passes):
+    return np.array([contour.points[0] for contour in passes])
+
+
+def swept(contours, radius):
+    lines = [shapely.LineString(contour.points_within(1e-4)) for contour in contours]
+    return shapely.union_all(shapely.buffer(lines, radius, quad_segs=100))
+
+
+def box(x, y, corner=0.0):
+    """A rectangle about the origin by shapely alone, its half sides x and y."""
+    return shapely.box(corner - x, corner - y, x - corner, y - corner).buffer(corner, quad_segs=400)
+
+
+def test_rings_of_a_rectangular_pocket():
+    """80 × 60, R 5, U 0.2, K 1: half sides as in the check of G343."""
+    clearing = concentric.rectangle(80, 60, 5, 5, corner=5, allowance=0.2)
+    expected = [(10, 0), (14.96, 4.96), (19.92, 9.92), (24.88, 14.88), (29.84, 19.84), (34.8, 24.8)]
+    assert half_sides(clearing.passes) == pytest.approx(np.array(expected))
+    assert starts(clearing.passes) == pytest.approx(np.array([(a, 0) for a, _ in expected]))
+    assert all(ring.area > 0 for ring in clearing.passes[1:])
+    assert clearing.pieces[0].entry == pytest.approx((0, 0))
+    assert clearing.labels[0] == "ring 1 of 6"
+
+
+def test_corner_radius_and_rotation():
+    """80 × 60, R 10, E 30 with U 0.2: the last ring has corners of 4.8 and begins at (30.1377, 17.4)."""
+    last = concentric.rectangle(80, 60, 5, 5, corner=10, allowance=0.2, angle=np.radians(30)).passes[-1]
+    assert last.points[0] == pytest.approx((30.1377, 17.4), abs=1e-4)
+    assert sorted(set(np.round(last.radii, 6))) == [4.8, np.inf]
+
+
+def test_a_pocket_higher_than_wide_begins_above():
+    passes = concentric.rectangle(60, 80, 5, 5).passes
+    assert passes[0].points.tolist() == [[0, 10], [0, -10], [0, 10]]
+    assert starts(passes[1:]) == pytest.approx(np.array([(0, 15), (0, 20), (0, 25), (0, 30), (0, 35)]))
+    assert concentric.rectangle(60, 80, 5, 5, begin=0).passes[-1].points[0] == pytest.approx((25, 0))
+
+
+def test_circles_of_a_circular_pocket():
+    """Diameter 60, R 5, U 0.2, K 1: circles as in the check of G344."""
+    clearing = concentric.circle(60, 5, 5, allowance=0.2, centre=(50, 50))
+    radii = [4.96, 9.92, 14.88, 19.84, 24.8]
+    assert [ring.length / (2 * np.pi) for ring in clearing.passes] == pytest.approx(radii)
+    assert starts(clearing.passes) == pytest.approx(np.array([(50 + r, 50) for r in radii]))
+    assert concentric.circle(10, 5, 5).passes == ()  # the tool fills the pocket
+    assert concentric.circle(60, 5, 5, climb=False).passes[0].area < 0
+
+
+@pytest.mark.parametrize("share", [0.3, 1.0, 1.4])
+@pytest.mark.parametrize("corner", [0, 9])
+def test_a_rectangle_is_cleared(share, corner):
+    """What a tool of radius 4 reaches of 70 × 46 has corners of at least 4."""
+    clearing = concentric.rectangle(70, 46, 4, 4 * share, corner=corner, allowance=0.3)
+    covered = swept([Contour([(0, 0), clearing.passes[0].points[0]], closed=False), *clearing.passes], 4)
+    reach = box(34.7, 22.7, max(corner - 0.3, 4))
+    assert covered.intersection(reach).area >= 0.999 * reach.area
+    assert covered.difference(reach.buffer(1e-3)).area < 1e-6
+
+
+@pytest.mark.parametrize("make", [concentric.circle, concentric.circular_spiral])
+@pytest.mark.parametrize("step", [1.2, 4.0, 5.5])
+def test_a_circle_is_cleared(make, step):
+    clearing = make(61, 4, step, allowance=0.25, centre=(3, -2), angle=0.4)
+    start = Contour([(3, -2), clearing.passes[0].points[0]], closed=False)
+    covered, reach = swept([start, *clearing.passes], 4), shapely.Point(3, -2).buffer(30.25, quad_segs=400)
+    assert covered.intersection(reach).area >= 0.999 * reach.area
+    assert covered.difference(shapely.Point(3, -2).buffer(30.25 + 1e-3, quad_segs=4000)).area == 0
+
+
+@pytest.mark.parametrize("size", [(70, 46), (46, 70), (50, 50)])
+@pytest.mark.parametrize("share", [0.3, 1.0, 1.25])
+@pytest.mark.parametrize("climb", [True, False])
+def test_a_rectangular_spiral_clears_its_pocket(size, share, climb):
+    clearing = concentric.rectangular_spiral(*size, 4, 4 * share, corner=7, allowance=0.2, climb=climb, angle=np.pi / 2)
+    way, last = clearing.passes
+    covered, reach = swept(clearing.passes, 4), box(size[1] / 2 - 0.2, size[0] / 2 - 0.2, 6.8)
+    assert covered.intersection(reach).area >= 0.999 * reach.area
+    assert covered.difference(reach.buffer(1e-3)).area < 1e-6
+    assert way.turns() == pytest.approx(np.zeros(len(way.starts)), abs=1e-9)
+    assert last.points[0] == pytest.approx(way.points[-1])
+    assert (last.area > 0) == climb
+    assert ((way.bulge[:-1] >= 0) if climb else (way.bulge[:-1] <= 0)).all()
+
+
+def test_a_spiral_never_turns_sharply_and_keeps_its_step():
+    """On the line through the centre the turns are equal steps apart, none above the stepover."""
+    (piece,) = concentric.circular_spiral(60, 5, 4).pieces
+    spiral, last = piece.passes
+    assert spiral.turns() == pytest.approx(np.zeros(len(spiral.starts)), abs=1e-9)
+    away = np.hypot(*spiral.points.T)
+    assert np.diff(away) == pytest.approx(25 / 13)  # 2·25/4 = 12.5, so 13 half turns
+    assert last.length == pytest.approx(50 * np.pi)
+    assert last.points[0] == pytest.approx(spiral.points[-1])
+    assert last.tangents()[0][0] == pytest.approx(spiral.tangents()[1][-1])
+
+
+@pytest.mark.parametrize(
+    "line", [Contour([(0, 0), (40, 10)], closed=False), Contour([(25, 0), (0, 25)], [0.41421356237, 0], closed=False)]
+)
+@pytest.mark.parametrize("width", [8, 10, 21])
+def test_a_slot_is_cleared(line, width):
+    clearing = concentric.slot(line, width, 4, allowance=0.0)
+    covered = swept(clearing.passes, 4)
+    wall = shapely.LineString(line.points_within(1e-5)).buffer(width / 2, quad_segs=400)
+    assert covered.intersection(wall).area >= 0.999 * wall.area
+    assert covered.difference(wall.buffer(1e-3)).area == 0
+    assert all(ring.area > 0 for ring in clearing.passes[1:])
+
+
+def test_a_slot_as_wide_as_the_tool_is_one_pass():
+    line = Contour([(0, 0), (40, 0)], closed=False)
+    assert concentric.slot(line, 8, 4, allowance=0.3).passes == (line,)
+    assert [len(concentric.slot(line, w, 4).passes) for w in (9, 16, 16.1, 24.1)] == [2, 2, 3, 4]
+
+
+def test_rings_of_a_rectangular_stud():
+    """Stock 100 × 80, stud 60 × 50, R 5, Q368 0.5, k 7: t = (19.5, 14.5), n = 3, half sizes by the formula."""
+    clearing = concentric.stud_rectangle(60, 50, (100, 80), 5, 7, corner=3, allowance=0.5)
+    expected = [(35.5 + (3 - i) * 6.5, 30.5 + (3 - i) * 14.5 / 3) for i in (1, 2, 3)]
+    assert half_sides(clearing.passes) == pytest.approx(np.array(expected))
+    assert all(ring.area < 0 for ring in clearing.passes)  # climb: clockwise
+    assert {round(r, 6) for ring in clearing.passes for r in ring.radii} == {8.5, np.inf}
+
+
+@pytest.mark.parametrize(("corner", "left"), [(0.0, 0.0), (3.0, (4 - np.pi) * 9), (-3.0, 2 * 9)])
+def test_a_rectangular_stud_is_left_standing(corner, left):
+    clearing = concentric.stud_rectangle(60, 50, (80, 70), 5, 6, corner=corner)
+    stands = shapely.box(-40, -35, 40, 35).difference(swept(clearing.passes, 5))
+    assert stands.area == pytest.approx(60 * 50 - left, abs=0.05)
+
+
+def test_a_circular_stud_is_left_standing():
+    clearing = concentric.stud_circle(40, 70, 5, 4, allowance=0.2)
+    stands = shapely.Point(0, 0).buffer(35, quad_segs=400).difference(swept(clearing.passes, 5))
+    assert stands.area == pytest.approx(np.pi * 20.2**2, abs=0.05)
+    away = np.hypot(*clearing.passes[0].points.T)
+    assert away[0] == pytest.approx(40) and away[-1] == pytest.approx(25.2)
+    assert np.diff(away) == pytest.approx(-14.8 / 8)
+
+
+@pytest.mark.parametrize(
+    ("corner", "change"), [(0, 0.0), (4, 6 * 16 * (np.tan(np.pi / 6) - np.pi / 6)), (-2, 6 * 3**0.5)]
+)
+def test_a_polygon_is_left_standing(corner, change):
+    """Hexagon with flats 20 from the centre: 2·√3·20²; a rounding r takes r²·(tan 30° - 30°), a bevel c takes c²·√3/4."""
+    clearing = concentric.stud_polygon(6, 20, 60, 5, 5, corner=corner, angle=0.3)
+    stands = shapely.Point(0, 0).buffer(30, quad_segs=400).difference(swept(clearing.passes, 5))
+    assert stands.area == pytest.approx(2 * np.sqrt(3) * 400 - change, abs=0.1)
+
+
+def test_passes_are_joined_end_to_start():
+    for clearing in (concentric.rectangle(50, 40, 4, 3), concentric.circle(50, 4, 3)):
+        for before, after in pairwise(clearing.passes[1:]):
+            assert np.hypot(*(after.points[0] - before.points[0])) <= 3 + 1e-9
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: concentric.rectangle(9, 40, 5, 4), "radius 5 does not fit into a pocket of 9 by 40"),
+        (lambda: concentric.rectangle(40, 30, 5, 4, corner=16), "corner radius of 16"),
+        (lambda: concentric.circle(11, 5, 4, allowance=1), "allowance of 1 does not fit"),
+        (lambda: concentric.circle(20, 5, 0), "stepover"),
+        (lambda: concentric.slot(Contour([(0, 0), (9, 0)], closed=False), 7, 4), "a slot 7 wide"),
+        (lambda: concentric.stud_circle(40, 30, 5, 4), "stock"),
+        (lambda: concentric.stud_rectangle(40, 40, (50, 39), 5, 4), "stock"),
+        (lambda: concentric.stud_polygon(5, 20, 30, 5, 4), "stock"),
+    ],
+)
+def test_what_does_not_fit_is_refused(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
