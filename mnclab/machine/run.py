@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from mnclab.show.player import Player
+
 
 class Moment(NamedTuple):
     """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
@@ -149,6 +151,16 @@ class Run:
 
         return plot_run(self, **options)
 
+    def player(self, limits: Limits | str | None = None, **options: Any) -> Player:
+        """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
+
+        ``limits`` are those of :meth:`profile`. ``height`` in pixels, ``theme`` "auto", "light" or "dark", ``speed`` 1
+        for real time. ``.save(path)`` writes it as a file that needs no network, as ``run.save("part.html")`` does.
+        """
+        from mnclab.show.player import player
+
+        return player(self, self.profile(limits), **options)
+
     def plot_compensation(self, **options: Any) -> Figure:
         """The contour, the tool-centre path beside it, and how its corners were found.
 
@@ -160,7 +172,7 @@ class Run:
         return compensation(self, **options)
 
     def save(self, path: str | Path) -> Path:
-        """Write one file; the suffix says what: svg, pdf, png, csv, json."""
+        """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player)."""
         from mnclab.show.export import save
 
         return save(self, path)

@@ -124,11 +124,11 @@ WRITERS: dict[str, Callable[[Any, Path], None]] = {
     ".png": write_figure,
     ".csv": write_csv,
     ".json": write_json,
+    ".html": lambda run, path: run.player().save(path),
 }
 #: What is to come, and what it will need.
 LATER = {
     ".dxf": "drawings will come with mnclab[dxf]",
     ".stl": "the cut part will come with the stock simulation",
     ".gltf": "scenes will come with pyvista",
-    ".html": "the player will come with the animation",
 }
