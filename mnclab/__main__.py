@@ -20,6 +20,7 @@ import mnclab
 from mnclab.machine.machine_file import load as load_machine
 from mnclab.machine.setup_file import FORMAT, load
 from mnclab.show import times
+from mnclab.show.export import save
 from mnclab.text.alarm import ALARM, Alarm
 
 Result = TypeVar("Result")
@@ -85,8 +86,17 @@ def parser() -> argparse.ArgumentParser:
     sub = command("plot", plot, "run a program and save what it does")
     sub.add_argument("file", metavar="FILE")
     sub.add_argument(
-        "-o", "--output", required=True, metavar="OUT", help="the suffix says what: svg, pdf, png, csv, json"
+        "-o",
+        "--output",
+        required=True,
+        metavar="OUT",
+        help="the suffix says what: svg, pdf, png, csv, json, dxf, ngc, …",
     )
+    sub.add_argument(
+        "--compensation", action="store_true", help="contour, tool-centre path and how its corners were found"
+    )
+    sub.add_argument("--rules", type=words, metavar="G160,G161", help="with --compensation: a picture for each rule")
+    sub.add_argument("--radii", type=numbers, metavar="2,5", help="with --compensation: a picture for each radius, mm")
     options(sub)
     sub = command("time", time, "say how long a program takes on a machine, and where the time goes")
     sub.add_argument("file", metavar="FILE")
@@ -171,7 +181,11 @@ def plot(chosen: argparse.Namespace) -> int:
     result = obey(chosen)
     if result is None:
         return ALARMS
-    sensible(result.save, chosen.output)
+    if chosen.compensation or chosen.rules or chosen.radii:
+        options = {"rules": chosen.rules, "radii": chosen.radii}
+        sensible(save, result, chosen.output, lambda run: run.plot_compensation(**options))
+    else:
+        sensible(result.save, chosen.output)
     return verdict(result)
 
 
@@ -188,6 +202,16 @@ def time(chosen: argparse.Namespace) -> int:
     else:
         print(times.report(profile, machine))
     return verdict(result, quiet=chosen.json)
+
+
+def words(text: str) -> list[str]:
+    """Words between commas."""
+    return [word.strip() for word in text.split(",") if word.strip()]
+
+
+def numbers(text: str) -> list[float]:
+    """Numbers between commas."""
+    return [float(word) for word in words(text)]
 
 
 def verdict(result: mnclab.Run, quiet: bool = False) -> int:

@@ -15,8 +15,6 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
-from importlib import import_module
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,6 +29,7 @@ from mnclab.machining.layers import toolpath
 from mnclab.machining.strategies import STRATEGIES, clear
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
+from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 
@@ -109,9 +108,9 @@ class Trial:
 
     @cached_property
     def time(self) -> float:
-        """Seconds: as the planner has it where axis limits are given, else length over feed."""
-        if self.limits is not None and (planned := _planned(self.path, self.limits)) is not None:
-            return planned
+        """Seconds: by the feed-rate profile where axis limits are given, else length over feed."""
+        if self.limits is not None:
+            return Profile(self.path, self.limits).time
         feed = np.where(np.isinf(self.path.feed), self.rapid_rate, self.path.feed)
         return float((self.path.lengths / feed).sum() * 60)
 
@@ -222,13 +221,6 @@ def compare(
             Trial(name, region, clearing, path, found, depth, feed, np.radians(limit), allowance, limits, rapid)
         )
     return Comparison(tuple(trials))
-
-
-def _planned(path: Toolpath, limits: Limits) -> float | None:
-    """Seconds by the look-ahead planner, None where this copy of mnclab has none."""
-    if find_spec("mnclab.path.profile") is None:
-        return None
-    return float(import_module("mnclab.path.profile").Profile(path, limits).time)
 
 
 def level_moves(clearing: Clearing, entry: Entry, depth: float, climb: bool) -> tuple[list[Contour], list[bool]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -69,6 +69,15 @@ class Setup:
     kinematics: Any = None
     true_tools: Mapping[int, Tool] = field(default_factory=dict)
 
+    def with_radius(self, radius: float) -> Setup:
+        """The same machine with another radius, mm, in all its tools but the probes."""
+        tools = {n: t if t.kind == "probe" else replace(t, radius=radius, dr=0.0) for n, t in self.tools.items()}
+        return replace(self, tools=tools)
+
+    def with_settings(self, **settings: Any) -> Setup:
+        """The same machine with some settings changed."""
+        return replace(self, settings={**self.settings, **settings})
+
 
 class Tables:
     """The tables of one run: copies that the program may write to."""
@@ -84,6 +93,4 @@ class Tables:
 
 
 def _numbered(tool: Tool, number: int) -> Tool:
-    from dataclasses import replace
-
     return tool if tool.number == number else replace(tool, number=number)

@@ -54,6 +54,40 @@ def panel(
     return _live(boxes, list(boxes.values()), text, control, setup, view)
 
 
+def compensation_panel(run: Run, **options: Any) -> Any:
+    """A box for the tool radius and a choice for outside corners, with contour and tool-centre path that follow.
+
+    ``options`` are those of :func:`mnclab.show.plot.compensation.compensation`. The result has ``boxes`` ("radius", and
+    "corners" where the control has a choice) and ``run``, the last run.
+    """
+    import ipywidgets
+
+    used = abs(run.programmed.radius[run.programmed.side != 0])
+    boxes = {"radius": _number_box("tool radius [mm]", (float(used.max()) if len(used) else 5.0, 0.01, 1e4))}
+    corners = next((one for one in run.control.settings if one.name == "outside_corners"), None)
+    if corners:
+        choices = [(f"{name}: {meaning.split(',')[0]}", name) for name, meaning in corners.choices.items()]
+        looks = {"style": {"description_width": "8em"}, "layout": {"width": "26em"}}
+        first = run.settings["outside_corners"]
+        boxes["corners"] = ipywidgets.Dropdown(options=choices, value=first, description="outside corners", **looks)
+    picture, alarms = _html(), _html()
+    live: Any = ipywidgets.VBox([_row(*boxes.values()), picture, alarms])
+
+    def redraw(_: Any = None) -> None:
+        setup = run.setup.with_radius(boxes["radius"].value)
+        if corners:
+            setup = setup.with_settings(outside_corners=boxes["corners"].value)
+        live.run = run.again(setup)
+        picture.value = DRAWING.submit(_compensation, live.run, options).result()
+        alarms.value = verdict(live.run)
+
+    live.boxes, live.picture, live.alarms, live.run = boxes, picture, alarms, run
+    redraw()
+    for box in boxes.values():
+        box.observe(redraw, "value")
+    return live
+
+
 def form(code: str, control: str) -> Any:
     """The parameters of a cycle as boxes, required ones first, with a picture of the cycle run alone.
 
@@ -228,8 +262,8 @@ def _live(
         except Alarm as alarm:
             alarms.value = alarm._repr_html_()
             return
-        picture.value = DRAWING.submit(_image, live.run, view).result()
-        alarms.value = _verdict(live.run)
+        picture.value = DRAWING.submit(picture_of, live.run, view).result()
+        alarms.value = verdict(live.run)
 
     live.boxes, live.picture, live.alarms, live.run = dict(boxes), picture, alarms, None
     redraw()
@@ -238,13 +272,20 @@ def _live(
     return live
 
 
-def _image(run: Run, view: str) -> str:
+def picture_of(run: Run, view: str) -> str:
+    """The views of a run as an HTML image with a name; to be drawn in :data:`DRAWING`."""
     from mnclab.show.plot.path import image
 
     return image(run, view)
 
 
-def _verdict(run: Run) -> str:
+def _compensation(run: Run, options: Mapping[str, Any]) -> str:
+    from mnclab.show.plot.compensation import image
+
+    return image(run, **options)
+
+
+def verdict(run: Run) -> str:
     """The alarms of a run, each with its line and caret, and its figures in one line."""
     s = run.summary()
     figures = (

@@ -31,4 +31,5 @@ def outside_corners(m: Machine, words: Words) -> None:
 
     The corner before the block follows its rule, so that one in the block of G40 holds for the exit.
     """
-    m.change("corner_rule", CORNERS[words.code])
+    forced = str(m.settings["outside_corners"])
+    m.change("corner_rule", CORNERS.get(forced, CORNERS[words.code]))

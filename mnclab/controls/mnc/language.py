@@ -33,6 +33,8 @@ def power_on(m: Machine) -> None:
             function = m.control.functions[code]
             m.set_modal(str(function.group), code)
             function.obey(m, Words((), code))
+    corners = m.modal["corners"]
+    m.control.functions[corners].obey(m, Words((), corners))  # the setting outside_corners may say otherwise
 
 
 def absolute(m: Machine) -> bool:

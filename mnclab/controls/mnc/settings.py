@@ -95,6 +95,15 @@ TECHNOLOGY = (
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
     ),
     Setting(
+        "outside_corners", "programmed", "how outside corners are joined, to compare", "6.4",
+        {
+            "programmed": "as the program says",
+            "G160": "arc, whatever the program says",
+            "G161": "straight, whatever the program says",
+            "G162": "arc at acute corners only, whatever the program says",
+        },
+    ),
+    Setting(
         "feed_mode_switch", "kept", "the feed when G94 and G95 change", "MNC-G95-SWITCH",
         {
             "kept": "the number of F stays and is read anew",

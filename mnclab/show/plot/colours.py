@@ -99,3 +99,16 @@ HOLDS = {
     "standing": ("#ffffff", ""),
 }
 USEFUL, LOST = ("#1259a8", ""), ("#f2c14e", "////")
+
+#: Radius compensation: the contour, the tool-centre path by the rule that made it, and corners by what was done there.
+CONTOUR = Line("programmed", INK, "-", 1.5, 2.3)
+LEAD = Line("_programmed lead", "#8c8c8c", (0, (2, 2)), 0.9, 2.2)
+UNCOMPENSATED = Line("not compensated", "#6b6b6b", (0, (6, 2)), 1.0, 2.5)
+ALONG = Line("along the side", "#1259a8", "-", 1.6, 2.8)
+ROUND_CORNER = Line("outside corner, arc", "#00796b", (0, (3, 1)), 2.0, 2.9)
+STRAIGHT_CORNER = Line("outside corner, straight", "#8a5a00", "-", 1.6, 2.9)
+INSIDE_CORNER = Line("inside corner", "#7b1fa2", "-", 1.6, 2.9)
+ENTRY = Line("entry", "#2e7d32", (0, (6, 1.5, 1.5, 1.5)), 1.6, 2.9)
+EXIT = Line("exit", "#b24700", (0, (6, 1.5, 1.5, 1.5, 1.5, 1.5)), 1.6, 2.9)
+CHANGE = Line("change of side", "#ad1457", (0, (4, 1.5)), 1.6, 2.9)
+DISC, GOUGE = "#5f7d9c", "#b3261e"

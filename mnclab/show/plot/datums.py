@@ -124,26 +124,36 @@ def crosses(places: Sequence[Place], view: View) -> list[Line2D]:
 # --- names -----------------------------------------------------------------------------------------------------------
 
 
-def write_names(ax: Axes, view: View, places: Sequence[Place], occupied: Array, drawn: Sequence[Array]) -> None:
+def write_names(
+    ax: Axes,
+    view: View,
+    places: Sequence[Place],
+    occupied: Array,
+    drawn: Sequence[Array],
+    covering: int | None = None,
+) -> list[Place]:
     """The names of the places in a view, where they cover no mark (``occupied`` (n, 2), mm) and least of the lines.
 
-    The limits of the axes must be final. A name without a free place is left out.
+    The limits of the axes must be final. A name without a free place is left out and returned, and so is one that
+    would cover more strokes than ``covering``. Texts that stand there are not covered.
     """
     shown = [place for place in places if len(places) <= MANY or place.mark is colours.DATUM]
-    spots = [(p.name, p.mark, np.array(p.xyz)[[view.right, view.up]]) for p in shown]
+    spots = [(p, p.mark, np.array(p.xyz)[[view.right, view.up]]) for p in shown]
     spots = [spot for spot in spots if np.isfinite(spot[2]).all()]
+    left: list[Place] = []
     if not spots:
-        return
+        return left
     figure: Any = ax.get_figure(root=True)
     unit = figure.dpi / 72
     begin, end = _segments(ax, view, drawn)
     around = 6 * unit
     crowd = ax.transData.transform(np.concatenate([occupied, [at for _, _, at in spots]]))
     taken = [np.array([x - around, y - around, x + around, y + around]) for x, y in crowd]
+    taken += [np.asarray(text.get_window_extent().extents) for text in ax.texts]
     inner = np.array([ax.bbox.x0, ax.bbox.y0, ax.bbox.x1, ax.bbox.y1]) + np.array([2, 2, -2, -2]) * unit
-    for name, mark, at in spots:
+    for place, mark, at in spots:
         text = ax.annotate(
-            name, (float(at[0]), float(at[1])), (0, 0), textcoords="offset points", fontsize=SMALL,
+            place.name, (float(at[0]), float(at[1])), (0, 0), textcoords="offset points", fontsize=SMALL,
             color=mark.colour, zorder=4.5,
             parse_math=False, bbox={"boxstyle": "square,pad=0.1", "fc": colours.PAPER, "ec": "none", "alpha": 0.75},
         )  # fmt: skip
@@ -157,11 +167,13 @@ def write_names(ax: Axes, view: View, places: Sequence[Place], occupied: Array, 
                 covered = _crossing(box, begin, end)
                 if best is None or covered < best[0]:
                     best = covered, side, off
-        if best is None:
+        if best is None or (covering is not None and best[0] > covering):
             text.remove()
+            left.append(place)
             continue
         _put(text, best[1], best[2])
         taken.append(np.asarray(text.get_window_extent().extents))
+    return left
 
 
 def _put(text: Annotation, side: tuple[int, int], off: float) -> None:

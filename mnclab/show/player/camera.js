@@ -1,0 +1,64 @@
+// An orthographic camera on a turntable: directions of the screen in space, a place it looks at, pixels a millimetre.
+
+const VIEWS = {  // yaw and pitch in degrees
+  top: [0, 90], front: [0, 0], right: [90, 0], isometric: [30, 28],
+};
+
+class Camera {
+  constructor(lathe) {
+    this.lathe = lathe;  // Z to the right, X up
+    this.target = [0, 0, 0];
+    this.zoom = 1;
+    this.size = [1, 1];
+    this.turnTo(lathe ? "front" : "isometric");
+  }
+  turnTo(name) {
+    [this.yaw, this.pitch] = VIEWS[name];
+    this.name = name;
+    this.update();
+  }
+  turn(yaw, pitch) {
+    this.yaw += yaw;
+    this.pitch = Math.min(90, Math.max(-90, this.pitch + pitch));
+    this.name = "";
+    this.update();
+  }
+  update() {
+    const y = this.yaw * Math.PI / 180, p = this.pitch * Math.PI / 180;
+    const turned = ([a, b, c]) => this.lathe ? [c, -b, a] : [a, b, c];  // screen-up is Z, on a lathe X
+    this.right = turned([Math.cos(y), Math.sin(y), 0]);
+    this.up = turned([-Math.sin(y) * Math.sin(p), Math.cos(y) * Math.sin(p), Math.cos(p)]);
+    this.near = turned([Math.sin(y) * Math.cos(p), -Math.cos(y) * Math.cos(p), Math.sin(p)]);
+  }
+  project(point) {
+    const x = point[0] - this.target[0], y = point[1] - this.target[1], z = point[2] - this.target[2];
+    const {right: r, up: u} = this;
+    return [
+      this.size[0] / 2 + this.zoom * (x * r[0] + y * r[1] + z * r[2]),
+      this.size[1] / 2 - this.zoom * (x * u[0] + y * u[1] + z * u[2]),
+    ];
+  }
+  pan(dx, dy) {
+    this.target = this.target.map((t, k) => t - (dx * this.right[k] - dy * this.up[k]) / this.zoom);
+  }
+  zoomAt(factor, x = this.size[0] / 2, y = this.size[1] / 2) {
+    const dx = x - this.size[0] / 2, dy = y - this.size[1] / 2;
+    this.pan(-dx, -dy);
+    this.zoom = Math.min(1e5, Math.max(1e-4, this.zoom * factor));
+    this.pan(dx, dy);
+  }
+  // The whole of a box (two corners) in the picture, with room at the borders for the rulers.
+  fit([low, high]) {
+    this.target = low.map((value, k) => (value + high[k]) / 2);
+    const half = low.map((value, k) => (high[k] - value) / 2);
+    const reach = d => Math.abs(d[0]) * half[0] + Math.abs(d[1]) * half[1] + Math.abs(d[2]) * half[2];
+    const [w, h] = this.size;
+    this.zoom = Math.min((w - 110) / (2 * reach(this.right) || 1e-3), (h - 84) / (2 * reach(this.up) || 1e-3), 400);
+    if (!(this.zoom > 0)) this.zoom = 1;
+  }
+  // The axis (0, 1, 2) that a direction of the screen lies along, and its sense; null if it is none.
+  along(direction) {
+    const k = direction.findIndex(value => Math.abs(value) > 0.99999);
+    return k < 0 ? null : [k, Math.sign(direction[k])];
+  }
+}

@@ -1,0 +1,99 @@
+"""One HTML text with everything inside, shown in a frame of its own."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from mnclab.path.profile import Profile
+from mnclab.show.player.payload import payload
+
+SCRIPTS = ("data", "shapes", "camera", "strokes", "picture", "curve", "listing", "state", "player")
+THEMES = ("auto", "light", "dark")
+#: Tells the frames of a notebook whether its theme is dark (JupyterLab, VS Code), when they ask and when it changes.
+#: Where the scripts of outputs do not run, a page follows the system's choice.
+FOLLOW = """
+if (!window.mnclabPlayers) {
+  window.mnclabPlayers = true;
+  const dark = () => document.body.dataset.jpThemeLight === "false" || document.body.classList.contains("vscode-dark");
+  const known = () => "jpThemeLight" in document.body.dataset || document.body.className.includes("vscode-");
+  const tell = frame => known() && frame.postMessage({mnclab: dark() ? "dark" : "light"}, "*");
+  addEventListener("message", event => event.data && event.data.mnclab === "theme?" && tell(event.source));
+  new MutationObserver(() => document.querySelectorAll("iframe.mnclab-player").forEach(each => tell(each.contentWindow)))
+    .observe(document.body, {attributes: true, attributeFilter: ["class", "data-jp-theme-light"]});
+}
+"""
+
+
+class Player:
+    """A run to be played; shows itself in a notebook, ``save`` writes it as a page of its own.
+
+    ``page`` is the whole page as text; it asks no network for anything. The frame in a notebook is sandboxed: its
+    scripts see nothing but the page.
+    """
+
+    def __init__(
+        self, run: Any, profile: Profile, *, height: int = 640, theme: str = "auto", speed: float = 1.0
+    ) -> None:
+        if theme not in THEMES:
+            raise ValueError(f"theme must be auto, light or dark, got {theme!r}")
+        if not speed > 0:
+            raise ValueError(f"speed must be greater than 0, got {speed:g}")
+        self.run, self.profile = run, profile
+        self.height, self.theme, self.speed = height, theme, speed
+
+    @property
+    def name(self) -> str:
+        """What the program is called, without its folders."""
+        return Path(self.run.program.name).name
+
+    @cached_property
+    def page(self) -> str:
+        """The page: markup, style, data and scripts in one text."""
+        here = files("mnclab.show.player")
+        text = {name: here.joinpath(name).read_text("utf-8") for name in ("page.html", "page.css")}
+        script = "\n".join(here.joinpath(f"{name}.js").read_text("utf-8") for name in SCRIPTS)
+        parts = {
+            "@title@": escape(f"{self.name} on {self.run.control.title}"),
+            "@theme@": self.theme,
+            "@speed@": f"{self.speed:g}",
+            "@style@": text["page.css"],
+            "@data@": payload(self.run, self.profile),
+            "@script@": script,
+        }
+        page = text["page.html"]
+        for place, content in parts.items():
+            page = page.replace(place, content)
+        return page
+
+    def save(self, path: str | Path) -> Path:
+        """Write the page to a file and return its path."""
+        path = Path(path)
+        with path.open("w", encoding="utf-8", newline="\n") as file:
+            file.write(self.page)
+        return path
+
+    def _repr_html_(self) -> str:
+        name = escape(f"player of {self.name}", quote=True)
+        return (
+            f"<script>{FOLLOW}</script>"
+            f'<iframe class="mnclab-player" title="{name}" sandbox="allow-scripts" loading="eager" '
+            f'style="width: 100%; height: {self.height:d}px; border: 0; border-radius: 6px" '
+            f'srcdoc="{escape(self.page, quote=True)}"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        path = self.run.toolpath
+        moves = int(path.is_motion.sum())
+        return f"<Player of {self.name}: {moves} moves, {self.profile.time:.1f} s; save it as .html>"
+
+
+def player(run: Any, profile: Profile | None = None, **options: Any) -> Player:
+    """The player of a run under a feed-rate profile (that of its own setup if none is given).
+
+    ``height`` in pixels of the frame in a notebook, ``theme`` "auto", "light" or "dark", ``speed`` 1 for real time.
+    """
+    return Player(run, profile or run.profile(), **options)

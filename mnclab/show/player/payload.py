@@ -1,0 +1,215 @@
+"""What the page needs of a run: both paths, what was active at each step, the feed-rate profile, the texts.
+
+Lengths are whole numbers of 1 / ``scale`` mm: the coarsest of 1e-3, 1e-4 and 1e-6 mm that loses nothing, so that the
+page says the digits that the run says. Times are whole microseconds, speeds whole micrometres per second. Arcs stay
+arcs. A *log* is a list of places where a value changes and the values from there on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, is_dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mnclab.path.kinds import Kind
+from mnclab.path.profile import Profile
+from mnclab.path.toolpath import Toolpath
+from mnclab.show.player.packing import Packer
+from mnclab.text.program import Program
+
+SCALES = (1e3, 1e4, 1e6)  # parts of a millimetre
+ANGLES = 1e9  # parts of a radian
+OFF = 0.02  # mm that a rapid leaves its straight line before its true course is sent
+
+Array = NDArray[np.float64]
+
+
+def payload(run: Any, profile: Profile) -> str:
+    """A run with its profile as the text that ``data.js`` reads."""
+    pack = Packer()
+    path, programmed = run.toolpath, run.programmed
+    positions = _points(run.history.changed("position"))
+    scale = _scale([path, programmed], positions)
+    lines, lasts = _lines(pack, run.programs)
+    header = {
+        "title": run.program.name,
+        "control": run.control.title,
+        "lathe": path.lathe,
+        "alarms": [alarm.as_dict() | {"text": str(alarm)} for alarm in run.alarms],
+        "programs": [{"name": program.name, "text": program.text} for program in run.programs],
+        "lines": lines,
+        "lasts": lasts,
+        "steps": {"block": pack.add(run.steps.block), "program": pack.add(run.steps.program)},
+        "scale": scale,
+        "angles": ANGLES,
+        "origin": path.origin.tolist(),
+        "path": _geometry(pack, path, scale),
+        "programmed": None if programmed is path else _geometry(pack, programmed, scale),
+        "row": {"step": pack.add(path.step)}
+        | {name: _log(pack, getattr(path, name)) for name in ("feed", "per_rev", "surface", "spindle", "side")}
+        | {"label": _log(pack, np.array(path.labels, dtype=object)[path.label] if len(path) else [])},
+        "position": {
+            "at": pack.add([step for step, _ in run.history.changed("position")]),
+            "from": _columns(pack, _whole(positions, scale) - _tips(run, scale)),
+        },
+        "history": {name: _changes(pack, run.history.changed(name)) for name in run.history if name != "position"},
+        "profile": _profile(pack, profile, scale),
+    }
+    return pack.text(header)
+
+
+def plain(value: Any) -> Any:
+    """A value of the history as JSON has it: a tool as its fields, points and frames as lists."""
+    if is_dataclass(value) and not isinstance(value, type):
+        return {name: plain(each) for name, each in asdict(value).items()}
+    if isinstance(value, Mapping):
+        return {str(name): plain(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(each) for each in value]
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not np.isfinite(value):
+        return None if np.isnan(value) else "inf" if value > 0 else "-inf"
+    return value if value is None or isinstance(value, str | int | float | bool) else str(value)
+
+
+def _points(changes: list[tuple[int, Any]]) -> Array:
+    return np.array([value for _, value in changes], dtype=np.float64).reshape(-1, 3)
+
+
+def _scale(paths: list[Toolpath], positions: Array) -> float:
+    """Parts of a millimetre that lengths are counted in."""
+    arcs = [path.centre[path.kind == Kind.ARC] for path in paths]
+    lengths = np.concatenate([each for path in paths for each in (path.start[:1], path.end)] + arcs + [positions])
+    for scale in SCALES[:-1]:
+        if np.abs(np.round(lengths * scale) / scale - lengths).max(initial=0.0) < 1e-9:
+            return scale
+    return SCALES[-1]
+
+
+def _whole(values: ArrayLike, scale: float) -> NDArray[np.int64]:
+    return np.round(np.asarray(values, dtype=np.float64) * scale).astype(np.int64)
+
+
+def _columns(pack: Packer, values: NDArray[np.int64]) -> list[int]:
+    return [pack.add(values[:, k]) for k in range(values.shape[1])]
+
+
+def _geometry(pack: Packer, path: Toolpath, scale: float) -> dict[str, Any]:
+    """Kinds and vertices of a path (n + 1), and centre and sweep of its arcs."""
+    arc = path.kind == Kind.ARC
+    vertices = np.concatenate([path.start[:1], path.end]) if len(path) else np.zeros((1, 3))
+    return {
+        "kind": pack.add(path.kind),
+        "vertex": _columns(pack, _whole(vertices, scale)),
+        "centre": _columns(pack, _whole(path.centre[arc], scale)),
+        "sweep": pack.add(_whole(path.sweep[arc], ANGLES)),
+        "axis": _log(pack, path.axis[arc]),
+    }
+
+
+def _log(pack: Packer, column: Any) -> dict[str, Any]:
+    """A column (n,) or (n, 3) as its changes."""
+    column = np.asarray(column)
+    if not len(column):
+        return {"at": pack.add([]), "of": pack.add([]), "values": []}
+    if column.dtype.kind == "f":
+        same = (column[1:] == column[:-1]) | (np.isnan(column[1:]) & np.isnan(column[:-1]))
+    else:
+        same = column[1:] == column[:-1]
+    at = np.flatnonzero(np.append(True, ~(same.all(axis=1) if column.ndim == 2 else same)))
+    return _values(pack, at, column[at].tolist())
+
+
+def _changes(pack: Packer, changes: list[tuple[int, Any]]) -> dict[str, Any]:
+    return _values(pack, [step for step, _ in changes], [value for _, value in changes])
+
+
+def _values(pack: Packer, at: ArrayLike, values: list[Any]) -> dict[str, Any]:
+    """Changes at some places; equal values are sent once."""
+    index: dict[str, int] = {}
+    kept: list[Any] = []
+    of = []
+    for value in map(plain, values):
+        key = repr(value)
+        if key not in index:
+            index[key] = len(kept)
+            kept.append(value)
+        of.append(index[key])
+    return {"at": pack.add(at), "of": pack.add(of), "values": kept}
+
+
+def _tips(run: Any, scale: float) -> NDArray[np.int64]:
+    """Where the tool is when the programmed point changes (k, 3): mostly at the same distance from it."""
+    path, steps = run.toolpath, [step for step, _ in run.history.changed("position")]
+    if not len(path):
+        return np.zeros((len(steps), 3), dtype=np.int64)
+    vertices = _whole(np.concatenate([path.start[:1], path.end]), scale)
+    return vertices[np.searchsorted(path.step, steps, "right")]
+
+
+def _lines(pack: Packer, programs: Sequence[Program]) -> tuple[list[int], list[int]]:
+    """For each program the first and the last line of its blocks."""
+    lines, lasts = [], []
+    for program in programs:
+        first = np.asarray(program.line_of(np.arange(len(program))), dtype=np.int64)
+        last = first.copy()
+        some = np.flatnonzero(np.diff(program.first) > 0)
+        word = program.offset[program.first[some + 1] - 1]
+        last[some] = np.maximum(first[some], np.searchsorted(program.line_starts, word, "right"))
+        lines.append(pack.add(first))
+        lasts.append(pack.add(last - first))
+    return lines, lasts
+
+
+def _profile(pack: Packer, profile: Profile, scale: float) -> dict[str, Any]:
+    """Nodes of the pieces and the row of each; between two nodes the way is the cubic of both speeds."""
+    p = profile.pieces
+    found: dict[str, Any] = {"row": pack.add(p.row), "t": pack.add(_whole(p.t, 1e6)), "v": pack.add(_whole(p.v, 1e3))}
+    if p.j.any():  # without jerk the way is the mean of the speeds times the time
+        found["s"] = pack.add(_whole(p.s, scale))
+    loose = _loose_pieces(profile)
+    if len(loose):
+        found["loose"] = {"piece": pack.add(loose)} | _ends(pack, profile, loose, scale)
+    return found
+
+
+def _loose_pieces(profile: Profile) -> NDArray[np.int64]:
+    """The pieces of rapids whose axes go by themselves and leave the straight line."""
+    rows, p, path = _rapid_rows(profile), profile.pieces, profile.path
+    pieces = np.flatnonzero(np.isin(p.row, rows))
+    if not len(pieces):
+        return pieces
+    row = p.row[pieces]
+    middle = profile.at((p.t[pieces] + p.t[pieces + 1]) / 2).position - path.start[row]
+    straight = path.end[row] - path.start[row]
+    along = np.einsum("ij,ij->i", middle, straight) / np.einsum("ij,ij->i", straight, straight)
+    off = np.linalg.norm(middle - along[:, None] * straight, axis=1) > OFF
+    return pieces[np.isin(row, row[off])]
+
+
+def _rapid_rows(profile: Profile) -> NDArray[np.int64]:
+    rapids, rows = profile.plan.rapids, profile.plan.row
+    if rapids is None:
+        return np.empty(0, dtype=np.int64)
+    return rapids.rows if rows is None else rows[rapids.rows]
+
+
+def _ends(pack: Packer, profile: Profile, pieces: NDArray[np.int64], scale: float) -> dict[str, Any]:
+    """Place and velocity of the tool at both ends of some pieces."""
+    rapids, p = profile.plan.rapids, profile.pieces
+    assert rapids is not None
+    which = np.searchsorted(_rapid_rows(profile), p.row[pieces])
+    begin = profile.starts[p.row[pieces]]
+    found = {}
+    for name, node in (("0", pieces), ("1", pieces + 1)):
+        since = np.clip(p.t[node] - begin, 0.0, rapids.seconds[which])
+        place, velocity, _, _ = rapids.state(which, since)
+        found["p" + name] = _columns(pack, _whole(place, scale))
+        found["v" + name] = _columns(pack, _whole(velocity, 1e3))
+    return found

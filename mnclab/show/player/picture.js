@@ -1,0 +1,223 @@
+// The picture: grid and rulers, the path (what is done strong, what is to come pale), the tool.
+// What does not change from frame to frame is kept in two layers: the ground, and the strokes done so far.
+
+const FAR = 5;  // rapids that make the box this many times larger than that of the cuts are not fitted in
+
+const LONG = 8000;  // points of a path from which on it is drawn in hairlines
+
+class Picture {
+  constructor(canvas, run) {
+    this.canvas = canvas;
+    this.run = run;
+    const rough = new Strokes(run.path, 0.5), size = box => box ? Math.hypot(...box[1].map((v, k) => v - box[0][k])) : 0;
+    const all = rough.box(RAPIDS, CUTS, PROBINGS), cuts = rough.box(CUTS);
+    this.extent = size(all) || 100;
+    this.strokes = new Strokes(run.path, Math.max(1e-3, this.extent / 2e4), run.course);
+    this.contour = run.programmed && new Strokes(run.programmed, Math.max(1e-3, this.extent / 2e4));
+    const fine = [this.strokes.box(RAPIDS, CUTS, PROBINGS), this.strokes.box(CUTS)];
+    this.box = cuts && size(all) > FAR * size(cuts) && size(cuts) > 0 ? fine[1] : fine[0];
+    this.box = this.box || [run.path.vertex(0).map(v => v - 10), run.path.vertex(0).map(v => v + 10)];
+    this.extent = Math.max(size(this.box), 1);
+    this.long = this.strokes.n > LONG;
+    this.fewRapids = this.strokes.kind.reduce((n, kind) => n + (kind === RAPIDS), 0) < 3000;
+    this.room = this.box.map(corner => corner.slice());  // that is fitted in: with part of the tool
+    if (!run.lathe) this.room[1][2] += this.extent / 6;
+    this.camera = new Camera(run.lathe);
+    this.ground = document.createElement("canvas");
+    this.done = document.createElement("canvas");
+    this.drawn = -1;  // the last point of the strokes in the layer of what is done
+    this.stale = this.fitted = true;
+    this.recolour();
+  }
+  recolour() {
+    const style = getComputedStyle(document.documentElement);
+    this.colours = Object.fromEntries(["paper", "ink", "faint", "rapid", "cut", "probing", "contour", "now", "cutter", "shank",
+      "edge", "quiet"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
+    this.stale = true;
+  }
+  resize() {
+    const box = this.canvas.getBoundingClientRect(), ratio = window.devicePixelRatio || 1;
+    const [w, h] = [Math.max(1, Math.round(box.width)), Math.max(1, Math.round(box.height))];
+    if (this.camera.size[0] === w && this.camera.size[1] === h && this.ratio === ratio) return;
+    const scale = Math.min(w / this.camera.size[0], h / this.camera.size[1]);
+    this.ratio = ratio;
+    this.camera.size = [w, h];
+    for (const each of [this.canvas, this.ground, this.done]) [each.width, each.height] = [w * ratio, h * ratio];
+    if (this.fitted) this.camera.fit(this.room); else this.camera.zoom *= scale;
+    this.stale = true;
+  }
+  fit() {
+    this.camera.fit(this.room);
+    this.fitted = true;  // until a person zooms or shifts: a frame may get its size late
+    this.stale = true;
+  }
+  view(name) {
+    this.camera.turnTo(name);
+    this.fit();
+  }
+
+  pen(canvas) {
+    const pen = canvas.getContext("2d");
+    pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    return pen;
+  }
+  lines(pen, from, to, pale) {
+    const {rapid, cut, probing} = this.colours;
+    pen.globalAlpha = pale ? 0.28 : 1;
+    pen.lineJoin = this.long ? "bevel" : "round";
+    for (const [kind, colour, width, dashes] of [[CUTS, cut, 1.8, []], [RAPIDS, rapid, 1, this.fewRapids ? [5, 3] : []],
+      [PROBINGS, probing, 1.4, [1.5, 2]]]) {
+      pen.strokeStyle = colour;
+      pen.lineWidth = this.long ? 1 / this.ratio : pale ? Math.min(width, 1.2) : width;  // hairlines cost a tenth
+      pen.setLineDash(dashes);
+      this.strokes.stroke(pen, kind, from, to);
+    }
+    pen.setLineDash([]);
+    pen.globalAlpha = 1;
+  }
+
+  // One frame: `at` is {row, tip, tool, side}, the row going on (or -1) and what stands at its tip.
+  draw(at, rowsDone) {
+    const {camera, strokes} = this, [w, h] = camera.size;
+    if (this.stale) {
+      strokes.project(camera);
+      const pen = this.pen(this.ground);
+      pen.fillStyle = this.colours.paper;
+      pen.fillRect(0, 0, w, h);
+      this.rulers(pen);
+      if (this.contour) {
+        this.contour.project(camera);
+        pen.strokeStyle = this.colours.contour;
+        pen.lineWidth = this.long ? 1 / this.ratio : 1;
+        this.contour.stroke(pen, CUTS, 0, this.contour.n - 1);
+      }
+      this.lines(pen, 0, strokes.n - 1, true);
+      this.drawn = -1;
+      this.stale = false;
+    }
+    const until = strokes.after[rowsDone], pen = this.pen(this.done);
+    if (this.drawn < 0 || until < this.drawn) {
+      pen.clearRect(0, 0, w, h);
+      this.drawn = 0;
+    }
+    if (until > this.drawn) this.lines(pen, this.drawn, until, false);
+    this.drawn = until;
+    const top = this.canvas.getContext("2d");
+    top.setTransform(1, 0, 0, 1, 0, 0);
+    top.drawImage(this.ground, 0, 0);
+    top.drawImage(this.done, 0, 0);
+    this.moment(this.pen(this.canvas), at);
+  }
+
+  moment(pen, {row, tip, tool, side}) {
+    const {camera, colours, strokes, run} = this, project = point => camera.project(point);
+    if (row >= 0 && run.path.isMotion(row)) {
+      pen.strokeStyle = colours.now;
+      pen.lineWidth = 2.6;
+      for (const kind of [RAPIDS, CUTS, PROBINGS]) strokes.stroke(pen, kind, strokes.after[row], strokes.after[row + 1]);
+    }
+    if (run.lathe) drawInsert(pen, tool || {}, tip, side, project, colours, this.extent);
+    else if (tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, project, colours, this.extent);
+    const [x, y] = project(tip);
+    pen.beginPath();
+    pen.arc(x, y, 3.2, 0, 7);
+    pen.fillStyle = colours.now;
+    pen.strokeStyle = colours.paper;
+    pen.lineWidth = 1;
+    pen.fill();
+    pen.stroke();
+    this.triad(pen);
+  }
+
+  // Axes of the work offset at its zero point.
+  triad(pen) {
+    const {camera, colours} = this, size = 34 / camera.zoom, zero = camera.project([0, 0, 0]);
+    const names = this.run.lathe ? ["X", "", "Z"] : ["X", "Y", "Z"];
+    pen.font = "600 11px system-ui, sans-serif";
+    pen.textAlign = "center";
+    pen.textBaseline = "middle";
+    names.forEach((name, k) => {
+      const end = camera.project([0, 1, 2].map(axis => axis === k ? size : 0));
+      const dx = end[0] - zero[0], dy = end[1] - zero[1], length = Math.hypot(dx, dy);
+      if (!name || length < 8) return;
+      pen.strokeStyle = pen.fillStyle = colours.ink;
+      pen.lineWidth = 1.4;
+      pen.beginPath();
+      pen.moveTo(...zero);
+      pen.lineTo(...end);
+      pen.stroke();
+      const [lx, ly] = [end[0] + 9 * dx / length, end[1] + 9 * dy / length];
+      pen.strokeStyle = colours.paper;
+      pen.lineWidth = 3;
+      pen.strokeText(name, lx, ly);
+      pen.fillText(name, lx, ly);
+    });
+  }
+
+  // Along the axes: a grid with numbers. Else: a bar of a round length.
+  rulers(pen) {
+    const {camera, colours, run} = this, [w, h] = camera.size;
+    const across = camera.along(camera.right), upwards = camera.along(camera.up);
+    pen.font = "11px system-ui, sans-serif";
+    pen.lineWidth = 1;
+    if (!across || !upwards) return this.bar(pen);
+    const words = [], names = "XYZ", diameter = k => run.lathe && k === 0 ? 2 : 1;
+    for (const [[axis], flat] of [[across, true], [upwards, false]]) {
+      const parts = diameter(axis), step = round(58 / camera.zoom * parts) / parts;
+      const digits = Math.max(0, -Math.floor(Math.log10(step * parts) + 1e-9));
+      const middle = camera.target[axis], half = (flat ? w : h) / 2 / camera.zoom;
+      for (let k = Math.ceil((middle - half) / step); k <= (middle + half) / step; k++) {
+        const point = camera.target.slice();
+        point[axis] = k * step;
+        const [x, y] = camera.project(point).map(value => Math.round(value) + 0.5);
+        pen.strokeStyle = k === 0 ? colours.quiet : colours.faint;
+        pen.setLineDash(k === 0 && run.lathe && !flat ? [14, 4, 2, 4] : []);
+        pen.beginPath();
+        pen.moveTo(flat ? x : 0, flat ? 0 : y);
+        pen.lineTo(flat ? x : w, flat ? h : y);
+        pen.stroke();
+        const text = number(Math.abs(k * step * parts) * (run.lathe && axis === 0 ? 1 : Math.sign(k)), digits);
+        if (flat ? x > 46 && x < w - 48 : y > 26 && y < h - 26) words.push([text, flat ? x : 5, flat ? h - 5 : y, flat ? "center" : "left", flat ? "bottom" : "middle"]);
+      }
+      pen.setLineDash([]);
+      const name = (diameter(axis) > 1 ? "⌀ X" : names[axis]) + " mm";
+      words.push([name, flat ? w - 6 : 5, flat ? h - 5 : 6, flat ? "right" : "left", flat ? "bottom" : "top"]);
+    }
+    pen.fillStyle = colours.quiet;
+    for (const [text, x, y, align, baseline] of words) {
+      pen.textAlign = align;
+      pen.textBaseline = baseline;
+      this.label(pen, text, x, y);
+    }
+  }
+  label(pen, text, x, y) {
+    pen.strokeStyle = this.colours.paper;
+    pen.lineWidth = 5;
+    pen.lineJoin = "round";
+    pen.strokeText(text, x, y);
+    pen.lineWidth = 1;
+    pen.fillText(text, x, y);
+  }
+  bar(pen) {
+    const {camera, colours} = this, [, h] = camera.size, length = round(60 / camera.zoom), wide = length * camera.zoom;
+    pen.strokeStyle = pen.fillStyle = colours.quiet;
+    pen.beginPath();
+    for (const [x, y] of [[10, h - 17], [10, h - 11], [10 + wide, h - 11], [10 + wide, h - 17]]) pen.lineTo(x, y);
+    pen.stroke();
+    pen.textAlign = "left";
+    pen.textBaseline = "bottom";
+    pen.fillText(number(length, Math.max(0, -Math.floor(Math.log10(length) + 1e-9))) + " mm", 14, h - 15);
+  }
+}
+
+// The next of 1, 2, 5, 10 … that is not below a length.
+function round(length) {
+  const ten = 10 ** Math.floor(Math.log10(length));
+  return [1, 2, 5, 10].map(k => k * ten).find(value => value >= length * (1 - 1e-9));
+}
+
+// A number with a fixed count of decimals, a true minus, and no negative zero.
+function number(value, decimals) {
+  const text = value.toFixed(decimals);
+  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
+}

@@ -1,0 +1,360 @@
+// The page: where the playing stands, what moves it, and showing it. A *place* is {item, t, done}: an item of the run,
+// a time within it, and whether it is behind us; items that take no time are done or not.
+
+const KEYS = [
+  ["space", "play and stop"], ["J  K  L", "backwards, stop, forwards"], ["← →", "block by block"], [",  .", "move by move"],
+  ["shift ← →", "one second at a time"], ["Home  End", "to the start, to the end"], ["W A S D", "turn the picture"],
+  ["+  −  F", "zoom, fit"], ["1 2 3 4", "views"], ["drag", "turns; with shift or two fingers it shifts"],
+  ["click", "on a line or on the path goes there"], ["wheel", "zooms, once the picture has been clicked"],
+];
+const LATHE_KEYS = new Map([["drag", "shifts; with shift it turns"], ["1 2 3 4", "views (three)"]]);
+
+class PlayerPage {
+  constructor(run) {
+    const find = this.find = id => document.getElementById(id);
+    this.run = run;
+    this.place = {item: 0, t: 0, done: false};
+    this.playing = 0;  // 1 forwards, -1 backwards
+    this.root = document.documentElement;
+    this.dark = matchMedia("(prefers-color-scheme: dark)");
+    this.theme(this.root.dataset.theme);
+    this.picture = new Picture(find("picture"), run);
+    this.curve = new Curve(find("curve"), run);
+    this.listing = new Listing(find("listing"), run, (program, line) => this.goLine(program, line));
+    this.board = new Board(run, find);
+    this.buttons();
+    this.alarms();
+    this.pointers();
+    document.addEventListener("keydown", event => this.key(event));
+    this.dark.addEventListener("change", () => this.theme(this.root.dataset.theme));
+    this.followNotebook();
+    new ResizeObserver(() => this.resize()).observe(document.body);
+    this.resize();
+    if (!run.lathe && this.picture.box[1][2] - this.picture.box[0][2] < 1e-6) this.view("top");
+    else this.view(run.lathe ? "front" : "isometric");
+    this.go(this.place);
+  }
+
+  // --- places ---------------------------------------------------------------------------------------------------------
+
+  get atStart() {
+    return this.place.item === 0 && !this.place.done && this.place.t <= 0;
+  }
+  get step() {
+    return this.atStart || !this.run.items ? -1 : this.run.itemStep[this.place.item];
+  }
+  afterItem(item) {
+    return item < 0 ? {item: 0, t: 0, done: false} : {item, t: this.run.end[item], done: true};
+  }
+  afterStep(step) {
+    return this.afterItem(step < 0 ? -1 : this.run.first[step + 1] - 1);
+  }
+  atTime(t) {
+    if (t <= 0 || !this.run.items) return this.afterItem(-1);
+    if (t >= this.run.time) return this.afterItem(this.run.items - 1);
+    return {item: this.run.itemAt(t), t, done: false};
+  }
+  blockOn() {
+    const {step, run} = this, end = this.afterStep(step);
+    if (step >= 0 && !(this.place.done && this.place.item === end.item)) return end;
+    return this.afterStep(Math.min(step + 1, run.steps - 1));
+  }
+  blockBack() {
+    return this.afterStep(this.step - 1);
+  }
+  moves(item) {
+    return this.run.itemRow[item] >= 0 && this.run.path.isMotion(this.run.itemRow[item]);
+  }
+  moveOn() {
+    let item = this.place.item + (this.place.done ? 1 : 0);
+    while (item < this.run.items && !this.moves(item)) item++;
+    return this.afterItem(Math.min(item, this.run.items - 1));
+  }
+  moveBack() {
+    let item = this.place.item - 1;
+    while (item >= 0 && !this.moves(item)) item--;
+    return this.afterItem(item);
+  }
+
+  // --- going there ----------------------------------------------------------------------------------------------------
+
+  go(place) {
+    this.place = place;
+    this.show();
+    if (!this.playing) this.say();
+  }
+  goLine(program, line) {
+    this.stop();
+    const block = this.run.blockOfLine(program, line);
+    if (block < 0) return this.go(this.afterItem(-1));
+    const step = this.run.execution(program, block, this.step);
+    if (step >= 0) return this.go(this.afterStep(step));
+    this.listing.reveal(line);
+    this.find("said").textContent = this.find("doing").textContent = `line ${line} is not executed`;
+  }
+  goRow(row, x, y) {  // to the point of a row nearest to a place on the screen
+    this.stop();
+    const {run, picture} = this, item = run.itemOfRow[row], begin = run.begin[item], span = run.end[item] - begin;
+    let best = begin, least = Infinity;
+    for (let k = 0; k <= 200; k++) {
+      const t = begin + span * k / 200, [px, py] = picture.camera.project(run.tool(item, t).point), away = Math.hypot(px - x, py - y);
+      if (away < least) [best, least] = [t, away];
+    }
+    this.go(best >= run.end[item] ? this.afterItem(item) : {item, t: best, done: false});
+  }
+  play(direction) {
+    if (this.playing === direction) return this.stop();
+    if (direction > 0 && this.place.t >= this.run.time) this.place = this.afterItem(-1);
+    if (direction < 0 && this.place.t <= 0) this.place = this.afterItem(this.run.items - 1);
+    this.playing = direction;
+    this.pressed();
+    this.last = performance.now();
+    requestAnimationFrame(now => this.tick(now));
+  }
+  tick(now) {
+    if (!this.playing) return;
+    const passed = Math.min(now - this.last, 250) / 1000 * Number(this.find("speed").value);
+    this.last = now;
+    const t = this.place.t + this.playing * passed;
+    this.go(this.atTime(t));
+    if (t <= 0 || t >= this.run.time) this.stop();
+    else requestAnimationFrame(next => this.tick(next));
+  }
+  stop() {
+    if (!this.playing) return;
+    this.playing = 0;
+    this.pressed();
+    this.say();
+  }
+  pressed() {
+    for (const [id, direction, sign] of [["play", 1, "M4 3v10l8-5z"], ["play-back", -1, "M12 3v10L4 8z"]]) {
+      this.find(id).setAttribute("aria-pressed", this.playing === direction);
+      this.find(id).querySelector("path").setAttribute("d", this.playing === direction ? "M4 3h3v10H4zM9 3h3v10H9z" : sign);
+    }
+  }
+
+  // --- showing --------------------------------------------------------------------------------------------------------
+
+  now() {
+    const {run, place, step} = this, {item, t, done} = place, rowsDone = run.rowsDone(item, done);
+    const row = !run.items || this.atStart ? -1 : run.itemRow[item] >= 0 ? run.itemRow[item] : run.before[item] - 1;
+    const {point, speed} = done ? {point: run.path.vertex(rowsDone), speed: run.tool(item, t).speed} : run.tool(item, t);
+    return {step, item: this.atStart ? -1 : item, row, rowsDone, point, speed, t};
+  }
+  show() {
+    if (this.waiting) return;
+    this.waiting = requestAnimationFrame(() => {
+      this.waiting = 0;
+      this.draw();
+    });
+    this.write();
+  }
+  write() {
+    const {run, find} = this, now = this.now(), slider = find("slider");
+    slider.value = run.time ? now.t / run.time : 0;
+    slider.setAttribute("aria-valuetext", `${seconds(now.t)} of ${seconds(run.time)}`);
+    find("clock").textContent = `${seconds(now.t)} / ${seconds(run.time)}`;
+    this.board.show(now);
+    if (now.step >= 0) {
+      const program = run.program[now.step], block = run.block[now.step];
+      this.listing.mark(program, run.lines[program][block], run.lasts[program][block]);
+    } else this.listing.mark(this.listing.program, 0, 0);
+  }
+  draw() {
+    const {run, picture} = this, now = this.now(), going = now.item >= 0 && run.itemRow[now.item] === now.row ? now.row : -1;
+    const tool = run.history.has("tool") ? run.history.get("tool").value(now.step) : null;
+    const side = now.row >= 0 ? run.row.side.value(now.row) : 0;
+    picture.draw({row: going, tip: now.point, tool, side}, now.rowsDone);
+  }
+  say() {
+    const {run, step} = this, {point} = this.now();
+    const text = step < 0 ? "start" : `line ${run.lineOf(step)}: ${run.texts[run.program[step]][run.lineOf(step) - 1].trim()}`;
+    const at = this.board.axes.map(axis => `${run.lathe && axis === 0 ? "diameter" : "XYZ"[axis]} ${this.board.shown(point, axis)}`);
+    this.find("said").textContent = `${text}; tool at ${at.join(", ")}`;
+    const count = run.path.kind.reduce((n, kind) => n + (kind <= PROBE), 0);
+    this.find("picture").setAttribute("aria-label", `tool path, ${count} moves; tool at ${at.join(", ")}`);
+  }
+  resize() {
+    this.picture.resize();
+    this.curve.draw(this.picture.colours);
+    this.listing.draw();
+    this.draw();
+  }
+  view(name) {
+    this.picture.view(name);
+    this.views();
+  }
+  views() {
+    for (const button of this.find("views").children) button.setAttribute("aria-pressed", button.dataset.view === this.picture.camera.name);
+    this.show();
+  }
+  change(act) {  // of the camera
+    this.picture.fitted = false;
+    act(this.picture.camera);
+    this.picture.stale = true;
+    this.views();
+  }
+  theme(name) {
+    this.root.dataset.theme = name;
+    this.root.dataset.shown = name === "auto" ? this.told || (this.dark.matches ? "dark" : "light") : name;
+    if (!this.picture) return;
+    this.picture.recolour();
+    this.curve.draw(this.picture.colours);
+    this.show();
+  }
+
+  followNotebook() {  // which tells whether it is dark (see FOLLOW in page.py)
+    if (window.parent === window) return;
+    addEventListener("message", event => {
+      if (event.source !== window.parent || !event.data || !["light", "dark"].includes(event.data.mnclab)) return;
+      this.told = event.data.mnclab;
+      this.theme(this.root.dataset.theme);
+    });
+    window.parent.postMessage({mnclab: "theme?"}, "*");
+  }
+
+  // --- what moves it --------------------------------------------------------------------------------------------------
+
+  buttons() {
+    const {find, run} = this, names = run.lathe ? [["front", "ZX"], ["right", "End"], ["isometric", "3D"]]
+      : [["top", "Top"], ["front", "Front"], ["right", "Side"], ["isometric", "3D"]];
+    this.viewNames = names.map(([name]) => name);
+    find("views").replaceChildren(...names.map(([name, text], k) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.dataset.view = name;
+      button.textContent = text;
+      button.title = `view (${k + 1})`;
+      button.addEventListener("click", () => this.view(name));
+      return button;
+    }));
+    const speeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 25, 100], own = Number(this.root.dataset.speed);
+    if (!speeds.includes(own)) speeds.push(own);
+    for (const speed of speeds.sort((a, b) => a - b)) find("speed").add(new Option(`${speed}×`, speed, speed === own, speed === own));
+    const acts = {
+      "start": () => this.afterItem(-1), "end": () => this.afterItem(run.items - 1), "block-back": () => this.blockBack(),
+      "block-on": () => this.blockOn(), "move-back": () => this.moveBack(), "move-on": () => this.moveOn(),
+    };
+    for (const [id, act] of Object.entries(acts)) find(id).addEventListener("click", () => this.jump(act));
+    find("play").addEventListener("click", () => this.play(1));
+    find("play-back").addEventListener("click", () => this.play(-1));
+    find("zoom-in").addEventListener("click", () => this.change(camera => camera.zoomAt(1.3)));
+    find("zoom-out").addEventListener("click", () => this.change(camera => camera.zoomAt(1 / 1.3)));
+    find("fit").addEventListener("click", () => this.change(() => this.picture.fit()));
+    find("theme").addEventListener("click", () => this.theme(this.root.dataset.shown === "dark" ? "light" : "dark"));
+    find("help").addEventListener("click", () => this.help());
+    find("slider").addEventListener("input", event => this.jump(() => this.atTime(event.target.value * run.time)));
+    const list = document.createElement("dl");
+    for (const [key, what] of KEYS) {
+      const [head, text] = [document.createElement("dt"), document.createElement("dd")];
+      head.textContent = key;
+      text.textContent = run.lathe && LATHE_KEYS.get(key) || what;
+      list.append(head, text);
+    }
+    const legend = document.createElement("p");
+    for (const [name, text, dashes] of [["cut", "cut", "solid"], ["rapid", "rapid", "dashed"], ["probing", "probing", "dotted"],
+      ["contour", "programmed contour", "solid"], ["now", "this move", "solid"]]) {
+      const word = document.createElement("span");
+      word.textContent = text;
+      word.style.cssText = `--colour: var(--${name}); --dashes: ${dashes}`;
+      legend.append(word);
+    }
+    find("keys").append(list, legend);
+  }
+  jump(act) {
+    if (!this.run.items) return;
+    this.stop();
+    this.go(act());
+  }
+  help() {
+    const box = this.find("keys");
+    box.hidden = !box.hidden;
+    this.find("help").setAttribute("aria-expanded", !box.hidden);
+  }
+  alarms() {
+    const {alarms} = this.run.header, first = alarms.find(alarm => alarm.severity === "alarm") || alarms[0], box = this.find("alarm");
+    if (!first) return;
+    box.hidden = false;
+    box.className = first.severity;
+    const more = alarms.length > 1 ? ` (and ${alarms.length - 1} more)` : "";
+    box.textContent = `${first.severity}${first.line ? ` in line ${first.line}` : ""}: ${first.message}${more}`;
+    box.addEventListener("click", () => first.line && this.goLine(0, first.line));
+  }
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const {target, key} = event, tag = target.tagName, jump = act => () => this.jump(act);
+    if (tag === "SELECT" || (tag === "BUTTON" && (key === " " || key === "Enter"))) return;
+    if (tag === "INPUT" && /^(Arrow|Page|Home|End)/.test(key)) return;
+    const turn = (yaw, pitch) => () => this.change(camera => camera.turn(yaw, pitch));
+    const acts = {
+      " ": () => this.playing ? this.stop() : this.play(1), "k": () => this.stop(), "l": () => this.playing > 0 || this.play(1),
+      "j": () => this.playing < 0 || this.play(-1), "ArrowRight": jump(() => this.blockOn()), "ArrowLeft": jump(() => this.blockBack()),
+      "ArrowDown": jump(() => this.blockOn()), "ArrowUp": jump(() => this.blockBack()), ".": jump(() => this.moveOn()),
+      ",": jump(() => this.moveBack()), "Home": jump(() => this.afterItem(-1)), "End": jump(() => this.afterItem(this.run.items - 1)),
+      "PageDown": jump(() => this.atTime(this.place.t + 1)), "PageUp": jump(() => this.atTime(this.place.t - 1)),
+      "+": () => this.find("zoom-in").click(), "=": () => this.find("zoom-in").click(), "-": () => this.find("zoom-out").click(),
+      "f": () => this.find("fit").click(), "a": turn(8, 0), "d": turn(-8, 0), "w": turn(0, 8), "s": turn(0, -8),
+      "?": () => this.help(), "Escape": () => this.find("keys").hidden || this.help(),
+    };
+    for (const [k, name] of this.viewNames.entries()) acts[k + 1] = () => this.view(name);
+    const second = event.shiftKey && {"ArrowRight": "PageDown", "ArrowLeft": "PageUp"}[key];
+    const act = acts[second || (key.length === 1 ? key.toLowerCase() : key)];
+    if (!act) return;
+    event.preventDefault();
+    act();
+  }
+  pointers() {
+    const canvas = this.find("picture"), held = new Map(), place = event => {
+      const box = canvas.getBoundingClientRect();
+      return [event.clientX - box.left, event.clientY - box.top];
+    };
+    let travelled = 0;
+    canvas.addEventListener("pointerdown", event => {
+      canvas.setPointerCapture(event.pointerId);
+      held.set(event.pointerId, place(event));
+      if (held.size === 1) travelled = 0;
+    });
+    canvas.addEventListener("pointermove", event => {
+      const before = held.get(event.pointerId);
+      if (!before) return;
+      const [x, y] = place(event), dx = x - before[0], dy = y - before[1];
+      travelled += Math.hypot(dx, dy);
+      if (held.size === 1 && travelled > 4) {
+        const shifts = this.run.lathe !== (event.shiftKey || event.buttons > 1);
+        this.change(camera => shifts ? camera.pan(dx, dy) : camera.turn(-dx * 0.5, dy * 0.5));
+      } else if (held.size === 2) {
+        const other = [...held].find(([id]) => id !== event.pointerId)[1];
+        const apart = Math.hypot(before[0] - other[0], before[1] - other[1]) || 1;
+        this.change(camera => {
+          camera.pan(dx / 2, dy / 2);
+          camera.zoomAt(Math.hypot(x - other[0], y - other[1]) / apart, (x + other[0]) / 2, (y + other[1]) / 2);
+        });
+      }
+      held.set(event.pointerId, [x, y]);
+    });
+    canvas.addEventListener("pointerup", event => {
+      const [x, y] = place(event), alone = held.size === 1;
+      held.delete(event.pointerId);
+      if (!alone || travelled > 4) return;
+      const row = this.picture.strokes.pick(x, y, this.picture.camera, event.pointerType === "touch" ? 18 : 9);
+      if (row >= 0) this.goRow(row, x, y);
+    });
+    canvas.addEventListener("pointercancel", event => held.delete(event.pointerId));
+    canvas.addEventListener("contextmenu", event => event.preventDefault());
+    canvas.addEventListener("wheel", event => {  // in a notebook the wheel belongs to the notebook until the picture is clicked
+      if (window.top === window || document.activeElement === canvas || event.ctrlKey) {
+        event.preventDefault();
+        this.change(camera => camera.zoomAt(Math.exp(-event.deltaY * 0.0015), ...place(event)));
+      }
+    }, {passive: false});
+  }
+}
+
+function seconds(t) {
+  const minutes = Math.floor(t / 60), rest = (t - 60 * minutes).toFixed(2).padStart(5, "0");
+  return minutes >= 60 ? `${Math.floor(minutes / 60)}:${String(minutes % 60).padStart(2, "0")}:${rest}` : `${minutes}:${rest}`;
+}
+
+unpack(document.getElementById("data").textContent).then(header => {
+  window.player = new PlayerPage(new Recorded(header));
+});

@@ -1,0 +1,98 @@
+// Tools as bodies: rings about the tool axis, whose outlines on the screen are convex.
+
+const FACETS = 28;
+
+// The parts of a tool from above: rings [radius, height above the tip], and which colour they have.
+function parts(tool, extent) {
+  const radius = Math.abs((tool.radius || 0) + (tool.dr || 0)) || extent / 80;
+  const cutting = tool.cutting_length || Math.max(6 * radius, extent / 12);
+  const length = Math.max(Math.min(tool.length || 0, 3 * cutting), 1.7 * cutting);
+  const corner = Math.min(tool.corner || 0, radius), kind = (tool.kind || "").toLowerCase();
+  let part = [];
+  if (kind.includes("probe")) {
+    part = arcRings(radius, radius, Math.PI);
+    return [[[[radius * 2, cutting], [radius * 2, length]], "shank"], [[[radius / 2, 1.8 * radius], [radius / 2, cutting]], "shank"], [part, "cutter"]];
+  }
+  if (tool.angle > 0 && tool.angle < 180) part = [[0, 0], [radius, radius / Math.tan(tool.angle * Math.PI / 360)]];
+  else if (kind.includes("ball") || (corner > 0 && corner >= radius)) part = arcRings(radius, radius, Math.PI / 2);
+  else if (corner > 0) part = arcRings(radius, corner, Math.PI / 2);
+  else part = [[radius, 0]];
+  const top = Math.max(cutting, part[part.length - 1][1]);
+  return [[[[radius, top], [radius, Math.max(length, top * 1.2)]], "shank"], [[...part, [radius, top]], "cutter"]];
+}
+
+// A corner of a radius at the foot of a body of revolution, from the middle outwards.
+function arcRings(radius, corner, angle) {
+  const found = [];
+  for (let k = 0; k <= 6; k++) {
+    const a = angle * k / 6;
+    found.push([radius - corner + corner * Math.sin(a), corner * (1 - Math.cos(a))]);
+  }
+  return found;
+}
+
+// The smallest convex outline of points [x, y], counter-clockwise (Andrew's monotone chain).
+function hull(points) {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const half = list => {
+    const kept = [];
+    for (const p of list) {
+      while (kept.length > 1) {
+        const [a, b] = kept.slice(-2);
+        if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0) break;
+        kept.pop();
+      }
+      kept.push(p);
+    }
+    return kept.slice(0, -1);
+  };
+  return sorted.length < 3 ? sorted : [...half(sorted), ...half(sorted.reverse())];
+}
+
+function ring([radius, height], tip, project) {
+  const found = [];
+  for (let k = 0; k < FACETS; k++) {
+    const a = 2 * Math.PI * k / FACETS;
+    found.push(project([tip[0] + radius * Math.cos(a), tip[1] + radius * Math.sin(a), tip[2] + height]));
+  }
+  return found;
+}
+
+function trace(pen, points) {
+  pen.beginPath();
+  points.forEach(([x, y], k) => k ? pen.lineTo(x, y) : pen.moveTo(x, y));
+  pen.closePath();
+}
+
+// A mill, drill or probe with its tip at a point.
+function drawTool(pen, tool, tip, project, colours, extent) {
+  for (const [part, colour] of parts(tool, extent)) {
+    const all = part.map(each => ring(each, tip, project));
+    trace(pen, hull(all.flat()));
+    pen.fillStyle = colours[colour];
+    pen.strokeStyle = colours.edge;
+    pen.lineWidth = 1.2;
+    pen.fill();
+    pen.stroke();
+    trace(pen, all[all.length - 1]);
+    pen.lineWidth = 0.7;
+    pen.stroke();
+  }
+}
+
+// The insert of a lathe tool, seen on the plane of X and Z: its point looks to the axis and to the chuck.
+function drawInsert(pen, tool, tip, side, project, colours, extent) {
+  const size = extent / 14, nose = Math.min(tool.corner || (side ? tool.radius : 0) || 0, size / 4);
+  const at = side ? [tip[0] - nose, tip[1], tip[2] - nose] : tip;  // a compensated path is that of the nose's centre
+  const edge = [[0, 0], [0.17, 1], [1.1, 1.14], [1, 0.1]].map(([x, z]) => [at[0] + x * size, at[1], at[2] + z * size]);
+  const holder = [[0.62, 0.4], [0.78, 1.06], [2.7, 1.06], [2.7, 0.4]].map(([x, z]) => [at[0] + x * size, at[1], at[2] + z * size]);
+  for (const [part, fill] of [[holder, colours.shank], [edge, colours.cutter]]) {
+    trace(pen, part.map(project));
+    pen.fillStyle = fill;
+    pen.strokeStyle = colours.edge;
+    pen.lineWidth = 1.2;
+    pen.lineJoin = "round";
+    pen.fill();
+    pen.stroke();
+  }
+}

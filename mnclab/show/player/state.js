@@ -1,0 +1,112 @@
+// What is active, in words: position, feed, spindle, tool, modal state, and what the block changed.
+
+const APART = ["position", "feed", "per_rev", "speed", "turning", "tool"];  // said by the read-outs
+
+function frameText(rows) {
+  const at = rows.slice(0, 3).map(row => row[3]), parts = [], m = rows.map(row => row.slice(0, 3));
+  const near = (a, b) => Math.abs(a - b) < 1e-9;
+  at.forEach((value, k) => { if (!near(value, 0)) parts.push("XYZ"[k] + short(value)); });
+  const scale = [0, 1, 2].map(k => Math.hypot(m[0][k], m[1][k], m[2][k]));
+  const determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+    + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  const straight = [0, 1, 2].every(k => near(Math.abs(m[k][k]), scale[k]));
+  if (straight) [0, 1, 2].forEach(k => { if (m[k][k] < 0) parts.push("mirror " + "XYZ"[k]); });
+  else {
+    if (determinant < 0) parts.push("mirrored");
+    const plane = [[0, 1], [2, 0], [1, 2]].find((_, k) => near(Math.abs(m[[2, 1, 0][k]][[2, 1, 0][k]]), scale[[2, 1, 0][k]]));
+    if (plane && determinant > 0) parts.push("turned " + short(Math.atan2(m[plane[1]][plane[0]], m[plane[0]][plane[0]]) * 180 / Math.PI) + "°");
+    else parts.push("turned");
+  }
+  if (scale.some(value => !near(value, 1)))
+    parts.push("scale " + (scale.every(value => near(value, scale[0])) ? short(scale[0]) : scale.map(short).join(" × ")));
+  return parts.join(" ") || "none";
+}
+
+function short(value) {
+  return number(value, 4).replace(/\.?0+$/, "");
+}
+
+function toolText(tool) {
+  if (!tool || (!tool.number && !tool.radius)) return "none";
+  const size = tool.radius ? `R${short(tool.radius + (tool.dr || 0))}` : "";
+  return [`T${tool.number}`, tool.name, size].filter(Boolean).join(" ");
+}
+
+function valueText(name, value) {
+  if (value === null || value === undefined) return "none";
+  if (name.startsWith("frame ")) return frameText(value);
+  if (value && value.radius !== undefined) return toolText(value);
+  if (name === "side") return ["right", "none", "left"][value + 1];
+  if (typeof value === "number") return short(value);
+  if (typeof value === "boolean") return value ? "on" : "off";
+  if (Array.isArray(value)) return value.map(each => valueText("", each)).join(" ");
+  if (typeof value === "object") return Object.entries(value).filter(([, v]) => v).map(([k, v]) => `${k} ${valueText("", v)}`).join(" ");
+  return String(value);
+}
+
+class Board {
+  constructor(run, find) {
+    this.run = run;
+    this.find = find;
+    this.step = -2;
+    const axes = run.lathe ? ["⌀ X", "Z"] : ["X", "Y", "Z"];
+    this.axes = run.lathe ? [0, 2] : [0, 1, 2];
+    find("axes").replaceChildren(...axes.map((name, row) => {
+      const line = document.createElement("tr"), head = document.createElement("th");
+      head.scope = "row";
+      head.textContent = name;
+      line.append(head, ...["program", "tool", "machine"].map(column => {
+        const cell = document.createElement("td");
+        cell.id = `${column}-${"XYZ"[this.axes[row]]}`;
+        return cell;
+      }));
+      return line;
+    }));
+  }
+  // A coordinate as the operator reads it: a lathe's X is a diameter.
+  shown(point, axis) {
+    return number(point[axis] * (this.run.lathe && axis === 0 ? 2 : 1), 3);
+  }
+  positions(column, point) {
+    for (const axis of this.axes) this.find(`${column}-${"XYZ"[axis]}`).textContent = point ? this.shown(point, axis) : "–";
+  }
+  show({step, row, point, speed, item}) {
+    const {run, find} = this, at = Math.max(row, 0);
+    this.positions("tool", point);
+    this.positions("machine", point.map((value, k) => value + run.origin[k]));
+    const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = run.row.spindle.value(at) || 0;
+    const kind = row >= 0 ? run.path.kind[row] : -1, own = item >= 0 && run.itemRow[item] === row;
+    const programmed = perRev ? `${short(perRev)} mm/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${short(feed)}` : "";
+    find("feed").textContent = number(speed * 60, 0);
+    find("feed-programmed").textContent = own && kind <= PROBE ? programmed : "";
+    find("spindle").textContent = number(Math.abs(spindle), 0);
+    find("turning").textContent = spindle > 0 ? "clockwise" : spindle < 0 ? "counter-clockwise" : "stopped";
+    const label = row >= 0 && own ? run.row.label.value(row) : "";
+    find("doing").textContent = !own ? "" : label || KINDS[kind];
+    if (step === this.step) return;
+    this.step = step;
+    this.positions("program", step >= 0 ? run.position(step) : null);
+    const state = step >= 0 ? run.state(step) : {};
+    find("tool").textContent = toolText(state.tool);
+    this.modal(step, state);
+  }
+  modal(step, state) {
+    const {run} = this, before = step > 0 ? run.state(step - 1) : {}, text = step >= 0 ? run.texts[run.program[step]][run.lineOf(step) - 1] : "";
+    const changed = new Set(step >= 0 ? run.changed(step) : []);
+    const names = [...new Set([...Object.keys(state), ...[...changed].filter(name => before[name] !== undefined)])];
+    const cells = names.filter(name => !APART.includes(name) || (changed.has(name) && name !== "position" && step > 0)).map(name => {
+      const now = valueText(name, state[name]), old = before[name] === undefined ? "" : valueText(name, before[name]);
+      // the first step also sets what is active at power-on: there only what stands in the block is its doing
+      const mark = step > 0 ? changed.has(name) && now !== old : text.includes(now) && changed.has(name);
+      if (!mark && (now === "none" || APART.includes(name))) return null;
+      const cell = document.createElement("div"), head = document.createElement("dt"), value = document.createElement("dd");
+      if (mark) cell.className = "changed";
+      head.textContent = name.replace(/_/g, " ");
+      value.textContent = mark && old ? `${old} → ${now}` : now;
+      cell.append(head, value);
+      return cell;
+    }).filter(Boolean);
+    cells.sort((a, b) => (b.className > a.className) - (b.className < a.className));
+    this.find("modal").replaceChildren(...cells);
+  }
+}

@@ -1,0 +1,257 @@
+"""Cutter radius compensation: the programmed contour, the tool centre beside it, and how every corner was found.
+
+Arrows are the offset vectors, as long as the radius and square to the contour. What the tool cuts away behind the
+contour because it does not fit is hatched. Several rules or radii are several runs of one program, side by side.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from mnclab.path.compensation.construction import construct
+from mnclab.path.kinds import RULE_NAMES, Rule
+from mnclab.show.plot import colours
+from mnclab.show.plot.equidistant import CORNERS, Panel, draw, write
+from mnclab.show.plot.picture import (
+    ROW,
+    SIZE,
+    SMALL,
+    VIEWS,
+    Foot,
+    Picture,
+    View,
+    columns,
+    dress,
+    roomy,
+    write_foot,
+    write_legend,
+)
+from mnclab.show.plot.strokes import corners
+from mnclab.text.alarm import Alarm
+
+#: The kinds of places that do not fit, in few words.
+GOUGES = {
+    "arc": "inside arc too small",
+    "element": "used up by its corners",
+    "bottleneck": "too near to line {other}",
+    "end": "no room beside line {other}",
+    "corner": "straight corner reaches into line {other}",
+    "entry": "entry cuts into line {other}",
+    "exit": "exit cuts into line {other}",
+}
+WIDE = (12.0, 7.0)  # several pictures side by side
+TITLE, GAP, BELOW, RIGHT = 0.26, 0.5, 0.52, 0.16  # inches
+
+Array = NDArray[np.float64]
+
+
+def compensation(
+    run: Any,
+    ax: Axes | None = None,
+    *,
+    rules: Sequence[str] | None = None,
+    radii: Sequence[float] | None = None,
+    discs: bool | float | Sequence[int] = False,
+    vectors: bool = True,
+    names: bool = True,
+    view: str = "auto",
+    size: tuple[float, float] | None = None,
+) -> Figure:
+    """The contour of a run and the path of the tool centre; returns the figure, which Jupyter shows.
+
+    - ``ax``: draw into these axes of one's own, without legend; one rule and one radius at most.
+    - ``rules``: the program is run once for each of these ways to join outside corners ("G160", "G161", "G162";
+      "programmed" leaves it as it is), whatever it says itself.
+    - ``radii``: and once for each of these radii of all its tools, mm.
+    - ``discs``: the tool at the end of each compensated row; a number: every so many mm; a list: where the blocks in
+      these lines end.
+    - ``vectors``: offset vectors at the corners; ``names``: what was done there, written beside.
+    - ``view``: "XY", "XZ", "YZ" or "ZX"; "auto" is the plane of the first contour.
+    - ``size``: the greatest width and height in inches.
+
+    A run that was stopped because the tool does not fit is run again with the setting ``gouge = "mark"``, so that the
+    place is seen.
+    """
+    panels = [_panel(again, title, view) for title, again in _runs(run, rules, radii)]
+    if ax is not None:
+        if len(panels) > 1:
+            raise ValueError("axes of one's own have room for one rule and one radius")
+        low, high = roomy(*_box(panels, discs))
+        outlines = draw(ax, panels[0], discs, vectors)
+        dress(ax, panels[0].view)
+        _limit(ax, panels[0].view, low, high)
+        ax.apply_aspect()
+        write(ax, panels[0], outlines, names)
+        figure: Any = ax.get_figure(root=True)
+        return figure
+    return _picture(panels, discs, vectors, names, size or (WIDE if len(panels) > 1 else SIZE))
+
+
+def image(run: Any, size: tuple[float, float] = (6.4, 5.2), **options: Any) -> str:
+    """The picture as HTML with a name, for those who show pictures but do not draw."""
+    picture = compensation(run, size=size, **options)
+    assert isinstance(picture, Picture)
+    return picture.html()
+
+
+# --- the runs ---------------------------------------------------------------------------------------------------------
+
+
+def _runs(run: Any, rules: Sequence[str] | None, radii: Sequence[float] | None) -> list[tuple[str, Any]]:
+    """What is shown, and its title: the run itself, or the program run again for each rule and radius."""
+    for value in () if radii is None else radii:
+        if not math.isfinite(value):
+            raise Alarm(f"a tool radius must be a number of mm, got {value!r}")
+    found = []
+    for rule, radius in product([None] if rules is None else rules, [None] if radii is None else radii):
+        setup = run.setup
+        if rule is not None:
+            setup = setup.with_settings(outside_corners=rule)
+        if radius is not None:
+            setup = setup.with_radius(float(radius))
+        again = run if setup is run.setup else run.again(setup)
+        if again.gouges and not again.ok and "gouge" in again.settings:
+            again = again.again(setup.with_settings(gouge="mark"))
+        said = [rule] if rule else []
+        used = np.unique(np.abs(again.programmed.radius[again.programmed.side != 0]))
+        said += [f"radius {each:.4g} mm" for each in used[:3].tolist()]
+        if again.gouges:
+            said.append(f"largest {min(gouge.largest for gouge in again.gouges):.4g} mm")
+        found.append((", ".join(said), again))
+    return found
+
+
+def _panel(run: Any, title: str, view: str) -> Panel:
+    made = construct(run.programmed, run.control.compensation, not run.ok)
+    if view != "auto":
+        if view.upper() not in VIEWS:
+            raise ValueError(f"view must be auto or one of {', '.join(VIEWS)}, got {view!r}")
+        return Panel(title, run, made, VIEWS[view.upper()])
+    if run.toolpath.lathe:
+        return Panel(title, run, made, VIEWS["ZX"])
+    rows = np.flatnonzero(made.compensated)
+    normal = int(np.argmax(np.abs(made.path.axis[rows[0]]))) if len(rows) else 2
+    return Panel(title, run, made, VIEWS[("YZ", "XZ", "XY")[normal]])
+
+
+def _box(panels: Sequence[Panel], discs: Any) -> tuple[Array, Array]:
+    """The corners (3,) of the box that all panels show: contours, the tool centre beside them, the discs."""
+    clouds: list[Array] = []
+    for panel in panels:
+        beside = [xyz for line, xyz in panel.rows if line not in (colours.RAPID, colours.UNCOMPENSATED)]
+        clouds += beside + [xyz for _, xyz in panel.contour]
+        if discs is not False or panel.overcuts:
+            reach = np.abs(panel.run.programmed.radius).max() if beside else 0.0
+            clouds += [xyz + sign * reach for xyz in beside for sign in (-1, 1)]
+    found = corners(clouds, False) or corners([xyz for panel in panels for _, xyz in panel.rows], False)
+    return found or (np.zeros(3), np.zeros(3))
+
+
+# --- the figure -------------------------------------------------------------------------------------------------------
+
+
+def _picture(panels: Sequence[Panel], discs: Any, vectors: bool, names: bool, size: tuple[float, float]) -> Picture:
+    low, high = roomy(*_box(panels, discs))
+    seen = panels[0].view
+    wide, tall = float((high - low)[seen.right]), float((high - low)[seen.up])
+    handles = _handles(panels)
+    words = [str(handle.get_label()) for handle in handles]
+    foot = _foot(panels)
+    left, bottom = 0.72, BELOW + (ROW if foot else 0)
+
+    def room(count: int) -> tuple[float, float]:
+        """Inches a millimetre, and the height of the legend, for so many panels in a row."""
+        lines, above = math.ceil(len(panels) / count), 0.06 + ROW * math.ceil(len(words) / columns(words, size[0]))
+        free = size[0] - count * (left + RIGHT), size[1] - above - bottom - lines * TITLE - (lines - 1) * GAP
+        return min(free[0] / count / wide, free[1] / lines / tall), above
+
+    full = [n for n in range(1, len(panels) + 1) if len(panels) % n == 0 or len(panels) > 4]
+    count = max(full, key=lambda n: (room(n)[0] * (1.5 if n == len(panels) < 4 else 1.0), n))
+    scale = room(count)[0]
+    box, height = max(scale * wide, 1.6), max(scale * tall, 1.6)
+    lines, width = math.ceil(len(panels) / count), max(4.6, count * (left + RIGHT + box))
+    box = width / count - left - RIGHT
+    above = 0.06 + ROW * math.ceil(len(words) / columns(words, width))
+    total = above + bottom + lines * (TITLE + height) + (lines - 1) * GAP
+    picture = Picture((width, total), _in_words(panels))
+    for k, panel in enumerate(panels):
+        row, column = divmod(k, count)
+        x = column * width / count + left
+        y = total - above - (row + 1) * (TITLE + height) - row * GAP
+        ax = picture.add_axes((x / width, y / total, box / width, height / total))
+        dress(ax, panel.view, (box, height))
+        _limit(ax, panel.view, low, high, (box, height))
+        ax.apply_aspect()
+        if panel.title:
+            ax.set_title(panel.title, fontsize=SMALL + 1, loc="left", pad=4)
+        if column:
+            ax.set_ylabel("")
+        if k + count < len(panels):
+            ax.set_xlabel("")
+        write(ax, panel, draw(ax, panel, discs, vectors), names)
+    write_legend(picture, handles)
+    if foot:
+        write_foot(picture, foot)
+    return picture
+
+
+def _limit(ax: Axes, view: View, low: Array, high: Array, box: tuple[float, float] | None = None) -> None:
+    """The limits of a view; in a ``box`` of inches as much more on both sides as it has room."""
+    axes = [view.right, view.up]
+    middle, half = (low + high)[axes] / 2, (high - low)[axes] / 2
+    if box:
+        half = np.array(box) * float((half / box).max())
+    (left, bottom), (right, top) = middle - half, middle + half
+    ax.set(xlim=(left, right), ylim=(bottom, top))
+
+
+def _handles(panels: Sequence[Panel]) -> list[Any]:
+    """What the legend names: lines in the order of the table, corners that have no line of their own, gouges."""
+    shown = {line for panel in panels for line, _ in [*panel.contour, *panel.rows]}
+    for panel in panels:
+        shown |= {CORNERS[Rule(rule)] for rule in np.unique(panel.made.rule).tolist()}
+    order = [colours.CONTOUR, *CORNERS.values(), colours.RAPID]
+    found: list[Any] = []
+    for line in dict.fromkeys(order):
+        if line in shown:
+            marker = "o" if line in (colours.INSIDE_CORNER, colours.STRAIGHT_CORNER) else None
+            found.append(Line2D([], [], **line.style(), marker=marker, markersize=3.5))
+    if any(panel.run.gouges for panel in panels):
+        found.append(Patch(facecolor="none", edgecolor=colours.GOUGE, hatch="/////", linewidth=0.6, label="gouge"))
+    return found
+
+
+def _foot(panels: Sequence[Panel]) -> Foot | None:
+    """The first place that does not fit, or the alarm that stopped the program."""
+    for panel in panels:
+        if panel.made.found is None and len(panels) == 1 and panel.run.ok:
+            return Foot("no radius compensation in this program")
+        stop = next((alarm for alarm in panel.run.alarms if not panel.run.ok and alarm.severity == "alarm"), None)
+        if stop is not None:
+            return Foot(f"line {stop.span.line}: {stop.message}" if stop.span else stop.message, colours.GOUGE)
+        for gouge in panel.run.gouges:
+            what = f"line {gouge.line}: {GOUGES[gouge.kind].format(other=gouge.other)}, {gouge.missing:.4g} mm missing"
+            more = len(panel.run.gouges) - 1
+            rest = f"; {more} more {'places' if more > 1 else 'place'}" if more else ""
+            return Foot(f"{what}; the largest radius is {gouge.largest:.4g} mm{rest}", colours.GOUGE)
+    return None
+
+
+def _in_words(panels: Sequence[Panel]) -> str:
+    said = []
+    for panel in panels:
+        done = [Rule(rule) for rule in panel.made.rule]
+        counts = [f"{done.count(rule)} {RULE_NAMES[rule]}" for rule in Rule if rule in done]
+        gouges = f"; {len(panel.run.gouges)} gouges" if panel.run.gouges else ""
+        said.append(f"{panel.title}: {', '.join(counts) or 'nothing compensated'}{gouges}")
+    return "radius compensation: " + " | ".join(said)

@@ -1,0 +1,227 @@
+"""One view of compensated contours: the path by rules, offset vectors, tool discs, gouges hatched, names of corners."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import EllipseCollection
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from mnclab.path.compensation.construction import Construction
+from mnclab.path.compensation.overcut import Overcut, overcuts
+from mnclab.path.kinds import RULE_NAMES, Kind, Rule
+from mnclab.path.toolpath import Toolpath
+from mnclab.show.plot import colours
+from mnclab.show.plot.colours import Line, Mark
+from mnclab.show.plot.datums import Place, write_names
+from mnclab.show.plot.picture import View
+from mnclab.show.plot.strokes import parted, strokes
+
+#: How rows look by their rule; rows along the contour are called after the corner at their end and look alike.
+ROWS: dict[Rule, Line] = {
+    Rule.NONE: colours.UNCOMPENSATED,
+    Rule.SIDE: colours.ALONG,
+    Rule.OUTSIDE_ARC: colours.ROUND_CORNER,
+    Rule.OUTSIDE_STRAIGHT: colours.ALONG,
+    Rule.INSIDE: colours.ALONG,
+    Rule.ENTRY: colours.ENTRY,
+    Rule.EXIT: colours.EXIT,
+    Rule.CHANGE: colours.CHANGE,
+}
+#: How corners look by their rule.
+CORNERS: dict[Rule, Line] = {
+    **ROWS,
+    Rule.OUTSIDE_STRAIGHT: colours.STRAIGHT_CORNER,
+    Rule.INSIDE: colours.INSIDE_CORNER,
+}
+NAMED = 8  # corners beyond which only the first of each rule has its name beside it
+MANY = 400  # offset vectors beyond which they say nothing and are not drawn
+COARSE, FINE = 90, 300  # points along the longer side of a box in which the cut-away area is looked for
+SQUARE = 0.16  # of the radius: the mark of a right angle
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One run of the program, and what is said above it."""
+
+    title: str
+    run: Any
+    made: Construction
+    view: View
+
+    def flat(self, points: Array) -> Array:
+        """Points (m, 3) as they are seen (m, 2)."""
+        return np.asarray(points[:, [self.view.right, self.view.up]])
+
+    @cached_property
+    def rows(self) -> list[tuple[Line, Array]]:
+        """The tool-centre path by rule, points (m, 3) broken by nan."""
+        path = self.run.toolpath
+        looks = [*dict.fromkeys(ROWS.values()), colours.RAPID]
+        look = np.array([looks.index(ROWS[Rule(rule)]) for rule in range(len(Rule))])
+        drawn = strokes(path)
+        group = look[path.rule[drawn.row]] if len(drawn.row) else drawn.row
+        group[(path.kind[drawn.row] == Kind.RAPID) & (group == look[Rule.NONE])] = len(looks) - 1
+        group[drawn.row < 0] = -1
+        found = [(line, xyz) for line, xyz in zip(looks, parted(drawn.xyz, group, len(looks))) if len(xyz)]
+        return [(line, xyz) for line, xyz in found if np.nansum(np.abs(np.diff(self.flat(xyz), axis=0))) > 0]
+
+    @cached_property
+    def contour(self) -> list[tuple[Line, Array]]:
+        """The programmed contour, and the programmed lines that lead to it and away."""
+        if self.made.found is None:
+            return []
+        el, path = self.made.found.el, self.made.path
+        group_of = np.full(len(path) + 1, -1)
+        group_of[el.rows[el.wall]], group_of[el.rows[el.entry | el.change | el.exit]] = 0, 1
+        drawn = strokes(path)
+        pieces = parted(drawn.xyz, np.where(drawn.row < 0, -1, group_of[drawn.row]), 2)
+        return [(line, xyz) for line, xyz in zip((colours.CONTOUR, colours.LEAD), pieces) if len(xyz)]
+
+    @cached_property
+    def overcuts(self) -> list[Overcut]:
+        """The contours that the tool cuts into."""
+        return list(overcuts(self.made, [gouge.step for gouge in self.run.gouges]))
+
+
+def draw(ax: Axes, panel: Panel, discs: Any, vectors: bool) -> list[Array]:
+    """Add all but the names to an axes; returns the outlines (n, 3) of what is hatched."""
+    for line, xyz in [*panel.contour, *panel.rows]:
+        ax.add_line(Line2D(*panel.flat(xyz).T, **line.style()))
+    if discs is not False:
+        _draw_discs(ax, panel, discs)
+    if vectors and 0 < len(panel.made.of) <= MANY:
+        _draw_vectors(ax, panel)
+    outlines = [outline for overcut in panel.overcuts for outline in _hatch(ax, panel, overcut)]
+    if panel.run.gouges:
+        places = panel.flat(np.array([gouge.place for gouge in panel.run.gouges]))
+        ax.add_line(Line2D(*places.T, **{**colours.ALARM.style(), "markersize": 6, "label": "_gouges"}))
+    return outlines
+
+
+def _draw_vectors(ax: Axes, panel: Panel) -> None:
+    """One set of arrows for each rule, and a right angle where the tool enters and leaves square to the contour."""
+    made = panel.made
+    foot, tip, rule = panel.flat(made.foot), panel.flat(made.tip), made.rule[made.of]
+    for code in np.unique(rule).tolist():
+        k, look = np.flatnonzero(rule == code), CORNERS[Rule(code)]
+        ax.quiver(
+            *foot[k].T, *(tip[k] - foot[k]).T, angles="xy", scale_units="xy", scale=1, units="inches", width=0.011,
+            headwidth=5, headlength=7, headaxislength=6, minlength=0, color=look.colour, zorder=3.2,
+            label=f"_{RULE_NAMES[Rule(code)]}",
+        )  # fmt: skip
+        if code in (Rule.INSIDE, Rule.OUTSIDE_STRAIGHT):
+            path = panel.run.toolpath
+            ends = panel.flat(path.end[path.rule == code])
+            ax.add_line(Line2D(*ends.T, color=look.colour, linestyle="none", marker="o", markersize=3.5, zorder=3.3))
+        if code in (Rule.ENTRY, Rule.EXIT, Rule.CHANGE):
+            ax.add_line(Line2D(*panel.flat(_squares(made, code)).T, color=look.colour, linewidth=0.7, zorder=3.1))
+
+
+def _squares(made: Construction, *rules: int) -> Array:
+    """Right angles between the contour and offset vectors that stand alone at corners of some rules, nan between."""
+    alone = np.bincount(made.of, minlength=len(made.rule)) == 1
+    k = np.flatnonzero(alone[made.of] & np.isin(made.rule[made.of], rules))
+    up = SQUARE * (made.tip[k] - made.foot[k])
+    on = made.along[made.of[k]] * np.linalg.norm(up, axis=1)[:, None]
+    return _strokes(made.foot[k] + on, made.foot[k] + on + up, made.foot[k] + up)
+
+
+def _draw_discs(ax: Axes, panel: Panel, discs: Any) -> None:
+    at, radius = disc_places(panel.run.toolpath, discs)
+    if len(at):
+        artist = EllipseCollection(
+            2 * radius, 2 * radius, np.zeros(len(at)), units="xy", offsets=panel.flat(at), offset_transform=ax.transData,
+            facecolors=colours.DISC + "18", edgecolors=colours.DISC, linewidths=0.6, zorder=2.0, label="_discs",
+        )  # fmt: skip
+        ax.add_collection(artist, autolim=False)
+
+
+def disc_places(path: Toolpath, discs: bool | float | Sequence[int]) -> tuple[Array, Array]:
+    """Where discs stand (m, 3), and their radii (m,): see :func:`mnclab.show.plot.compensation.compensation`."""
+    rows = np.flatnonzero((path.rule != Rule.NONE) & path.is_motion)
+    if discs is True or not isinstance(discs, int | float):
+        if discs is not True:
+            rows = rows[np.isin(path.line[rows], list(discs))]
+        at, of = path.end[rows], rows
+    else:
+        if not discs > 0:
+            raise ValueError(f"discs stand every so many mm, more than 0, got {discs:g}")
+        drawn = strokes(path[rows])
+        way = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(drawn.xyz, axis=0), axis=1) * (drawn.row[1:] >= 0)))
+        stations = np.arange(0.0, way[-1] + 1e-9, discs) if len(rows) else np.empty(0)
+        at = np.stack([np.interp(stations, way, column) for column in drawn.xyz.T], axis=1)
+        of = rows[np.maximum(drawn.row[np.searchsorted(way, stations).clip(0, len(way) - 1)], 0)]
+    radius = np.abs(path.radius[of])
+    radius[path.rule[of] == Rule.EXIT] = np.abs(path.radius[np.maximum(of - 1, 0)])[path.rule[of] == Rule.EXIT]
+    return at, radius
+
+
+def _hatch(ax: Axes, panel: Panel, overcut: Overcut) -> list[Array]:
+    """What is cut away behind the contour: looked for in coarse steps, drawn in fine ones; returns its outlines."""
+    low, high = overcut.box
+    for count in (COARSE, FINE):
+        step = float((high - low).max()) / (count - 1)
+        u, v = np.arange(low[0], high[0] + step, step), np.arange(low[1], high[1] + step, step)
+        grid = np.stack(np.meshgrid(u, v), axis=-1)
+        depth = overcut.depth(grid.reshape(-1, 2)).reshape(grid.shape[:2])
+        inside = grid[depth > -step]
+        if not len(inside):
+            return []
+        low, high = inside.min(axis=0) - step, inside.max(axis=0) + step
+    if not (depth > 0).any():
+        return []
+    flat = grid.reshape(-1, 2)
+    rows = np.full(len(flat), overcut.row)
+    seen = panel.flat(panel.made.view.to_space(rows, np.column_stack([flat, np.full(len(flat), overcut.height)])))
+    x, y = seen[:, 0].reshape(depth.shape), seen[:, 1].reshape(depth.shape)
+    area = ax.contourf(x, y, depth, levels=[0.0, np.inf], colors=[colours.GOUGE + "22"], hatches=["/////"], zorder=2.1)
+    area.set_edgecolor(colours.GOUGE)
+    area.set_linewidth(0.6)
+    area.set_label("_gouge")
+    outlines = []
+    for path in area.get_paths():
+        for ring in map(np.asarray, path.to_polygons(closed_only=False)):
+            outline = np.zeros((len(ring), 3))
+            outline[:, [panel.view.right, panel.view.up]] = ring
+            outlines.append(outline)
+    return outlines
+
+
+def write(ax: Axes, panel: Panel, outlines: Sequence[Array], names: bool) -> None:
+    """What was done at the corners, beside them."""
+    made = panel.made
+    if not names or not len(made.rule):
+        return
+    k = np.flatnonzero(made.rule != Rule.SIDE)
+    if len(k) > NAMED:
+        k = k[np.unique(made.rule[k], return_index=True)[1]]
+    occupied = panel.flat(np.concatenate([made.place, made.tip]))
+    lines = [xyz for _, xyz in [*panel.contour, *panel.rows]]
+    lines += [_strokes(made.foot, made.tip), _squares(made, Rule.ENTRY, Rule.EXIT, Rule.CHANGE), *outlines]
+    left = np.sort(k).tolist()
+    for short, covering in ((False, 0), (True, 0)):
+        places = [_named(made, at, short) for at in left]
+        missing = write_names(ax, panel.view, places, occupied, lines, covering)
+        left = [at for at, place in zip(left, places) if place in missing]
+
+
+def _strokes(*points: Array) -> Array:
+    """Strokes through one point (n, 3) of each kind, as one line broken by nan."""
+    return np.stack([*points, np.full_like(points[0], np.nan)], axis=1).reshape(-1, 3)
+
+
+def _named(made: Construction, at: int, short: bool) -> Place:
+    """A corner with the name of its rule; in short without what most corners share."""
+    rule = Rule(made.rule[at])
+    name = RULE_NAMES[rule]
+    x, y, z = made.place[at].tolist()
+    return Place(Mark(name, CORNERS[rule].colour, "", 0, True, 4.0), name.split(", ")[-1] if short else name, (x, y, z))

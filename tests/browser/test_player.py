@@ -1,0 +1,337 @@
+"""The player in a notebook and as a file without a network: what it shows is what a fresh run says."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import mnclab
+from mnclab.show.player.payload import plain
+
+PROGRAM = """N10 G17 G90 G54
+N20 T1 S1200 M3
+N30 G0 X-20 Y-10 Z5
+N40 G1 Z-2 F150
+N50 X30 F300
+N60 G3 X40 Y0 R10
+N70 G1 Y30
+N80 G91 X-10
+N90 G90 G0 Z20
+N100 T2 S800 M3
+N110 G83 X10 Y10 Z-8 R2 K4 F100
+N120 G80
+"""
+LATHE = "S800\nM3\nF20\nX4000 ~\nZ200 ~\nX3000 ~\nZ-2000\nX4200\nZ200 ~\n"
+LINES = PROGRAM.splitlines()
+
+STATE = """step => {
+    const run = window.player.run, state = run.state(step);
+    return {state, tip: run.path.vertex(run.rowsDone(run.first[step + 1] - 1, true))};
+}"""
+PLACE = "() => { const p = window.player; return {step: p.step, ...p.now()}; }"
+FITTED = """
+    const {camera, box} = window.player.picture, [w, h] = camera.size;
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(k => camera.project([0, 1, 2].map(axis => box[k >> axis & 1][axis])));
+    const [wide, high] = [0, 1].map(k => Math.max(...corners.map(c => c[k])) - Math.min(...corners.map(c => c[k])));
+    if (!corners.every(([x, y]) => x > 0 && x < w && y > 0 && y < h)) throw Error("the path is not in the picture");
+    if (wide < w / 3 && high < h / 3) throw Error("the path is a speck");
+"""
+READBACK = "Multiple readback operations"  # the browser's word on FRAME, which reads a pixel to wait
+FRAME = """() => {
+    const p = window.player, times = [];
+    for (let k = 0; k < 15; k++) {
+        p.picture.camera.turn(3, 0.2);
+        p.picture.stale = true;
+        const begin = performance.now();
+        p.write();
+        p.draw();
+        p.find('picture').getContext('2d').getImageData(1, 1, 1, 1);  // waits until all is drawn
+        times.push(performance.now() - begin);
+    }
+    return times.sort((a, b) => a - b)[7];
+}"""
+
+
+@pytest.fixture
+def open_file(browser, tmp_path):
+    """open_file(run) saves the page and opens it in a browser that is offline; faults of the page fail the test."""
+    faults, contexts = [], []
+
+    def opened(run, **options):
+        path = run.save(tmp_path / "part.html")
+        context = browser.new_context(**{"viewport": {"width": 1000, "height": 700}, **options})
+        contexts.append(context)
+        context.set_offline(True)
+        context.route(re.compile("^(?!file:)"), lambda route: faults.append(route.request.url) or route.abort())
+        page = context.new_page()
+        page.on("console", lambda message: READBACK in message.text or faults.append(message.text))
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.goto(path.as_uri())
+        page.wait_for_function("window.player")
+        return page
+
+    yield opened
+    for context in contexts:
+        context.close()
+    assert faults == []
+
+
+def shown(page, column):
+    """The read-out of a column as numbers."""
+    cells = [page.locator(f"#{column}-{axis}") for axis in "XYZ"]
+    return [float(cell.inner_text().replace("\N{MINUS SIGN}", "-")) for cell in cells]
+
+
+def fresh(lines):
+    """A fresh run of the first lines of the program: its last moment and where the tool is."""
+    run = mnclab.run("\n".join(LINES[:lines]) + "\n", "mnc")
+    return run.at(step=lines - 1), run.toolpath.end[-1] if len(run.toolpath) else run.toolpath.origin
+
+
+def assert_like_fresh(page, lines):
+    """The page says what a fresh run of the first lines says, in its data and in its read-outs."""
+    moment, tip = fresh(lines)
+    found = page.evaluate(STATE, lines - 1)
+    expected = {name: plain(value) for name, value in moment.state.items()}
+    assert found["tip"] == pytest.approx(tip, abs=1e-6)
+    assert found["state"].pop("position") == pytest.approx(expected.pop("position"), abs=1e-6)
+    assert found["state"] == expected
+    assert page.evaluate(PLACE)["step"] == lines - 1
+    assert shown(page, "tool") == pytest.approx(tip, abs=5e-4)
+    assert shown(page, "program") == pytest.approx(moment.position, abs=5e-4)
+    assert page.locator(".line.now code").all_inner_texts() == [LINES[lines - 1]]
+
+
+def test_steps_on_and_back_show_the_states_of_fresh_runs(open_file):
+    page = open_file(mnclab.run(PROGRAM, "mnc"))
+    for lines in range(1, len(LINES) + 1):
+        page.keyboard.press("ArrowRight")
+        assert_like_fresh(page, lines)
+    for lines in range(len(LINES) - 1, 0, -1):
+        page.keyboard.press("ArrowLeft")
+        assert_like_fresh(page, lines)
+    page.keyboard.press("ArrowLeft")
+    assert page.evaluate(PLACE)["step"] == -1 and shown(page, "tool") == [0, 0, 0]
+
+
+def test_what_a_block_changed_is_marked(open_file):
+    page = open_file(mnclab.run(PROGRAM, "mnc"))
+    page.get_by_role("option", name="line 8: N80 G91 X-10").click()
+    assert page.locator("#modal .changed").all_inner_texts() == ["dimension\nG90 → G91"]
+    assert page.get_by_role("status").inner_text().startswith("line 8: N80 G91 X-10; tool at X 30.000, Y 30.000")
+
+
+def test_a_line_the_slider_and_moves_lead_there(open_file):
+    run = mnclab.run(PROGRAM, "mnc")
+    page = open_file(run)
+    page.get_by_role("option", name="line 5: N50 X30 F300").click()
+    assert_like_fresh(page, 5)
+    page.keyboard.press("Comma")  # a move back: before the cut
+    assert_like_fresh(page, 4)
+    page.keyboard.press("Period")
+    assert_like_fresh(page, 5)
+    slider = page.get_by_role("slider", name="time")
+    for share in (0.3, 0.71, 0.05):
+        slider.fill(str(share))
+        instant = run.profile().at(share * run.profile().time)
+        assert shown(page, "tool") == pytest.approx(instant.position, abs=2e-3)
+        speed = float(page.locator("#feed").inner_text())
+        assert speed == pytest.approx(instant.v * 60, abs=1 + 0.01 * instant.v * 60)
+    slider.press("End")
+    assert shown(page, "tool") == pytest.approx(run.toolpath.end[-1], abs=5e-4)
+
+
+def test_a_click_on_the_path_goes_to_that_point(open_file):
+    page = open_file(mnclab.run(PROGRAM, "mnc"))
+    for key in "4321":  # at last from above
+        page.keyboard.press(key)
+        page.evaluate(f"() => {{ {FITTED} }}")
+    canvas = page.get_by_role("img", name="tool path")
+    box = canvas.bounding_box()
+    x, y = page.evaluate("() => window.player.picture.camera.project([40, 20, -2])")
+    page.mouse.click(box["x"] + x, box["y"] + y)
+    assert page.locator(".line.now code").all_inner_texts() == ["N70 G1 Y30"]
+    assert shown(page, "tool") == pytest.approx([40, 20, -2], abs=0.4)
+
+
+REPEATED = """BEGIN PGM REP MM
+TOOL CALL 1 Z S2000
+L X+0 Y+0 Z+5 R0 FMAX M3
+LBL 1
+L IX+10 R0 F500
+L IY+5
+CALL LBL 1 REP2
+END PGM REP MM
+"""
+
+
+def test_a_click_on_a_repeated_line_goes_from_pass_to_pass(open_file):
+    run = mnclab.run(REPEATED, "tnc-620")
+    assert run.ok
+    page = open_file(run)
+    line = page.get_by_role("option", name="line 5: L IX+10")
+    for times in (1, 2, 3, 1):
+        line.click()
+        assert shown(page, "tool") == [10 * times, 5 * (times - 1), 5]
+        moment = run.at(line=5, pass_=times)
+        assert page.evaluate(PLACE)["step"] == moment.step
+    for step in range(len(run.steps.block)):
+        found = page.evaluate(STATE, step)["state"]
+        expected = {name: plain(value) for name, value in run.at(step=step).state.items()}
+        assert found.pop("position") == pytest.approx(expected.pop("position"))
+        assert found == expected
+
+
+@pytest.mark.parametrize("limits", [mnclab.Limits(), mnclab.Limits(rapid=4000, acceleration=300, jerk=4000)])
+def test_at_any_time_the_tool_is_where_the_profile_says(open_file, limits):
+    run = mnclab.run(PROGRAM, "mnc", mnclab.Setup(limits=limits))
+    times = [run.profile().time * (k + 0.5) / 300 for k in range(300)]
+    page = open_file(run)
+    found = page.evaluate("times => times.map(t => window.player.run.tool(window.player.run.itemAt(t), t))", times)
+    instant = run.profile().at(times)
+    assert abs([each["point"] for each in found] - instant.position).max() < 2e-3
+    assert abs([each["speed"] for each in found] - instant.v).max() < 0.1
+
+
+def test_fingers_tap_and_pinch(open_file):
+    page = open_file(mnclab.run(PROGRAM, "mnc"), viewport={"width": 390, "height": 844}, has_touch=True)
+    page.get_by_role("button", name="Top").tap()
+    box = page.get_by_role("img", name="tool path").bounding_box()
+    x, y = page.evaluate("() => window.player.picture.camera.project([40, 20, -2])")
+    page.touchscreen.tap(box["x"] + x, box["y"] + y)
+    assert page.locator(".line.now code").all_inner_texts() == ["N70 G1 Y30"]
+    before = page.evaluate("() => window.player.picture.camera.zoom")
+    fingers, middle = page.context.new_cdp_session(page), [box["x"] + 150, box["y"] + 150]
+    for apart, kind in ((30, "touchStart"), (45, "touchMove"), (60, "touchMove")):
+        points = [{"x": middle[0] + sign * apart, "y": middle[1], "id": k} for k, sign in enumerate((-1, 1))]
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    fingers.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    assert page.evaluate("() => window.player.picture.camera.zoom") == pytest.approx(2 * before, rel=0.02)
+
+
+def test_it_plays_forwards_and_backwards(open_file):
+    page = open_file(mnclab.run(PROGRAM, "mnc"))
+    page.get_by_role("combobox", name="Speed").select_option("10")
+    play = page.get_by_role("button", name="play", exact=True)
+    play.click()
+    assert play.get_attribute("aria-pressed") == "true"
+    page.wait_for_function("() => window.player.place.t > 3")
+    page.get_by_role("button", name="play backwards").click()
+    page.wait_for_function("() => window.player.atStart && !window.player.playing")
+    page.keyboard.press("End")
+    assert page.evaluate(PLACE)["step"] == len(LINES) - 1
+
+
+def test_everything_has_a_name(open_file):
+    page = open_file(mnclab.run(PROGRAM, "mnc"))
+    tree = page.locator("main").aria_snapshot()
+    for part in (
+        'listbox "program text"',
+        'slider "time"',
+        'img "speed over time"',
+        'combobox "Speed"',
+        'group "View"',
+    ):
+        assert part in tree
+    assert not re.search(r"- (button|slider|combobox|img|option|listbox)( \[|:|$)", tree, re.M), tree
+    names = ["to the start", "block back", "move back", "play backwards", "play", "move on", "block on", "to the end"]
+    for name in [*names, "zoom in", "zoom out", "Fit", "light or dark", "keys", "Top", "Front", "Side", "3D"]:
+        assert page.get_by_role("button", name=name, exact=True).count() == 1
+
+
+@pytest.mark.parametrize(("width", "height"), [(1100, 700), (700, 640), (390, 844), (320, 640)])
+def test_nothing_is_cut_off_sideways(open_file, width, height):
+    page = open_file(mnclab.run(PROGRAM, "mnc"), viewport={"width": width, "height": height})
+    page.get_by_role("option", name="line 6:").click()
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    page.evaluate(f"() => {{ {FITTED} }}")
+    cells = page.locator("td:visible, .meters dd:visible, button:visible, select:visible, #modal div:visible")
+    for box in (cells.nth(k).bounding_box() for k in range(cells.count())):
+        assert box["x"] >= 0 and box["x"] + box["width"] <= width + 0.5
+    buttons = [page.get_by_role("button").nth(k).bounding_box() for k in range(page.get_by_role("button").count())]
+    apart = [(a, b) for i, a in enumerate(buttons) for b in buttons[i + 1 :] if a and b]
+    for a, b in apart:
+        across = min(a["x"] + a["width"], b["x"] + b["width"]) - max(a["x"], b["x"])
+        down = min(a["y"] + a["height"], b["y"] + b["height"]) - max(a["y"], b["y"])
+        assert across <= 1.5 or down <= 1.5
+
+
+def test_a_lathe_opens_on_z_and_x_and_shows_diameters(open_file):
+    page = open_file(mnclab.run(LATHE, "nc-31"))
+    assert page.get_by_role("button", name="ZX").get_attribute("aria-pressed") == "true"
+    page.get_by_role("option", name="line 6: X3000 ~").click()
+    assert page.locator("#tool-X").inner_text() == "30.000" and page.locator("#tool-Z").inner_text() == "2.000"
+    assert page.get_by_role("rowheader", name="X").inner_text() == "\N{DIAMETER SIGN} X"
+
+
+def test_light_and_dark(open_file):
+    page = open_file(mnclab.run(PROGRAM, "mnc"), color_scheme="dark")
+    ground = "getComputedStyle(document.body).backgroundColor"
+    dark = page.evaluate(ground)
+    page.get_by_role("button", name="light or dark").click()
+    assert dark == "rgb(21, 24, 27)" and page.evaluate(ground) == "rgb(255, 255, 255)"
+
+
+def test_an_alarm_is_said_and_leads_to_its_line(open_file):
+    page = open_file(mnclab.run("G0 X1\nG1 X4,5 F100\nX7\n", "mnc"))
+    page.get_by_role("button", name="alarm in line 2:").click()
+    assert page.get_by_role("status").inner_text() == "line 2: G1 X4,5 F100; tool at X 1.000, Y 0.000, Z 0.000"
+    page.get_by_role("option", name="line 3: X7").click()
+    assert page.get_by_role("status").inner_text() == "line 3 is not executed"
+    assert page.locator(".line.alarm code").all_inner_texts() == ["G1 X4,5 F100"]
+
+
+def test_programs_without_moves_open(open_file):
+    for text in ("// nothing\n", "G90\n", "\n"):
+        page = open_file(mnclab.run(text, "mnc"))
+        for key in ("ArrowRight", "ArrowLeft", "Period", "Comma", "End", "Home", " ", "2", "f"):
+            page.keyboard.press(key)
+
+
+def test_a_frame_of_fifty_thousand_moves_is_quick(open_file):
+    import numpy as np
+
+    k = np.arange(50_000)
+    x, y = np.cos(k / 40) * (80 + k / 5000), np.sin(k / 40) * 60
+    lines = [f"G1 X{a:.3f} Y{b:.3f} Z{c:.3f}" for a, b, c in zip(x, y, -k / 10_000)]
+    page = open_file(mnclab.run("G90 G54 T1 S3000 M3 F1500\n" + "\n".join(lines) + "\n", "mnc"))
+    page.evaluate("() => window.player.go(window.player.atTime(window.player.run.time * 0.8))")
+    milliseconds = page.evaluate(FRAME)
+    print(f"a turned frame of 50,000 moves: {milliseconds:.1f} ms")
+    assert milliseconds < 150  # 20 ms on a machine with nothing else to do
+
+
+def test_it_works_in_a_notebook_follows_its_theme_and_outlives_its_export(run_cells, lab, browser, tmp_path):
+    cell = f"import mnclab as mnc\nmnc.run({PROGRAM!r}, 'mnc').player()"
+    page = run_cells(cell)
+    player = page.frame_locator("iframe[title^='player of']")
+    player.get_by_role("option", name="line 5: N50 X30 F300").click()
+    player.get_by_role("button", name="block back").click()
+    said = player.get_by_role("status").filter(has_text="line 4: N40 G1 Z-2 F150; tool at X \N{MINUS SIGN}20.000")
+    said.wait_for(state="attached", timeout=5000)
+    player.locator("#picture").evaluate(f"() => {{ {FITTED} }}")
+    for theme in ("dark", "light"):
+        set_theme = "theme => window.jupyterapp.commands.execute('apputils:change-theme', {theme})"
+        page.evaluate(set_theme, f"JupyterLab {theme.title()}")
+        player.locator(f":root[data-shown={theme}]").wait_for(state="attached", timeout=5000)
+    folder = Path(lab[1])
+    page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
+    page.wait_for_timeout(1000)
+    export = export_html(folder / "cells.ipynb", tmp_path)
+    context = browser.new_context(offline=True)
+    exported = context.new_page()
+    exported.goto(export.as_uri(), wait_until="domcontentloaded")
+    player = exported.frame_locator("iframe[title^='player of']")
+    player.get_by_role("option", name="line 6: N60 G3 X40 Y0 R10").click()
+    player.get_by_role("status").filter(has_text="tool at X 40.000, Y 0.000").wait_for(state="attached", timeout=5000)
+    context.close()
+
+
+def export_html(notebook, folder):
+    """The notebook as nbconvert writes it to HTML."""
+    from nbconvert import HTMLExporter
+
+    text, _ = HTMLExporter().from_filename(str(notebook))
+    path = folder / "export.html"
+    path.write_text(text, "utf-8")
+    return path

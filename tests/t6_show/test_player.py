@@ -1,0 +1,234 @@
+"""The player's data says what a fresh run says: its columns are unpacked here as the page unpacks them."""
+
+import base64
+import json
+import random
+import re
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import mnclab
+from mnclab import Alarm, Limits, Setup
+from mnclab.show.player.packing import Packer
+from mnclab.show.player.payload import payload, plain
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAMS = sorted(
+    path
+    for pattern in ("data/programs/*/*", "tests/programs/*/*", "tests/t5_controls/nc_31/examples/*")
+    for path in ROOT.glob(pattern)
+    if path.is_file() and path.suffix != ".expected"
+)
+INDICES = 500  # steps looked at, over all programs
+
+
+def unpack(text):
+    """Header and columns of a payload, the columns as lists of whole numbers."""
+    data = zlib.decompress(base64.b64decode(text))
+    size = int.from_bytes(data[:4], "little")
+    header, at, columns = json.loads(data[4 : 4 + size]), 4 + size, []
+    for count in header["columns"]:
+        column, before = [], 0
+        for _ in range(count):
+            value = shift = 0
+            while True:
+                byte, at = data[at], at + 1
+                value |= (byte & 127) << shift
+                shift += 7
+                if byte < 128:
+                    break
+            before += -(value + 1) // 2 if value % 2 else value // 2
+            column.append(before)
+        columns.append(column)
+    assert at == len(data)
+    return header, columns
+
+
+class Data:
+    """What the page can know of a run."""
+
+    def __init__(self, text):
+        self.header, columns = unpack(text)
+        self.columns = [np.array(column, dtype=np.float64) for column in columns]
+        self.row_step = self.columns[self.header["row"]["step"]]
+        self.scale = self.header["scale"]
+        self.vertices = np.stack([self.columns[k] for k in self.header["path"]["vertex"]], axis=1)
+
+    def tip(self, step):
+        return self.vertices[np.searchsorted(self.row_step, step, "right")] / self.scale
+
+    def log(self, log, index):
+        k = np.searchsorted(self.columns[log["at"]], index, "right") - 1
+        return None if k < 0 else log["values"][int(self.columns[log["of"]][k])]
+
+    def state(self, step):
+        found = {
+            name: value for name, log in self.header["history"].items() if (value := self.log(log, step)) is not None
+        }
+        at = self.columns[self.header["position"]["at"]]
+        k = np.searchsorted(at, step, "right") - 1
+        away = np.array([self.columns[each][k] for each in self.header["position"]["from"]])
+        vertex = self.vertices[np.searchsorted(self.row_step, at[k], "right")] if len(self.row_step) else 0.0
+        return found | {"position": ((vertex + away) / self.scale).tolist()}
+
+
+def control_of(path):
+    names = {"mnc": "mnc", "nc-31": "nc-31", "nc_31": "nc-31", "tnc-620": "tnc-620", "tnc_620": "tnc-620"}
+    return next(names[part] for part in reversed(path.parts) if part in names)
+
+
+def fresh(text, control, run, step):
+    """A run of the text up to the block of a step alone, where the blocks follow each other; else of the whole."""
+    blocks = run.steps.block[: step + 1]
+    if not np.array_equal(run.steps.block, np.arange(len(run.steps.block))):
+        return mnclab.run(text, control)
+    start = run.program.start
+    end = int(start[blocks[-1] + 1]) if blocks[-1] + 1 < len(run.program) else len(text)
+    cut = mnclab.run(text[:end], control)
+    if run.toolpath is run.programmed or len(cut.steps.block) == step + 1:
+        assert len(cut.steps.block) == step + 1
+        return cut
+    return mnclab.run(text, control)  # the contour ends in the air: only the whole knows where the tool is
+
+
+@pytest.fixture(scope="module")
+def chosen():
+    """Which steps of which programs are looked at."""
+    dice = random.Random(20)
+    whole = max(1, len(PROGRAMS))
+    return {path: [dice.random() for _ in range(-(-INDICES // whole))] for path in PROGRAMS}
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: "/".join(path.parts[-2:]))
+def test_state_at_any_step_is_that_of_a_fresh_run(path, chosen):
+    control = control_of(path)
+    text = path.read_text("utf-8") + "\n"
+    run = mnclab.run(text, control)
+    steps = len(run.steps.block)
+    data = Data(payload(run, run.profile()))
+    for share in chosen[path] if steps else ():
+        step = int(share * steps)
+        other = fresh(text, control, run, step)
+        moment = other.at(step=step)
+        found, expected = data.state(step), {name: plain(value) for name, value in moment.state.items()}
+        assert np.allclose(found.pop("position"), expected.pop("position"), rtol=0, atol=5.1e-7)
+        assert found == expected
+        if len(other.toolpath) and (other.steps.block.size == steps or other.toolpath is other.programmed):
+            rows = int(np.searchsorted(other.toolpath.step, step, "right"))
+            tip = other.toolpath.end[rows - 1] if rows else other.toolpath.start[0]
+            same = other.toolpath.origin - run.toolpath.origin  # an origin that a later block selects
+            assert np.allclose(data.tip(step), tip + same, rtol=0, atol=5.1e-7)
+
+
+def test_there_are_many_programs():
+    assert len(PROGRAMS) >= 40
+
+
+PLATE = ROOT / "data/programs/mnc/first_path.mnc"
+
+
+def test_arcs_stay_arcs_and_times_are_those_of_the_profile():
+    run = mnclab.run(PLATE)
+    profile = run.profile()
+    data = Data(payload(run, profile))
+    arc, packed = run.toolpath.kind == mnclab.Kind.ARC, data.header["path"]
+    assert arc.sum() == 6  # four of the contour, two about its outside corners
+    assert np.allclose(
+        data.columns[packed["sweep"]] / data.header["angles"], run.toolpath.sweep[arc], rtol=0, atol=1e-9
+    )
+    centre = np.stack([data.columns[k] for k in packed["centre"]], axis=1) / data.scale
+    assert np.allclose(centre, run.toolpath.centre[arc], rtol=0, atol=5.1e-7)
+    t = data.columns[data.header["profile"]["t"]] / 1e6
+    assert np.allclose(t, profile.t, rtol=0, atol=5.1e-7)
+    assert np.allclose(data.columns[data.header["profile"]["v"]] / 1e3, profile.v, rtol=0, atol=5.1e-4)
+
+
+@pytest.mark.parametrize("limits", [Limits(), Limits(jerk=5000)])
+def test_between_nodes_the_way_is_the_cubic_of_both_speeds(limits):
+    run = mnclab.run(PLATE)
+    profile = run.profile(limits)
+    data = Data(payload(run, profile))
+    packed = data.header["profile"]
+    t, v = data.columns[packed["t"]] / 1e6, data.columns[packed["v"]] / 1e3
+    dt = np.diff(t)
+    way = np.diff(data.columns[packed["s"]]) / data.scale if "s" in packed else (v[:-1] + v[1:]) / 2 * dt
+    s = np.append(0.0, np.cumsum(way))
+    for share in (0.25, 0.5, 0.9):  # Hermite's cubic, written out
+        u, w = share, 1 - share
+        found = s[:-1] + u * w * w * dt * v[:-1] + u * u * (3 - 2 * u) * way - u * u * w * dt * v[1:]
+        there = profile.at(profile.t[:-1] + share * np.diff(profile.t)).s
+        assert np.abs(found - there).max() < 2e-3
+
+
+def test_a_rapid_that_leaves_its_line_is_sent_as_it_goes():
+    run = mnclab.run("G90 G54\nG0 X100 Y20 Z5\nG1 X0 F500\n", "mnc", Setup(limits=Limits(rapid=6000, acceleration=500)))
+    profile = run.profile()
+    data = Data(payload(run, profile))
+    loose = data.header["profile"]["loose"]
+    pieces = data.columns[loose["piece"]].astype(int)
+    assert len(pieces) > 1 and set(profile.move[pieces]) == {int(np.flatnonzero(run.toolpath.kind == 0)[0])}
+    for name, node in (("p0", pieces), ("p1", pieces + 1)):
+        place = np.stack([data.columns[k] for k in loose[name]], axis=1) / data.scale
+        assert np.allclose(place, profile.at(profile.t[node]).position, rtol=0, atol=1e-3)
+    # at 500 mm/s² both axes reach 100 mm/s in 0.2 s and 10 mm; Y brakes at once, so at 0.4 s it is at 20 and X at 30
+    row = profile.at(0.4).position
+    assert row == pytest.approx([30, 20, 5])
+    nearest = np.abs(profile.t[pieces + 1] - 0.4).argmin()
+    place = [data.columns[k][nearest] / data.scale for k in loose["p1"]]
+    assert place == pytest.approx([30, 20, 5], abs=1e-3)
+
+
+@given(st.lists(st.lists(st.integers(-(2**50), 2**50), max_size=40), max_size=5))
+@settings(max_examples=60, deadline=None)
+def test_columns_read_back(columns):
+    pack = Packer()
+    assert [pack.add(column) for column in columns] == list(range(len(columns)))
+    header, found = unpack(pack.text({"title": "Ø"}))
+    assert found == columns and header["title"] == "Ø"
+
+
+def test_fifty_thousand_moves_stay_below_two_and_a_half_megabytes():
+    k = np.arange(50_000)
+    x, y = np.cos(k / 40) * (80 + k / 5000), np.sin(k / 40) * 60
+    lines = [f"N{i + 2} G1 X{a:.3f} Y{b:.3f} Z{c:.3f}" for i, a, b, c in zip(k, x, y, -k / 10_000)]
+    run = mnclab.run("N1 G90 G54 T1 S3000 M3 F1500\n" + "\n".join(lines) + "\n", "mnc")
+    assert len(run.toolpath.motion) == 50_000
+    assert len(run.player().page.encode()) < 2_500_000
+
+
+def test_the_page_is_one_file_that_asks_for_nothing(tmp_path):
+    run = mnclab.run(PLATE)
+    saved = run.save(tmp_path / "part.html").read_text("utf-8")
+    assert saved == run.player().page
+    assert not re.search(r"""(?:src|href)\s*=\s*["'](?!data:)|\bimport\s*\(|@import|fetch\(|https?://|url\(""", saved)
+    shown = run.player(height=500, theme="dark")._repr_html_()
+    assert 'title="player of first_path.mnc"' in shown and 'sandbox="allow-scripts"' in shown and "500px" in shown
+
+
+def test_a_text_cannot_break_out_of_the_page():
+    text = "G0 X1 // </script><script>alert(1)</script> @data@\n"
+    page = mnclab.run(text, "mnc").player().page
+    assert "alert(1)" not in page and page.count("<script") == 2
+
+
+def test_a_run_without_moves_and_one_with_an_alarm_have_pages():
+    assert "<canvas" in mnclab.run("// nothing\n", "mnc").player().page
+    run = mnclab.run("G0 X1\nG1 X4,5 F100\n", "mnc")
+    (alarm,) = Data(payload(run, run.profile())).header["alarms"]
+    assert (alarm["line"], alarm["severity"]) == (2, "alarm")
+
+
+@pytest.mark.parametrize("wrong", [{"theme": "pink"}, {"speed": 0}, {"speed": float("nan")}])
+def test_options_are_checked(wrong):
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        mnclab.run("G0 X1\n", "mnc").player(**wrong)
+
+
+def test_a_page_that_cannot_be_written_is_an_alarm(tmp_path):
+    with pytest.raises(Alarm, match="cannot be written"):
+        mnclab.run("G0 X1\n", "mnc").save(tmp_path / "no" / "part.html")
