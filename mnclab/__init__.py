@@ -10,13 +10,15 @@ The map of the house, floor by floor (a folder imports only from those above its
     path        what the tool does: Toolpath in columns, passes over it (corners, compensation), and the feed profile
     workpiece   what the tool meets: the part a probe touches
     machining   how metal is cut, whatever the control: depths, holes, threads, pockets, facing, turning
-    comparison  strategies side by side: way, time, engagement, what is left
+    comparison  two paths, or strategies, side by side
     machine     who obeys: Machine, Control, Cycle, interpreter, bulk tier, history, Run
     controls    who speaks: a folder a control
     show        what people see and take away: plots, forms, files
 
 This module is the front door, and nothing else: it imports numpy only.
 """
+
+from typing import TYPE_CHECKING
 
 from mnclab.controls import CONTROLS as controls
 from mnclab.controls.choice import Help, help, read, run
@@ -29,6 +31,9 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Program
+
+if TYPE_CHECKING:
+    from mnclab.comparison.deviation import Deviation
 
 __version__ = "0.1.0"
 __all__ = [
@@ -46,6 +51,8 @@ __all__ = [
     "Toolpath",
     "compare",
     "controls",
+    "diff",
+    "editor",
     "form",
     "help",
     "panel",
@@ -61,6 +68,31 @@ def compare(region: object, tool: object, *strategies: object, **options: object
     return build(region, tool, *strategies, **options)  # type: ignore[arg-type]
 
 
+def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) -> "Deviation":
+    """Two runs, or two paths, laid over one another: the largest deviation (mm) and where; ``.plot()`` shows both.
+
+    Two programs, two controls, two tool radii, two limits (of their setups: the times differ); ``step`` mm is how
+    closely the paths are looked at.
+    """
+    from mnclab.comparison.deviation import deviation
+
+    times = None
+    if isinstance(one, Run) and isinstance(other, Run):
+        times = one.profile().time, other.profile().time
+    paths = [each.toolpath if isinstance(each, Run) else each for each in (one, other)]
+    names = [each.program.name if isinstance(each, Run) else "path" for each in (one, other)]
+    if names[0] == names[1]:
+        names = [f"the first {names[0]}", f"the second {names[1]}"]
+    return deviation(paths[0], paths[1], (names[0], names[1]), step, times=times)
+
+
+def editor(path: str, control: str | None = None, setup: Setup | None = None) -> object:
+    """A part program to type in, with alarms and picture that follow, and a button that saves it (needs ipywidgets)."""
+    from mnclab.show.editor import editor as build
+
+    return build(path, control, setup)
+
+
 def form(code: str, control: str) -> object:
     """The parameters of a cycle as a form with a live picture (needs ipywidgets and matplotlib)."""
     from mnclab.show.forms import form as build
@@ -73,3 +105,10 @@ def panel(template: str, control: str | None = None, /, **numbers: object) -> ob
     from mnclab.show.forms import panel as build
 
     return build(template, control, **numbers)  # type: ignore[arg-type]
+
+
+def load_ipython_extension(shell: object) -> None:
+    """What ``%load_ext mnclab`` calls: makes the cell magic ``%%mnc``."""
+    from mnclab.show.magic import load_ipython_extension as load
+
+    load(shell)

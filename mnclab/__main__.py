@@ -86,7 +86,11 @@ def parser() -> argparse.ArgumentParser:
     sub = command("plot", plot, "run a program and save what it does")
     sub.add_argument("file", metavar="FILE")
     sub.add_argument(
-        "-o", "--output", required=True, metavar="OUT", help="the suffix says what: svg, pdf, png, csv, json"
+        "-o",
+        "--output",
+        required=True,
+        metavar="OUT",
+        help="the suffix says what: svg, pdf, png, csv, json, dxf, ngc, …",
     )
     sub.add_argument(
         "--compensation", action="store_true", help="contour, tool-centre path and how its corners were found"

@@ -26,13 +26,13 @@ FLOORS = {
 OUTSIDE = {  # package -> the only modules of mnclab that import it
     "shapely": ("geometry.regions", "geometry.sweeps"),
     "matplotlib": ("show.plot",),
-    "pyvista": ("show.scene", "show.export"),
-    "vtkmodules": ("show.scene", "show.export"),
-    "ezdxf": ("show.export", "geometry.dxf"),
-    "ipywidgets": ("show.forms",),
+    "pyvista": ("show.scene",),
+    "vtkmodules": ("show.scene",),
+    "ezdxf": ("geometry.dxf",),
+    "ipywidgets": ("show.forms", "show.editor"),
     "IPython": ("show.magic",),
 }
-SEES_ALL = ("show.forms", "show.magic")
+SEES_ALL = ("show.forms", "show.editor", "show.magic")
 HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython"}
 VAGUE = {"util", "utils", "helper", "helpers", "common", "base", "core", "misc"}
 LONGEST = 450
@@ -90,7 +90,7 @@ def fault(module, found):
     if here[0] == there[0]:
         return None
     if here[0] == "show" and there[0] in ("machine", "controls"):
-        return f"pictures know data, never {there[0]}; only forms and magic see all"
+        return f"pictures know data, never {there[0]}; only forms, editor and magic see all"
     if there[0] == "show" and found.place in ("door", "types"):
         return None
     if FLOORS[here[0]] > FLOORS[there[0]]:

@@ -1,1 +1,1 @@
-"""Strategies side by side: what they cut, how long it takes, how hard the tool works."""
+"""Side by side: two paths and how far they are apart; strategies, what they cut and how hard the tool works."""

@@ -10,6 +10,7 @@ counter-clockwise, -1 for half a circle clockwise. Lengths in mm, angles in rad,
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -101,6 +102,12 @@ class Contour:
         b = self.bulge[: len(self.starts)]
         ratio = np.divide(np.arctan(b), b, out=np.ones_like(b), where=b != 0)
         return _length(self.ends - self.starts) * (1 + b * b) * ratio
+
+    @cached_property
+    def walk(self) -> list[tuple[tuple[float, float], float, tuple[float, float]]]:
+        """End, sweep and centre of the m elements as plain numbers, for a walk one by one; worked out once."""
+        ends, centres = self.ends.tolist(), self.centres.tolist()
+        return [((x, y), s, (u, v)) for (x, y), s, (u, v) in zip(ends, self.sweeps.tolist(), centres, strict=True)]
 
     @property
     def curves(self) -> list[Curve]:

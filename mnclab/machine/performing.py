@@ -9,7 +9,6 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from mnclab.geometry.contours import Contour
 from mnclab.machine.following import follow
 from mnclab.machining.steps import Along, Coolant, Go, Orient, Spin, Step, Thread, Turn, Wait
 
@@ -30,9 +29,8 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: tuple[float, fl
                 to = None if step.x is None else x + step.x, None if step.y is None else y + step.y, step.z
                 m.line(*to, f=step.feed)
             case Along():
-                contour = Contour(step.contour.points + (x, y), step.contour.bulge, step.contour.closed)
                 with in_plane(m, "XY"):
-                    follow(m, contour, step.feed)
+                    follow(m, step.contour, step.feed, about=(x, y))
             case Wait():
                 m.dwell(step.seconds)
             case Thread():

@@ -16,10 +16,12 @@ import numpy as np
 
 from mnclab.machine.calls import Steps
 from mnclab.machine.control import Control
+from mnclab.machine.explanation import Explanation
 from mnclab.machine.history import History
 from mnclab.machine.interpreter import Interpreter, Stop
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
+from mnclab.machine.moments import Moments, when
 from mnclab.machine.settling import paths, shifted
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.compensation import Gouge
@@ -33,6 +35,7 @@ from mnclab.text.program import Block, Program
 if TYPE_CHECKING:
     from pathlib import Path
 
+    import pyvista
     from matplotlib.figure import Figure
 
     from mnclab.show.player import Player
@@ -40,7 +43,11 @@ if TYPE_CHECKING:
 
 class Moment(NamedTuple):
     """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
-    the block changed; ``rows`` are the rows of the toolpath that it made."""
+    the block changed; ``rows`` are the rows of the toolpath that it made.
+
+    A moment inside a block (:meth:`Run.when`) has the row of the toolpath, the share of it (0 to 1) that was done, and
+    the tool tip there, mm; -1 for a row where the block moved nothing.
+    """
 
     step: int
     line: int
@@ -49,6 +56,9 @@ class Moment(NamedTuple):
     state: dict[str, Any]
     changed: dict[str, Any]
     rows: slice
+    row: int = -1
+    share: float = 1.0
+    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 class Run:
@@ -112,9 +122,26 @@ class Run:
             raise ValueError(f"step must be 0 … {len(self.steps.block) - 1}, got {step}")
         block = self.program[int(self.steps.block[step])]
         position = self.history.value("position", step)
-        a, b = np.searchsorted(self.toolpath.step, [step, step + 1]) if len(self.toolpath) else (0, 0)
-        state = self.history.at(step)
-        return Moment(step, block.span.line, block, position, state, self.history.changes(step), slice(int(a), int(b)))
+        path = self.toolpath
+        a, b = np.searchsorted(path.step, [step, step + 1]).tolist() if len(path) else (0, 0)
+        tip = path.end[b - 1] if b else path.start[0] if len(path) else np.array(self.setup.start)
+        state, changed = self.history.at(step), self.history.changes(step)
+        row = b - 1 if b > a else -1
+        return Moment(
+            step, block.span.line, block, position, state, changed, slice(a, b), row, 1.0, tuple(tip.tolist())
+        )
+
+    def when(self, condition: str) -> Moments:
+        """The moments at which a condition becomes true: ``run.when("z < -5")``, ``run.when("Q5 > 3")``.
+
+        Names are those of variables, and x y z d (tool tip, mm), feed, spindle, tool, radius, side, line; see
+        :mod:`mnclab.machine.moments`. The place is exact, within lines and arcs too.
+        """
+        return when(self, condition)
+
+    def explain(self, line: int | None = None, pass_: int = 1, step: int | None = None) -> Explanation:
+        """A block in plain words: what each word means and changed, and the way from the programmed point to the tool."""
+        return Explanation(self, self.at(line, pass_, step))
 
     def profile(self, limits: Limits | str | None = None, *, override: float = 1.0) -> Profile:
         """When the tool is where, and how fast, under the limits of a machine: those of the setup, others, or those
@@ -171,11 +198,34 @@ class Run:
 
         return compensation(self, **options)
 
-    def save(self, path: str | Path) -> Path:
-        """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player)."""
+    def scene(self, colour: str = "kind", **options: Any) -> pyvista.Plotter:
+        """Path, tool and blank in three dimensions (needs pyvista); shows itself as a still picture.
+
+        ``colour`` of the cuts: "kind", "feed", "tool", "z", "line"; ``row``: where the tool stands; ``stock``: corners
+        of a blank. All of them are explained in ``mnclab.show.scene.scene``.
+        """
+        from mnclab.show.scene import scene
+
+        return scene(self, colour, **options)
+
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player), dxf,
+        ngc, stl, gltf, glb, vtk.
+
+        Pictures take the options of :meth:`plot`; ``true_size=True`` makes an svg in true millimetres.
+        """
         from mnclab.show.export import save
 
-        return save(self, path)
+        return save(self, path, **options)
+
+    def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
+        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program.
+
+        ``options`` are those of :meth:`plot`.
+        """
+        from mnclab.show.report import save_report
+
+        return save_report(self, path, title, **options)
 
     # --- shown -------------------------------------------------------------------------------------------------------
 

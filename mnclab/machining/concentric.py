@@ -22,6 +22,7 @@ from mnclab.machining.pockets import rounded
 from mnclab.machining.spirals import half_circles
 
 DRIFT = 1e-9  # a number of steps this little above a whole one is that whole one
+NOTHING = 1e-6  # mm; a shorter way needs no step
 
 
 def steps(way: float, stepover: float) -> int:
@@ -30,7 +31,7 @@ def steps(way: float, stepover: float) -> int:
         raise ValueError(f"the stepover must be greater than 0, got {stepover:g}")
     if way > MOST * stepover:
         raise TooMany(f"{stepover:g} divides {way:g} into more than {MOST} steps")
-    return max(0, math.ceil(way / stepover - DRIFT))
+    return math.ceil(way / stepover - DRIFT) if way > NOTHING else 0
 
 
 def rectangle(

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.machining.clearing import Piece, begin
+from mnclab.machining.depths import MOST, TooMany
 from mnclab.machining.steps import Go, Step, Turn
 
 DRIFT = 1e-9
@@ -82,6 +83,8 @@ def helix(
     if angle == 90:
         return vertical(middle + radius * np.array([np.cos(start), np.sin(start)]), top, bottom)
     total = drop / (radius * math.tan(math.radians(angle)))
+    if total > MOST * 2 * math.pi:
+        raise TooMany(f"a helix of radius {radius:g} at {angle:g} degrees has more than {MOST} turns in {drop:g}")
     count = max(1, math.ceil(total / math.pi - DRIFT)) if drop else 0
     turned = np.append(total * np.arange(count + 1) / max(count, 1), total + math.pi * np.array([1, 2]))
     way = start + sense * turned
@@ -99,7 +102,12 @@ def strokes(a: ArrayLike, b: ArrayLike, top: float, bottom: float, angle: float)
         raise ValueError(f"a ramp needs a stroke and an angle up to 90 degrees, got {stroke:g} and {angle:g}")
     if angle == 90:
         return vertical(first, top, bottom)
-    count = math.ceil(abs(top - bottom) / (stroke * math.tan(math.radians(angle))) - DRIFT)
+    drops = abs(top - bottom) / (stroke * math.tan(math.radians(angle)))
+    if drops > MOST:
+        raise TooMany(
+            f"a ramp {stroke:g} long at {angle:g} degrees has more than {MOST} strokes in {abs(top - bottom):g}"
+        )
+    count = math.ceil(drops - DRIFT)
     points = np.where(np.arange(count + 2)[:, None] % 2, last, first)
     heights = np.append(np.linspace(top, bottom, count + 1), bottom)
     return Descent(Contour(points, closed=False), heights, "entry ramp")

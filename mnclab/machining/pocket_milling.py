@@ -22,6 +22,7 @@ from mnclab.machining.finishing import approaching, leaving
 from mnclab.machining.steps import Along, Go, Step
 
 Down = Callable[[float, float], Descent]
+LEAST = 1e-6  # mm, of an arc up to a wall or off it
 
 
 class Room(NamedTuple):
@@ -71,15 +72,17 @@ def finish_walls(
     wall: Contour, levels: Sequence[float], *, above: float, clearance: float, feeds: Feeds, approach: float, side: int
 ) -> Iterator[Step]:
     """Round the wall on every level: up to it and off it on quarter circles of the radius `approach`."""
-    to, away = approaching(wall, approach, side), leaving(wall, approach, side)
-    x, y = begin(to).tolist()
+    arcs = [approaching(wall, approach, side), leaving(wall, approach, side)] if approach > LEAST else []
+    x, y = begin(arcs[0] if arcs else wall).tolist()
     yield Go("side finishing, to the clearance level", above)
     for name, level in zip(numbered("side finishing", len(levels)), levels, strict=True):
         yield Go(f"{name}, over the start", x=x, y=y)
         yield Go(f"{name}, down", level, feeds.plunge)
-        yield Along(f"{name}, to the wall", to, feeds.level)
+        if arcs:
+            yield Along(f"{name}, to the wall", arcs[0], feeds.level)
         yield Along(name, wall, feeds.level)
-        yield Along(f"{name}, off the wall", away, feeds.level)
+        if arcs:
+            yield Along(f"{name}, off the wall", arcs[1], feeds.level)
         yield from _back(name, level + clearance)
 
 
@@ -110,7 +113,7 @@ def _clear(
         x, y = begin(contour).tolist()
         yield Go(f"{name}, link", None, feeds.level, x, y)
         yield Along(f"{name}, {label}", contour, feeds.level)
-    if clearing.passes and clearing.passes[-1].closed:
+    if clearing.passes and clearing.passes[-1].closed and departure > LEAST:
         yield Along(f"{name}, off the wall", leaving(clearing.passes[-1], departure, side), feeds.level)
 
 

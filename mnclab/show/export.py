@@ -1,4 +1,5 @@
-"""A run as a file: pictures (svg, pdf, png), the table of moves (csv), everything for other programs (json).
+"""A run as a file: pictures (svg, pdf, png), the table of moves (csv), everything for other programs (json), drawings
+(dxf), plain blocks (ngc), bodies and lines in space (stl, gltf, glb, vtk).
 
 The suffix says what is written, and exactly one file is. The same run gives the same bytes; text is UTF-8 with plain
 line ends on every system. A new kind of file is a function here and a line in :data:`WRITERS`.
@@ -9,6 +10,7 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Callable, Iterable
+from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,43 +19,52 @@ from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import COLUMNS, Toolpath
+from mnclab.show.export_dxf import write_dxf
+from mnclab.show.export_gcode import write_gcode
+from mnclab.show.export_mesh import write_gltf, write_stl, write_vtk
+from mnclab.show.export_svg import write_true_size
 from mnclab.text.alarm import Alarm
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def save(run: Any, path: str | Path, picture: Callable[[Any], Figure] | None = None) -> Path:
+def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = None, **options: Any) -> Path:
     """Write a run to one file and return its path; an Alarm when nothing of this suffix can be written.
 
+    Figures take the options of :meth:`Run.plot`; an svg also ``true_size=True``, a drawing in true millimetres.
     ``picture`` draws another figure of the run than the views of its path.
     """
     path = Path(path)
     suffix = path.suffix.lower()
-    if suffix in LATER:
-        raise Alarm(f"{suffix} files are not built yet", hint=f"{LATER[suffix]}; today: {', '.join(WRITERS)}")
     if suffix not in WRITERS:
         what = f"cannot write {suffix} files" if suffix else f"{path.name!r} has no suffix to say what to write"
         raise Alarm(what, hint=f"known: {', '.join(WRITERS)}")
     writer = WRITERS[suffix]
-    if picture is not None and writer is not write_figure:
-        raise Alarm(f"a picture cannot be written as {suffix}", hint="known: .svg, .pdf, .png")
+    if picture is not None:
+        if suffix not in FIGURES:
+            raise Alarm(f"a picture cannot be written as {suffix}", hint=f"known: {', '.join(FIGURES)}")
+        writer, options = write_figure, {"picture": picture, **options}
+    if options and len(signature(writer).parameters) == 2:
+        raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
     try:
-        if picture is None:
-            writer(run, path)
-        else:
-            write_figure(run, path, picture)
+        writer(run, path, **options)
     except OSError as error:
         raise Alarm(f"{path} cannot be written: {error.strerror or error}") from None
     return path
 
 
-def write_figure(run: Any, path: Path, picture: Callable[[Any], Figure] | None = None) -> None:
+def write_figure(run: Any, path: Path, picture: Callable[..., Figure] | None = None, **options: Any) -> None:
     """The views of the path, or another picture."""
     from mnclab.show.plot.path import plot_run
     from mnclab.show.plot.picture import write
 
-    write((picture or plot_run)(run), path)
+    write((picture or plot_run)(run, **options), path)
+
+
+def write_svg(run: Any, path: Path, true_size: bool = False, **options: Any) -> None:
+    """The views of the path, or the path alone in true size."""
+    (write_true_size if true_size else write_figure)(run, path, **options)
 
 
 def write_csv(run: Any, path: Path) -> None:
@@ -118,17 +129,18 @@ def _plain(column: NDArray[Any]) -> list[Any]:
     return values.tolist()
 
 
-WRITERS: dict[str, Callable[[Any, Path], None]] = {
-    ".svg": write_figure,
+FIGURES = (".svg", ".pdf", ".png")
+WRITERS: dict[str, Callable[..., None]] = {
+    ".svg": write_svg,
     ".pdf": write_figure,
     ".png": write_figure,
     ".csv": write_csv,
     ".json": write_json,
     ".html": lambda run, path: run.player().save(path),
-}
-#: What is to come, and what it will need.
-LATER = {
-    ".dxf": "drawings will come with mnclab[dxf]",
-    ".stl": "the cut part will come with the stock simulation",
-    ".gltf": "scenes will come with pyvista",
+    ".dxf": write_dxf,
+    ".ngc": write_gcode,
+    ".stl": write_stl,
+    ".gltf": write_gltf,
+    ".glb": write_gltf,
+    ".vtk": write_vtk,
 }

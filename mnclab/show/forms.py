@@ -79,7 +79,7 @@ def compensation_panel(run: Run, **options: Any) -> Any:
             setup = setup.with_settings(outside_corners=boxes["corners"].value)
         live.run = run.again(setup)
         picture.value = DRAWING.submit(_compensation, live.run, options).result()
-        alarms.value = _verdict(live.run)
+        alarms.value = verdict(live.run)
 
     live.boxes, live.picture, live.alarms, live.run = boxes, picture, alarms, run
     redraw()
@@ -262,8 +262,8 @@ def _live(
         except Alarm as alarm:
             alarms.value = alarm._repr_html_()
             return
-        picture.value = DRAWING.submit(_image, live.run, view).result()
-        alarms.value = _verdict(live.run)
+        picture.value = DRAWING.submit(picture_of, live.run, view).result()
+        alarms.value = verdict(live.run)
 
     live.boxes, live.picture, live.alarms, live.run = dict(boxes), picture, alarms, None
     redraw()
@@ -272,7 +272,8 @@ def _live(
     return live
 
 
-def _image(run: Run, view: str) -> str:
+def picture_of(run: Run, view: str) -> str:
+    """The views of a run as an HTML image with a name; to be drawn in :data:`DRAWING`."""
     from mnclab.show.plot.path import image
 
     return image(run, view)
@@ -284,7 +285,7 @@ def _compensation(run: Run, options: Mapping[str, Any]) -> str:
     return image(run, **options)
 
 
-def _verdict(run: Run) -> str:
+def verdict(run: Run) -> str:
     """The alarms of a run, each with its line and caret, and its figures in one line."""
     s = run.summary()
     figures = (

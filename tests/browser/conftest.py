@@ -45,6 +45,10 @@ def lab(tmp_path_factory):
     private = "JUPYTER_CONFIG_DIR JUPYTER_DATA_DIR JUPYTER_RUNTIME_DIR IPYTHONDIR MPLCONFIGDIR".split()
     environment = os.environ | {name: str(home / name) for name in private}
     environment.pop("MPLBACKEND", None)  # kernels choose theirs, as they do for people
+    shared = home / "share" / "labextensions"
+    shared.mkdir(parents=True)
+    shutil.copytree(ROOT / "mnclab" / "show" / "labextension", shared / "mnclab")  # these files, whatever is installed
+    environment["JUPYTER_PATH"] = os.pathsep.join(filter(None, [str(shared.parent), environment.get("JUPYTER_PATH")]))
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]

@@ -95,3 +95,8 @@ def test_nobody_waits_for_millions_of_steps():
     with pytest.raises(TooMany, match="0.001 divides 11 into more than 10000 steps"):
         concentric.steps(11, 0.001)
     assert concentric.steps(10, 0.001) == 10_000
+    assert concentric.steps(1e-7, 0.001) == 0
+    with pytest.raises(TooMany, match="a helix of radius 0.001 at 1 degrees has more than 10000 turns in 5"):
+        helix((0, 0), 0.001, 0, -5, 1)
+    with pytest.raises(TooMany, match="a ramp 2 long at 0.001 degrees has more than 10000 strokes in 5"):
+        pendulum((0, 0), 0.0, 0, -5, 0.001, least=1, room=2)

@@ -73,7 +73,6 @@ def test_exactly_one_file_is_written(run, tmp_path):
 @pytest.mark.parametrize(
     ("name", "sentence"),
     [
-        ("a.dxf", "not built yet"),
         ("a.xyz", "cannot write .xyz"),
         ("a", "no suffix"),
         ("none/a.csv", "cannot be written"),

@@ -108,7 +108,7 @@ def test_help_shows_the_parameters(capsys):
         ["run", "good.mnc", "--control", "none"],
         ["run", "good.mnc", "--setup", "none.toml"],
         ["plot", "good.mnc"],
-        ["plot", "good.mnc", "-o", "out.dxf"],
+        ["plot", "good.mnc", "-o", "out.xyz"],
         ["help", "G83"],
         ["help", "G999", "--control", "mnc"],
     ],

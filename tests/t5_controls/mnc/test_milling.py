@@ -15,6 +15,11 @@ from mnclab import Kind, Setup, Tool
 INF = math.inf
 
 
+def number(least, greatest):
+    """Numbers as programs write them: three decimals."""
+    return st.floats(least, greatest).map(lambda value: round(value, 3))
+
+
 def run(block, *, radius=5.0, plunge_angle=0.0, start=(0.0, 0.0, 40.0), head="T1\n"):
     found = mnclab.run(
         head + block, "mnc", Setup(tools={1: Tool(radius=radius, plunge_angle=plunge_angle)}, start=start)
@@ -66,7 +71,6 @@ def down(moves, top, bottom, step):
 
 def pockets(draw_of_shape):
     """Random parameters of what both pockets share, with those of a shape."""
-    number = st.floats
     return st.fixed_dictionaries(
         {
             "M": st.sampled_from([0, 1, 2]), **draw_of_shape,
@@ -144,8 +148,8 @@ def mill_pocket(v, radius, rings, wall, room, corner, turn, start):
 
 @settings(max_examples=60)
 @given(
-    v=pockets({"D": st.floats(11, 70)}), radius=st.floats(1.5, 5),
-    start=st.tuples(st.floats(-50, 50), st.floats(-50, 50), st.floats(-5, 60)),
+    v=pockets({"D": number(11, 70)}), radius=number(1.5, 5),
+    start=st.tuples(number(-50, 50), number(-50, 50), number(-5, 60)),
 )  # fmt: skip
 def test_a_circular_pocket_is_the_sequence_of_the_manual(v, radius, start):
     def rings(allowance):
@@ -170,11 +174,11 @@ def test_a_circular_pocket_is_the_sequence_of_the_manual(v, radius, start):
 
 @settings(max_examples=60)
 @given(
-    v=pockets({"A": st.floats(11, 70), "B": st.floats(11, 70), "E": st.floats(-360, 360)}), radius=st.floats(1.5, 5),
-    corner=st.floats(0, 1), start=st.tuples(st.floats(-50, 50), st.floats(-50, 50), st.floats(-5, 60)),
+    v=pockets({"A": number(11, 70), "B": number(11, 70), "E": number(-360, 360)}), radius=number(1.5, 5),
+    corner=st.floats(0, 1), start=st.tuples(number(-50, 50), number(-50, 50), number(-5, 60)),
 )  # fmt: skip
 def test_a_rectangular_pocket_is_the_sequence_of_the_manual(v, radius, corner, start):
-    v["R"] = corner * (min(v["A"], v["B"]) / 2 - 1e-3)
+    v["R"] = round(corner * (min(v["A"], v["B"]) / 2 - 1e-3), 3)
     long = (1, 0) if v["A"] >= v["B"] else (0, 1)
 
     def rings(allowance):
@@ -253,14 +257,14 @@ def test_the_helix_turns_as_the_pocket_is_milled(mode, sense):
 # --- surfaces ---------------------------------------------------------------------------------------------------------
 
 SURFACE = {
-    "X": st.floats(-50, 50), "Y": st.floats(-50, 50), "Z": st.floats(-10, 10), "A": st.floats(0, 80),
-    "B": st.floats(0, 80), "Q": st.floats(0.5, 5), "V": st.floats(100, 200), "F": st.floats(300, 400),
-    "T": st.floats(500, 600),
+    "X": number(-50, 50), "Y": number(-50, 50), "Z": number(-10, 10), "A": number(0, 80),
+    "B": number(0, 80), "Q": number(0.5, 5), "V": number(100, 200), "F": number(300, 400),
+    "T": number(500, 600),
 }  # fmt: skip
 
 
 @settings(max_examples=40)
-@given(v=st.fixed_dictionaries(SURFACE | {"K": st.integers(1, 12)}), radius=st.floats(1, 10), z0=st.floats(-20, 60))
+@given(v=st.fixed_dictionaries(SURFACE | {"K": st.integers(1, 12)}), radius=number(1, 10), z0=number(-20, 60))
 def test_line_milling_is_the_sequence_of_the_manual(v, radius, z0):
     left, right, above = v["X"] - radius, v["X"] + v["A"] + radius, v["Z"] + v["Q"]
     span = v["B"] - 2 * radius
@@ -278,13 +282,13 @@ def test_line_milling_is_the_sequence_of_the_manual(v, radius, z0):
 
 
 FACE = SURFACE | {
-    "L": st.sampled_from([0, 1, 2]), "W": st.floats(-20, -11), "P": st.floats(1, 30), "K": st.floats(0.3, 1.999),
-    "I": st.floats(0.5, 5), "U": st.sampled_from([0.0, 0.3]),
+    "L": st.sampled_from([0, 1, 2]), "W": number(-20, -11), "P": number(1, 30), "K": number(0.3, 1.999),
+    "I": number(0.5, 5), "U": st.sampled_from([0.0, 0.3]),
 }  # fmt: skip
 
 
 @settings(max_examples=40)
-@given(v=st.fixed_dictionaries(FACE), radius=st.floats(1, 10), z0=st.floats(-20, 60))
+@given(v=st.fixed_dictionaries(FACE), radius=number(1, 10), z0=number(-20, 60))
 def test_face_milling_is_the_sequence_of_the_manual(v, radius, z0):
     span, height = v["B"] - 2 * radius, v["Z"] - v["W"] - v["U"]
     count = max(1, math.ceil(span / (v["K"] * radius) - 1e-9))
@@ -413,3 +417,26 @@ def test_a_frame_mirrors_turns_and_scales_a_pocket():
         assert np.allclose(rows.sweep, plain.sweep * sense)
     refused = mnclab.run("T1\nG37 X2 Y1\n" + text, "mnc", Setup(start=start))
     assert "would be an ellipse" in refused.alarms[0].message
+
+
+EXTREME = st.sampled_from([1e-9, 1e-6, 2.0, 10.0, 10.000000001, 10.0000001, 50.0, 999999999.0])
+SOME = st.sampled_from([0.0, 1e-9, 0.3, 6.0])
+
+
+@settings(max_examples=150)
+@given(
+    code=st.sampled_from(["G320", "G321", "G343", "G344"]), sizes=st.tuples(EXTREME, EXTREME, EXTREME),
+    p=st.sampled_from([1e-9, 2.0, 999999999.0]), q=EXTREME, u=SOME, w=SOME, r=SOME, j=st.sampled_from([0, 1, 2]),
+    m=st.sampled_from([0, 1, 2]), k=st.sampled_from([0.4, 1.4]), angle=st.sampled_from([1e-9, 3.0, 89.99999, 90.0]),
+)  # fmt: skip
+def test_whatever_the_numbers_a_cycle_runs_or_says_what_is_wrong(code, sizes, p, q, u, w, r, j, m, k, angle):
+    a, b, h = (f"{size:.9f}" for size in sizes)
+    pocket = f"M{m} Z0 H-{h} P{p:.9f} Q{q:.9f} U{u:.9f} W{w:.9f} K{k} J{j} V90 F400"
+    text = {
+        "G320": f"X{b} Y0 Z0 A{a} B{b} K3 V90 F400 Q{q:.9f}",
+        "G321": f"L{j} X{b} Y0 Z0 W-{h} A{a} B{b} Q{q:.9f} P{p:.9f} K{k} V900 F400 I{h} U{u:.9f}",
+        "G343": f"A{a} B{b} R{r:.9f} E30 {pocket}", "G344": f"D{a} {pocket}",
+    }[code]  # fmt: skip
+    found = mnclab.run(f"T1\n{code} {text}\n", "mnc", Setup(tools={1: Tool(radius=5, plunge_angle=angle)}))
+    assert found.ok or any(code in alarm.message for alarm in found.alarms)
+    assert np.isfinite(found.toolpath.end).all()

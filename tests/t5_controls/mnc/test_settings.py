@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import mnclab
 from mnclab import Alarm, Kind, Limits, Setup, Tool
 from mnclab.machine import bulk as tiers
+from mnclab.path.kinds import Rule
 from mnclab.path.toolpath import COLUMNS
 
 SETTINGS = {setting.name: setting for setting in mnclab.controls["mnc"].settings}
@@ -290,6 +291,16 @@ def test_rapid_motion():
         found = run("G90 G54|G0 X100 Y20", {"rapid_motion": motion}, datums={}).profile(limits)
         assert found.time == pytest.approx(seconds)
     assert times["axes"] < times["line"] == pytest.approx(times["proportional"])
+
+
+@pytest.mark.parametrize(("value", "arcs"), [("programmed", {6}), ("G160", {5, 6, 7}), ("G161", set()), ("G162", {6})])
+def test_outside_corners_follow_the_setting_or_the_program(value, arcs):
+    # turns of 90, 135 and 45 degrees, the second acute; the program says straight, then an arc at acute corners; an
+    # inserted arc carries the line of the element after it
+    text = "T1 F60|G0 X-20 Y0|G1 G161 G41 X0 Y0|Y20|X30|G162 X10 Y0|G40 X-20"
+    path = run(text, {"outside_corners": value}, tools={1: Tool(radius=2)}).toolpath
+    made = path.line[path.rule == Rule.OUTSIDE_ARC]
+    assert set(made.tolist()) == arcs
 
 
 def test_every_setting_is_tested_here_or_with_its_cycle():

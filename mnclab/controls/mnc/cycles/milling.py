@@ -205,7 +205,7 @@ class FaceMilling(Surface):
 
     def moves(self, m: Machine) -> None:
         """Steps 1 to 9 of the manual."""
-        if self.level_from == self.level_to:
+        if not self.levels():
             m.warn(f"{self.code} Z and W are the same height: nothing is milled")
             return
         above = self.level_from + self.clearance

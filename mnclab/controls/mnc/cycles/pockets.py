@@ -19,7 +19,7 @@ from mnclab.machining import concentric
 from mnclab.machining.clearing import Clearing
 from mnclab.machining.depths import infeeds
 from mnclab.machining.entries import Entry
-from mnclab.machining.pocket_milling import Feeds, Room, finish_floor, finish_walls, rough, way_down
+from mnclab.machining.pocket_milling import Down, Feeds, Room, finish_floor, finish_walls, rough, way_down
 from mnclab.machining.steps import Go, Step
 
 CYCLES = CycleTable()
@@ -106,21 +106,25 @@ class Pocket(MillingCycle):
         yield from too_many("overlap", lambda: self.clearing(m.radius, 0.0))
         yield from few_passes("infeed", len(self.levels()), len(self.clearing(m.radius, self.side_allowance).passes))
         if self.plunge and not 0 < m.tool.plunge_angle <= 90:
-            allowed = "greater than 0 and at most 90"
-            yield (
-                "plunge",
-                f"{self.plunge:g} needs the plunge angle of tool {m.tool.number}, {allowed}, in the tool table",
-            )
+            angle = f"the plunge angle of tool {m.tool.number}, greater than 0 and at most 90"
+            yield "plunge", f"{self.plunge:g} needs {angle}, in the tool table"
         room = self.room(m.radius, self.side_allowance)
         if self.plunge == 1 and m.tool.plunge_angle < 90 and room.half_width <= 0:
             yield "plunge", "1 has no room for a helix: the tool fills the pocket"
         if self.plunge == 2 and m.tool.plunge_angle < 90 and room.half_length < 2 * m.radius:
             least = f"twice the tool diameter, {4 * m.radius:g}"
             yield "plunge", f"2 has no room for a ramp: {2 * room.half_length:g} is less than {least}"
+        deepest = max(min(self.infeed, -self.depth), self.floor_allowance)
+        yield from too_many("plunge", lambda: self.down(m)(0.0, -deepest))
 
     def check_size(self, radius: float) -> Iterator[tuple[str, str]]:
         """Whether the tool and its allowance fit into the pocket."""
         raise NotImplementedError
+
+    def down(self, m: Machine) -> Down:
+        """The way from one level to another, as J says."""
+        entry = Entry(ENTRIES[int(self.plunge)], m.tool.plunge_angle) if self.plunge else Entry()
+        return partial(way_down, entry, self.room(m.radius, self.side_allowance), m.radius, self.climb)
 
     def moves(self, m: Machine) -> None:
         """Steps 1 to 8 of the manual."""
@@ -132,33 +136,33 @@ class Pocket(MillingCycle):
             return
         if self.plunge == 1 and m.tool.plunge_angle < 90 and room.half_width < radius:
             m.warn(f"{self.code} J1 has a narrow helix: its radius is {room.half_width:g}, that of the tool {radius:g}")
-        entry = Entry(ENTRIES[int(self.plunge)], m.tool.plunge_angle) if self.plunge else Entry()
-        down = partial(way_down, entry, room, radius, self.climb)
         perform(m, self.code, [Go("to the clearance level", above)])
         side, deep = 1 if self.climb else -1, min(self.clearance, room.half_width)
         if self.scope != 2:
             steps = rough(
                 self.clearing(radius, self.side_allowance), self.levels(), surface=self.surface,
-                clearance=self.clearance, down=down, feeds=Feeds(self.feed, self.plunge_feed), departure=deep, side=side,
+                clearance=self.clearance, down=self.down(m), feeds=Feeds(self.feed, self.plunge_feed), departure=deep,
+                side=side,
             )  # fmt: skip
             perform(m, self.code, steps)
         if self.scope != 1:
-            for part in self.finishing(radius, above, down, side):
+            for part in self.finishing(m, above, side):
                 perform(m, self.code, part)
         perform(m, self.code, [Go("to the start point", end)])
 
-    def finishing(self, radius: float, above: float, down: partial, side: int) -> Iterator[Iterator[Step]]:
+    def finishing(self, m: Machine, above: float, side: int) -> Iterator[Iterator[Step]]:
         """The walls, and then the floor, each if it has an allowance."""
+        radius = m.radius
         clearing, feeds = self.clearing(radius, 0.0), Feeds(self.finish_feed or self.feed, self.plunge_feed)
         arc = min(self.side_allowance + self.clearance, self.room(radius, 0.0).half_width)
-        if self.side_allowance:
+        if self.side_allowance and clearing.passes and clearing.passes[-1].closed:  # there is a way round
             yield finish_walls(
                 clearing.passes[-1], self.wall_levels(), above=above, clearance=self.clearance, feeds=feeds,
                 approach=arc, side=side,
             )  # fmt: skip
         if self.floor_allowance:
             yield finish_floor(
-                clearing, self.surface + self.depth, top=self.left_over, clearance=self.clearance, down=down,
+                clearing, self.surface + self.depth, top=self.left_over, clearance=self.clearance, down=self.down(m),
                 feeds=feeds, departure=arc, side=side,
             )  # fmt: skip
 

@@ -1,0 +1,198 @@
+"""Two paths laid over one another: how far each is from the other, and where they are farthest apart.
+
+The distance of a place is that to the nearest place of the other path, whatever its number or order of moves; the
+greatest of all, in both directions, is the Hausdorff distance. Arcs are chords within ``chord_error``; a path is looked at
+every ``step`` mm, so that the result is too small by less than half a step,
+and wrong by the chord error at most besides.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from html import escape
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.listing import figure, point
+from mnclab.path.points import points
+from mnclab.path.toolpath import Toolpath
+
+Array = NDArray[np.float64]
+PLACES = 4000  # of a path, if no step is given
+CHUNK, GROUP = 256, 64  # places at a time; strokes that share a box
+
+
+@dataclass(frozen=True)
+class Traces:
+    """One path as seen from the other: places (m, 3) mm, their rows (m,), the nearest places (m, 3) of the other."""
+
+    places: Array
+    row: NDArray[np.int64]
+    nearest: Array
+
+    @property
+    def distance(self) -> Array:
+        """mm (m,)."""
+        found: Array = np.linalg.norm(self.places - self.nearest, axis=1)
+        return found
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """Where two paths differ.
+
+    ``one`` and ``other`` are the traces, ``names`` and ``paths`` what was compared, ``times`` s of both.
+    """
+
+    paths: tuple[Toolpath, Toolpath]
+    names: tuple[str, str]
+    one: Traces
+    other: Traces
+    step: float
+    times: tuple[float, float] | None = None
+
+    @property
+    def largest(self) -> float:
+        """The largest deviation, mm; nan when one path has no motion and the other has."""
+        if not len(self.one.row) or not len(self.other.row):
+            return 0.0 if len(self.one.row) == len(self.other.row) else float("nan")
+        return float(max(self.one.distance.max(), self.other.distance.max()))
+
+    @property
+    def where(self) -> tuple[Array, Array, int, int] | None:
+        """The two places (3,) that are farthest apart, on the first and the second path, and the line of the one from
+        which it was measured with the number of its path (0 or 1); None without motion."""
+        if not len(self.one.row) or not len(self.other.row):
+            return None
+        k = 0 if self.one.distance.max() >= self.other.distance.max() else 1
+        trace = (self.one, self.other)[k]
+        at = int(trace.distance.argmax())
+        pair = trace.places[at], trace.nearest[at]
+        return *(pair if k == 0 else pair[::-1]), int(self.paths[k].line[trace.row[at]]), k
+
+    def first(self, tolerance: float = 0.001) -> int | None:
+        """The first row of the second path that is more than ``tolerance`` mm away from the first; None if there is none."""
+        away = np.flatnonzero(self.other.distance > tolerance)
+        return int(self.other.row[away[0]]) if len(away) else None
+
+    def rows(self) -> list[tuple[str, str, str]]:
+        """What the table shows: a quantity, and its value on each path."""
+        one, other = self.paths
+        places = [point(place) for place in self.where[:2]] if self.where else ["", ""]
+        found = [
+            ("farthest apart", places[0], places[1]),
+            ("moves", str(int(one.is_motion.sum())), str(int(other.is_motion.sum()))),
+            ("length", f"{figure(one.length, 3)} mm", f"{figure(other.length, 3)} mm"),
+        ]
+        if self.times:
+            found.append(("time", f"{figure(self.times[0], 3)} s", f"{figure(self.times[1], 3)} s"))
+        return found
+
+    @property
+    def sentence(self) -> str:
+        """The result in one sentence."""
+        where = self.where
+        if where is None:
+            return "no motion on either path" if self.largest == 0 else "only one of the paths has motion"
+        if self.largest < 1e-9:
+            return "the paths are the same"
+        return f"largest deviation {figure(self.largest, 6)} mm at line {where[2]} of {self.names[where[3]]}"
+
+    def __str__(self) -> str:
+        lines = [f"{self.names[0]} and {self.names[1]}: {self.sentence}"]
+        return "\n".join([*lines, *(f"  {name}: {one}; {other}" for name, one, other in self.rows())])
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        cells = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in self.rows())
+        head = "".join(f"<th>{escape(name)}</th>" for name in ("", *self.names))
+        return f"<p>{escape(self.sentence)}</p><table><tr>{head}</tr>{cells}</table>"
+
+    def plot(self, view: str = "auto") -> object:
+        """Both paths in one view, with the largest deviation marked."""
+        from mnclab.show.plot.deviation import plot_deviation
+
+        return plot_deviation(self, view)
+
+
+def deviation(
+    one: Toolpath, other: Toolpath, names: tuple[str, str] = ("first", "second"),
+    step: float | None = None, chord_error: float = 1e-4, times: tuple[float, float] | None = None,
+) -> Deviation:  # fmt: skip
+    """Lay two paths over one another; ``step`` mm, by default a four-thousandth of the longer one."""
+    step = step or max(one.length, other.length, 1e-3) / PLACES
+    if not step > 0:
+        raise ValueError(f"step must be greater than 0 mm, got {step:g}")
+    strokes = [_strokes(path, chord_error) for path in (one, other)]
+    looks = [_places(*parts, step) for parts in strokes]
+    traces = [Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1])]
+    return Deviation((one, other), names, traces[0], traces[1], step, times)
+
+
+def _strokes(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[np.int64]]:
+    """Straight pieces of the motion: starts and ends (n, 3) and rows (n,)."""
+    xyz, row = points(path, chord_error)
+    if not len(row):
+        return xyz, xyz, row
+    start = xyz[:-1].copy()
+    first = np.concatenate([[True], row[2:] != row[1:-1]])
+    start[first] = path.start[row[1:][first]]
+    return start, xyz[1:], row[1:]
+
+
+def _places(start: Array, end: Array, row: NDArray[np.int64], step: float) -> tuple[Array, NDArray[np.int64]]:
+    """Places (m, 3) along strokes, both ends of each among them, and their rows (m,)."""
+    count = np.maximum(np.ceil(np.linalg.norm(end - start, axis=1) / step), 1).astype(np.int64) + 1
+    which = np.repeat(np.arange(len(row)), count)
+    share = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / (count[which] - 1)
+    return start[which] + share[:, None] * (end - start)[which], row[which]
+
+
+def _nearest(places: Array, start: Array, end: Array) -> Array:
+    """The nearest place on any stroke (m, 3).
+
+    Strokes are put into boxes in their order. The box that seems nearest gives a distance; only boxes that come nearer
+    than that can hold a nearer stroke. Neighbouring places share them, so they are looked at together.
+    """
+    if not len(start) or not len(places):
+        return np.full_like(places, np.nan)
+    groups = np.arange(0, len(start), GROUP)
+    low = np.minimum.reduceat(np.minimum(start, end), groups)
+    high = np.maximum.reduceat(np.maximum(start, end), groups)
+    found = np.empty_like(places)
+    for at in range(0, len(places), CHUNK):
+        here = places[at : at + CHUNK]
+        square = np.zeros((len(here), len(groups)))
+        for k in range(3):
+            value = here[:, k, None]
+            square += np.maximum(np.maximum(low[:, k] - value, value - high[:, k]), 0) ** 2
+        gap = np.sqrt(square)
+        best = np.unique(gap.argmin(axis=1))
+        near = _on_strokes(here, start, end, best)
+        reach = np.linalg.norm(here - near, axis=1)
+        needed = np.flatnonzero((gap < reach[:, None] + 1e-12).any(axis=0))
+        found[at : at + CHUNK] = _on_strokes(here, start, end, needed) if len(needed) > len(best) else near
+    return found
+
+
+def _on_strokes(here: Array, start: Array, end: Array, boxes: NDArray[np.int64]) -> Array:
+    """The nearest place (m, 3) on the strokes of some boxes.
+
+    Which stroke is nearest is found with matrix products, which are quick and lose half of the digits; where on that
+    stroke, with differences.
+    """
+    which = (boxes[:, None] * GROUP + np.arange(GROUP)).ravel()
+    which = which[which < len(start)]
+    middle = here.mean(axis=0)
+    a, along, seen = start[which] - middle, (end - start)[which], here - middle
+    square = np.einsum("ij,ij->i", along, along)
+    square[square == 0] = 1.0
+    forward = seen @ along.T - np.einsum("ij,ij->i", a, along)
+    share = np.clip(forward / square, 0.0, 1.0)
+    away = np.einsum("ij,ij->i", a, a) - 2 * (seen @ a.T) + share * (share * square - 2 * forward)
+    nearest = away.argmin(axis=1)
+    chosen, stroke = along[nearest], a[nearest]
+    exact = np.einsum("ij,ij->i", seen - stroke, chosen) / square[nearest]
+    return middle + stroke + np.clip(exact, 0.0, 1.0)[:, None] * chosen

@@ -1,0 +1,320 @@
+"""What one block does, in plain words: each word with the function that takes it, where the manual says so, what it
+changed; and the way from the programmed point through datum, transformations and compensation to the tool tip.
+"""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry import frames
+from mnclab.machine.control import Function
+from mnclab.machine.cycle import Cycle
+from mnclab.machine.machine import Machine
+from mnclab.machine.planner import Plan, Planner
+from mnclab.path.listing import figure, point, words
+from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.expression import Expression
+from mnclab.text.program import Word
+
+if TYPE_CHECKING:
+    from mnclab.machine.run import Moment, Run
+
+BY_WORD = {"F": "feed", "S": "speed", "T": "tool"}
+SHOWN = 12  # rows of the path
+Matrix = NDArray[np.float64]
+
+
+class Meaning(NamedTuple):
+    """One word of a block: as written, its value, the code that takes it, in plain words, the section of the manual."""
+
+    word: str
+    value: str
+    code: str
+    says: str
+    source: str
+    changed: str
+
+
+class Stage(NamedTuple):
+    """A step on the way from the programmed point to the tool: its name and the point (3,) mm there."""
+
+    name: str
+    point: tuple[float, float, float]
+    note: str = ""
+
+
+class Explanation:
+    """A block explained; ``meanings``, ``changed`` (name, before, after), ``stages`` and ``moves`` hold what is shown."""
+
+    def __init__(self, run: Run, moment: Moment) -> None:
+        self.run, self.moment = run, moment
+        span = moment.block.span
+        self.alarms = tuple(alarm for alarm in run.alarms if alarm.span and alarm.span.line == span.line)
+        history = run.history
+        self.changed = [
+            (name, _plain(history.value(name, moment.step - 1)) if moment.step else "", _plain(value))
+            for name, value in moment.changed.items()
+        ]
+        self.changed = [change for change in self.changed if change[1] != change[2]]
+        self.skipped = bool(moment.block.skip and run.settings.get("block_skip"))
+        self.meanings = tuple(_meanings(run, moment, dict((name, (a, b)) for name, a, b in self.changed)))
+        self.stages = tuple(_stages(run, moment))
+        path = run.toolpath[moment.rows]
+        self.moves = tuple(f"{move.kind.name.lower()} {words(move)}".strip() for move in path[:SHOWN])
+        self.more_moves = max(0, len(path) - SHOWN)
+
+    @property
+    def title(self) -> str:
+        """The line, and the block as written."""
+        text = self.run.program.line_text(self.moment.line).strip()
+        times = int((self.run.steps.block[: self.moment.step + 1] == self.run.steps.block[self.moment.step]).sum())
+        again = f" (execution {times})" if times > 1 else ""
+        return f"line {self.moment.line}{again}: {text}"
+
+    def __str__(self) -> str:
+        lines = [self.title]
+        if self.skipped:
+            lines.append("  passed over: block skip is on")
+        lines += [f"  {alarm.severity}: {alarm.message}" for alarm in self.alarms]
+        wide = max((len(m.word) for m in self.meanings), default=0)
+        for m in self.meanings:
+            source = f"  [{m.source}]" if m.source else ""
+            changed = f"  ({m.changed})" if m.changed else ""
+            lines.append(f"  {m.word.ljust(wide)}  {m.says}{changed}{source}")
+        if self.moves:
+            lines.append("  moves")
+            lines += [f"    {move}" for move in self.moves]
+            lines += [f"    … {self.more_moves} more"] if self.more_moves else []
+        if self.changed:
+            lines.append("  changed")
+            lines += [
+                f"    {name}: {before} -> {after}" if before else f"    {name}: {after}"
+                for name, before, after in self.changed
+            ]
+        lines.append("  from the program to the tool")
+        wide = max(len(stage.name) for stage in self.stages)
+        lines += [
+            f"    {s.name.ljust(wide)}  {point(np.array(s.point))}{'  ' + s.note if s.note else ''}"
+            for s in self.stages
+        ]
+        return "\n".join(lines)
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+            if not rows:
+                return ""
+            top = "".join(f"<th>{cell}</th>" for cell in head)
+            body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
+            return f"<table><tr>{top}</tr>{body}</table>"
+
+        parts = [f"<h4>{escape(self.title)}</h4>"]
+        if self.skipped:
+            parts.append("<p>passed over: block skip is on</p>")
+        parts += [alarm._repr_html_() for alarm in self.alarms]
+        parts.append(
+            table(
+                ("word", "means", "changed", "section"), [(m.word, m.says, m.changed, m.source) for m in self.meanings]
+            )
+        )
+        if self.moves:
+            more = [f"… {self.more_moves} more"] if self.more_moves else []
+            parts.append("<pre>" + escape("\n".join([*self.moves, *more])) + "</pre>")
+        parts.append(table(("value", "before", "after"), [(n, a, b) for n, a, b in self.changed]))
+        parts.append(
+            table(
+                ("from the program to the tool", "X", "Y", "Z", ""),
+                [(s.name, *map(figure, s.point), s.note) for s in self.stages],
+            )
+        )
+        return f"<div>{''.join(parts)}</div>"
+
+
+# --- words -----------------------------------------------------------------------------------------------------------
+
+
+def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> list[Meaning]:
+    """Every word of a block, in the order written; the keyword of a conversational block first."""
+    block = moment.block
+    plan = _plan(run, moment)
+    if plan is None:
+        return [
+            Meaning(str(word), _value(run, moment, word), "", "not obeyed: the block is refused", "", "")
+            for word in block.words
+        ]
+    found: dict[int, Meaning] = {}
+    for action, _ in plan.actions:
+        what = action.what
+        for index in (action.head, *action.takes):
+            word = block.words[index] if index >= 0 else None
+            if index == action.head and isinstance(what, Function):
+                says, source = f"{what.title}", what.source
+            elif index == action.head:
+                says, source = f"cycle: {what.title}", what.source
+            elif isinstance(what, Function):
+                assert word is not None
+                says, source = f"{_coordinate(word)} of {what.code} ({what.title})", ""
+            else:
+                assert word is not None
+                says, source = _parameter(what, action.code, word), ""
+            shown = str(word) if word is not None else block.keyword or f"({action.code})"
+            if word is None and not block.keyword:
+                says = f"{says}, active from before"
+            value = _value(run, moment, word) if word is not None else ""
+            if value:
+                says += f" = {value}"
+            name = _changes(what, word)
+            before, after = changed.get(name, ("", ""))
+            happened = f"{name}: {before or 'none'} -> {after}" if name in changed and index == action.head else ""
+            if word is not None and word.address.startswith("Q") and word.address in changed:
+                before, after = changed[word.address]
+                happened = f"{before or 'none'} -> {after}"
+            found[index] = Meaning(shown, value, action.code, says, source, happened)
+    return [found[index] for index in sorted(found)]
+
+
+def _plan(run: Run, moment: Moment) -> Plan | None:
+    """How the words were handed out: planned anew in the state before the block; None where that is an alarm."""
+    if any(alarm.severity == ALARM and alarm.span and alarm.span.line == moment.line for alarm in run.program.alarms):
+        return None
+    control, history, before = run.control, run.history, moment.step - 1
+    machine = Machine(control, run.setup)
+    groups = {function.group for function in control.functions.values() if function.group} | {control.motion}
+    machine.modal.update(control.power_on())
+    if before >= 0:
+        machine.modal.update({g: str(v) for g in groups if (v := history.value(g, before)) is not None})
+        machine.pole = history.value("pole", before)
+    cycle = control.cycles.get(str(history.value("cycle", before))) if before >= 0 else None
+    active = cycle if cycle is not None and cycle.runs == "position" else None
+    phases = {name: k for k, name in enumerate(control.phases)}
+    block = moment.block
+    try:
+        return Planner(control, machine, phases, block.keyword, list(block.words), active).plan()
+    except Alarm:  # the run has the same alarm at this block, and the explanation shows it
+        return None
+
+
+def _coordinate(word: Word) -> str:
+    """What a word of a motion is, as far as its letter says."""
+    letter = word.address
+    if letter in ("X", "Y", "Z"):
+        return f"increment along {letter}" if word.incremental else f"coordinate {letter}"
+    return f"word {letter}" if letter.isalpha() and letter.isupper() else "part"
+
+
+def _parameter(cycle: type[Cycle], code: str, word: Word) -> str:
+    """The parameter of a cycle that a word gives."""
+    for parameter in cycle.parameters():
+        if word.address in (parameter.address, *parameter.aliases):
+            unit = f", {parameter.unit}" if parameter.unit and not parameter.mark else ""
+            return f"{parameter.meaning}{unit} ({code})"
+    return f"word of {code}"
+
+
+def _changes(what: Function | type[Cycle], word: Word | None) -> str:
+    """The name in the history that a function changes."""
+    if isinstance(what, Function):
+        return what.group or BY_WORD.get(what.code, "")
+    return "cycle"
+
+
+def _value(run: Run, moment: Moment, word: Word | None) -> str:
+    """The number of a word whose text is an expression."""
+    if word is None or not isinstance(word.value, Expression):
+        return ""
+    variables = {
+        token.text: run.history.value(token.text, moment.step - 1)
+        for token in word.value.tokens
+        if token.kind == "variable"
+    }
+    known = {name: value for name, value in variables.items() if value is not None}
+    try:
+        return figure(word.value.evaluate(known), 6)
+    except Alarm:  # a variable without a value: the run says so
+        return ""
+
+
+# --- the way to the tool -----------------------------------------------------------------------------------------------
+
+
+def _stages(run: Run, moment: Moment) -> list[Stage]:
+    """The programmed point, after every frame from the innermost to the outermost, after compensation."""
+    stages = [Stage("programmed point", moment.position)]
+    chain = [(name, matrix) for name, matrix in _frames(run, moment) if not np.array_equal(matrix, frames.IDENTITY)]
+    here = np.array(moment.position)
+    for name, matrix in reversed(chain):
+        here = frames.apply(matrix, here)
+        stages.append(Stage(f"after {name}", _tuple(here), _describe(matrix)))
+    origin = run.toolpath.origin
+    machine = here
+    if not chain:
+        stages.append(Stage("machine coordinates", _tuple(machine), "no frame is active"))
+    if origin.any():
+        stages.append(Stage("from the first work offset", _tuple(machine - origin), f"at machine {point(origin)}"))
+    tip = np.array(moment.point)
+    path, last = run.toolpath, moment.rows.stop - 1
+    note = ""
+    away = float(np.linalg.norm(tip - (machine - origin)))
+    if last >= 0 and path.side[last] and away > 1e-9:
+        side = "left" if path.side[last] > 0 else "right"
+        note = f"tool radius {figure(float(path.radius[last]))} to the {side}: {figure(away)} mm away"
+    elif away > 1e-6:
+        note = f"{figure(away)} mm away: a frame was changed since, or corners were rounded"
+    stages.append(Stage("tool tip", _tuple(tip), note))
+    tool = run.tables.tools.get(int(path.tool[last])) if last >= 0 else None
+    if tool is not None and not path.lathe:
+        length = np.array([0.0, 0.0, tool.effective_length])
+        stages.append(
+            Stage(
+                "spindle, machine coordinates",
+                _tuple(tip + origin + length),
+                f"tool length {figure(tool.effective_length)}",
+            )
+        )
+    return stages
+
+
+def _frames(run: Run, moment: Moment) -> list[tuple[str, Matrix]]:
+    """The frames after the block, the outermost first."""
+    names = list(dict.fromkeys([*run.control.frames, *(name for name, _ in run.frames)]))
+    values = ((name, run.history.value(f"frame {name}", moment.step)) for name in names)
+    return [(name, np.array(value)) for name, value in values if value is not None]
+
+
+def _describe(matrix: Matrix) -> str:
+    """A frame in words."""
+    if frames.is_shift(matrix):
+        return f"shift {point(matrix[:3, 3])}"
+    linear = matrix[:3, :3]
+    scales = np.linalg.norm(linear, axis=0)
+    if np.allclose(np.abs(linear), np.diag(scales)):
+        signs = "".join(axis for axis, factor in zip("XYZ", np.diag(linear)) if factor < 0)
+        said = [f"mirror {signs}"] if signs else []
+        said += [f"scale {' '.join(map(figure, scales))}"] if not np.allclose(scales, 1) else []
+        return ", ".join(said)
+    angle = np.degrees(np.arccos(np.clip((np.trace(linear) - 1) / 2, -1, 1)))
+    return f"turn by {figure(angle if linear[1, 0] >= 0 else -angle)}°" if np.allclose(scales, 1) else "turn and scale"
+
+
+def _tuple(xyz: NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = np.asarray(xyz, dtype=np.float64).tolist()
+    return x, y, z
+
+
+def _plain(value: Any) -> str:
+    """A value of the history in words."""
+    if value is None:
+        return ""
+    if isinstance(value, int | float):
+        return figure(float(value), 6)
+    if isinstance(value, tuple) and np.asarray(value).shape == (4, 4):
+        return _describe(np.array(value)) or "none"
+    if isinstance(value, tuple) and np.asarray(value).ndim == 1:
+        return " ".join(figure(each, 4) for each in value)
+    number = getattr(value, "number", None)
+    return f"T{number} {value.name}".strip() if number is not None else str(value)

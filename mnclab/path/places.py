@@ -1,0 +1,52 @@
+"""Places along the rows of a path: a row and a share of it, 0 at its start and 1 at its end."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Toolpath
+
+Array = NDArray[np.float64]
+
+
+def spokes(path: Toolpath, rows: NDArray[np.integer]) -> tuple[Array, Array]:
+    """Of arcs: from the centre to the start within the plane, and the same a quarter turn on, (n, 3) each."""
+    axis = path.axis[rows]
+    spoke = path.start[rows] - path.centre[rows]
+    spoke = spoke - np.einsum("ij,ij->i", spoke, axis)[:, None] * axis
+    return spoke, np.cross(axis, spoke)
+
+
+def points_at(path: Toolpath, rows: NDArray[np.integer], share: Array) -> Array:
+    """Points (n, 3) of ``rows`` (n,) at shares (n,) of their way; of events, where the tool is."""
+    start, end = path.start[rows], path.end[rows]
+    xyz = start + share[:, None] * (end - start)
+    arc = np.flatnonzero(path.kind[rows] == Kind.ARC)
+    if len(arc):
+        which, t = rows[arc], share[arc]
+        u, v = spokes(path, which)
+        sweep = path.sweep[which]
+        middle = start[arc] - u
+
+        def turned(angle: Array) -> Array:
+            return np.cos(angle)[:, None] * u + np.sin(angle)[:, None] * v
+
+        # the end may lie a little off the circle (a rounded program): spread along the arc, like the pitch of a helix
+        drift = end[arc] - (middle + turned(sweep))
+        xyz[arc] = middle + turned(t * sweep) + t[:, None] * drift
+        xyz[arc[t == 1]] = end[arc[t == 1]]
+    return xyz
+
+
+def turning_points(path: Toolpath, rows: NDArray[np.integer]) -> Array:
+    """Shares (n, k) of arcs where a coordinate turns back, in any order; 0 where there are fewer than k."""
+    u, v = spokes(path, rows)
+    sweep = path.sweep[rows]
+    most = int(np.ceil(np.abs(sweep).max() / np.pi)) + 1 if len(rows) else 0
+    # coordinate = a cos t + b sin t has its extremes at t = atan2(b, a) + k pi
+    first = np.arctan2(v, u)[:, :, None] + np.pi * np.arange(-most - 1, most + 2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = (first / sweep[:, None, None]).reshape(len(rows), -1)
+    return np.where((share > 0) & (share < 1), share, 0.0)

@@ -1,0 +1,114 @@
+"""A part program to type in: its text, its alarms and its picture, all of them while one types; and a file to save to.
+
+The front end holds typing back while the kernel is busy, so that nothing need be delayed here; a change that comes back
+to the same text draws nothing. Figures are drawn in the one drawing thread of :mod:`mnclab.show.forms`.
+"""
+
+from __future__ import annotations
+
+import os
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from mnclab.controls.choice import choose
+from mnclab.controls.choice import run as run_text
+from mnclab.machine.setup import Setup
+from mnclab.show.forms import DRAWING, picture_of, verdict
+from mnclab.text.alarm import Alarm
+from mnclab.text.program import decode
+
+STYLE = "<style>.mnclab-editor textarea{font-family:monospace;font-size:13px;line-height:1.35;white-space:pre}</style>"
+
+
+class Document:
+    """A file and what was read from it: line ends and code page are kept, a change by somebody else is noticed."""
+
+    def __init__(self, path: Path) -> None:
+        self.path, self.encoding, self.ends, self.content = path, "utf-8", "\n", b""
+        self.text = ""
+        try:
+            self.content = path.read_bytes()
+        except FileNotFoundError:
+            return
+        except OSError as error:
+            raise Alarm(f"{path} cannot be read: {error.strerror or error}") from None
+        text, self.encoding = decode(self.content)
+        if self.content.startswith(b"\xef\xbb\xbf"):
+            self.encoding = "utf-8-sig"  # with its byte order mark
+        self.ends = "\r\n" if "\r\n" in text else "\n"
+        self.text = text.replace("\r\n", "\n")
+
+    def save(self, text: str) -> None:
+        """Write the text; an Alarm if the file was changed since, or holds no such letters."""
+        try:
+            if (self.path.read_bytes() if self.path.exists() else b"") != self.content:
+                raise Alarm(f"{self.path} was changed by somebody else since it was opened: not saved")
+            content = self._encoded(text.replace("\n", self.ends))
+            beside = self.path.with_name(self.path.name + ".part")
+            beside.write_bytes(content)
+            os.replace(beside, self.path)
+        except OSError as error:
+            raise Alarm(f"{self.path} cannot be written: {error.strerror or error}") from None
+        self.content, self.text = content, text
+
+    def _encoded(self, text: str) -> bytes:
+        try:
+            return text.encode(self.encoding)
+        except UnicodeEncodeError as error:
+            letter = text[error.start]
+            raise Alarm(f"{letter!r} cannot be written in {self.encoding}, the code page of {self.path}") from None
+
+
+def editor(path: str | Path, control: str | None = None, setup: Setup | None = None, *, view: str = "auto") -> Any:
+    """Text, alarms and picture of a part program side by side (needs ipywidgets and matplotlib).
+
+    A file that does not exist yet is made when it is saved. The result has ``text``, ``button`` and ``status`` (boxes),
+    ``run`` (the last run) and ``document``.
+    """
+    import ipywidgets
+
+    document = Document(Path(path))
+    if control is not None:
+        choose(control, "", "")
+    text = ipywidgets.Textarea(document.text, layout={"width": "32em", "height": "24em"}, continuous_update=True)
+    text.add_class("mnclab-editor")
+    button = ipywidgets.Button(description="Save", tooltip=f"write {path}")
+    status, picture, alarms = ipywidgets.HTML(), ipywidgets.HTML(), ipywidgets.HTML()
+    left = ipywidgets.VBox([ipywidgets.HTML(STYLE), text, ipywidgets.HBox([button, status])])
+    live: Any = ipywidgets.VBox([ipywidgets.HBox([left, picture], layout={"flex_flow": "row wrap"}), alarms])
+
+    def say(sentence: str, fault: bool = False) -> None:
+        status.value = f'<span role="{"alert" if fault else "status"}">{escape(sentence)}</span>'
+
+    def check(_: Any = None) -> None:
+        source = text.value if text.value.endswith("\n") else text.value + "\n"
+        changed = text.value != document.text
+        say(f"{document.path.name}: {'changed' if changed else 'new' if not document.content else 'saved'}")
+        try:
+            live.run = run_text(source, _control(control, document.path, source), setup)
+        except Alarm as alarm:
+            alarms.value = alarm._repr_html_()
+            return
+        picture.value = DRAWING.submit(picture_of, live.run, view).result()
+        alarms.value = verdict(live.run)
+
+    def save(_: Any = None) -> None:
+        try:
+            document.save(text.value)
+        except Alarm as alarm:
+            say(alarm.message, fault=True)
+        else:
+            say(f"{document.path.name}: saved")
+
+    live.text, live.button, live.status, live.picture, live.alarms = text, button, status, picture, alarms
+    live.run, live.document = None, document
+    check()
+    text.observe(check, "value")
+    button.on_click(save)
+    return live
+
+
+def _control(control: str | None, path: Path, source: str) -> str:
+    """The control that was named, or what the file's name or the text point to."""
+    return choose(control, path.name, source).name

@@ -1,0 +1,149 @@
+"""A run as bodies and lines for 3D programs: STL, glTF and VTK, written without any of them.
+
+- STL holds the cuts as thin tubes and the tool where it ends, to lay over a part in another program. STL knows
+  triangles alone: no colour, no rapids, no unit (the numbers are millimetres).
+- glTF (``.gltf``, or ``.glb`` in one binary piece) holds lines in the colours of the pictures, the tool and the blank;
+  metres and Y upwards, as the format wants it.
+- VTK (legacy ``.vtk``) holds a polyline for every move, double precision, with the columns of the path beside them:
+  for ParaView and pyvista.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.kinds import Kind
+from mnclab.show.solids import Body, size_of, stock_of, strokes, tool_of, tubes
+
+CHORD = 0.01  # mm
+TUBE = 1 / 500  # radius of a tube in parts of the path's size
+BESIDE = ("kind", "line", "step", "tool", "feed", "spindle")  # columns that VTK gets
+#: Colours, 0 to 1, of lines and bodies.
+RAPID, FEED, PROBING = (0.776, 0.157, 0.157), (0.071, 0.349, 0.659), (0.482, 0.122, 0.635)
+TOOL, STOCK = (0.45, 0.47, 0.5), (0.75, 0.72, 0.65)
+CLASSES = {"rapid": (RAPID, (Kind.RAPID,)), "feed": (FEED, (Kind.LINE, Kind.ARC)), "probing": (PROBING, (Kind.PROBE,))}
+TO_GLTF = [0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1]  # mm and Z up -> m and Y up, by columns
+
+
+def write_stl(run: Any, path: Path) -> None:
+    """Write the cuts as tubes and the tool as a binary STL."""
+    toolpath = run.toolpath
+    bodies = [tubes(toolpath, TUBE * size_of(toolpath), CHORD), *filter(None, [tool_of(run)])]
+    facets = np.concatenate([body.points[body.triangles] for body in bodies])
+    table = np.zeros(len(facets), dtype=[("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("more", "<u2")])
+    normal = np.cross(facets[:, 1] - facets[:, 0], facets[:, 2] - facets[:, 0])
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    table["normal"], table["corner"] = normal / np.where(length > 0, length, 1.0), facets
+    path.write_bytes(b"mnclab tool path, millimetres".ljust(80) + struct.pack("<I", len(table)) + table.tobytes())
+
+
+class Gltf:
+    """The parts of a glTF document: a buffer, and what points into it."""
+
+    def __init__(self) -> None:
+        self.buffer = bytearray()
+        self.views: list[dict[str, Any]] = []
+        self.accessors: list[dict[str, Any]] = []
+        self.materials: list[dict[str, Any]] = []
+        self.meshes: list[dict[str, Any]] = []
+
+    def array(self, values: NDArray[Any], kind: str, target: int) -> int:
+        """An array in the buffer; float32 points or uint32 indices."""
+        points = kind == "VEC3"
+        data = np.ascontiguousarray(values, dtype="<f4" if points else "<u4")
+        self.views.append({"buffer": 0, "byteOffset": len(self.buffer), "byteLength": data.nbytes, "target": target})
+        self.buffer += data.tobytes()
+        limits = {"min": data.min(axis=0).tolist(), "max": data.max(axis=0).tolist()} if points else {}
+        accessor = {"bufferView": len(self.views) - 1, "componentType": 5126 if points else 5125, "type": kind}
+        self.accessors.append({**accessor, "count": len(data), **limits})
+        return len(self.accessors) - 1
+
+    def material(self, name: str, colour: tuple[float, float, float], alpha: float = 1.0) -> int:
+        """A colour; glTF counts linearly, the colours here are those of a screen."""
+        linear = [((c + 0.055) / 1.055) ** 2.4 if c > 0.04 else c / 12.92 for c in colour]
+        surface = {"baseColorFactor": [*linear, alpha], "metallicFactor": 0, "roughnessFactor": 0.7}
+        look = {"name": name, "pbrMetallicRoughness": surface}
+        self.materials.append(look | ({"alphaMode": "BLEND"} if alpha < 1 else {}))
+        return len(self.materials) - 1
+
+    def lines(self, name: str, pieces: NDArray[np.float64], colour: tuple[float, float, float]) -> None:
+        """Separate strokes (n, 2, 3)."""
+        if len(pieces):
+            part = {"attributes": {"POSITION": self.array(pieces.reshape(-1, 3), "VEC3", 34962)}, "mode": 1}
+            self.meshes.append({"name": name, "primitives": [part | {"material": self.material(name, colour)}]})
+
+    def body(self, name: str, body: Body, colour: tuple[float, float, float], alpha: float = 1.0) -> None:
+        """A closed surface."""
+        part = {"attributes": {"POSITION": self.array(body.points, "VEC3", 34962)}, "mode": 4}
+        part["indices"] = self.array(body.triangles.ravel(), "SCALAR", 34963)
+        self.meshes.append({"name": name, "primitives": [part | {"material": self.material(name, colour, alpha)}]})
+
+    def document(self, uri: str | None) -> bytes:
+        """The JSON part, with the buffer beside it or in it as ``uri``."""
+        count = len(self.meshes)
+        nodes = [{"name": mesh["name"], "mesh": k} for k, mesh in enumerate(self.meshes)]
+        root: dict[str, Any] = {"name": "tool path", "matrix": TO_GLTF}
+        parts: dict[str, Any] = {"asset": {"version": "2.0", "generator": "mnclab"}, "scene": 0}
+        parts |= {
+            "scenes": [{"nodes": [count]}],
+            "nodes": [*nodes, root | ({"children": [*range(count)]} if count else {})],
+        }
+        if count:
+            buffer = {"byteLength": len(self.buffer)} | ({"uri": uri} if uri else {})
+            parts |= {"meshes": self.meshes, "materials": self.materials, "accessors": self.accessors}
+            parts |= {"bufferViews": self.views, "buffers": [buffer]}
+        return json.dumps(parts, separators=(",", ":")).encode()
+
+
+def write_gltf(run: Any, path: Path) -> None:
+    """Write lines, tool and blank as glTF; the suffix .glb makes the binary form."""
+    gltf = Gltf()
+    pieces, row = strokes(run.toolpath, CHORD)
+    for name, (colour, kinds) in CLASSES.items():
+        gltf.lines(name, pieces[np.isin(run.toolpath.kind[row], kinds)], colour)
+    if tool := tool_of(run):
+        gltf.body("tool", tool, TOOL)
+    if stock := stock_of(run):
+        gltf.body("blank", stock, STOCK, 0.3)
+    data = bytes(gltf.buffer)
+    if path.suffix.lower() != ".glb":
+        uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+        path.write_bytes(gltf.document(uri) + b"\n")
+        return
+    text = gltf.document(None)
+    text += b" " * (-len(text) % 4)
+    data += bytes(-len(data) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text
+    if data:
+        chunks += struct.pack("<I4s", len(data), b"BIN\0") + data
+    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+
+
+def write_vtk(run: Any, path: Path) -> None:
+    """Write every move as a polyline of a legacy VTK file, with columns of the path as data of the cells."""
+    toolpath = run.toolpath
+    xyz, row = toolpath.points(CHORD)
+    moves, count = np.unique(row[1:], return_counts=True)
+    # every move has its start and then its points: a start stands before the first point of each move
+    first = np.cumsum(count) - count
+    points = np.insert(xyz[1:], first, toolpath.start[moves], axis=0)
+    size = count + 1
+    cells = np.insert(np.arange(len(points)), np.cumsum(size) - size, size)
+    head = "# vtk DataFile Version 3.0\ntool path of mnclab, millimetres\nBINARY\nDATASET POLYDATA\n"
+    head += f"POINTS {len(points)} double\n"
+    with path.open("wb") as file:
+        file.write(head.encode() + points.astype(">f8").tobytes())
+        file.write(f"\nLINES {len(moves)} {len(cells)}\n".encode() + cells.astype(">i4").tobytes())
+        file.write(f"\nCELL_DATA {len(moves)}\n".encode())
+        for name in BESIDE:
+            column = getattr(toolpath, name)[moves]
+            real = column.dtype.kind == "f"
+            file.write(f"SCALARS {name} {'double' if real else 'int'} 1\nLOOKUP_TABLE default\n".encode())
+            file.write(column.astype(">f8" if real else ">i4").tobytes() + b"\n")

@@ -1,0 +1,55 @@
+"""Two paths in one picture, the second over the first, and where they are farthest apart."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.lines import Line2D
+
+from mnclab.show.plot.colours import Line, Mark
+from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, arrange, write_legend
+from mnclab.show.plot.strokes import corners, parted, strokes
+
+FIRST = Line("first", "#8c8c8c", "-", 3.2, 2.2)
+SECOND = Line("second", "#1259a8", "-", 1.1, 2.8)
+APART = Mark("largest deviation", "#b3261e", "o", 9, False, 4.2)
+SHOWN = 1e-6  # mm: less is called the same
+
+
+def plot_deviation(found: Any, view: str = "auto", size: tuple[float, float] = SIZE) -> Picture:
+    """The first path wide and grey, the second thin and blue over it; a ring and a line where they are farthest apart."""
+    one, other = found.paths
+    lathe = one.lathe or other.lathe
+    lines = [
+        (look._replace(name=name), _line(path))
+        for look, name, path in ((FIRST, found.names[0], one), (SECOND, found.names[1], other))
+    ]
+    box = corners([xyz for _, xyz in lines], lathe)
+    low, high = box if box is not None else (np.zeros(3), np.zeros(3))
+    if view != "auto" and view.upper() not in VIEWS:
+        raise ValueError(f"view must be auto or one of {', '.join(VIEWS)}, got {view!r}")
+    views = [VIEWS["ZX"]] if lathe else [VIEWS["XY"]] if high[2] <= low[2] else [VIEWS["XY"], VIEWS["XZ"]]
+    views = views if view == "auto" else [VIEWS[view.upper()]]
+    where = found.where if found.largest > SHOWN else None
+    names = [line.name for line, _ in lines] + ([APART.name] if where else [])
+    picture, axes = arrange(views, low, high, names, Foot(found.sentence), f"two paths: {found.sentence}", size)
+    artists: list[Line2D] = []
+    for ax, each in zip(axes, views):
+        drawn = [Line2D(xyz[:, each.right], xyz[:, each.up], **line.style()) for line, xyz in lines]
+        if where:
+            ends = np.stack(where[:2])[:, [each.right, each.up]]
+            drawn.append(Line2D(*ends[:1].T, **APART.style()))
+            ax.add_line(Line2D(*ends.T, color=APART.colour, linewidth=1.2, zorder=APART.order))
+        for artist in drawn:
+            ax.add_line(artist)
+        artists = artists or drawn
+    write_legend(picture, artists)
+    return picture
+
+
+def _line(path: Any) -> np.ndarray:
+    """All moves of a path as one line, broken at tool changes."""
+    drawn = strokes(path)
+    (points,) = parted(drawn.xyz, np.where(drawn.row >= 0, 0, -1), 1)
+    return points

@@ -1,0 +1,78 @@
+"""A report on pages of A4: figures, tools, time and alarms, the picture, and the program in columns of plain text."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.figure import Figure
+
+from mnclab.show.plot import colours
+
+A4 = (8.27, 11.69)  # inches
+LEFT, TOP, LINE = 0.8, 0.8, 0.165  # inches: margins, and the height of a line
+LINES = int((A4[1] - 2 * TOP) / LINE)
+WIDTH = 92  # characters of a line
+
+
+def write(found: Any, picture: Figure, path: Path) -> None:
+    """Write the pages; the same report gives the same bytes."""
+    data = BytesIO()
+    undated = {"CreationDate": None, "Title": found.title}
+    with mpl.rc_context({"pdf.fonttype": 42}), PdfPages(data, metadata=undated) as pages:
+        for lines in chunks([*front(found)]):
+            pages.savefig(_page(lines))
+        pages.savefig(picture)
+        for lines in chunks([("Program", True), ("", False), *((line, False) for line in listing(found))]):
+            pages.savefig(_page(lines))
+    path.write_bytes(data.getvalue())
+
+
+def chunks(lines: list[tuple[str, bool]]) -> Iterator[list[tuple[str, bool]]]:
+    """Lines (text, bold) a page."""
+    yield from (lines[at : at + LINES] for at in range(0, max(len(lines), 1), LINES))
+
+
+def front(found: Any) -> Iterator[tuple[str, bool]]:
+    """What stands before the picture."""
+    yield from [(found.title, True), (found.subtitle, False), ("", False)]
+    yield from table(found.facts)
+    for name, rows in (("Tools", [found.tool_head, *found.tools] if found.tools else []), ("Time", found.times)):
+        yield from [("", False), (name, True)]
+        yield from table(rows) if rows else [("none", False)]
+    yield from [("", False), ("Alarms", True)]
+    for alarm in found.alarms:
+        for line in str(alarm).split("\n"):
+            yield from ((part, False) for part in textwrap.wrap(line, WIDTH, drop_whitespace=False) or [""])
+    if not found.alarms:
+        yield "none", False
+
+
+def table(rows: list[tuple[str, ...]]) -> Iterator[tuple[str, bool]]:
+    """Rows as text in columns."""
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    for row in rows:
+        yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip(), False
+
+
+def listing(found: Any) -> Iterator[str]:
+    """The program with its line numbers; a mark where an alarm stands, long lines folded."""
+    wide = len(str(len(found.listing)))
+    for number, text, faulty in found.listing:
+        parts = textwrap.wrap(text.expandtabs(4), WIDTH - wide - 3, drop_whitespace=False) or [""]
+        yield f"{number:{wide}d} {'!' if faulty else ' '} {parts[0]}"
+        yield from (" " * (wide + 3) + part for part in parts[1:])
+
+
+def _page(lines: list[tuple[str, bool]]) -> Figure:
+    page = Figure(figsize=A4, facecolor=colours.PAPER)
+    for k, (text, bold) in enumerate(lines):
+        place = LEFT / A4[0], 1 - (TOP + k * LINE) / A4[1]
+        weight = "bold" if bold else "normal"
+        page.text(*place, text, fontsize=9, family="DejaVu Sans Mono", weight=weight, va="top", parse_math=False)
+    return page

@@ -1,0 +1,150 @@
+"""A run as a report to hand in or file: figures, tools, time, picture, alarms and the program, as HTML or PDF.
+
+The HTML file stands alone: its style sheet (``report.css``) and its picture are in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mnclab.path.kinds import Kind
+from mnclab.path.listing import figure
+from mnclab.path.tool import Tool
+from mnclab.show.times import clock
+from mnclab.text.alarm import Alarm
+
+Table = list[tuple[str, ...]]
+TOOL_HEAD = ("tool", "name", "kind", "radius", "corner", "length", "teeth", "time")
+
+
+@dataclass(frozen=True)
+class Report:
+    """What stands in a report; tables are rows of texts, ``listing`` holds the lines of the program with their numbers."""
+
+    title: str
+    subtitle: str
+    facts: Table
+    tools: Table
+    times: Table
+    alarms: tuple[Alarm, ...]
+    listing: list[tuple[int, str, bool]]
+    """Number and text of each line, and whether an alarm stands in it."""
+    tool_head: tuple[str, ...] = TOOL_HEAD
+
+
+def report(run: Any, title: str | None = None) -> Report:
+    """Gather what a report says of a run."""
+    summary, profile = run.summary(), run.profile()
+    low, high = run.toolpath.bounds
+    facts: Table = [
+        ("blocks", str(summary["blocks"])),
+        ("moves", str(summary["moves"])),
+        ("cutting length", f"{figure(summary['cutting length'], 3)} mm"),
+        ("rapid length", f"{figure(summary['rapid length'], 3)} mm"),
+        ("time", clock(profile.time)),
+    ]
+    if np.isfinite(low).all():
+        facts += [
+            (f"{axis} from, to", f"{figure(low[k], 3)}, {figure(high[k], 3)} mm")
+            for k, axis in enumerate("XYZ")
+            if not (run.toolpath.lathe and axis == "Y")
+        ]
+    by_tool = profile.time_by("tool")
+    times: Table = [
+        (str(cause), clock(seconds), f"{100 * seconds / profile.time:.1f} %")
+        for cause, seconds in sorted(profile.time_by("cause").items(), key=lambda item: -item[1])
+        if seconds > 0
+    ]
+    faulty = {alarm.span.line for alarm in run.alarms if alarm.span and alarm.span.program == 0}
+    lines = run.program.text.splitlines()
+    return Report(
+        title or Path(run.program.name).name,
+        run.control.title,
+        facts,
+        [_tool(number, run.tables.tools.get(number, Tool()), by_tool.get(number, 0.0)) for number in _used(run)],
+        times,
+        run.alarms,
+        [(number, text, number in faulty) for number, text in enumerate(lines, 1)],
+    )
+
+
+def _used(run: Any) -> list[int]:
+    """The tools of the path, in the order of their first cut or change."""
+    path = run.toolpath
+    rows = path.tool[path.is_motion | (path.kind == Kind.TOOL)]
+    return [number for number in dict.fromkeys(rows.tolist()) if number]
+
+
+def _tool(number: int, tool: Tool, seconds: float) -> tuple[str, ...]:
+    sizes = (figure(size) if size else "" for size in (tool.effective_radius, tool.corner, tool.effective_length))
+    return (f"T{number}", tool.name, tool.kind, *sizes, str(tool.teeth or ""), clock(seconds))
+
+
+def save_report(run: Any, path: str | Path, title: str | None = None, **options: Any) -> Path:
+    """Write a report to one file, .html or .pdf; ``options`` are those of the picture (:meth:`Run.plot`)."""
+    path = Path(path)
+    writers = {".html": write_html, ".pdf": write_pdf}
+    if path.suffix.lower() not in writers:
+        raise Alarm(f"a report is an .html or a .pdf file, got {path.name!r}")
+    try:
+        writers[path.suffix.lower()](run, report(run, title), path, **options)
+    except OSError as error:
+        raise Alarm(f"{path} cannot be written: {error.strerror or error}") from None
+    return path
+
+
+def write_html(run: Any, found: Report, path: Path, **options: Any) -> None:
+    """Write the report as a page."""
+    path.write_text(html(run, found, **options), "utf-8", newline="\n")
+
+
+def write_pdf(run: Any, found: Report, path: Path, **options: Any) -> None:
+    """Write the report as pages."""
+    from mnclab.show.plot.path import plot_run
+    from mnclab.show.plot.report import write
+
+    write(found, plot_run(run, **options), path)
+
+
+def html(run: Any, found: Report, **options: Any) -> str:
+    """The report as one page."""
+    from mnclab.show.plot.path import plot_run
+
+    picture: Any = plot_run(run, **options)
+    style = Path(__file__).with_name("report.css").read_text("utf-8")
+    alarms = "".join(alarm._repr_html_() for alarm in found.alarms) or "<p>none</p>"
+    parts = [
+        f"<h1>{escape(found.title)}</h1><p>{escape(found.subtitle)}</p>{_table((), found.facts)}",
+        f"<h2>Tools</h2>{_table(TOOL_HEAD, found.tools) if found.tools else '<p>none</p>'}",
+        f"<h2>Path</h2><figure>{picture.html(2.0)}</figure>",
+        f"<h2>Time</h2>{_table((), found.times) if found.times else '<p>none</p>'}",
+        f"<h2>Alarms</h2>{alarms}",
+        f'<h2>Program</h2><pre class="listing">{_listing(found)}</pre>',
+    ]
+    head = f'<meta charset="utf-8"><title>{escape(found.title)}</title><style>{style}</style>'
+    return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(parts) + "\n</body></html>\n"
+
+
+def _table(head: tuple[str, ...], rows: Table) -> str:
+    top = "<tr>" + "".join(f"<th>{cell}</th>" for cell in head) + "</tr>" if head else ""
+
+    def cell(text: str) -> str:
+        kind = ' class="number"' if text[:1].isdigit() or text[:1] == "-" else ""
+        return f"<td{kind}>{escape(text)}</td>"
+
+    body = "".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows)
+    return f"<table>{top}{body}</table>"
+
+
+def _listing(found: Report) -> str:
+    wide = len(str(len(found.listing)))
+    rows = []
+    for number, text, faulty in found.listing:
+        line = f'<span class="number">{number:{wide}d}</span>  {escape(text)}'
+        rows.append(f'<span class="fault">{line}</span>' if faulty else line)
+    return "\n".join(rows)

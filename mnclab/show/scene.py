@@ -1,0 +1,199 @@
+"""A run in three dimensions: path, tool and blank in a pyvista ``Plotter``. The only file that imports pyvista.
+
+The scene shows itself in Jupyter as a still picture, which works everywhere and needs no server. ``scene.show()`` does
+the same; ``scene.show(jupyter_backend="html")`` turns in the browser and needs ``mnclab[html]``. VTK without OpenGL ends
+the whole process without a word, so what it needs is looked for first. A plotter belongs to the thread that made it.
+"""
+
+from __future__ import annotations
+
+import base64
+import ctypes.util
+import importlib.util
+import os
+import sys
+from functools import cache
+from html import escape
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mnclab.path.kinds import Kind
+from mnclab.path.toolpath import Toolpath
+from mnclab.show import solids
+from mnclab.show.export_mesh import CHORD, FEED, PROBING, RAPID, STOCK, TOOL
+from mnclab.text.alarm import Alarm
+
+if TYPE_CHECKING:
+    import pyvista
+
+COLOURS = ("kind", "feed", "tool", "z", "line")
+TITLES = {"feed": "feed, mm/min", "tool": "tool", "z": "Z, mm", "line": "line"}
+WINDOW = "VTK_DEFAULT_OPENGL_WINDOW"
+#: Library of the system -> window class of VTK that draws with it, without a screen.
+OFF_SCREEN = {"EGL": "vtkEGLRenderWindow", "OSMesa": "vtkOSOpenGLRenderWindow"}
+SIZE = (800, 600)
+MAP = "viridis"
+
+
+def scene(
+    run: Any,
+    colour: str = "kind",
+    *,
+    row: int = -1,
+    tool: bool = True,
+    stock: bool | tuple[ArrayLike, ArrayLike] = True,
+    axes: bool = True,
+    size: tuple[int, int] = SIZE,
+) -> pyvista.Plotter:
+    """The path of a run with its tool and blank, seen from the front, right and above.
+
+    ``colour`` of the cuts: "kind", "feed" (mm/min), "tool", "z" (mm) or "line"; rapids are thin and red in all of them.
+    ``row``: where the tool stands, by default at the end. ``stock``: whether the blank of the setup is shown, or two
+    opposite corners (3,) of one, mm in the coordinates of the path. ``size`` in pixels.
+
+    An Alarm says in a sentence what is missing: pyvista, or something for VTK to draw with.
+    """
+    if colour not in COLOURS:
+        raise ValueError(f"colour must be one of {', '.join(COLOURS)}, got {colour!r}")
+    check_drawing()
+    path = run.toolpath
+    plotter: Any = _class()(off_screen=True, window_size=list(size))
+    plotter.alt = f"scene of {path!r}"
+    plotter.set_background("white")
+    _add_path(plotter, path, colour)
+    if tool and (body := solids.tool_of(run, row)):
+        plotter.add_mesh(
+            _surface(body), color=TOOL, specular=0.4, smooth_shading=True, split_sharp_edges=True, name="tool"
+        )
+    blank = solids.stock_of(run) if stock is True else solids.box(*stock) if stock else None
+    if blank:
+        plotter.add_mesh(_surface(blank), color=STOCK, opacity=0.25, name="blank")
+        plotter.add_mesh(
+            _surface(blank).extract_feature_edges(), color="#7d7664", line_width=1, name="edges of the blank"
+        )
+    if axes:
+        plotter.add_axes(line_width=3, color="black")
+        if len(path):
+            _add_rulers(plotter, path.bounds, blank)
+    plotter.view_vector((0.0, 1.0, 0.0) if path.lathe else (-0.5, -1.0, 0.7), (1, 0, 0) if path.lathe else (0, 0, 1))
+    plotter.enable_parallel_projection()
+    plotter.camera.zoom(0.85)
+    return plotter
+
+
+def check_drawing() -> None:
+    """Choose what VTK draws with; an Alarm where it would find nothing, since VTK itself would end the process."""
+    if importlib.util.find_spec("pyvista") is None:
+        raise Alarm("3D scenes need pyvista", hint='pip install "mnclab[lab]"; run.plot() and run.player() do without')
+    if not sys.platform.startswith("linux") or os.environ.get("DISPLAY") or os.environ.get(WINDOW):
+        return
+    for library, window in OFF_SCREEN.items():
+        if ctypes.util.find_library(library):
+            os.environ[WINDOW] = window
+            return
+    raise Alarm(
+        "3D scenes need OpenGL, and this machine has neither a screen nor libEGL nor libOSMesa",
+        hint="on Debian, root installs it: apt-get install libegl1 libgl1-mesa-dri",
+    )
+
+
+@cache
+def _class() -> Any:
+    """A plotter that shows itself in Jupyter; made here because pyvista is loaded only when a scene is wanted."""
+    import pyvista
+
+    class Scene(pyvista.Plotter):
+        """A ``pyvista.Plotter`` whose picture is shown by Jupyter; ``alt`` says in words what it shows."""
+
+        alt = "scene"
+
+        def show(self, *arguments: Any, **options: Any) -> Any:
+            """Show the scene; in Jupyter as a still picture unless ``jupyter_backend`` says otherwise."""
+            options.setdefault("jupyter_backend", "static")
+            return super().show(*arguments, **options)
+
+        def png(self) -> bytes:
+            """The picture as PNG."""
+            data = BytesIO()
+            self.screenshot(data)
+            return data.getvalue()
+
+        def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
+            picture = base64.b64encode(self.png()).decode()
+            image = f'<img alt="{escape(self.alt)}" style="max-width:100%" src="data:image/png;base64,{picture}">'
+            return {"text/html": image, "image/png": picture, "text/plain": repr(self)}
+
+        def __repr__(self) -> str:
+            return f"<Scene: {self.alt}>"
+
+    return Scene
+
+
+def _surface(body: solids.Body) -> Any:
+    import pyvista
+
+    return pyvista.PolyData.from_regular_faces(body.points, body.triangles)
+
+
+def _add_path(plotter: Any, path: Toolpath, colour: str) -> None:
+    """The moves as lines; the cuts coloured by what was asked for."""
+    strokes, row = solids.strokes(path, CHORD)
+    kind = path.kind[row]
+    cuts = np.isin(kind, (Kind.LINE, Kind.ARC))
+    for name, which, look, width in (
+        ("rapids", kind == Kind.RAPID, RAPID, 1.0),
+        ("probing", kind == Kind.PROBE, PROBING, 2.0),
+    ):
+        if which.any():
+            plotter.add_mesh(_lines(strokes[which]), color=look, line_width=width, name=name)
+    if not cuts.any():
+        return
+    mesh = _lines(strokes[cuts])
+    if colour == "kind":
+        plotter.add_mesh(mesh, color=FEED, line_width=2.5, name="cuts")
+        return
+    values = strokes[cuts][:, :, 2].ravel() if colour == "z" else getattr(path, colour)[row[cuts]]
+    bar: dict[str, Any] = {
+        "title": TITLES[colour],
+        "color": "black",
+        "fmt": "%.6g",
+        "title_font_size": 16,
+        "label_font_size": 14,
+    }
+    bar |= {"vertical": True, "position_x": 0.86, "position_y": 0.25, "height": 0.5, "width": 0.07}
+    spread = float(np.ptp(values))
+    if colour in ("tool", "line") and spread < 6:  # whole numbers alone
+        bar["n_labels"] = int(spread) + 1
+    (mesh.point_data if colour == "z" else mesh.cell_data)[colour] = values.astype(np.float64)
+    plotter.add_mesh(mesh, scalars=colour, cmap=MAP, line_width=2.5, scalar_bar_args=bar, name="cuts")
+
+
+def _add_rulers(plotter: Any, bounds: np.ndarray, blank: solids.Body | None) -> None:
+    """Rulers around path and blank, from one round number to another."""
+    corners = bounds if blank is None else np.concatenate([bounds, blank.points])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    if not np.isfinite(low).all():
+        return
+    coarse = max(float((high - low).max()), 1e-3) / 4
+    power = 10.0 ** np.floor(np.log10(coarse))
+    step = power * next(factor for factor in (1, 2, 5, 10) if factor * power >= coarse * (1 - 1e-9))
+    low, high = np.floor(low / step + 1e-9) * step, np.ceil(high / step - 1e-9) * step
+    high = np.where(high > low, high, low + step)
+    counts = np.round((high - low) / step).astype(int) + 1
+    plotter.show_bounds(
+        bounds=np.stack([low, high], axis=1).ravel().tolist(), axes_ranges=np.stack([low, high], axis=1).ravel().tolist(),
+        xtitle="X, mm", ytitle="Y, mm", ztitle="Z, mm", grid="back", location="outer", ticks="outside",
+        color="#555555", font_size=9, fmt="%.6g", bold=False, use_3d_text=False,
+        n_xlabels=int(counts[0]), n_ylabels=int(counts[1]), n_zlabels=int(counts[2]),
+    )  # fmt: skip
+
+
+def _lines(strokes: np.ndarray) -> Any:
+    import pyvista
+
+    count = len(strokes)
+    pairs = np.arange(2 * count).reshape(-1, 2)
+    return pyvista.PolyData(strokes.reshape(-1, 3), lines=np.insert(pairs, 0, 2, axis=1).ravel())

@@ -1,0 +1,146 @@
+"""Bodies as triangles: the tool, a box, tubes along a path. What scenes show and what files of meshes hold.
+
+Points (n, 3) in mm, triangles (m, 3) as indices into them, their outside counter-clockwise.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mnclab.path.kinds import Kind
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath
+
+SIDES = 48  # of a tool
+TUBE_SIDES = 6
+SHANK = 3.0  # diameters, of a tool whose cutting length is not known
+DRILL_POINT = 118.0  # degrees, of a drill without an angle
+
+
+class Body(NamedTuple):
+    """A closed surface."""
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+
+    def at(self, place: ArrayLike) -> Body:
+        """The body moved by a vector (3,) mm."""
+        return Body(self.points + np.asarray(place, dtype=np.float64), self.triangles)
+
+    @property
+    def volume(self) -> float:
+        """mm³, by the divergence theorem; positive when the outsides are outside."""
+        a, b, c = self.points[self.triangles].transpose(1, 0, 2)
+        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+def box(low: ArrayLike, high: ArrayLike) -> Body:
+    """A box between two corners (3,)."""
+    corners = np.array([low, high], dtype=np.float64)
+    points = np.array([[corners[i, 0], corners[j, 1], corners[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    squares = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return Body(points, np.array([t for a, b, c, d in squares for t in ((a, b, c), (a, c, d))], dtype=np.int64))
+
+
+def revolved(profile: ArrayLike, sides: int = SIDES) -> Body:
+    """A body of revolution about Z: ``profile`` (k, 2) holds radius and height from the lower end to the upper one."""
+    outline = np.asarray(profile, dtype=np.float64)
+    angle = 2 * np.pi * np.arange(sides) / sides
+    ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    rings = np.concatenate([np.column_stack([radius * ring, np.full(sides, height)]) for radius, height in outline])
+    ends = np.array([[0.0, 0.0, outline[0, 1]], [0.0, 0.0, outline[-1, 1]]])
+    here, there = np.arange(sides), np.roll(np.arange(sides), -1)
+    triangles = []
+    for k in range(len(outline) - 1):
+        low, high = k * sides, (k + 1) * sides
+        triangles += [np.stack([low + here, low + there, high + there], 1)]
+        triangles += [np.stack([low + here, high + there, high + here], 1)]
+    bottom, top, last = len(rings), len(rings) + 1, (len(outline) - 1) * sides
+    triangles += [np.stack([np.full(sides, bottom), there, here], 1)]
+    triangles += [np.stack([np.full(sides, top), last + here, last + there], 1)]
+    return Body(np.concatenate([rings, ends]), np.concatenate(triangles))
+
+
+def tool_body(tool: Tool, size: float = 10.0) -> Body:
+    """A tool with its tip at 0 0 0 and its shank along +Z; a small peak where the table knows no radius (``size`` mm)."""
+    radius = tool.effective_radius
+    if radius <= 0:
+        return revolved([(0.0, 0.0), (size / 16, size / 8), (size / 16, size / 4)], 16)
+    length = max(tool.cutting_length or SHANK * 2 * radius, 2 * radius)
+    angle = tool.angle or (DRILL_POINT if tool.kind == "drill" else 0.0)
+    if 0 < angle < 180:
+        return revolved([(0.0, 0.0), (radius, radius / np.tan(np.radians(angle / 2))), (radius, length)])
+    corner = min(max(tool.corner, 0.0), radius)
+    bend = np.linspace(0, np.pi / 2, 9 if corner else 1)
+    rounding = [(radius - corner + corner * np.sin(a), corner - corner * np.cos(a)) for a in bend]
+    straight = [(radius, 0.0)] if not corner else rounding
+    return revolved([*straight, (radius, length), (0.9 * radius, length), (0.9 * radius, 1.3 * length)])
+
+
+def strokes(path: Toolpath, chord_error: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The motion as straight strokes (n, 2, 3), mm, and the row (n,) of each."""
+    points, row = path.points(chord_error)
+    if not len(row):
+        return np.empty((0, 2, 3)), row
+    start = points[:-1].copy()
+    first = row[1:] != row[:-1]
+    first[0] = True
+    start[first] = path.start[row[1:][first]]  # after a tool change the tip begins elsewhere
+    return np.stack([start, points[1:]], axis=1), row[1:]
+
+
+def tubes(path: Toolpath, radius: float, chord_error: float = 0.02, sides: int = TUBE_SIDES) -> Body:
+    """The cuts of a path as prisms of ``radius`` mm around every stroke, each closed by itself."""
+    pieces, row = strokes(path, chord_error)
+    start, end = pieces[np.isin(path.kind[row], (Kind.LINE, Kind.ARC))].transpose(1, 0, 2)
+    travel = end - start
+    length = np.linalg.norm(travel, axis=1)
+    long = length > 0
+    start, end, along = start[long], end[long], travel[long] / length[long, None]
+    across = np.cross(along, np.eye(3)[np.argmin(np.abs(along), axis=1)])
+    across /= np.linalg.norm(across, axis=1)[:, None]
+    other = np.cross(along, across)
+    angle = 2 * np.pi * np.arange(sides) / sides
+    ring = radius * (
+        np.cos(angle)[:, None] * across[:, None] + np.sin(angle)[:, None] * other[:, None]
+    )  # (n, sides, 3)
+    vertices = np.concatenate([start[:, None] + ring, end[:, None] + ring], axis=1)
+    here, there = np.arange(sides), np.roll(np.arange(sides), -1)
+    walls = [np.stack([here, there, sides + there], 1), np.stack([here, sides + there, sides + here], 1)]
+    fan = np.arange(1, sides - 1)
+    lids = [np.stack([0 * fan, fan + 1, fan], 1), np.stack([0 * fan, fan, fan + 1], 1) + sides]
+    one = np.concatenate([*walls, *lids])
+    every = one[None] + 2 * sides * np.arange(len(start))[:, None, None]
+    return Body(vertices.reshape(-1, 3), every.reshape(-1, 3))
+
+
+def size_of(path: Toolpath) -> float:
+    """The greatest side of the box around a path, mm; 1 for a path without motion."""
+    low, high = path.bounds
+    span = float((high - low).max()) if len(path) else 0.0
+    return span if np.isfinite(span) and span > 0 else 1.0
+
+
+def stock_of(run: Any) -> Body | None:
+    """The blank of the setup as a box in the coordinates of the path: two corners in machine coordinates."""
+    stock = run.setup.stock
+    if not isinstance(stock, tuple | list) or np.asarray(stock).shape != (2, 3):
+        return None
+    return box(*(np.asarray(corner, dtype=np.float64) - run.toolpath.origin for corner in stock))
+
+
+def tool_of(run: Any, row: int = -1) -> Body | None:
+    """The tool where a row of the toolpath ends, by default the last; None for a path without rows.
+
+    On a lathe the tip is a small peak with its shank along +X: a turning tool has no outline in the table.
+    """
+    path = run.toolpath
+    if not len(path):
+        return None
+    if path.lathe:
+        points, triangles = tool_body(Tool(), size_of(path))
+        return Body(points[:, [2, 1, 0]], triangles[:, ::-1]).at(path.end[row])
+    return tool_body(run.tables.tools.get(int(path.tool[row]), Tool()), size_of(path)).at(path.end[row])

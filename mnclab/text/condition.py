@@ -1,0 +1,296 @@
+"""Questions about a run: ``z < -5``, ``Q5 > 3 and not tool == 2``. Read and worked out here, never by ``eval``.
+
+Numbers, names, ``+ - * / ^``, brackets, functions of one argument (angles in degrees), the comparisons
+``< <= > >= == !=`` (also in a chain: ``0 < x < 5``), and ``and``, ``or``, ``not``. Values are numpy arrays, one number a
+place; a comparison with a value that is not known (nan) is neither true nor false. Numbers within :data:`SAME` are equal.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.text.alarm import Alarm, Span
+from mnclab.text.nearest import hint
+
+SAME = 1e-9  # a millionth of a micrometre, where lengths are compared
+DEEPEST = 50
+Values = Mapping[str, NDArray[np.float64]]
+Array = NDArray[Any]
+
+_TOKEN = re.compile(r"\s*(?:(\d+\.?\d*|\.\d+)|([A-Za-z_#]\w*)|(<=|>=|==|!=|[-+*/^()<>=]))", re.ASCII)
+FUNCTIONS: dict[str, Callable[[Array], Array]] = {
+    "abs": np.abs,
+    "sqrt": np.sqrt,
+    "sin": lambda a: np.sin(np.radians(a)),
+    "cos": lambda a: np.cos(np.radians(a)),
+    "tan": lambda a: np.tan(np.radians(a)),
+}
+COMPARISONS: dict[str, Callable[[Array], Array]] = {
+    "<": lambda gap: gap < -SAME,
+    "<=": lambda gap: gap <= SAME,
+    ">": lambda gap: gap > SAME,
+    ">=": lambda gap: gap >= -SAME,
+    "==": lambda gap: np.abs(gap) <= SAME,
+    "!=": lambda gap: np.abs(gap) > SAME,
+}
+ARITHMETIC: dict[str, Callable[[Array, Array], Array]] = {
+    "+": np.add,
+    "-": np.subtract,
+    "*": np.multiply,
+    "/": lambda a, b: np.where(b == 0, np.nan, np.divide(a, b)),
+    "^": np.power,
+}
+
+
+class Truth(NamedTuple):
+    """Where a condition is true and where it is false; where neither, it is not known."""
+
+    true: NDArray[np.bool_]
+    false: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Node:
+    """A part of a condition: ``what`` it is, its parts, and whether it is true or false instead of a number."""
+
+    what: str
+    parts: tuple[Node, ...] = ()
+    logical: bool = False
+    number: float = 0.0
+    name: str = ""
+
+    def value(self, values: Values) -> Array:
+        """The number at every place."""
+        if self.what == "number":
+            return np.float64(self.number)  # type: ignore[return-value]
+        if self.what == "name":
+            return values[self.name]
+        with np.errstate(all="ignore"):
+            numbers = [part.value(values) for part in self.parts]
+            return FUNCTIONS[self.name](*numbers) if self.what == "function" else ARITHMETIC[self.name](*numbers)
+
+    def truth(self, values: Values) -> Truth:
+        """Where the condition is true and where it is false."""
+        if self.what == "comparison":
+            with np.errstate(all="ignore"):
+                gap = np.asarray(self.gap(values))
+            known = ~np.isnan(gap)
+            found = COMPARISONS[self.name](gap)
+            return Truth(found & known, ~found & known)
+        one, *others = [part.truth(values) for part in self.parts]
+        for other in others:
+            if self.what == "and":
+                one = Truth(one.true & other.true, one.false | other.false)
+            else:
+                one = Truth(one.true | other.true, one.false & other.false)
+        return Truth(one.false, one.true) if self.what == "not" else one
+
+    def gap(self, values: Values) -> Array:
+        """Left side less right side of a comparison."""
+        return self.parts[0].value(values) - self.parts[1].value(values)
+
+    def walk(self) -> Iterator[Node]:
+        """This part and all parts in it."""
+        yield self
+        for part in self.parts:
+            yield from part.walk()
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What was asked, as text and as a tree."""
+
+    text: str
+    tree: Node
+    names: frozenset[str] = field(default_factory=frozenset)
+
+    @property
+    def comparisons(self) -> list[Node]:
+        """Every comparison in it."""
+        return [node for node in self.tree.walk() if node.what == "comparison"]
+
+    def truth(self, values: Values) -> Truth:
+        """Where it is true and where it is false; the shapes are those of the values, which must include a name."""
+        return self.tree.truth(values)
+
+
+def parse(text: str, known: Collection[str]) -> Condition:
+    """Read a condition; names are taken as they are in ``known``, in any case of letters. An Alarm shows what is wrong."""
+    try:
+        tree = _Reader(text, known).whole()
+    except Alarm as alarm:
+        alarm.source = _Question(text)
+        raise
+    return Condition(text, tree, frozenset(node.name for node in tree.walk() if node.what == "name"))
+
+
+class _Question:
+    """The text of a condition as what an alarm stands in."""
+
+    name = "condition"
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    def line_text(self, line: int) -> str:
+        return self.text if line == 1 else ""
+
+
+class _Reader:
+    """Recursive descent: or, and, not, comparison, sum, product, power, part."""
+
+    def __init__(self, text: str, known: Collection[str]) -> None:
+        self.known = {name.lower(): name for name in known}
+        self.tokens: list[tuple[str, str, Span]] = []
+        self.at = self.depth = 0
+        at = 0
+        while at < len(text.rstrip()):
+            match = _TOKEN.match(text, at)
+            if match is None:
+                blank = len(text[at:]) - len(text[at:].lstrip())
+                raise Alarm(f"{text[at:].strip()[0]!r} is no part of a condition", Span(1, at + blank + 1))
+            kind = ("number", "name", "mark")[(match.lastindex or 1) - 1]
+            part = match[match.lastindex or 1]
+            self.tokens.append((kind, part, Span(1, match.end() - len(part) + 1, len(part))))
+            at = match.end()
+        self.end = Span(1, max(1, len(text.rstrip())))
+
+    def whole(self) -> Node:
+        tree = self.either()
+        if self.at < len(self.tokens):
+            self.refuse("an operator was expected before")
+        if not tree.logical:
+            raise Alarm("a condition compares something", self.end, hint="such as z < -5")
+        return tree
+
+    def peek(self) -> str:
+        return self.tokens[self.at][1].lower() if self.at < len(self.tokens) else ""
+
+    def refuse(self, what: str) -> None:
+        if self.at >= len(self.tokens):
+            raise Alarm(f"{what} the end of the condition", self.end)
+        _, text, span = self.tokens[self.at]
+        raise Alarm(f"{what} {text!r}", span)
+
+    def either(self) -> Node:
+        return self.joined("or", self.both)
+
+    def both(self) -> Node:
+        return self.joined("and", self.negated)
+
+    def joined(self, word: str, inner: Callable[[], Node]) -> Node:
+        place, parts = self.at, [inner()]
+        while self.peek() == word:
+            self.at += 1
+            parts.append(inner())
+        if len(parts) == 1:
+            return parts[0]
+        return Node(word, tuple(self.logical(part, place) for part in parts), logical=True)
+
+    def negated(self) -> Node:
+        if self.peek() != "not":
+            return self.comparison()
+        self.at += 1
+        self.deeper()
+        place = self.at
+        inner = self.logical(self.negated(), place)
+        self.depth -= 1
+        return Node("not", (inner,), logical=True)
+
+    def comparison(self) -> Node:
+        place, sides, found = self.at, [self.sum()], []
+        while self.peek() in (*COMPARISONS, "="):
+            operator = self.peek().replace("=", "==") if self.peek() == "=" else self.peek()
+            self.at += 1
+            left = self.numeric(sides[-1], place)
+            place = self.at
+            sides.append(self.numeric(self.sum(), place))
+            found.append(Node("comparison", (left, sides[-1]), logical=True, name=operator))
+        if not found:
+            return sides[0]
+        return found[0] if len(found) == 1 else Node("and", tuple(found), logical=True)
+
+    def sum(self) -> Node:
+        return self.arithmetic(("+", "-"), self.product)
+
+    def product(self) -> Node:
+        return self.arithmetic(("*", "/"), self.power)
+
+    def arithmetic(self, marks: tuple[str, ...], inner: Callable[[], Node]) -> Node:
+        place, left = self.at, inner()
+        while self.peek() in marks:
+            name = self.peek()
+            self.at += 1
+            left, place = self.numeric(left, place), self.at
+            left = Node("arithmetic", (left, self.numeric(inner(), place)), name=name)
+        return left
+
+    def power(self) -> Node:
+        place = self.at
+        if self.peek() in ("+", "-"):
+            sign = self.peek()
+            self.at += 1
+            self.deeper()
+            inner = self.numeric(self.power(), place + 1)
+            self.depth -= 1
+            return Node("arithmetic", (Node("number"), inner), name=sign)
+        left = self.part()
+        if self.peek() != "^":
+            return left
+        self.at += 1
+        self.deeper()
+        right = self.numeric(self.power(), place)
+        self.depth -= 1
+        return Node("arithmetic", (self.numeric(left, place), right), name="^")
+
+    def part(self) -> Node:
+        if self.at >= len(self.tokens):
+            self.refuse("a number or a name was expected at")
+        kind, text, span = self.tokens[self.at]
+        if kind == "number":
+            self.at += 1
+            return Node("number", number=float(text))
+        if text == "(" or (kind == "name" and text.lower() in FUNCTIONS):
+            function = text.lower() if kind == "name" else ""
+            self.at += 1
+            if function and self.peek() != "(":
+                self.refuse(f"{function} needs a bracket, found")
+            self.at += bool(function)
+            self.deeper()
+            place, inner = self.at, self.either()
+            self.depth -= 1
+            if self.peek() != ")":
+                self.refuse("')' was expected before")
+            self.at += 1
+            return Node("function", (self.numeric(inner, place),), name=function) if function else inner
+        if kind == "name" and text.lower() not in ("and", "or", "not"):
+            if text.lower() not in self.known:
+                near = hint(text, tuple(self.known.values()), 3)
+                raise Alarm(f"there is nothing of the name {text!r} in this run", span, hint=near)
+            self.at += 1
+            return Node("name", name=self.known[text.lower()])
+        self.refuse("a number or a name was expected, found")
+        raise AssertionError
+
+    def deeper(self) -> None:
+        self.depth += 1
+        if self.depth > DEEPEST:
+            self.refuse(f"the condition is nested deeper than {DEEPEST} at")
+
+    def logical(self, node: Node, place: int) -> Node:
+        if not node.logical:
+            raise Alarm("a comparison was expected here", self.tokens[place][2])
+        return node
+
+    def numeric(self, node: Node, place: int) -> Node:
+        if node.logical:
+            raise Alarm(
+                "a number was expected here, not a comparison", self.tokens[min(place, len(self.tokens) - 1)][2]
+            )
+        return node

@@ -1,0 +1,93 @@
+"""Two paths over one another: distances in closed form, and against every stroke tried."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mnclab
+from mnclab.comparison.deviation import _nearest, deviation
+
+PATH = "G90 G54 G17\nG0 X-20 Y0 Z0\nG41 G1 X-10 Y-20 F300\nX0\nG3 I0 J20\nG40 G1 X10 Y0\n"
+
+
+def test_the_same_path_has_none():
+    run = mnclab.run(PATH, "mnc")
+    found = mnclab.diff(run, run)
+    assert found.largest == pytest.approx(0, abs=1e-12) and found.sentence == "the paths are the same"
+    assert found.first() is None
+
+
+def test_two_rings_about_one_centre_differ_by_their_radii():
+    found = mnclab.diff(*(mnclab.run(f"G1 X{r} F100\nG3 I-{r}\n", "mnc") for r in (15, 17)))
+    ring = found.other.row == 1
+    assert found.other.distance[ring] == pytest.approx(2, abs=0.002)
+    assert found.largest == pytest.approx(2, abs=0.002) and found.first(0.01) == 0
+
+
+def test_the_place_of_a_dent():
+    plain, dented = (mnclab.run(f"G1 X50 F100\n{dent}X100\n", "mnc") for dent in ("", "X60 Y3\nX70 Y0\n"))
+    found = mnclab.diff(plain, dented)
+    here, there, line, path = found.where
+    assert found.largest == pytest.approx(3, abs=1e-9)
+    assert here == pytest.approx((60, 0, 0)) and there == pytest.approx((60, 3, 0))
+    assert (line, path) == (2, 1)
+    assert found.sentence == "largest deviation 3 mm at line 2 of the second program"
+    assert "<td>X60 Y3 Z0</td>" in found._repr_html_()
+
+
+def test_arcs_against_chords():
+    arc = mnclab.run("G1 X20 F100\nG3 X-20 I-20\n", "mnc")
+    text = "G1 X20 F100\n" + "".join(
+        f"X{20 * math.cos(math.pi * k / 8):.6f} Y{20 * math.sin(math.pi * k / 8):.6f}\n" for k in range(1, 9)
+    )
+    found = mnclab.diff(arc, mnclab.run(text, "mnc"))
+    assert found.largest == pytest.approx(20 * (1 - math.cos(math.pi / 16)), abs=2e-3)  # the sagitta
+
+
+def test_without_motion():
+    still, moving = mnclab.run("G90\n", "mnc"), mnclab.run("G0 X5\n", "mnc")
+    assert mnclab.diff(still, still).largest == 0
+    assert math.isnan(mnclab.diff(still, moving).largest) and mnclab.diff(still, moving).where is None
+    assert mnclab.diff(still, moving).plot().png()[:4] == b"\x89PNG"
+
+
+def test_the_picture_marks_the_largest():
+    plain, dented = (mnclab.run(f"G1 X50 F100\n{dent}X100\n", "mnc") for dent in ("", "X60 Y3\nX70 Y0\n"))
+    picture = mnclab.diff(plain, dented).plot()
+    assert picture.alt == "two paths: largest deviation 3 mm at line 2 of the second program"
+    ring = next(line for line in picture.axes[0].lines if line.get_label() == "largest deviation")
+    assert ring.get_xydata()[0] == pytest.approx((60, 0))
+    with pytest.raises(ValueError, match="view must be"):
+        mnclab.diff(plain, dented).plot("front")
+
+
+POINTS = st.lists(st.tuples(*[st.integers(-50, 50)] * 3), min_size=2, max_size=300)
+
+
+@given(POINTS, st.lists(st.tuples(*[st.integers(-60, 60)] * 3), min_size=1, max_size=20))
+def test_nearest_is_the_nearest_of_all_strokes(corners, places):
+    line, here = np.array(corners, dtype=float), np.array(places, dtype=float)
+    found = np.linalg.norm(_nearest(here, line[:-1], line[1:]) - here, axis=1)
+    along = line[1:] - line[:-1]
+    square = np.maximum((along**2).sum(axis=1), 1e-300)
+    share = np.clip((((here[:, None] - line[:-1]) * along).sum(axis=2)) / square, 0, 1)
+    feet = line[:-1] + share[:, :, None] * along
+    assert found == pytest.approx(np.linalg.norm(feet - here[:, None], axis=2).min(axis=1), abs=1e-6)
+
+
+def test_a_step_must_be_positive():
+    path = mnclab.run("G0 X5\n", "mnc").toolpath
+    with pytest.raises(ValueError, match="greater than 0"):
+        deviation(path, path, step=-1)
+
+
+def test_two_limits_differ_in_time_alone():
+    slow, fast = (mnclab.Setup(limits=mnclab.Limits(acceleration=a)) for a in (100, 400))
+    found = mnclab.diff(*(mnclab.run("G1 X10 F6000\n", "mnc", setup) for setup in (slow, fast)))
+    assert found.largest < 1e-12
+    # 10 mm from rest to rest never reach 100 mm/s: 2 sqrt(10 / a)
+    assert found.times == pytest.approx((2 * math.sqrt(10 / 100), 2 * math.sqrt(10 / 400)))
+    assert "<td>time</td><td>0.632 s</td><td>0.316 s</td>" in found._repr_html_()

@@ -1,0 +1,95 @@
+"""A block in plain words; the way from the program to the tool in closed form."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mnclab
+
+SETUP = mnclab.Setup(datums={1: (100, 200, -50)}, tools={1: mnclab.Tool(radius=5, length=80)}, start=(100, 200, 200))
+PROGRAM = """G90 G54 T1
+G0 X0 Y0 Z10 S100 M3
+G39 X5 Y5 A30
+G1 X10 Z-10 F100
+G38
+G41 X20 Y20
+X30 Y20
+G40 X40 Y0
+G83 X20 Y10 Z-30 R2 K5 F120
+X30
+"""
+
+
+@pytest.fixture(scope="module")
+def run():
+    return mnclab.run(PROGRAM, "mnc", SETUP)
+
+
+def test_each_word_has_its_function_its_section_and_what_it_changed(run):
+    words = {m.word: m for m in run.explain(line=2).meanings}
+    assert list(words) == ["G0", "X0", "Y0", "Z10", "S100", "M3"]
+    assert (words["G0"].says, words["G0"].source) == ("Rapid positioning", "3.1")
+    assert words["X0"].says == "coordinate X of G0 (Rapid positioning)"
+    assert words["S100"].changed == "speed: none -> 100" and words["M3"].changed == "spindle: M5 -> M3"
+
+
+def test_what_is_active_from_before_is_said(run):
+    first = run.explain(line=7).meanings[0]
+    assert (first.word, first.says) == ("(G1)", "Linear interpolation, active from before")
+    cycle, position = run.explain(line=10).meanings
+    assert cycle.says == "cycle: Deep-hole drilling, active from before" and position.code == "G83"
+
+
+def test_parameters_of_a_cycle_have_their_meaning_and_unit(run):
+    words = {m.word: m.says for m in run.explain(line=9).meanings}
+    assert words["K5"] == "depth of one peck, mm (G83)"
+    assert words["G83"] == "cycle: Deep-hole drilling"
+
+
+def test_the_chain_turns_shifts_and_compensates(run):
+    stages = {stage.name: stage for stage in run.explain(line=4).stages}
+    c, s = math.cos(math.radians(30)), math.sin(math.radians(30))
+    turned = (5 + 5 * c + 5 * s, 5 + 5 * s - 5 * c, -10)  # (10, 0) about (5, 5): 5 to the right, 5 below
+    assert stages["after rotation"].point == pytest.approx(turned) and stages["after rotation"].note == "turn by 30°"
+    assert stages["after datum"].point == pytest.approx(np.add(turned, (100, 200, -50)))
+    assert stages["tool tip"].point == pytest.approx(turned)
+    spindle = stages["spindle, machine coordinates"]
+    assert spindle.point == pytest.approx(np.add(turned, (100, 200, -50 + 80)))
+    tip = {stage.name: stage for stage in run.explain(line=7).stages}["tool tip"]
+    assert tip.point == pytest.approx((30, 25, -10)) and tip.note == "tool radius 5 to the left: 5 mm away"
+
+
+def test_loops_expressions_and_changes_of_variables():
+    text = "BEGIN PGM A MM\nFN 0: Q5 = +1\nLBL 1\nFN 1: Q5 = +Q5 + +1\nL IX+Q5 FMAX\nCALL LBL 1 REP 2\nEND PGM A MM\n"
+    run = mnclab.run(text, "tnc-620")
+    second = run.explain(line=4, pass_=2)
+    assert second.title == "line 4 (execution 2): FN 1: Q5 = +Q5 + +1"
+    assert second.changed == [("Q5", "2", "3")]
+    assert "= 3" in {m.word: m.says for m in second.meanings}["+Q5 + +1"]
+
+
+def test_a_refused_block_shows_its_alarm():
+    run = mnclab.run("G90\nG1 X5 Q7 F100\n", "mnc")
+    explanation = run.explain(line=2)
+    assert "alarm: " in str(explanation) and all("refused" in m.says for m in explanation.meanings)
+    assert 'role="alert"' in explanation._repr_html_()
+
+
+ROOT = Path(__file__).parent.parent.parent
+
+
+@pytest.mark.parametrize("file", sorted((ROOT / "data" / "programs").rglob("*.*")), ids=lambda file: file.name)
+def test_every_block_of_the_samples_can_be_explained(file):
+    run = mnclab.run(file)
+    for step in range(min(len(run.steps.block), 60)):
+        explanation = run.explain(step=step)
+        written = [str(word) for word in explanation.moment.block.words]
+        said = [m.word for m in explanation.meanings]
+        assert [word for word in written if word not in said] == []
+        assert explanation._repr_html_()
+        row = explanation.moment.rows.stop - 1
+        if row >= 0:
+            tip = next(stage for stage in explanation.stages if stage.name == "tool tip")
+            assert tip.point == pytest.approx(run.toolpath.end[row])

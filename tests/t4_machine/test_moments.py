@@ -1,0 +1,98 @@
+"""When something becomes true: closed forms on lines and arcs, and a dense look at any path."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import mnclab
+from mnclab.path.places import points_at
+
+PROGRAM = "G90 G54 S100 M3\nG0 X0 Y0 Z10\nG1 Z-10 F100\nG3 X0 Y0 I20 J0\nX40 Y40 Z0\nT2\nG0 Z50\nG1 Z5\n"
+
+
+@pytest.fixture(scope="module")
+def run():
+    return mnclab.run(PROGRAM, "mnc")
+
+
+@pytest.mark.parametrize(
+    ("question", "line", "point"),
+    [
+        ("z < -5", 3, (0, 0, -5)),
+        ("z <= -10", 3, (0, 0, -10)),
+        ("y > 19", 4, (20 + math.sqrt(400 - 361), 19, -10)),  # (x - 20)² + y² = 20², coming from the right
+        ("y >= 20", 4, (20, 20, -10)),  # the very top of the arc: touched in one place
+        ("y > 20", 5, (20, 20, -5)),  # never on the arc
+        ("x^2 + y^2 > 900", 4, (22.5, -math.sqrt(900 - 22.5**2), -10)),  # two circles: 40 x = 900
+        ("tool == 2 and z > 20", 7, (40, 40, 20)),
+        ("feed == 100", 3, (0, 0, 10)),
+        ("spindle > 0", 1, (0, 0, 0)),
+        ("line == 5", 5, (0, 0, -10)),
+    ],
+)
+def test_the_first_moment_in_closed_form(run, question, line, point):
+    moment = run.when(question)[0]
+    assert moment.line == line
+    assert moment.point == pytest.approx(point, abs=1e-8)
+
+
+def test_all_moments_come_in_order(run):
+    found = run.when("5 < x < 6")
+    assert [moment.line for moment in found] == [4, 4, 5]
+    assert [moment.point[0] for moment in found] == pytest.approx([5, 6, 5])
+    assert run.when("z > 1000") == () and str(run.when("z > 1000")) == "z > 1000: never"
+    assert "<td>4</td>" in found._repr_html_() and "X6 Y14.2829" in str(found)
+
+
+def test_a_variable_in_a_loop():
+    text = "BEGIN PGM A MM\nFN 0: Q5 = +1\nL X+5 R0 F100\nLBL 1\nFN 1: Q5 = +Q5 + +1\nL IX+5\nCALL LBL 1 REP 5\nEND PGM A MM\n"
+    run = mnclab.run(text, "tnc-620")
+    (moment,) = run.when("Q5 > 3")
+    assert (moment.line, moment.changed["Q5"], moment.row, moment.point) == (5, 4.0, -1, (15.0, 0.0, 0.0))
+    assert moment.step == 11  # 7 blocks to the first call, then 3 a round: the second of the second round
+    (both,) = run.when("Q5 > 3 and x > 17")
+    assert (both.line, both.point[0]) == (6, pytest.approx(17))
+
+
+def test_without_motion_or_steps():
+    assert mnclab.run("G90\n", "mnc").when("z < -1") == ()
+    assert mnclab.run("", "mnc").when("z < 1") == ()
+
+
+COORDINATE = st.integers(-20, 20)
+BLOCKS = st.lists(
+    st.tuples(COORDINATE, COORDINATE, COORDINATE).map("G1 X{0[0]} Y{0[1]} Z{0[2]}".format)
+    | st.tuples(st.sampled_from("23"), st.integers(1, 9), st.integers(-9, 9)).map("G{0[0]} I{0[1]} J{0[2]}".format),
+    min_size=1, max_size=5,
+)  # fmt: skip
+QUESTIONS = st.sampled_from(
+    ["x > 7.5", "z < -2.5 and y > 1.5", "not (y < 3.3 or x < 0.5)", "x + y > 4.1", "0.5 < z < 9.5"]
+)
+
+
+@settings(max_examples=40)
+@given(BLOCKS, QUESTIONS)
+def test_a_dense_look_sees_the_same(blocks, question):
+    """4000 looks a move: every change they see lies within one look of a moment that was found."""
+    run = mnclab.run("G90 F100\n" + "\n".join(blocks) + "\n", "mnc")
+    path, dense = run.toolpath, 4000
+    rows = np.repeat(np.arange(len(path)), dense + 1)
+    share = np.tile(np.linspace(0, 1, dense + 1), len(path))
+    x, y, z = points_at(path, rows, share).T
+    python = (
+        question.replace("0.5 < z < 9.5", "(z > 0.5) & (z < 9.5)").replace(" and ", ") & (").replace(" or ", ") | (")
+    )
+    python = python if "z > 0.5" in python else f"({python})"
+    if question.startswith("not"):
+        python = "~((y < 3.3) | (x < 0.5))"
+    true = eval(python, {}, {"x": x, "y": y, "z": z}) if len(path) else np.empty(0, bool)
+    begins = np.flatnonzero(true & ~np.concatenate([[False], true[:-1]]))
+    found = [(moment.row + moment.share) for moment in run.when(question)]
+    for at in begins:
+        assert min((abs(place - rows[at] - share[at]) for place in found), default=9) < 1.01 / dense
+    for moment in run.when(question):  # and just after each of them it is true
+        after = np.flatnonzero((rows == moment.row) & (share >= moment.share))
+        assert moment.share > 1 - 1 / dense or true[after[:3]].any() or moment.share == 1

@@ -1,0 +1,76 @@
+"""The editor: text, alarms and picture follow each other; a file is saved as it was found."""
+
+import pytest
+
+import mnclab
+
+pytest.importorskip("ipywidgets")
+
+
+@pytest.fixture
+def file(tmp_path):
+    path = tmp_path / "part.mnc"
+    path.write_bytes(b"G90 G54\r\nG1 X20 F100\r\n")
+    return path
+
+
+def test_typing_draws_and_checks(file):
+    box = mnclab.editor(str(file))
+    assert "X 0 to 20" in box.picture.value and "saved" in box.status.value
+    box.text.value = box.text.value.replace("X20", "X33")
+    assert "X 0 to 33" in box.picture.value and "changed" in box.status.value
+    box.text.value = "G90\nG1 X5\n"
+    assert 'role="alert"' in box.alarms.value and "no feed rate" in box.alarms.value and "^^" in box.alarms.value
+    box.text.value = "G90\nG1 X5 F100\n"
+    assert "no alarms" in box.alarms.value
+
+
+def test_saving_keeps_line_ends(file):
+    box = mnclab.editor(str(file))
+    box.text.value += "Y5\n"
+    box.button.click()
+    assert file.read_bytes() == b"G90 G54\r\nG1 X20 F100\r\nY5\r\n"
+    assert "saved" in box.status.value and list(file.parent.iterdir()) == [file]
+
+
+def test_saving_keeps_the_byte_order_mark(tmp_path):
+    path = tmp_path / "a.mnc"
+    path.write_bytes(b"\xef\xbb\xbfG0 X5\n")
+    box = mnclab.editor(str(path))
+    box.text.value += "Y5\n"
+    box.button.click()
+    assert path.read_bytes() == b"\xef\xbb\xbfG0 X5\nY5\n"
+
+
+def test_saving_keeps_the_code_page(tmp_path):
+    path = tmp_path / "a.mnc"
+    path.write_bytes("G90 // чистовой проход\nG0 X5\n".encode("cp1251"))
+    box = mnclab.editor(str(path))
+    box.text.value = box.text.value.replace("X5", "X6")
+    box.button.click()
+    assert path.read_bytes() == "G90 // чистовой проход\nG0 X6\n".encode("cp1251")
+    box.text.value += "// \N{SNOWMAN}\n"
+    box.button.click()
+    assert "cannot be written in" in box.status.value and path.read_bytes().endswith(b"X6\n")
+
+
+def test_a_change_by_somebody_else_is_not_overwritten(file):
+    box = mnclab.editor(str(file))
+    file.write_text("G0 X1\n")
+    box.text.value += "Y5\n"
+    box.button.click()
+    assert "changed by somebody else" in box.status.value and file.read_text() == "G0 X1\n"
+
+
+def test_a_new_file_is_made_when_it_is_saved(tmp_path):
+    path = tmp_path / "new.mnc"
+    box = mnclab.editor(str(path))
+    assert "new" in box.status.value and not path.exists()
+    box.text.value = "G0 X1\n"
+    box.button.click()
+    assert path.read_text() == "G0 X1\n"
+
+
+def test_a_control_that_does_not_exist_is_an_alarm(file):
+    with pytest.raises(mnclab.Alarm, match="there is no control"):
+        mnclab.editor(str(file), "mnd")

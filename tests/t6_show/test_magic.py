@@ -1,0 +1,79 @@
+"""%%mnc in a real IPython: what is shown, what is bound, what is refused."""
+
+import pytest
+
+import mnclab
+
+shells = pytest.importorskip("IPython.core.interactiveshell")
+PROGRAM = "G90 G54 T1\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX20\n"
+
+
+@pytest.fixture
+def shell():
+    shell = shells.InteractiveShell.instance()  # what display() speaks to
+    shell.run_line_magic("load_ext", "mnclab")
+    yield shell
+    shells.InteractiveShell.clear_instance()
+
+
+def shown(shell, line, cell=PROGRAM):
+    """What a cell shows, as MIME bundles; a fault is raised."""
+    from IPython.utils.capture import capture_output
+
+    with capture_output() as captured:
+        result = shell.run_cell(f"%%mnc {line}\n{cell}")
+    if result.error_in_exec:
+        raise result.error_in_exec
+    return [output.data for output in captured.outputs]
+
+
+def test_a_cell_shows_card_and_picture_and_binds_the_run(shell):
+    card, picture = shown(shell, "--control mnc")
+    assert "no alarms" in card["text/html"] and "Mechatronics" in card["text/html"]
+    assert 'alt="tool path: 3 moves' in picture["text/html"]
+    assert isinstance(shell.user_ns["run"], mnclab.Run) and shell.user_ns["run"].ok
+
+
+def test_alarms_stand_under_the_cell_with_their_caret(shell):
+    card, _ = shown(shell, "--control mnc --name first", "G90\nG1 X4,5 F100\n")
+    assert 'role="alert"' in card["text/html"] and "^" in card["text/html"]
+    assert not shell.user_ns["first"].ok and "run" not in shell.user_ns
+
+
+def test_tools_and_setup_come_from_the_notebook(shell, tmp_path):
+    shell.user_ns["t"] = {1: mnclab.Tool(radius=7)}
+    shown(shell, "--control mnc --tools t")
+    assert shell.user_ns["run"].toolpath.radius[-1] == 7
+    shell.user_ns["s"] = mnclab.Setup(start=(0, 0, 99))
+    shown(shell, "--control mnc --setup s --tools t --quiet")
+    assert shell.user_ns["run"].toolpath.start[0, 2] == 99 and shell.user_ns["run"].toolpath.radius[-1] == 7
+    (tmp_path / "m.toml").write_text("start = [0, 0, 77]\n")
+    shown(shell, f"--control mnc --setup '{tmp_path / 'm.toml'}'")
+    assert shell.user_ns["run"].toolpath.start[0, 2] == 77
+
+
+def test_klartext_needs_no_name(shell):
+    shown(shell, "", "BEGIN PGM A MM\nTOOL CALL 1 Z S100\nL X+5 R0 FMAX\nEND PGM A MM\n")
+    assert shell.user_ns["run"].control.name == "tnc-620"
+
+
+def test_quiet_shows_alarms_alone(shell):
+    assert shown(shell, "--control mnc --quiet") == []
+    (alarm,) = shown(shell, "--control mnc --quiet", "G1 X5\n")
+    assert "no feed rate" in alarm["text/html"]
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ("--controll mnc", "unrecognized arguments"),
+        ("--control mnd", "there is no control 'mnd'"),
+        ("--control mnc --tools nothing", "no dict of tools"),
+        ("--control mnc --setup nothing", "neither a Setup"),
+        ("--control mnc --name 1a", "name of Python"),
+        ("--control 'mnc", "No closing quotation"),
+    ],
+)
+def test_options_that_make_no_sense_are_alarms(shell, line, sentence):
+    with pytest.raises(mnclab.Alarm, match=sentence):
+        shown(shell, line)

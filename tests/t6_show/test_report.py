@@ -1,0 +1,82 @@
+"""Reports: what stands in them, that the page is well formed, and that pages are the same every time."""
+
+from html.parser import HTMLParser
+
+import pytest
+
+import mnclab
+from mnclab import Alarm
+from mnclab.show.report import report
+
+PROGRAM = "G90 G54 T1 S1000 M3\nG0 X10 Y0 Z5\nG1 Z-2 F100 // down <here>\nX30\nT2\nG4 P30\nG1 X4,5\n"
+
+
+@pytest.fixture(scope="module")
+def run():
+    return mnclab.run(PROGRAM, "mnc", mnclab.Setup(limits=mnclab.Limits(acceleration=1e9, rapid=1e7)))
+
+
+class Page(HTMLParser):
+    """Text, open tags and what is asked from elsewhere."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.text, self.foreign = [], [], []
+
+    def handle_starttag(self, tag, attributes):
+        if tag not in ("meta", "img", "br"):
+            self.open.append(tag)
+        self.foreign += [v for k, v in attributes if k in ("src", "href") and not v.startswith("data:")]
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+def test_the_figures_are_those_of_the_run(run):
+    found = report(run, "Part 7")
+    facts = dict(found.facts)
+    assert found.title == "Part 7" and facts["cutting length"] == "27 mm"  # 7 down, 20 along
+    assert facts["time"] == "46.20 s"  # 27 mm at 100 mm/min and 30 s
+    assert [(row[0], row[-1]) for row in found.tools] == [("T1", "16.20 s"), ("T2", "30.00 s")]
+    assert ("dwell", "30.00 s", "64.9 %") in found.times
+    assert [number for number, _, faulty in found.listing if faulty] == [7]
+
+
+def test_the_page_stands_alone_and_is_well_formed(run, tmp_path):
+    page = Page()
+    page.feed(run.report(tmp_path / "a.html").read_text("utf-8"))
+    assert page.open == [] and page.foreign == []
+    text = "".join(page.text)
+    for piece in ("end mill 10", "G1 Z-2 F100 // down <here>", "is no part of a number", "27 mm"):
+        assert piece in text, piece
+    body = (tmp_path / "a.html").read_text("utf-8").split("<body>")[1].split("<h2>Program")[0]
+    assert 'alt="tool path: 3 moves' in body
+
+
+def test_the_pages_are_the_same_every_time(run, tmp_path):
+    one, other = (run.report(tmp_path / f"{name}.pdf", colour="feed").read_bytes() for name in "ab")
+    assert one == other and one.startswith(b"%PDF") and one.count(b"/Type /Page\n") + one.count(b"/Type /Page ") == 3
+
+
+def test_a_long_program_goes_on_over_pages():
+    from mnclab.show.plot import report as pages
+
+    found = report(mnclab.run("G0 X1\n" * 200 + "// " + "x" * 300 + "\n", "mnc"))
+    lines = list(pages.listing(found))
+    assert len(lines) == 200 + 4 and max(map(len, lines)) <= pages.WIDTH
+    assert sum(map(len, pages.chunks([(line, False) for line in lines]))) == 204
+
+
+def test_an_empty_program_has_a_report(tmp_path):
+    run = mnclab.run("", "mnc")
+    assert run.report(tmp_path / "a.html").stat().st_size > 0 and run.report(tmp_path / "a.pdf").stat().st_size > 0
+
+
+def test_other_files_are_refused(run, tmp_path):
+    with pytest.raises(Alarm, match=r"an \.html or a \.pdf file"):
+        run.report(tmp_path / "a.doc")
+    with pytest.raises(Alarm, match="cannot be written"):
+        run.report(tmp_path / "none" / "a.html")
