@@ -108,16 +108,17 @@ class PlayerPage {
     if (direction < 0 && this.place.t <= 0) this.place = this.afterItem(this.run.items - 1);
     this.playing = direction;
     this.pressed();
-    this.last = performance.now();
+    this.last = null;  // the first frame sets the clock: its time may lie before this call
     requestAnimationFrame(now => this.tick(now));
   }
   tick(now) {
     if (!this.playing) return;
+    this.last ??= now;
     const passed = Math.min(now - this.last, 250) / 1000 * Number(this.find("speed").value);
     this.last = now;
     const t = this.place.t + this.playing * passed;
     this.go(this.atTime(t));
-    if (t <= 0 || t >= this.run.time) this.stop();
+    if (this.playing > 0 ? t >= this.run.time : t <= 0) this.stop();
     else requestAnimationFrame(next => this.tick(next));
   }
   stop() {
