@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machining.depths import infeeds
@@ -17,31 +18,21 @@ from mnclab.machining.holes import drill
 from mnclab.machining.steps import Go
 
 CYCLES = CycleTable()
-FAR = 99999.9999  # mm, the largest length of a cycle
-TIP: dict[float, str] = {0: "depth refers to the tool tip", 1: "depth refers to the cylindrical part of the tool"}
 
 
 @CYCLES("CYCL DEF 200", "Drilling", runs="call", source="4.3")
 class Drilling(Cycle):
     """Drills in infeeds with full retraction to the set-up plane, a dwell after each infeed, and a rapid to the end plane."""
 
-    clearance: float = param("Q200", "set-up clearance", at_least=0, at_most=FAR, incremental=True, modal=True)
-    depth: float = param(
-        "Q201", "depth", at_least=-FAR, at_most=FAR, incremental=True, modal=True, note="from the surface; negative is down"
-    )  # fmt: skip
-    feed: float = param(
-        "Q206", "feed rate for plunging", "mm/min", at_least=0, at_most=99999.999, modal=True, also=("FAUTO", "FU")
-    )
-    infeed: float = param(
-        "Q202", "infeed depth", at_least=0, at_most=FAR, incremental=True, modal=True, note="0: in one pass"
-    )  # fmt: skip
-    dwell_top: float = param("Q210", "dwell at the set-up clearance", "s", at_least=0, at_most=3600, modal=True)
-    surface: float = param("Q203", "coordinate of the workpiece surface", at_least=-FAR, at_most=FAR, modal=True)
-    second_clearance: float = param(
-        "Q204", "second set-up clearance", at_least=0, at_most=FAR, incremental=True, modal=True, note="if greater than Q200"
-    )  # fmt: skip
-    dwell_bottom: float = param("Q211", "dwell at the bottom of each infeed", "s", at_least=0, at_most=3600, modal=True)
-    reference: float = param("Q395", "depth reference", "choice", default=0, choices=TIP, modal=True)
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    feed: float = addresses.plunge_feed()
+    infeed: float = addresses.infeed()
+    dwell_top: float = addresses.seconds("Q210", "dwell at the set-up clearance")
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+    dwell_bottom: float = addresses.dwell_bottom()
+    reference: float = addresses.reference()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """The sign of the depth, the point angle for Q395=1, a feed to drill with."""
