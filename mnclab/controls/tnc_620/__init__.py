@@ -10,7 +10,19 @@ import re
 
 from mnclab.controls.tnc_620 import later, reader
 from mnclab.controls.tnc_620.cycles import contours, drilling, transformations
-from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
+from mnclab.controls.tnc_620.language import (
+    approach,
+    auxiliary,
+    calls,
+    flow,
+    joints,
+    motion,
+    parameters,
+    polar,
+    pole,
+    program,
+    tools,
+)
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -32,7 +44,8 @@ SETTINGS = (
 )  # fmt: skip
 
 FUNCTIONS = (
-    motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
+    pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
+    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS
 )  # fmt: skip
 CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
@@ -41,7 +54,8 @@ CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CY
 MEANINGS = {
     "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "S": "spindle speed",
     "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
-    "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
+    "RR": "compensation to the right", "LEN": "length", "PR": "polar radius", "PA": "polar angle",
+    "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
     "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
