@@ -27,7 +27,9 @@ def unit(angle: float) -> np.ndarray:
     return np.array([math.cos(angle), math.sin(angle)])
 
 
-@given(angles, places, places, st.sampled_from([1, -1]), st.floats(0.5, 20), st.floats(0.1, 6.2), st.sampled_from([1, -1]))
+@given(
+    angles, places, places, st.sampled_from([1, -1]), st.floats(0.5, 20), st.floats(0.1, 6.2), st.sampled_from([1, -1])
+)
 def test_an_arc_touches_the_contour_on_its_side(course, x, y, side, radius, angle, sign):
     """CT: the centre lies R beside the contact, towards the tool for R > 0; the chord to H is 2 R sin(CCA/2) long."""
     t, to = unit(course), np.array([x, y])
