@@ -28,6 +28,7 @@ from mnclab.path.toolpath import COLUMNS, Toolpath
 
 Point = NDArray[np.float64]
 NEAR = 1e-9  # mm
+MISFIT = 0.1  # mm: more than arcs may miss their ends by
 
 
 class Lead(NamedTuple):
@@ -135,13 +136,17 @@ def apply(path: Toolpath, contour: Toolpath, unfinished: bool = False) -> Toolpa
         lonely = not 0 <= next_to < len(elements)
         if lonely and unfinished:
             return _expanded(path[:row], made, view)
-        if lonely or not before.moves[here]:
-            lack = f"a path element {'before' if lead.departs else 'after'} it"
-            if not lonely:
-                lack = f"its {'end' if lead.departs else 'start'} at another place than the contour point"
-            raise PathFault(f"{lead.name} needs {lack}", lead.step)
+        if not before.moves[here]:
+            where = "end" if lead.departs else "start"
+            raise PathFault(f"{lead.name} needs its {where} at another place than the contour point", lead.step)
+        if lonely or isinstance(_joint(contour, int(elements[next_to])), Lead):
+            raise _alone(lead)
         if lead.departs:
-            made[row] = _departure(view, row, lead, before.tangent_end[elements[next_to]])
+            t, leaves = before.tangent_end[elements[next_to]], before.start[here, :2]
+            touching = path.radius[max(row - 1, 0)] * lead.side * left(t)
+            if np.abs(view.start[row, :2] - leaves - touching).max() > MISFIT:
+                raise _alone(lead)
+            made[row] = _departure(view, row, lead, t)
         else:
             t, contact = before.tangent_start[elements[next_to]], before.end[here].copy()
             contact[:2] += lead.side * float(path.radius[row]) * left(t)
@@ -150,7 +155,12 @@ def apply(path: Toolpath, contour: Toolpath, unfinished: bool = False) -> Toolpa
 
 
 def _joint(path: Toolpath, row: int) -> Any:
-    return path.joints[path.joint[row]]
+    return path.joints[path.joint[row]] if path.joint[row] >= 0 else None
+
+
+def _alone(lead: Lead) -> PathFault:
+    side = "before" if lead.departs else "after"
+    return PathFault(f"{lead.name} needs a path element of the contour {side} it", lead.step)
 
 
 class _Part(NamedTuple):

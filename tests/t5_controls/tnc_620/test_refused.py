@@ -61,7 +61,7 @@ REFUSED = [
     ("2 C X+5 RL DR+", 3, 9, "RL cannot begin the radius compensation in C (write it in a straight line L)"),
     ("2 APPR LT X+1 Y+2 LEN5", 3, 1, "APPR LT needs RL or RR (the side on which the tool runs beside the contour)"),
     ("2 APPR LT X+1 Y+2 LEN0 RL", 3, 19, "APPR LT LEN (length of the line) must be greater than 0, got 0"),
-    ("2 APPR LT X+1 Y+2 LEN5 RL", 3, 1, "APPR LT needs a path element after it"),
+    ("2 APPR LT X+1 Y+2 LEN5 RL", 3, 1, "APPR LT needs a path element of the contour after it"),
     ("2 L X+5 RL\n3 TOOL CALL 2 Z", 4, 13,
      "TOOL CALL cannot change the tool under radius compensation (write R0 first)"),
     ("2 L X+5 RL\n3 L X+9\n4 C X+9 Y+5 R0 DR+", 5, 13,
