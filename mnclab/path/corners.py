@@ -52,6 +52,7 @@ class Chamfer(NamedTuple):
 
 
 Corner = Rounding | Chamfer
+NOTHING = 1e-9  # mm
 CHAMFER: dict[str, Any] = {"kind": Kind.LINE, "sweep": 0.0}
 
 
@@ -69,7 +70,7 @@ def apply(path: Toolpath, unfinished: bool = False) -> Toolpath:
     waiting = unfinished and not path.is_motion[rows[-1] + 1 :].any()
     for row in rows[:-1] if waiting else rows:
         work.replace(int(row), path.joints[path.joint[row]])
-    return work.result()[: rows[-1] + len(work.inserted)] if waiting else work.result()
+    return work.result(rows[-1] if waiting else len(path))
 
 
 class _Work:
@@ -79,6 +80,7 @@ class _Work:
         self.path, self.rows, self.view = path, rows, PlaneView(path)
         self.begin, self.end, self.sweep = self.view.start.copy(), self.view.end.copy(), path.sweep.copy()
         self.inserted: list[tuple[int, int, dict[str, Any]]] = []  # before row, like row, changed columns in (u, v, w)
+        self.trimmed: set[int] = set()
 
     def next_of(self, row: int, step: int, what: str) -> int:
         """The next row that moves in the plane."""
@@ -120,6 +122,7 @@ class _Work:
             raise PathFault(f"{joint} does not fit between its elements, which are too short for it", joint.step)
         changes |= {"end": (*end, self.view.end[row, 2]), "feed": feed, "joint": -1, "label": joint.label}
         self.inserted.append((follow, follow, changes))
+        self.trimmed |= {row, follow}
 
     def feed(self, row: int, follow: int, joint: Corner) -> float:
         """The corner's own feed, else that of the element after it, or before it where that is a rapid."""
@@ -179,7 +182,16 @@ class _Work:
         angle, sense = np.arctan2(cross(a, b), dot(a, b)), np.sign(self.view.sweep[row])
         return float(angle + sense * 2 * np.pi if angle * sense < 0 else angle)
 
-    def result(self) -> Toolpath:
+    def used_up(self) -> NDArray[np.bool_]:
+        """Rows (n,) of which the corners at both their ends have left nothing: a stop there would be no one's wish."""
+        used = np.zeros(len(self.path), dtype=bool)
+        rows = np.array(sorted(self.trimmed), dtype=np.int64)
+        rest = np.abs(self.end[rows] - self.begin[rows]).max(axis=1, initial=0.0) < NOTHING
+        used[rows[rest & (np.abs(self.sweep[rows]) < np.pi)]] = True
+        return used
+
+    def result(self, count: int) -> Toolpath:
+        """The first ``count`` rows of the path, with their corners."""
         order = sorted(self.inserted, key=lambda item: item[0])
         path, view = self.path, self.view
         like = np.array([item[1] for item in order], dtype=np.int64)
@@ -203,7 +215,9 @@ class _Work:
                 made["centre"][k] = np.nan
         new_ends = view.to_space(like, np.array([item[2]["end"] for item in order]).reshape(-1, 3))
         columns = {name: np.insert(column, where, made[name], axis=0) for name, column in columns.items()}
-        vertices = np.concatenate([path.start[:1], np.insert(ends, where, new_ends, axis=0)])
+        keep = np.insert(~self.used_up() & (everything < count), where, True)
+        vertices = np.concatenate([path.start[:1], np.insert(ends, where, new_ends, axis=0)[keep]])
+        columns = {name: column[keep] for name, column in columns.items()}
         return Toolpath.chain(
             vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe
         )

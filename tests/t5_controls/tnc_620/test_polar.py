@@ -202,7 +202,16 @@ def test_chamfer(inside) -> None:
 def test_chamfers_and_roundings_share_a_line(inside) -> None:
     """On the line from (20, 0) to (20, 10): 6 mm go to the chamfer, 4 mm to the rounding, nothing is left between."""
     run = inside("2 L X+20\n3 CHF 6\n4 L Y+10\n5 RND R4\n6 L X+0")
-    assert [end for end in ends(run) if end != [20, 6]] == [[14, 0], [16, 10], [0, 10]]
+    assert ends(run) == [[14, 0], [20, 6], [16, 10], [0, 10]]
+
+
+def test_roundings_that_use_up_a_line_need_no_stop(inside) -> None:
+    """Two quarters of 5 mm share the line of 10 mm: a half circle, which is run through at the feed."""
+    run = inside("2 L X+20\n3 RND R5\n4 L Y+10\n5 RND R5\n6 L X+0", mnc.Setup(limits=mnc.Limits(acceleration=1000)))
+    assert ends(run) == [[15, 0], [20, 5], [15, 10], [0, 10]]
+    profile = run.profile()
+    inner = (profile.t > 0.1) & (profile.t < profile.time - 0.1)
+    assert profile.v[inner].min() == pytest.approx(100 / 60, rel=1e-6)
 
 
 def test_a_chamfer_is_compensated_as_an_element(inside) -> None:
