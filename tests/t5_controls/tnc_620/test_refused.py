@@ -28,8 +28,8 @@ REFUSED = [
     ("2 BEGIN PGM B MM", 3, 3, "BEGIN PGM stands twice: a file holds one program"),
     ("2 END PGM A INCH", 3, 13, "END PGM says INCH, BEGIN PGM MM"),
     # motion
-    ("2 L X+5 A+5", 3, 9, "A is refused: the axis A is not built yet"),
-    ("2 L X+5 C+5", 3, 9, "C is refused: the axis C is not built yet"),
+    ("2 L X+5 U+5", 3, 9, "U is refused: the axis U is not built yet"),
+    ("2 L X+5\n3 CT X+9 C+5", 4, 10, "C is refused: the axis C is not built yet"),
     ("2 L X+5 F0", 3, 9, "F (feed rate) must be greater than 0, got 0"),
     ("2 L X+5 FAUTO FMAX", 3, 9, "FMAX and FAUTO stand in one block: one feed is allowed"),
     ("2 L X+5 FU0.2", 3, 9, "FU is refused: a feed per revolution is not built yet"),

@@ -9,6 +9,8 @@ from mnclab.controls.tnc_620.language.pole import polar_point, pole
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import INF, PLANES, Machine
+from mnclab.machine.rotary import AXES as AXES_OF_ROTATION
+from mnclab.machine.rotary import Angles, angles, set_angles, turn_axes
 from mnclab.path.corners import Corner
 from mnclab.text.program import Word
 
@@ -81,7 +83,7 @@ def side(m: Machine, words: Words, begins: bool) -> None:
         m.change("side", wanted)
 
 
-@FUNCTIONS("L", "Straight line", takes="X Y Z PR PA R0 RL RR F FMAX FAUTO", source="2 L")
+@FUNCTIONS("L", "Straight line", takes="X Y Z A B C PR PA R0 RL RR F FMAX FAUTO", source="2 L")
 def line(m: Machine, words: Words) -> None:
     """From the present position to the programmed point at feed, or with FMAX at rapid; axes not written keep their value."""
     f = feed(m, words)
@@ -92,8 +94,25 @@ def line(m: Machine, words: Words) -> None:
             m.alarm(f"{polar[0].address} and coordinates of axes stand in one block", polar[0], hint="write LP PR… PA…")
         m.warn("L with polar coordinates is read as LP", polar[0])
         to["x"], to["y"] = polar_point(m, words)
+    turned = rotary_angles(m, words)
+    moves = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))) != m.tip
+    if turned != angles(m) and not moves:
+        turn_axes(m, turned, f)
+        return
+    if turned != angles(m):
+        set_angles(m, turned)
     if to:
         m.line(**to, f=f)
+
+
+def rotary_angles(m: Machine, words: Words) -> Angles:
+    """Where the rotary axes go, degrees; IA counts from where it stands."""
+    found = list(angles(m))
+    for k, axis in enumerate(AXES_OF_ROTATION):
+        if axis in words:
+            value = m.value(words[axis])
+            found[k] = found[k] + value if words[axis].incremental else value
+    return found[0], found[1], found[2]
 
 
 def sense(m: Machine, words: Words) -> int:
