@@ -94,6 +94,26 @@ def bore(
     yield Go("retract", above, retract)
 
 
+def bore_and_stop(
+    bottom: float, *, above: float, turning: int, dwell: float = 0.0, shift: float = 0.0, feed: float | None = None
+) -> Iterator[Step]:
+    """Bore, stop the spindle, retract at rapid, turn the spindle on again.
+
+    With a ``shift`` the spindle stops oriented and the tool leaves the wall by that much along -x; it ends on the axis.
+    """
+    yield Go("bore", bottom, feed)
+    yield Wait("dwell at the bottom", dwell)
+    if shift:
+        yield Orient("orient the spindle to 0 degrees", 0.0)
+        yield Go("leave the wall", x=-shift, y=0.0)
+    else:
+        yield Spin("stop the spindle", 0)
+    yield Go("retract", above)
+    if shift:
+        yield Go("back to the axis", x=0.0, y=0.0)
+    yield Spin("spindle on", turning)
+
+
 def back_bore(
     *,
     above: float,

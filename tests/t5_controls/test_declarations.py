@@ -23,8 +23,8 @@ def tables(control):
     return {code: entry["parameters"] for entry in entries for code in (entry["code"], *entry["aliases"])}
 
 
-TABLES = {control: tables(control) for control in mnclab.controls}
-CYCLES = [(control, code) for control in mnclab.controls for code in mnclab.controls[control].cycles]
+TABLES = {control: tables(control) for control in mnclab.controls if control != "g43"}  # its source has no cycles
+CYCLES = [(control, code) for control in TABLES for code in mnclab.controls[control].cycles]
 
 #: Our names where the table has a longer one: the word that the address does not say already.
 NAMES = {
