@@ -104,15 +104,14 @@ def countersink(path: Path, offset: float, *, sense: int, feed: float, external:
     if not offset:
         return
     start = path.start if external else 0.0
-    there, back = "to the countersink", "back from the countersink" if external else "back to the axis"
     # outside, and coming from outside the circle, the half circles turn the other way
     half, middle = (-1 if offset < start else 1) * sense * math.pi, ((start + offset) / 2, 0.0)
     apart = abs(offset - start) > DRIFT
     if apart:
-        yield Turn(there, half, None, feed, middle)
+        yield Turn("to the countersink", half, None, feed, middle)
     yield Turn("countersink", sense * WHOLE, None, feed)
     if apart:
-        yield Turn(back, half, None, feed, middle)
+        yield Turn("back from the countersink", half, None, feed, middle)
 
 
 def chamfer(radius: float, pitch: float, *, sense: int, feed: float, position_feed: float) -> Iterator[Step]:

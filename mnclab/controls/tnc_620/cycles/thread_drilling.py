@@ -84,6 +84,7 @@ class ThreadDrillingMilling(ThreadMilling):
             yield from drill(
                 self.levels(), above=self.above, feed=self.plunging_feed, reenter=self.upper_advanced_stop_distance,
                 breaks=MOST if every else 0, break_every=every, back=self.chip_breaking_retract, approach=self.plunging_feed,
+                start=self.surface,
             )  # fmt: skip
         yield from self.front(m, self.depth_at_front, self.offset_at_front, self.milling_feed, self.positioning)
         yield from self.thread(m)
