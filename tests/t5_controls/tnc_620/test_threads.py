@@ -183,7 +183,7 @@ def test_the_thread_ends_above_the_end_of_the_hole(called, number) -> None:
     (alarm,) = called(number, Q201=-19.6).alarms
     assert alarm.severity == "warning" and alarm.span[:2] == (7, 1)
     assert alarm.message == (
-        f"CYCL DEF {number} Q201 (depth) should be at least a third of the pitch less deep than Q356 = -20, got -19.6"
+        f"CYCL DEF {number} Q201 (thread depth) should be at least a third of the pitch less deep than Q356 = -20, got -19.6"
     )
     assert called(number, Q201=-30, Q356=0).alarms == ()
 

@@ -18,8 +18,8 @@ LENGTH = "must be at least 0 and at most 99999.9999, got -1"
 #: cycles, what is changed, the parameter at fault ("Q239 (thread pitch)"; HEAD), what is said.
 REFUSED = [
     # the sign of the depths
-    ((*TAPPING, 262, 265, 267), {"Q201": 5}, "Q201 (depth)", POSITIVE),
-    ((263, 264), {"Q201": 5, "Q356": 6}, "Q201 (depth)", POSITIVE),
+    ((*TAPPING, 262, 265, 267), {"Q201": 5}, "Q201 (thread depth)", POSITIVE),
+    ((263, 264), {"Q201": 5, "Q356": 6}, "Q201 (thread depth)", POSITIVE),
     ((263,), {"Q201": 0, "Q356": 5}, "Q356 (countersinking depth)", POSITIVE),
     ((264,), {"Q201": 0, "Q356": 5}, "Q356 (total hole depth)", POSITIVE),
     ((263, 264), {"Q201": 0, "Q356": 0, "Q358": 5, "Q359": 1}, "Q358 (depth at front)", POSITIVE),

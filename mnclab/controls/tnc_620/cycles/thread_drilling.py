@@ -24,7 +24,7 @@ class ThreadDrillingMilling(ThreadMilling):
 
     nominal_diameter: float = thread_parameters.nominal_diameter()
     pitch: float = thread_parameters.pitch()
-    thread_depth: float = addresses.depth(example=-16)
+    thread_depth: float = thread_parameters.thread_depth(example=-16)
     total_hole_depth: float = addresses.coordinate(
         "Q356", "total hole depth", incremental=True, note="0: no drilling", example=-20
     )
@@ -96,7 +96,7 @@ class HelicalThreadMilling(ThreadMilling):
 
     nominal_diameter: float = thread_parameters.nominal_diameter()
     pitch: float = thread_parameters.pitch()
-    thread_depth: float = addresses.depth(example=-16)
+    thread_depth: float = thread_parameters.thread_depth(example=-16)
     prepositioning_feed: float | str = thread_parameters.prepositioning_feed()
     depth_at_front: float = thread_parameters.front_depth()
     offset_at_front: float = thread_parameters.front_offset()

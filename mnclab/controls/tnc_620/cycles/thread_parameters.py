@@ -16,6 +16,12 @@ def pitch() -> Any:
     )  # fmt: skip
 
 
+def thread_depth(**more: Any) -> Any:
+    """Q201: from the surface to the end of the thread, negative downwards."""
+    note = "from the surface; negative is down"
+    return addresses.coordinate("Q201", "thread depth", **{"incremental": True, "note": note} | more)
+
+
 def nominal_diameter() -> Any:
     """Q335."""
     return addresses.length("Q335", "nominal diameter", example=10)

@@ -120,7 +120,7 @@ class ThreadMilling(AtSurface):
         if self.thread_depth and depth and abs(self.thread_depth) > depth - self.lead / 3 + 1e-9:
             least = f"at least a third of the pitch less deep than {self._address(name)} = {getattr(self, name):g}"
             word = m.cycle.words.get("thread_depth") if m.cycle else None
-            m.warn(f"{self.code} Q201 (depth) should be {least}, got {self.thread_depth:g}", word)
+            m.warn(f"{self.code} Q201 (thread depth) should be {least}, got {self.thread_depth:g}", word)
 
     # --- what it does --------------------------------------------------------------------------------------------------
 
@@ -158,7 +158,7 @@ class InnerThreadMilling(ThreadMilling):
 
     nominal_diameter: float = thread_parameters.nominal_diameter()
     pitch: float = thread_parameters.pitch()
-    thread_depth: float = addresses.depth(example=-20)
+    thread_depth: float = thread_parameters.thread_depth(example=-20)
     threads_per_step: float = thread_parameters.threads_per_step()
     prepositioning_feed: float | str = thread_parameters.prepositioning_feed()
     milling_type: float = addresses.climb(example=1)
@@ -197,7 +197,7 @@ class ThreadMillingCountersinking(ThreadMilling):
 
     nominal_diameter: float = thread_parameters.nominal_diameter()
     pitch: float = thread_parameters.pitch()
-    thread_depth: float = addresses.depth(example=-16)
+    thread_depth: float = thread_parameters.thread_depth(example=-16)
     countersinking_depth: float = addresses.coordinate(
         "Q356", "countersinking depth", incremental=True, note="of the tool tip; 0: none", example=-20
     )
@@ -251,7 +251,7 @@ class OutsideThreadMilling(ThreadMilling):
 
     nominal_diameter: float = thread_parameters.nominal_diameter()
     pitch: float = thread_parameters.pitch()
-    thread_depth: float = addresses.depth(example=-20)
+    thread_depth: float = thread_parameters.thread_depth(example=-20)
     threads_per_step: float = thread_parameters.threads_per_step()
     prepositioning_feed: float | str = thread_parameters.prepositioning_feed()
     milling_type: float = addresses.climb(example=1)
