@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -73,6 +74,24 @@ def test_207_the_pitch_is_the_hand_and_the_spindle_goes_on_as_before(called, row
     up = path[path.kind == mnc.Kind.RAPID][-1]
     assert up.spindle == 0 and up.start[2] == 27  # stopped at the set-up clearance
     assert path[-1].spindle == after
+
+
+@pytest.mark.parametrize("number", [207, 209])
+def test_rigid_tapping_needs_no_turning_spindle(called, number) -> None:
+    """Synchronization begins with the spindle standing too (5.3): nobody is warned."""
+    assert called(number, "M5").alarms == ()
+
+
+@pytest.mark.parametrize("hand", [1, -1])
+def test_207_taps_as_its_sibling_of_the_mnc(called, rows, hand) -> None:
+    """G309: the same moves, feeds and spindle from the set-up clearance into the thread and back."""
+    sibling = mnc.run(f"G17 G90 G54\nT2 S500 M3\nG0 X0 Y0 Z100\nG309 Q2 Z25 H-20 P{hand}\nG0 X0 Y0 M99\n", "mnc")
+    theirs = sibling.toolpath[[sibling.toolpath.labels[k].startswith("G309") for k in sibling.toolpath.label]]
+    ours = rows(called(207, Q239=hand))[: len(theirs) - 1]
+    theirs = theirs[:-1]  # the end of the cycle is each control's own
+    assert len(ours) > 4 and ours.kind.tolist() == theirs.kind.tolist()
+    for column in ("end", "feed", "spindle", "synchronous"):
+        assert np.array_equal(getattr(ours, column), getattr(theirs, column), equal_nan=True), column
 
 
 # --- 209 ---------------------------------------------------------------------------------------------------------------

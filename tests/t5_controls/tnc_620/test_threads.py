@@ -286,6 +286,16 @@ def test_267_countersinks_the_end_of_the_stud(called, rows, offset) -> None:
 
 
 @pytest.mark.parametrize("number", ALL)
+def test_every_row_says_what_it_is(called, rows, number) -> None:
+    """In the name of its cycle; of several helices each says which."""
+    path = rows(called(number, **{"Q355": 4} if number in (262, 267) else {}))
+    labels = [move.label.removeprefix(f"CYCL DEF {number} ") for move in path]
+    assert all(labels) and not any(label.startswith("CYCL") for label in labels)
+    several = [f"helix {k} of 4" for k in (1, 2, 3, 4)] if number in (262, 267) else ["helix"]
+    assert [label for label in labels if "helix" in label] == several
+
+
+@pytest.mark.parametrize("number", ALL)
 @pytest.mark.parametrize(("second", "end"), [(0, 32), (2, 32), (3, 33)])
 def test_second_clearance_counts_where_it_is_greater(called, rows, number, second, end) -> None:
     assert rows(called(number, Q204=second)).end[-1, 2] == end

@@ -1,7 +1,7 @@
 """The planes of a cycle in the tool axis, and the rule of the sign of its depths (4.3, 5.2, 5.5).
 
-S is the surface Q203, A = S + Q200 the set-up plane, E = S + Q204 the plane at the end where Q204 is greater than Q200. A
-positive depth works upwards, from A below the surface, where the setting "depth_error" allows it.
+S is the surface Q203, A = S + Q200 the set-up plane, E the plane at the end: S + Q204 where that is higher than A. A positive
+depth works upwards from A = S - Q200, where the setting "depth_error" allows it; E stays above the surface.
 """
 
 from __future__ import annotations
@@ -46,9 +46,7 @@ class AtSurface(Cycle):
                 yield name, f"must have the sign of the other depths, got {depth:g}"
 
     def leave(self) -> Iterator[Go]:
-        """At rapid to E, or to A where there is no E; upwards always over A."""
-        end = self.surface + self.second_clearance
-        if self.down < 0 or self.second_clearance <= self.clearance:
+        """At rapid to E; a tool that worked upwards first goes to A under the workpiece."""
+        if self.down < 0:
             yield Go("retract", self.above)
-        if self.second_clearance > self.clearance:
-            yield Go("retract to the second clearance", end)
+        yield Go("retract", self.surface + max(self.second_clearance, self.clearance))
