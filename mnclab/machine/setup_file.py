@@ -22,7 +22,7 @@ FORMAT = """\
 start = [0, 0, 300]            # machine position of the spindle before the program, mm
 
 [tools.1]                      # the row of the tool table; every key may be left out
-radius = 5                     # mm; also length, name, corner, dl, dr, teeth, kind, cutting_length,
+radius = 5                     # mm; also length, name, corner, dl, dr, teeth, kind, cutting_length, pitch,
 length = 80                    # and in degrees angle (of the point) and plunge_angle
 
 [datums]                       # work offsets: machine coordinates of the zero points, mm

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620 import later, reader
-from mnclab.controls.tnc_620.cycles import contours, drilling, transformations
+from mnclab.controls.tnc_620.cycles import contours, drilling, tapping, thread_drilling, threads, transformations
 from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
@@ -28,6 +28,10 @@ SETTINGS = (
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
     ),
+    Setting(
+        "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
+        unit="s", at_least=0,
+    ),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -36,6 +40,7 @@ FUNCTIONS = (
     | auxiliary.FUNCTIONS | calls.FUNCTIONS
 )  # fmt: skip
 CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
+CYCLES |= tapping.CYCLES | threads.CYCLES | thread_drilling.CYCLES
 
 #: What the words of statements are.
 MEANINGS = {
