@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620 import later, reader
-from mnclab.controls.tnc_620.cycles import contours, drilling, transformations
+from mnclab.controls.tnc_620.cycles import boring, contours, drilling, pecking, transformations
 from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
@@ -35,7 +35,7 @@ FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS
 )  # fmt: skip
-CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
+CYCLES = drilling.CYCLES | boring.CYCLES | pecking.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
 
 #: What the words of statements are.
 MEANINGS = {
