@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.holes import Hole, moving, rate
+from mnclab.controls.tnc_620.cycles.holes import Hole, moving, oriented, rate
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import DRIFT
@@ -32,6 +32,11 @@ class Boring(Hole):
     second_clearance: float = addresses.second_clearance()
     disengage: float = addresses.disengage()
     spindle_angle: float = addresses.spindle_angle()
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A spindle that stops at an angle; those of every hole."""
+        yield from oriented(m)
+        yield from super().check(m)
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Down, dwell, off the wall, to the set-up plane, end plane, axis."""
@@ -77,7 +82,8 @@ class BackBoring(Hole):
         return self.counterbore_depth
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A counterbore upwards that stays inside the workpiece, and feeds."""
+        """A spindle that stops at an angle; a counterbore upwards that stays inside the workpiece; feeds."""
+        yield from oriented(m)
         if self.counterbore_depth < 0:
             yield "counterbore_depth", f"must not be negative, got {self.counterbore_depth:g}"
         if self.counterbore_depth >= self.thickness:
@@ -149,4 +155,4 @@ class BoreMilling(Hole):
             self.bottom(m), above=self.above(m), radius=self.radius(m), pitch=pitch, sense=sense * m.orientation,
             feed=self.feed, by_arc=True,
         )  # fmt: skip
-        yield from self.leave(m)
+        yield from (step._replace(x=0.0, y=0.0) for step in self.leave(m))  # turns end near the axis, not on it

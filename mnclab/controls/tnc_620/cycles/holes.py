@@ -71,7 +71,7 @@ class Hole(Cycle):
             return
         perform(m, self.code, [Go("to the set-up clearance", self.above(m)), *self.steps(m)])
 
-    def leave(self, m: Machine, feed: float = RAPID) -> Iterator[Step]:
+    def leave(self, m: Machine, feed: float = RAPID) -> Iterator[Go]:
         """To the end plane; a tool that drilled upwards first goes to the set-up plane under the hole."""
         if self.up(m) < 0:
             yield Go("retract", self.above(m), feed)
@@ -97,6 +97,12 @@ def point_angle(m: Machine, name: str) -> Iterator[tuple[str, str]]:
     """What a parameter asks for needs the point angle of the tool."""
     if not 0 < m.tool.angle < 180:
         yield name, f"needs the point angle of tool {m.tool.number} (T-ANGLE of the tool table)"
+
+
+def oriented(m: Machine) -> Iterator[tuple[str, str]]:
+    """A spindle that can stop at an angle."""
+    if not m.settings["controlled_spindle"]:
+        yield "", "needs a controlled spindle, which this machine does not have (setting controlled_spindle)"
 
 
 def moving(name: str, feed: float | str, purpose: str) -> Iterator[tuple[str, str]]:
