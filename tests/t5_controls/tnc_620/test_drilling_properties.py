@@ -107,7 +107,8 @@ def test_203_breaks_chips_between_retractions(
 
 
 @given(**COMMON, infeed=INFEED, decrement=hundredths(0, 2), least=hundredths(0.5, 6), every=hundredths(0.4, 9),
-       back=hundredths(0.1, 0.5), part=st.sampled_from([0, 0.1, 0.5, 0.9]), stops=st.tuples(hundredths(0, 2), hundredths(0, 2)))  # fmt: skip
+       back=hundredths(0.1, 0.5), part=st.sampled_from([0, 0.1, 0.5, 0.9]),
+       stops=st.tuples(hundredths(0, 2), hundredths(0, 2)))  # fmt: skip
 def test_205_clears_chips_inside_its_guide(
     clearance, surface, second, depth, infeed, decrement, least, every, back, part, stops
 ):
