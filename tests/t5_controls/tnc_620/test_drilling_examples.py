@@ -9,10 +9,13 @@ import math
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import mnclab as mnc
 from mnclab import Kind
+from mnclab.geometry import frames
+from mnclab.machine.machine import Machine
 from mnclab.machining.holes import guided
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-drilling.json"
@@ -248,3 +251,54 @@ def test_positioning_with_q379(which):
         assert (planes.start if which == "start" else planes.clear) == pytest.approx(level)
     misprinted = [row for row in data.get("rows_printed", []) if row not in data["rows"]]
     assert [row[:2] for row in misprinted] == ([[20, 2], [20, 5], [20, 10], [20, 25]] if which == "return" else [])
+
+
+# --- under transformations --------------------------------------------------------------------------------------------
+
+
+def test_202_disengages_in_turned_coordinates():
+    """Q214=1 is -X of the program; turned by 90 degrees that is -Y of the machine."""
+    text = "8 CYCL DEF 10.0 R\n9 CYCL DEF 10.1 ROT+90\n" + example("CYCL DEF 202")["program"]
+    first, _ = holes(run(text), "CYCL DEF 202")
+    off = next(row for row in first if row.label.endswith("leave the wall"))
+    assert off.end - off.start == pytest.approx([0, -0.2, 0])
+
+
+@pytest.mark.parametrize("mirrored", [(0,), (1,), (0, 1)])
+@pytest.mark.parametrize("turned", [0, 90])
+def test_a_mirror_image_turns_neither_the_direction_nor_the_kind_of_milling(mirrored, turned):
+    """4.5, 4.7 and 4.9, on a machine with a mirror frame inside a rotation."""
+    control = mnc.controls["tnc-620"]
+    bore = {"clearance": 2.0, "depth": -5.0, "feed": 100.0, "surface": 0.0, "second_clearance": 9.0}
+    boring = {"dwell_bottom": 0.0, "retract_feed": 100.0, "disengage": 1.0, "spindle_angle": 0.0}
+    back = {
+        "thickness": 20.0,
+        "counterbore_depth": 5.0,
+        "eccentricity": 3.0,
+        "edge_height": 9.0,
+        "positioning_feed": 700.0,
+    }
+    milling = {"pitch": 1.0, "diameter": 14.0, "roughing_diameter": 0.0, "climb": 1.0}
+    without = {name: value for name, value in bore.items() if name != "depth"}
+    for code, values, moved in (
+        (202, bore | boring, 0.2),
+        (204, without | back | {"dwell_bottom": 0.0, "disengage": 1.0, "spindle_angle": 0.0}, 3.0),
+        (208, bore | milling, 0),
+    ):
+        machine = Machine(control, mnc.Setup())
+        machine.set_modal("coolant", "M9")
+        machine.change_tool(mnc.Tool(radius=5))
+        machine.set_frame("rotation", frames.turn(math.radians(turned)))
+        sizes = [-1.0 if axis in mirrored else 1.0 for axis in range(3)]
+        machine.set_frame("mirror", np.diag([*sizes, 1.0]))
+        machine.rapid(20, 10, 50)
+        place = machine.tip
+        control.cycles[f"CYCL DEF {code}"](**values).moves(machine)
+        path = machine.recorder.take()
+        if moved:
+            off = path[path.kind == Kind.RAPID].end - place
+            way = {0: (-1, 0), 90: (0, -1)}[turned]
+            assert any(np.allclose(row[:2], [moved * step for step in way]) for row in off)
+            assert path.end[-1, :2] == pytest.approx(place[:2])
+        else:
+            assert (path.sweep[path.kind == Kind.ARC] > 0).all()

@@ -244,3 +244,30 @@ def test_a_positive_depth_is_the_mirror_image(clearance, surface, second, depth,
         return [abs(row.end[2] - surface) for row in rows]
 
     assert at_feed(up) == pytest.approx(at_feed(down), abs=1e-9)
+
+
+INCHES = UPWARDS | {
+    204: {249: 5, 250: 20, 251: 3.5, 252: 15, 253: 750, 254: 200, 255: 0, 214: 1, 336: 0},
+    240: {343: 1, 344: -6, 206: 100, 211: 0.5},
+}
+
+
+@pytest.mark.parametrize("code", INCHES)
+def test_a_program_in_inches_drills_the_same_hole(code):
+    """Lengths and feeds are divided by 25.4; times, speeds, counts, choices and angles are not."""
+    values = {200: 2, 203: 7, 204: 30, 201: -20} | INCHES[code]
+    if code == 204:
+        del values[201]
+    units = {p.address: p.unit for p in mnc.controls["tnc-620"].cycles[f"CYCL DEF {code}"].parameters()}
+    paths = []
+    for unit, inch in (("MM", 1), ("INCH", 25.4)):
+        lines = [f"Q{q}={v / inch if units[f'Q{q}'] in ('mm', 'mm/min') else v:.12g}" for q, v in values.items()]
+        text = "\n".join(
+            [f"BEGIN PGM A {unit}", "TOOL CALL 2 Z S1000", f"CYCL DEF {code} X", *lines, "CYCL CALL M3", ""]
+        )
+        found = mnc.run(text, "tnc-620", mnc.Setup(tools={2: TOOL}))
+        assert found.alarms == ()
+        paths.append(found.toolpath)
+    metric, inches = paths
+    for column in ("end", "feed", "time", "spindle", "sweep"):
+        assert getattr(inches, column) == pytest.approx(getattr(metric, column), abs=1e-6, nan_ok=True)

@@ -5,18 +5,31 @@ Both boring cycles stop the spindle at an angle; afterwards it turns as before t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import chain
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.holes import Hole, moving, oriented, rate
+from mnclab.geometry import frames
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import DRIFT
 from mnclab.machining.helical import bore_milling, steepest_pitch, turns
 from mnclab.machining.holes import back_bore, back_to_axis, bore
-from mnclab.machining.steps import Step
+from mnclab.machining.steps import Go, Step
 
 CYCLES = CycleTable()
+
+
+def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
+    """Steps off the axis go where they would without a mirror image; shifts and rotations count (4.5, 4.7)."""
+    plain = m.frames.copy()
+    plain.set("mirror", None)
+    (a, b), (c, d) = (frames.inverse(m.frames.matrix) @ plain.matrix)[:2, :2].tolist()
+    for step in steps:
+        if isinstance(step, Go) and step.x is not None and step.y is not None and "mirror" in m.frames:
+            step = step._replace(x=a * step.x + b * step.y, y=c * step.x + d * step.y)
+        yield step
 
 
 @CYCLES("CYCL DEF 202", "Boring", runs="call", source="4.5")
@@ -40,11 +53,11 @@ class Boring(Hole):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Down, dwell, off the wall, to the set-up plane, end plane, axis."""
-        yield from bore(
+        bored = bore(
             self.bottom(m), above=self.above(m), feed=self.feed, retract=rate(self.retract_feed, self.feed),
             dwell=self.dwell_bottom, angle=self.spindle_angle, direction=int(self.disengage),
         )  # fmt: skip
-        yield from back_to_axis(self.end, m.turning)
+        yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
 
 
 @CYCLES("CYCL DEF 204", "Back boring", runs="call", source="4.7")
@@ -94,13 +107,13 @@ class BackBoring(Hole):
     def steps(self, m: Machine) -> Iterator[Step]:
         """Shifted through the hole, counterbore from below, shifted out; end plane, axis."""
         lower = self.surface - self.thickness - self.edge_height
-        yield from back_bore(
+        bored = back_bore(
             above=self.above(m), below=lower - self.clearance, bottom=lower + self.counterbore_depth,
             eccentricity=self.eccentricity, direction=int(self.disengage), angle=self.spindle_angle, feed=self.feed,
             travel=rate(self.positioning_feed), dwell=self.dwell_bottom, turning=m.turning or 1,
             coolant=m.modal.get("coolant") == "M9",
         )  # fmt: skip
-        yield from back_to_axis(self.end, m.turning)
+        yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
 
 
 @CYCLES("CYCL DEF 208", "Bore milling", runs="call", source="4.9")
