@@ -69,7 +69,11 @@ class Hole(Cycle):
         """To the set-up plane and then what the cycle does; nothing for a depth of 0."""
         if self.down(m) == 0:
             return
-        perform(m, self.code, [Go("to the set-up clearance", self.above(m)), *self.steps(m)])
+        steps = [
+            Go("to the set-up clearance", self.above(m)),
+            *self.steps(m),
+        ]  # with spindle and coolant as at the call
+        perform(m, self.code, steps)
 
     def leave(self, m: Machine, feed: float = RAPID) -> Iterator[Go]:
         """To the end plane; a tool that drilled upwards first goes to the set-up plane under the hole."""
