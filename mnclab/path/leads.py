@@ -28,6 +28,7 @@ from mnclab.path.toolpath import COLUMNS, Toolpath
 
 Point = NDArray[np.float64]
 NEAR = 1e-9  # mm
+CHANGED = ("kind", "centre", "sweep", "feed", "label", "joint")  # columns that a lead gives its rows
 MISFIT = 0.1  # mm: more than arcs may miss their ends by
 
 
@@ -225,9 +226,6 @@ def _expanded(path: Toolpath, made: dict[int, list[_Part]], view: PlaneView) -> 
             columns["label"][k], columns["joint"][k] = labels.index(_joint(path, row).label), -1
     vertices = np.concatenate([path.start[:1], ends])
     return Toolpath.chain(vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe)
-
-
-CHANGED = ("kind", "centre", "sweep", "feed", "label", "joint")
 
 
 def _spread(column: NDArray[Any], source: NDArray[np.int64], changes: bool) -> NDArray[Any]:
