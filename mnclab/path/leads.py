@@ -165,7 +165,7 @@ def _alone(lead: Lead) -> PathFault:
 
 
 class _Part(NamedTuple):
-    """A row of a lead: its end (3,) in the plane, the centre and sweep of an arc; ``lead``: at the feed of the lead."""
+    """A row of a lead in the coordinates of its plane: end (3,), and centre (3,) and sweep of an arc."""
 
     end: Point
     centre: Point | None = None
@@ -173,12 +173,17 @@ class _Part(NamedTuple):
     feed: float = math.nan  # nan: that of the block
 
 
+def _at(found: Way, height: float) -> Point | None:
+    """The centre (3,) at the height where its arc begins."""
+    return None if found.centre is None else np.append(found.centre, height)
+
+
 def _approach(view: PlaneView, row: int, lead: Lead, t: Point, contact: Point) -> list[_Part]:
     """To H, with the depth, and on to the contact Q with the contour."""
     start = view.start[row]
     found = way(lead, start[:2], contact[:2], t)
     by = np.append(found.by, contact[2])
-    return _moving(start, _Part(by, feed=lead.feed), _Part(contact, found.centre, found.sweep))
+    return _moving(start, _Part(by, feed=lead.feed), _Part(contact, _at(found, contact[2]), found.sweep))
 
 
 def _departure(view: PlaneView, row: int, lead: Lead, t: Point) -> list[_Part]:
@@ -186,8 +191,8 @@ def _departure(view: PlaneView, row: int, lead: Lead, t: Point) -> list[_Part]:
     start, end = view.start[row], view.end[row]
     found = way(lead._replace(side=-lead.side), end[:2], start[:2], -t)
     if lead.form != "LCT":
-        return [_Part(end, found.centre, -found.sweep)]
-    return _moving(start, _Part(np.append(found.by, start[2]), found.centre, -found.sweep), _Part(end))
+        return [_Part(end, _at(found, start[2]), -found.sweep)]
+    return _moving(start, _Part(np.append(found.by, start[2]), _at(found, start[2]), -found.sweep), _Part(end))
 
 
 def _moving(start: Point, first: _Part, last: _Part) -> list[_Part]:
@@ -220,8 +225,8 @@ def _expanded(path: Toolpath, made: dict[int, list[_Part]], view: PlaneView) -> 
             at, which = part.end, np.array([row])
             ends[k] = view.to_space(which, at[None])[0]
             columns["kind"][k] = straight if part.centre is None else Kind.ARC
-            flat = np.full((1, 3), np.nan) if part.centre is None else np.append(part.centre, view.start[row, 2])[None]
-            columns["centre"][k] = view.to_space(which, flat)[0]
+            centre = np.full(3, np.nan) if part.centre is None else part.centre
+            columns["centre"][k] = view.to_space(which, centre[None])[0]
             columns["sweep"][k], columns["feed"][k] = part.sweep, feed
             columns["label"][k], columns["joint"][k] = labels.index(_joint(path, row).label), -1
     vertices = np.concatenate([path.start[:1], ends])

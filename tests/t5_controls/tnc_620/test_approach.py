@@ -52,6 +52,7 @@ def test_approach(form: str, rows: Rows, inside) -> None:
     assert body.start[:2].tolist() == pytest.approx([-5, 0]) and body.end[:2].tolist() == pytest.approx([-5, 40])
     for arc in run.toolpath[run.toolpath.kind == Kind.ARC]:
         assert math.dist(arc.centre, arc.start) == pytest.approx(math.dist(arc.centre, arc.end))
+        assert arc.centre[2] == arc.start[2]
 
 
 DEPARTURES = [
