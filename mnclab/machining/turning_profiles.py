@@ -277,7 +277,10 @@ def reachable(profile: Contour, tool: Tool) -> Contour:
                 fallen = float(r - abs(z - edge) * math.tan(angle))
                 rows = (float(z), edge, (float(r), fallen)) if side < 0 else (edge, float(z), (fallen, float(r)))
                 found.append(Stretch(*rows))
-    return checked(uppermost(found, first, last)) if len(found) > len(pieces) else contour
+    if len(found) == len(pieces):
+        return contour
+    ends = [(z, max(r, *(p.at(z) for p in found if p.left <= z <= p.right))) for z, r in (first, last)]
+    return checked(uppermost(found, *ends))
 
 
 def _leaning(pieces: Iterable[Stretch], angle: float) -> list[tuple[float, float]]:

@@ -22,7 +22,7 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.machining.strokes import CLEANUP, PICK_UP, PLUNGE, RAPID, ROUGH, Pen, Plan
 from mnclab.machining.turning_offsets import offset
-from mnclab.machining.turning_profiles import SAME, between, entry_way, exit_way, lowest, reachable
+from mnclab.machining.turning_profiles import SAME, angles_of, between, entry_way, exit_way, lowest, reachable
 from mnclab.machining.zones import CLOSED, OPEN, filled, zones
 from mnclab.path.tool import Tool
 
@@ -61,11 +61,11 @@ class Task(NamedTuple):
 
 def task(
     profile: Contour, blank: float, depth: float, tool: Tool = POINT, lift: float = LIFT, front: float = FRONT,
-    also: Iterable[float] = (),
+    also: Iterable[float] = (), slanting: bool = False,
 ) -> Task:  # fmt: skip
     """Levels one `depth` apart down to the bottom of one zone, and `also` some radii between.
 
-    A ValueError says what is wrong with the numbers.
+    Strokes that begin `slanting` need more room in front of the face for an edge that leans forward. A ValueError says what is wrong with the numbers.
     """
     if not depth > 0:
         raise ValueError(f"the depth of a pass must be greater than 0, got {depth:g}")
@@ -79,10 +79,16 @@ def task(
     bottom = float(r.min())
     if not blank > bottom + SAME:
         raise ValueError(f"a blank of radius {blank:g} leaves nothing to cut above the profile")
+    first, last = entry_way(contour, blank), exit_way(contour, blank)
+    inside = between(contour, first or 0.0, last)  # what lies above the blank is no affair of the tool
+    if inside is None:
+        raise ValueError(f"a blank of radius {blank:g} leaves nothing to cut above the profile")
+    contour = inside
     count = math.ceil((blank - bottom) / depth * (1 - 1e-9))
     if count > MOST:
         raise ValueError(f"a depth of {depth:g} gives {count} passes, allowed are {MOST}")
-    ahead = float(contour.points[0, 0]) + front
+    lean = angles_of(tool)[0]  # an edge that leans forward must not reach the face from where the tool waits
+    ahead = float(contour.points[0, 0]) + max(front, (blank - bottom if slanting else min(depth, blank - bottom)) / math.tan(lean))
     heights = [blank - k * depth for k in range(1, count)] + [bottom]
     heights += [r for r in also if bottom < r < blank and min(abs(r - h) for h in heights) > SAME]
     levels = []
@@ -125,7 +131,8 @@ def pick_up(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **
         pen.feed(level.left, level.r, ROUGH)
         pen.along(between(t.profile, level.last, exit_way(t.profile, above)), PICK_UP)
         if number < len(t.levels) or level.first is None:
-            _lift(pen, t, level, back_to=None if level.first is None else _wall(t, above))
+            height = min(pen.r + t.lift, t.blank)
+            _lift(pen, t, level, None if level.first is None else _wall(t, above, level, height))
         above = level.r
     return _out(pen, t, "pick-up")
 
@@ -231,7 +238,7 @@ def equidistant(profile: Contour, blank: float, depth: float, tool: Tool = POINT
 
     Outside corners of an offset are sharp. What of it lies outside the blank is left out.
     """
-    t = task(profile, blank, depth, tool, **distances)
+    t = task(profile, blank, depth, tool, **distances, slanting=True)
     strokes: list[tuple[bool, Contour]] = []
     for k in range(MOST):
         found = list(_within(offset(t.profile, k * depth, t.front), blank, t.front))
@@ -263,7 +270,7 @@ def contour(
 
     Without `shift` and `passes` the copies lie one `depth` apart on the radius.
     """
-    t = task(profile, blank, depth, tool, lift, front)
+    t = task(profile, blank, depth, tool, lift, front, slanting=True)
     count = len(t.levels) if passes is None else passes
     if count < 1:
         raise ValueError(f"at least one pass is needed, got {count}")
@@ -364,8 +371,8 @@ def _down(pen: Pen, t: Task, index: int) -> None:
     before = t.levels[index - 1] if index else None
     if before is None or before.first is None:  # from the top of the wall
         top = t.profile.points[0]
-        pen.rapid(pen.z if before is None else t.front, max(pen.r, float(top[1])))
-        pen.rapid(*top)
+        if before is not None:
+            pen.rapid(t.front, float(top[1]))
         pen.along(between(t.profile, 0.0, level.first), PLUNGE)
         return
     _straight(pen, t, before)
@@ -389,10 +396,11 @@ def _straight(pen: Pen, t: Task, before: Level) -> None:
     pen.rapid(before.right, before.r)
 
 
-def _wall(t: Task, r: float) -> float:
-    """The z of the first wall at a radius."""
-    way = entry_way(t.profile, r)
-    return float(t.profile.points[0, 0] if way is None else t.profile.point_at(way)[0][0])
+def _wall(t: Task, above: float, level: Level, r: float) -> float:
+    """The z to go back to at a radius: where the pass before began, if the wall lets the tool pass there."""
+    way = entry_way(t.profile, above)
+    z, wall = t.profile.points[0] if way is None else t.profile.point_at(way)[0]
+    return float(z) if wall <= r + SAME else level.right
 
 
 def _lift(pen: Pen, t: Task, level: Level, back_to: float | None = None) -> None:

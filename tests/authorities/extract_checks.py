@@ -34,6 +34,11 @@ EXAMPLES = {
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
     ],
+    "turning-technology": [
+        *("loop", "zigzag", "descent", "pick-up", "semi-finish pass", "equidistant", "contour scheme"),
+        *("closed zone strokes", "groove pass count", "groove scheme 5", "one-sided flank infeed"),
+        "alternate flank infeed",
+    ],
     "tnc620-drilling": [
         *("Q379 positioning behavior", "CYCL DEF 240", "CYCL DEF 200", "CYCL DEF 201", "CYCL DEF 202", "CYCL DEF 203"),
         *("CYCL DEF 204", "CYCL DEF 205", "CYCL DEF 208", "CYCL DEF 241", "PGM C200", "PGM 1 (4.11)"),
