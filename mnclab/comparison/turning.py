@@ -4,6 +4,20 @@ Coordinates (z, r) and areas of the half section above the axis, mm and mm²; fe
 
     material = between profile and blank       unreachable = of it, what the tool's angles leave behind corners
     removed  = material under the strokes      rest        = material less unreachable less removed
+
+The source ranks: loop, then semi-finish, then pick-up, whose idle strokes are longer. On the three zones of the
+catalogue (10 mm deep, a = 4, 0.3 mm/rev, 800 rev/min, plunges at half, rapids 10 m/min; tool of 95 and 50 degrees) ::
+
+                     open              semi-open          closed
+                     cut  rapid  s     cut  rapid  s      cut  rapid  s
+    loop             156  177  40.1    134  155  34.4      90   69  26.5
+    semi-finish *    156  178  40.1    148  155  38.0     104   58  30.0
+    pick-up          156  177  40.1    148  170  38.1     104   93  30.2
+    semi-finish      208  230  53.4    190  198  48.7
+
+* after the penultimate pass; in the closed zone both forms are one. So the ranking holds, by the idle strokes as the
+source says, where the clean-up takes the place of the last pass. After the last pass it cuts the whole contour once
+more, and costs more than all idle strokes at rapid save. In an open zone there is nothing to pick up, and all are alike.
 """
 
 from __future__ import annotations
@@ -20,8 +34,9 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import left_over, outlined, swept, under
 from mnclab.machining.strokes import PLUNGE, RAPID, ROLES, Plan
+from mnclab.machining.turning_passes import FRONT, LIFT
 from mnclab.machining.turning_profiles import checked, edges_of, reachable
-from mnclab.machining.turning_schemes import FRONT, LIFT, SCHEMES
+from mnclab.machining.turning_schemes import SCHEMES
 from mnclab.machining.zones import CLOSED, COMBINED, OPEN, SEMI_OPEN, zone_of
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
@@ -205,7 +220,11 @@ def compare(
     by_role = {role: feed for role in ROLES} | {PLUNGE: feed / 2} | dict(feeds or {})
     if unknown := set(by_role) - set(ROLES):
         raise ValueError(f"there is no role {min(unknown)!r}; known: {', '.join(ROLES)}")
-    for name, value in (("spindle speed", spindle), ("rapid rate", rapid), *((f"feed of {k}", v) for k, v in by_role.items())):
+    for name, value in (
+        ("spindle speed", spindle),
+        ("rapid rate", rapid),
+        *((f"feed of {k}", v) for k, v in by_role.items()),
+    ):
         if not value > 0:
             raise ValueError(f"the {name} must be greater than 0, got {value:g}")
     wanted = SUITED[zone_of(contour, blank)] if schemes is None else schemes

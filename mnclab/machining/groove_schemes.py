@@ -16,7 +16,7 @@ import math
 from dataclasses import dataclass
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining.strokes import FINISH, PLUNGE, ROUGH, Pen, Plan
+from mnclab.machining.strokes import FINISH, PLUNGE, Pen, Plan
 from mnclab.machining.turning_profiles import SAME
 from mnclab.machining.turning_schemes import loop, semi_finish
 from mnclab.path.tool import Tool
@@ -137,7 +137,9 @@ def scheme_4(groove: Groove, tool: float) -> Plan:
     for slope in (groove.slope_right, groove.slope_left):
         gap = (groove.width - tool) / 2 + groove.wall(slope, groove.rim)
         if gap > tool + SAME:
-            raise ValueError(f"three strokes leave {gap - tool:g} mm at the rim: the tool must be at least {gap:g} wide")
+            raise ValueError(
+                f"three strokes leave {gap - tool:g} mm at the rim: the tool must be at least {gap:g} wide"
+            )
     pen = _pen(groove, middle)
     _plunge(pen, groove, middle, 1)
     _slope(pen, groove, groove.right - tool, groove.slope_right, 1.0, 2)
@@ -168,7 +170,9 @@ def scheme_6(
     has the slope is the reading adopted: the one where the contour tool goes in, as 95 degrees reach the other one.
     """
     if groove.width < WIDE * tool - SAME:
-        raise ValueError(f"scheme 6 is for grooves of at least {WIDE * tool:g} mm, six tool widths, got {groove.width:g}")
+        raise ValueError(
+            f"scheme 6 is for grooves of at least {WIDE * tool:g} mm, six tool widths, got {groove.width:g}"
+        )
     if contour_tool.auxiliary_angle and slope > contour_tool.auxiliary_angle:
         raise ValueError(f"the line of {slope:g} degrees is steeper than the auxiliary angle of the tool")
     spare, low = (ALLOWANCE if finish else 0.0), (ALLOWANCE if bottom else 0.0)

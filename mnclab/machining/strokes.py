@@ -105,9 +105,9 @@ class Pen:
         """Along a contour, at the feed of the role: straight to its start, if the tip is elsewhere."""
         if contour is None:
             return
-        self._to(*contour.points[0], role)
+        self._to(float(contour.points[0, 0]), float(contour.points[0, 1]), role)
         for end, bulge in zip(contour.ends, contour.bulge, strict=False):
-            self._to(*end, role, float(bulge))
+            self._to(float(end[0]), float(end[1]), role, float(bulge))
 
     def append(self, plan: Plan, outside: float) -> None:
         """Another plan, reached outside the blank."""

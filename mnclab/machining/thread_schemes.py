@@ -152,4 +152,6 @@ def edge_shares(
 
 def _check(depths: Sequence[float]) -> None:
     if not len(depths) or not depths[0] > 0 or any(b < a for a, b in zip(depths, depths[1:], strict=False)):
-        raise ValueError(f"the depths of the passes must be positive and grow, got {', '.join(f'{d:g}' for d in depths)}")
+        raise ValueError(
+            f"the depths of the passes must be positive and grow, got {', '.join(f'{d:g}' for d in depths)}"
+        )

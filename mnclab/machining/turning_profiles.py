@@ -297,7 +297,8 @@ def _for_width(contour: Contour, width: float) -> Contour:
     """The greatest radius within the width to the right of every z: the way of the left corner of a blade."""
     pieces = stretches(contour)
     moved = [
-        p._replace(right=p.right - width, left=p.left - width, centre=(p.centre[0] - width, p.centre[1])) for p in pieces
+        p._replace(right=p.right - width, left=p.left - width, centre=(p.centre[0] - width, p.centre[1]))
+        for p in pieces
     ]
     level = [Stretch(float(z), float(z) - width, (float(r), float(r))) for z, r in contour.points]
     first, last = contour.points[0], contour.points[-1]
@@ -314,11 +315,15 @@ def lowest(profile: Contour, z: float) -> float:
 
 def highest(profile: Contour, left: float, right: float) -> float:
     """The greatest radius of a checked profile strictly between two z; walls that stand on them do not count."""
+    piece = over(profile, left, right)
+    return lowest(profile, left) if piece is None else float(piece.bounds[1, 1])
+
+
+def over(profile: Contour, left: float, right: float) -> Contour | None:
+    """The part of a checked profile strictly between two z, None if there is none."""
     turned = Contour(profile.points[:, ::-1], -profile.bulge, closed=False)  # (r, z): its levels are z
     stop = entry_way(turned, left)
-    ways = sorted((_behind(turned, right), 0.0 if stop is None else stop))
-    piece = between(profile, *ways)
-    return float(piece.bounds[1, 1] if piece is not None else profile.point_at(ways[0])[0][1])
+    return between(profile, *sorted((_behind(turned, right), 0.0 if stop is None else stop)))
 
 
 def _behind(turned: Contour, z: float) -> float:

@@ -14,92 +14,37 @@ one zone at a time (`combined` parts the rest). Feeds belong to the `role` of a 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining.strokes import CLEANUP, PICK_UP, PLUNGE, RAPID, ROUGH, Pen, Plan
+from mnclab.machining.strokes import CLEANUP, PICK_UP, PLUNGE, ROUGH, Pen, Plan
 from mnclab.machining.turning_offsets import offset
-from mnclab.machining.turning_profiles import SAME, angles_of, between, entry_way, exit_way, lowest, reachable
+from mnclab.machining.turning_passes import (
+    FRONT,
+    LIFT,
+    MOST,
+    OUT,
+    POINT,
+    Level,
+    Task,
+    away,
+    down,
+    lift_off,
+    off,
+    out,
+    plunge,
+    task,
+    wall,
+)  # fmt: skip
+from mnclab.machining.turning_profiles import SAME, between, entry_way, exit_way, lowest, reachable
 from mnclab.machining.zones import CLOSED, OPEN, filled, zones
 from mnclab.path.tool import Tool
 
-LIFT, FRONT, OUT = 0.5, 2.0, 1.0  # mm: retract after a stroke, in front of the face, outside the blank
-POINT = Tool(kind="turning")
-MOST = 10_000  # passes
 
-
-class Level(NamedTuple):
-    """One pass: its radius, the z where it begins and ends, and the ways along the profile to both."""
-
-    r: float
-    right: float
-    left: float
-    first: float | None  # None: it begins in front of the face
-    last: float
-
-
-class Task(NamedTuple):
-    """What every scheme needs: the profile as the tool reaches it, the blank, the levels and the distances."""
-
-    profile: Contour
-    blank: float
-    levels: tuple[Level, ...]
-    lift: float
-    front: float  # z where the tool waits in front of the face
-    outside: float
-
-    @property
-    def start(self) -> tuple[float, float]:
-        """(z, r) before the first stroke: in front of the face, or over the first wall."""
-        if self.levels and self.levels[0].first is not None:
-            return float(self.profile.points[0, 0]), self.blank
-        return self.front, self.blank
-
-
-def task(
-    profile: Contour, blank: float, depth: float, tool: Tool = POINT, lift: float = LIFT, front: float = FRONT,
-    also: Iterable[float] = (), slanting: bool = False,
-) -> Task:  # fmt: skip
-    """Levels one `depth` apart down to the bottom of one zone, and `also` some radii between.
-
-    Strokes that begin `slanting` need more room in front of the face for an edge that leans forward. A ValueError says what is wrong with the numbers.
-    """
-    if not depth > 0:
-        raise ValueError(f"the depth of a pass must be greater than 0, got {depth:g}")
-    if not lift > 0:
-        raise ValueError(f"the retract must be greater than 0, got {lift:g}")
-    contour = reachable(profile, tool)
-    r = contour.points[:, 1]
-    grown = np.maximum.accumulate(np.append(0.0, np.diff(r)) > SAME)
-    if (np.diff(r, prepend=r[0])[grown] < -SAME).any():
-        raise ValueError("the profile falls again after it has grown: part it into zones, or use `combined`")
-    bottom = float(r.min())
-    if not blank > bottom + SAME:
-        raise ValueError(f"a blank of radius {blank:g} leaves nothing to cut above the profile")
-    first, last = entry_way(contour, blank), exit_way(contour, blank)
-    inside = between(contour, first or 0.0, last)  # what lies above the blank is no affair of the tool
-    if inside is None:
-        raise ValueError(f"a blank of radius {blank:g} leaves nothing to cut above the profile")
-    contour = inside
-    count = math.ceil((blank - bottom) / depth * (1 - 1e-9))
-    if count > MOST:
-        raise ValueError(f"a depth of {depth:g} gives {count} passes, allowed are {MOST}")
-    lean = angles_of(tool)[0]  # an edge that leans forward must not reach the face from where the tool waits
-    ahead = float(contour.points[0, 0]) + max(front, (blank - bottom if slanting else min(depth, blank - bottom)) / math.tan(lean))
-    heights = [blank - k * depth for k in range(1, count)] + [bottom]
-    heights += [r for r in also if bottom < r < blank and min(abs(r - h) for h in heights) > SAME]
-    levels = []
-    for height in sorted(heights, reverse=True):
-        first, last = entry_way(contour, height), exit_way(contour, height)
-        right = ahead if first is None else float(contour.point_at(first)[0][0])
-        levels.append(Level(height, right, float(contour.point_at(last)[0][0]), first, last))
-    return Task(contour, blank, tuple(levels), lift, ahead, blank + OUT)
-
-
-def loop(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: float) -> Plan:
+def loop(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
     """Every pass by itself: along Z to the contour, off it, back at rapid, to the next depth.
 
     In a closed zone the tool goes back to where the pass began and plunges along the contour.
@@ -111,34 +56,34 @@ def _loop(t: Task) -> Plan:
     pen = Pen(*t.start)
     for number, level in enumerate(t.levels, 1):
         pen.number = number
-        _down(pen, t, number - 1)
+        down(pen, t, number - 1)
         pen.feed(level.left, level.r, ROUGH)
         if number < len(t.levels) or level.first is None:
-            _lift(pen, t, level)
+            lift_off(pen, t, level)
         else:
-            _off(pen, t, level)
-    return _out(pen, t, "loop")
+            off(pen, t, level)
+    return out(pen, t, "loop")
 
 
-def pick_up(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: float) -> Plan:
+def pick_up(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
     """As the loop, but each pass goes on along the contour up to the level of the pass before: no ridges are left."""
     t = task(profile, blank, depth, tool, **distances)
     pen = Pen(*t.start)
     above = t.blank
     for number, level in enumerate(t.levels, 1):
         pen.number = number
-        _down(pen, t, number - 1)
+        down(pen, t, number - 1)
         pen.feed(level.left, level.r, ROUGH)
         pen.along(between(t.profile, level.last, exit_way(t.profile, above)), PICK_UP)
         if number < len(t.levels) or level.first is None:
             height = min(pen.r + t.lift, t.blank)
-            _lift(pen, t, level, None if level.first is None else _wall(t, above, level, height))
+            lift_off(pen, t, level, None if level.first is None else wall(t, above, level, height))
         above = level.r
-    return _out(pen, t, "pick-up")
+    return out(pen, t, "pick-up")
 
 
 def semi_finish(
-    profile: Contour, blank: float, depth: float, tool: Tool = POINT, after: str = "last", **distances: float
+    profile: Contour, blank: float, depth: float, tool: Tool = POINT, after: str = "last", **distances: Any
 ) -> Plan:
     """Passes as in the loop; after the last one, or the penultimate, once along the whole contour.
 
@@ -151,25 +96,25 @@ def semi_finish(
     pen = Pen(*t.start)
     for number, level in enumerate(t.levels[:roughing], 1):
         pen.number = number
-        _down(pen, t, number - 1)
+        down(pen, t, number - 1)
         pen.feed(level.left, level.r, ROUGH)
         if number < len(t.levels) or level.first is None:
-            _lift(pen, t, level)
+            lift_off(pen, t, level)
     pen.number = roughing + 1
     bottom = t.levels[-1]
     if bottom.first is None:  # from the face along everything
         pen.rapid(t.front, float(t.profile.points[0, 1]))
         pen.along(t.profile, CLEANUP)
     elif roughing < len(t.levels):
-        _down(pen, t, roughing)
+        down(pen, t, roughing)
         pen.along(between(t.profile, bottom.first, t.profile.length), CLEANUP)
     else:
         pen.number = roughing
         pen.along(between(t.profile, bottom.last, t.profile.length), CLEANUP)
-    return _out(pen, t, "semi-finish")
+    return out(pen, t, "semi-finish")
 
 
-def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: float) -> Plan:
+def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
     """Passes there and back without an idle stroke; to the next level along the contour, at feed.
 
     The tool must cut in both directions.
@@ -181,11 +126,11 @@ def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **d
         pen.number = number
         if number % 2:  # from the right
             if above is None:
-                _down(pen, t, 0)
+                down(pen, t, 0)
             elif level.first is None:
                 pen.feed(t.front, level.r, ROUGH)
             else:
-                _plunge(pen, t, above, level)
+                plunge(pen, t, above, level)
             pen.feed(level.left, level.r, ROUGH)
         else:
             assert above is not None
@@ -196,10 +141,10 @@ def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **d
         above = level
     last = t.levels[-1]
     if len(t.levels) % 2 and last.first is None:
-        _lift(pen, t, last)
+        lift_off(pen, t, last)
     elif len(t.levels) % 2:
-        _off(pen, t, last)
-    return _out(pen, t, "zigzag")
+        off(pen, t, last)
+    return out(pen, t, "zigzag")
 
 
 def descent(
@@ -233,7 +178,7 @@ def descent(
     return pen.plan("descent")
 
 
-def equidistant(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: float) -> Plan:
+def equidistant(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
     """Strokes along offsets of the contour, one `depth` apart along its normal; the last one is the contour.
 
     Outside corners of an offset are sharp. What of it lies outside the blank is left out.
@@ -255,7 +200,7 @@ def equidistant(profile: Contour, blank: float, depth: float, tool: Tool = POINT
         pen.rapid(*begin)
         pen.along(stroke, ROUGH)
         if pen.r < t.blank - SAME:
-            pen.rapid(pen.z + t.lift, pen.r + t.lift)
+            away(pen, t._replace(profile=stroke), t.blank)
         pen.rapid(pen.z, t.outside)
         if free:
             pen.rapid(t.front, t.outside)
@@ -285,15 +230,16 @@ def contour(
         zs, rs = z0 + dz * share, t.blank + dr * share
         pen.rapid(zs, rs)
         pen.rapid(zs, r0 + dr * share)
-        pen.along(Contour(t.profile.points + (dz * share, dr * share), t.profile.bulge, closed=False), ROUGH)
-        if pen.r < rs - SAME:
-            pen.rapid(pen.z + t.lift, pen.r + t.lift)
-            pen.rapid(pen.z, rs)
+        copy = Contour(t.profile.points + (dz * share, dr * share), t.profile.bulge, closed=False)
+        pen.along(copy, ROUGH)
+        if pen.r < t.blank - SAME:
+            away(pen, t._replace(profile=copy), t.blank)
+        pen.rapid(pen.z, rs)
         pen.rapid(zs, rs)
     return pen.plan("contour")
 
 
-def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: float) -> Plan:
+def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
     """A profile of several zones, each by the scheme that the source names for it.
 
     Open and semi-open: the loop, the semi-open section with a clean-up. With a closed zone: the dry sections together by
@@ -325,7 +271,7 @@ def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, *
         pen.rapid(t.front, float(reached.points[0, 1]))
         pen.along(reached, CLEANUP)
         if pen.r < blank - SAME:
-            pen.rapid(pen.z + t.lift, pen.r + t.lift)
+            away(pen, t._replace(profile=reached), blank)
         pen.rapid(pen.z, t.outside)
     return pen.plan("combined")
 
@@ -357,73 +303,3 @@ def _within(stroke: Contour, blank: float, front: float) -> Iterator[tuple[bool,
             yield first is None, part
         below = between(rest, wall.length, rest.length)
         r = below.points[:, 1] if below is not None else r[:0]
-
-
-# ---- from pass to pass ----
-
-
-def _down(pen: Pen, t: Task, index: int) -> None:
-    """To where a pass begins: in front of the face at rapid, in a closed zone along its wall."""
-    level = t.levels[index]
-    if level.first is None:
-        pen.rapid(t.front, level.r)
-        return
-    before = t.levels[index - 1] if index else None
-    if before is None or before.first is None:  # from the top of the wall
-        top = t.profile.points[0]
-        if before is not None:
-            pen.rapid(t.front, float(top[1]))
-        pen.along(between(t.profile, 0.0, level.first), PLUNGE)
-        return
-    _straight(pen, t, before)
-    _plunge(pen, t, before, level)
-
-
-def _plunge(pen: Pen, t: Task, before: Level, level: Level) -> None:
-    """Along the wall from one pass to the next, at feed."""
-    pen.along(between(t.profile, before.first or 0.0, level.first or 0.0), PLUNGE)
-
-
-def _straight(pen: Pen, t: Task, before: Level) -> None:
-    """At rapid to where the pass before began: straight if the wall is not in the way, else from above."""
-    if abs(pen.z - before.right) > SAME:
-        first = entry_way(t.profile, min(pen.r, float(t.profile.points[0, 1])))
-        wall = between(t.profile, first or 0.0, before.first or 0.0)
-        if wall is not None:
-            z, r = wall.points_within(1e-3).T
-            if (r > pen.r + (pen.z - z) / (pen.z - before.right) * (before.r - pen.r) + SAME)[z <= pen.z].any():
-                pen.rapid(before.right, pen.r)
-    pen.rapid(before.right, before.r)
-
-
-def _wall(t: Task, above: float, level: Level, r: float) -> float:
-    """The z to go back to at a radius: where the pass before began, if the wall lets the tool pass there."""
-    way = entry_way(t.profile, above)
-    z, wall = t.profile.points[0] if way is None else t.profile.point_at(way)[0]
-    return float(z) if wall <= r + SAME else level.right
-
-
-def _lift(pen: Pen, t: Task, level: Level, back_to: float | None = None) -> None:
-    """Off the contour by the retract in both axes, and back along Z to where the pass began."""
-    _off(pen, t, level)
-    height = pen.r
-    pen.rapid(level.right if back_to is None else back_to, height)
-
-
-def _off(pen: Pen, t: Task, level: Level) -> None:
-    """Off the contour by the retract in both axes; along Z no farther than the pass is long."""
-    pen.rapid(pen.z + min(t.lift, level.right - level.left), min(pen.r + t.lift, t.blank))
-
-
-def _out(pen: Pen, t: Task, name: str) -> Plan:
-    """Out of the zone: in front of the face, or straight up where walls stand on both sides."""
-    if t.levels[-1].first is not None:
-        pen.rapid(pen.z, t.outside)
-    elif pen.r < t.blank - SAME and pen.z < t.front - SAME:
-        pen.rapid(pen.z + t.lift, min(pen.r + t.lift, t.blank))
-        pen.rapid(t.front, pen.r)
-        pen.rapid(t.front, t.blank)
-    else:
-        pen.rapid(t.front, t.blank)
-    return pen.plan(name)
-

@@ -143,4 +143,4 @@ def _is_rib(r: np.ndarray, i: int) -> bool:
 def _steepest(profile: Contour, side: float) -> float:
     """The steepest angle, degrees, in which a profile grows (side 1) or falls (side -1)."""
     slopes = np.vstack(profile.tangents())
-    return float(np.degrees(np.arctan2(side * slopes[:, 1], -slopes[:, 0])).max(initial=0.0))
+    return float(np.degrees(np.arctan2(side * slopes[:, 1], -slopes[:, 0])).max(initial=0.0)) + 0.0

@@ -22,7 +22,8 @@ STEEL, CARBIDE = "#c9ccd1", "#e9c46a"
 def insert_outline(tool: Tool, size: float) -> NDArray[np.float64]:
     """The insert about its tip, (k, 2) as (z, r); `size` is the length of its edges."""
     if tool.width:
-        return np.array([(0.0, 0.0), (tool.width, 0.0), (tool.width, 1.6 * size), (0.0, 1.6 * size)])
+        high = max(1.6 * size, 1.5 * tool.width)
+        return np.array([(0.0, 0.0), (tool.width, 0.0), (tool.width, high), (0.0, high)])
     main, auxiliary = (math.radians(a or usual) for a, usual in zip((tool.main_angle, tool.auxiliary_angle), USUAL))
     lead = size * np.array([-math.cos(main), math.sin(main)])
     trail = size * np.array([math.cos(auxiliary), math.sin(auxiliary)])
@@ -34,7 +35,9 @@ def insert_patches(tool: Tool, tip: tuple[float, float], size: float) -> list[Pa
     outline = insert_outline(tool, size) + np.array(tip)
     middle = outline.mean(axis=0)
     if tool.width:
-        holder = np.array([outline[3], outline[2], outline[2] + (0.7 * size, 0.3 * size), outline[2] + (0.7 * size, size)])
+        holder = np.array(
+            [outline[3], outline[2], outline[2] + (0.7 * size, 0.3 * size), outline[2] + (0.7 * size, size)]
+        )
         holder = np.vstack([holder, outline[3] + (0.0, size)])
     else:
         holder = middle + size * np.array([(-0.25, 0.0), (0.55, 0.0), (0.55, 1.5), (-0.25, 1.5)])

@@ -130,7 +130,8 @@ def plot_thread(
         shade = ("#1259a8", "#9fc3e6")[k % 2]
         ax.fill_between(x, -gap, -gone, where=gap > gone, color=shade, linewidth=0, interpolate=True, zorder=2)
         ax.plot([place], [-depth], ".", color=colours.INK, markersize=3, zorder=4)
-        ax.annotate(str(k + 1), (place, -depth), ((-7, 7)[k % 2], -7), textcoords="offset points", ha="center", fontsize=SMALL)
+        ax.annotate(str(k + 1), (place, -depth), ((-7, 7)[k % 2], -7), textcoords="offset points", ha="center", fontsize=SMALL,
+                    zorder=5, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3, "alpha": 0.8})  # fmt: skip
         gone = gap
     ax.fill_between(x, -depths[-1] * 1.22, -gone, color="#d9d5c8", linewidth=0, zorder=1)
     ax.plot(x, -gone, color=colours.INK, linewidth=1.1, zorder=3)
@@ -153,7 +154,9 @@ def plot_threads(infeeds: dict[str, Sequence[float]], depths: Sequence[float], p
     height = box * 1.3 * depths[-1] / (2 * reach)
     picture = Picture((width, height + 0.9), alt="infeeds of a thread: " + ", ".join(infeeds))
     for k, (name, positions) in enumerate(infeeds.items()):
-        ax = picture.add_axes(((k * width / count + 0.6) / width, 0.52 / (height + 0.9), box / width, height / (height + 0.9)))
+        ax = picture.add_axes(
+            ((k * width / count + 0.6) / width, 0.52 / (height + 0.9), box / width, height / (height + 0.9))
+        )
         plot_thread(depths, positions, profile, ax, name, reach)
         if k:
             ax.set_ylabel("")
