@@ -93,6 +93,7 @@ ONCE = "only what L chooses is used: the example writes H0 beside L1, so the lim
 FEED = "the range of the word F (4.1)"
 MILLING = ("G320", "G321", "G343", "G344")
 TIME = "the table has no range; a time is not negative"
+JNC = [("G73", "Z"), *((c, a) for c in ("G74", "G75") for a in "XZ"), *((c, a) for c in ("G77", "G78") for a in "XZUW")]
 #: (control, code, address, key) -> what the declaration has, and why.
 EXPLAINED = {
     **{("mnc", code, "P", "limits"): ({">=": 0}, TIME) for code in ("G83", "G84", "G85")},
@@ -115,6 +116,7 @@ EXPLAINED = {
     **{("nc-31", "G77", axis, "type"): ("number", "the reader refuses what is not whole") for axis in "XZ"},
     ("nc-31", "G77", "X", "unit"): ("0.01 mm", "that X is a diameter is in its meaning"),
     ("nc-31", "G77", "P", "unit"): ("0.01 mm", "that P1 is on the diameter is in its meaning"),
+    **{("jnc-t01", code, axis, "limits"): ({}, "any number; between which is a check") for code, axis in JNC},
 }
 
 #: Parameters without a row: marks of the word that calls the cycle.
