@@ -127,6 +127,8 @@ class Control:
     ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself.
+    ``preassigned`` are variables that the control keeps itself; names that begin with ``local_variables`` belong to one
+    program.
     """
 
     name: str
@@ -153,6 +155,8 @@ class Control:
     one_command: bool = False
     named: Callable[[Machine, Word], float | str] | None = None
     lathe: bool = False
+    preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
+    local_variables: str = ""
 
     def power_on(self) -> dict[str, str]:
         """The modal state at the start: group -> code."""

@@ -53,7 +53,8 @@ class Explanation:
     def __init__(self, run: Run, moment: Moment) -> None:
         self.run, self.moment = run, moment
         span = moment.block.span
-        self.alarms = tuple(alarm for alarm in run.alarms if alarm.span and alarm.span.line == span.line)
+        self.program = run.programs[run.steps.program[moment.step]]
+        self.alarms = tuple(a for a in run.alarms if a.span and a.source is self.program and a.span.line == span.line)
         history = run.history
         self.changed = [
             (name, _plain(history.value(name, moment.step - 1)) if moment.step else "", _plain(value))
@@ -70,8 +71,8 @@ class Explanation:
     @property
     def title(self) -> str:
         """The line, and the block as written."""
-        text = self.run.program.line_text(self.moment.line).strip()
-        times = int((self.run.steps.block[: self.moment.step + 1] == self.run.steps.block[self.moment.step]).sum())
+        text = self.program.line_text(self.moment.line).strip()
+        times = _executions(self.run, self.moment.step)
         again = f" (execution {times})" if times > 1 else ""
         return f"line {self.moment.line}{again}: {text}"
 
@@ -135,6 +136,13 @@ class Explanation:
         return f"<div>{''.join(parts)}</div>"
 
 
+def _executions(run: Run, step: int) -> int:
+    """How often the block of a step was executed up to it."""
+    steps = run.steps
+    same = (steps.block[: step + 1] == steps.block[step]) & (steps.program[: step + 1] == steps.program[step])
+    return int(same.sum())
+
+
 # --- words -----------------------------------------------------------------------------------------------------------
 
 
@@ -180,7 +188,8 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
 
 def _plan(run: Run, moment: Moment) -> Plan | None:
     """How the words were handed out: planned anew in the state before the block; None where that is an alarm."""
-    if any(alarm.severity == ALARM and alarm.span and alarm.span.line == moment.line for alarm in run.program.alarms):
+    program = run.programs[run.steps.program[moment.step]]
+    if any(alarm.severity == ALARM and alarm.span and alarm.span.line == moment.line for alarm in program.alarms):
         return None
     control, history, before = run.control, run.history, moment.step - 1
     machine = Machine(control, run.setup)

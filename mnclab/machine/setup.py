@@ -54,6 +54,7 @@ class Setup:
     ``start`` is the spindle reference in machine coordinates, mm. ``part`` and ``stock`` stand in machine coordinates.
     ``files`` maps names to texts or paths of other programs and tables. ``settings`` overrides the declared choices of
     the control (``mnclab.help("settings", control)``). Tools given without a number get the one they are listed under.
+    ``variables`` have their values before the program begins: what another program left (``run.variables``).
     """
 
     tools: Mapping[int, Tool] = field(default_factory=lambda: MAGAZINE)
@@ -68,6 +69,7 @@ class Setup:
     settings: Mapping[str, Any] = field(default_factory=dict)
     kinematics: Any = None
     true_tools: Mapping[int, Tool] = field(default_factory=dict)
+    variables: Mapping[str, float | str] = field(default_factory=dict)
 
     def with_radius(self, radius: float) -> Setup:
         """The same machine with another radius, mm, in all its tools but the probes."""

@@ -117,6 +117,8 @@ class Program:
     comment_mark: str = "//"
     """What a comment begins with, as a regular expression."""
     encoding: str = "utf-8"
+    folder: str = ""
+    """Where the file lies that the program was read from; empty for a text. Programs that it calls are sought there."""
     labels: Mapping[str, int] = field(default_factory=dict)
     """Block index of each jump target, as the reader of the control found them."""
 
