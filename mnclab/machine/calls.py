@@ -2,7 +2,7 @@
 
 A *step* is one execution of a block. A section of blocks is run by a plain loop; a call of a label or of another program
 is a section run inside another; a jump goes on elsewhere in the same section. Functions steer with :meth:`Flow.call`,
-:meth:`Flow.call_program`, :meth:`Flow.jump`, :meth:`Flow.repeat`, :meth:`Flow.jump_back` and :meth:`Flow.leave`.
+:meth:`Flow.call_program`, :meth:`Flow.jump`, :meth:`Flow.repeat` and :meth:`Flow.leave`.
 """
 
 from __future__ import annotations
@@ -50,7 +50,6 @@ class Flow:
         )  # steps obeyed in bulk do not count: they end by themselves
         self.returning = self.over = False  # the subprogram, the called program ends
         self.target = -1  # block to go on at, after a jump
-        self.left: dict[int, int] = {}  # repeats to come, by the block that asks for them
         self.found: dict[tuple[str, str], int] = {}  # indices of programs by folder of the caller, and name
         self.running = [0]  # the main program and those called, the innermost last
         self.current = 0  # block being obeyed
@@ -65,8 +64,8 @@ class Flow:
 
     # --- running -----------------------------------------------------------------------------------------------------
 
-    def section(self, first: int, stop: int) -> None:
-        """Run the blocks [first, stop) of the running program."""
+    def section(self, first: int, stop: int, least: int = 0) -> None:
+        """Run the blocks [first, stop) of the running program; a jump to one outside [least, stop) ends the section."""
         machine, block = self.machine, first
         while block < stop and not (machine.ended or self.over):
             done = self.bulk(block, stop)
@@ -79,16 +78,18 @@ class Flow:
                 return
             block += 1
             if self.target >= 0:
+                if not least <= self.target < stop:
+                    return
                 block, self.target = self.target, -1
 
     def call(self, label: str, span: Span | None = None) -> None:
         """Run from a label to the end of its subprogram."""
         self.enter(span)
-        here, left, self.left = self.current, self.left, {}
+        here = self.current
         self.calls += 1
         self.section(self.index_of(label, span) + 1, len(self.program))
         self.calls -= 1
-        self.depth, self.returning, self.current, self.left = self.depth - 1, False, here, left
+        self.depth, self.returning, self.current = self.depth - 1, False, here
 
     def call_program(self, index: int, span: Span | None = None) -> None:
         """Run another program, from its first block to its end; its rows have no label of a cycle that called it."""
@@ -97,8 +98,8 @@ class Flow:
             name = self.programs[index].name
             raise Alarm(f"{name} is running already: a program cannot call itself, nor one that calls it", span)
         self.enter(span)
-        kept = self.current, self.calls, self.left, machine.source_line, machine.label
-        self.calls, self.left, machine.label = 0, {}, ""
+        kept = self.current, self.calls, machine.source_line, machine.label
+        self.calls, machine.label = 0, ""
         self._flush()
         self.running.append(index)
         self._change_program()
@@ -106,7 +107,7 @@ class Flow:
         self._flush()
         self.running.pop()
         self._change_program()
-        self.current, self.calls, self.left, machine.source_line, machine.label = kept
+        self.current, self.calls, machine.source_line, machine.label = kept
         self.depth, self.over = self.depth - 1, False
 
     def _change_program(self) -> None:
@@ -133,21 +134,13 @@ class Flow:
         """Go on at a label."""
         self.target = self.index_of(label, span)
 
-    def jump_back(self, block: int, times: int) -> None:
-        """Go on at a block, a number of times; then not, and from the beginning when this block is met again."""
-        left = self.left.get(self.current, times)
-        if left > 0:
-            self.left[self.current], self.target = left - 1, block
-        else:
-            self.left.pop(self.current, None)
-
     def repeat(self, first: int, stop: int, times: int, span: Span | None = None) -> None:
-        """Run the blocks [first, stop) a number of times more."""
+        """Run the blocks [first, stop) a number of times more; a jump out of them ends that."""
         self.enter(span)
         here = self.current
         for _ in range(times):
-            self.section(first, stop)
-            if self.returning or self.over or self.machine.ended:
+            self.section(first, stop, least=first)
+            if self.returning or self.over or self.target >= 0 or self.machine.ended:
                 break
         self.depth, self.current = self.depth - 1, here
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from typing import Any
 
 from mnclab.text.expression import Expression, parse
 from mnclab.text.program import INCREMENTAL, ProgramBuilder
@@ -80,9 +81,9 @@ class Cursor:
             self.at = found.end()
         return found
 
-    def add(self, address: str, value: float | str | Expression | None, offset: int, flag: int = 0) -> None:
-        """A word from ``offset`` to here."""
-        if self.inch and address in LENGTHS and not isinstance(value, str | None):
+    def add(self, address: str, value: Any, offset: int, flag: int = 0) -> None:
+        """A word from ``offset`` to here; ``value`` as in :class:`mnclab.text.program.Word`."""
+        if self.inch and address in LENGTHS and isinstance(value, float | Expression):
             value = value * INCH if isinstance(value, float) else replace(value, scale=INCH)
         self.builder.word(address, value, offset, self.at - offset, flag)
 
