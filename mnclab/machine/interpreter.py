@@ -87,6 +87,8 @@ class Interpreter:
         """From the first block to the end, or to the first alarm."""
         for group, code in self.control.power_on().items():
             self.machine.set_modal(group, code)
+        if self.machine.setup.variables and not self.control.preassigned:
+            self.machine.alarm(f"Setup(variables=…): programs of {self.control.name} have no variables")
         if self.control.start:
             self.control.start(self.machine)
         self.machine.flow.section(0, len(self.program))

@@ -99,7 +99,7 @@ def spindle_status(m: Machine) -> float:
 
 def coolant_status(m: Machine) -> float:
     """1 while the coolant flows."""
-    return 1.0 if m.modal.get("coolant") == "M8" else 0.0
+    return 0.0 if m.modal.get("coolant", "M9") == "M9" else 1.0
 
 
 def tool_axis(m: Machine) -> float:
@@ -128,7 +128,8 @@ NAMES = re.compile(r"(?:Q1?\d{1,3}|Q[LR][1-4]?\d{1,2}|QS1?\d{1,3})")
 def start(m: Machine) -> None:
     """The values that were there before the program; QL parameters belong to a program and have none."""
     for name, value in m.setup.variables.items():
-        if not NAMES.fullmatch(name) or isinstance(value, str) != name.startswith("QS"):
+        fits = isinstance(value, str) if name.startswith("QS") else type(value) in (int, float) and math.isfinite(value)
+        if not NAMES.fullmatch(name) or not fits:
             m.alarm(f"Setup(variables=…): {name} cannot be {value!r}", hint="numbers in Q and QR, texts in QS")
         if name not in PREASSIGNED and not name.startswith("QL"):
             m.variables[name] = value if isinstance(value, str) else float(value)
