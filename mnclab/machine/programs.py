@@ -39,6 +39,8 @@ def called(m: Machine, name: str, what: str, span: Span | None = None) -> int:
 
 def _found(m: Machine, name: str, what: str, span: Span | None) -> tuple[str, str, str]:
     """Name, text and folder of a program."""
+    if name.lower().endswith(".i"):
+        raise Alarm(f"{what} {name}: DIN/ISO programs (.I) are not built yet", span)
     caller, suffixes = m.flow.program, m.control.suffixes
     wanted = _spelt(name, suffixes)
     files = {_spelt(known, suffixes): (known, source) for known, source in m.setup.files.items()}

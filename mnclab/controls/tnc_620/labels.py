@@ -17,7 +17,7 @@ _REPEAT = re.compile(r"REP[ \t]*(\d{1,9})(?:[ \t]*/[ \t]*\d{1,9})?", FLAGS)
 _IF = re.compile(r"[ \t]*IF(?![A-Z])", FLAGS)
 _DEFINED = re.compile(r"[ \t]*[+]?[ \t]*(Q[LRS]?\d{1,6})[ \t]+IS[ \t]+(UNDEFINED|DEFINED)(?![A-Z])", FLAGS)
 _GOTO = re.compile(r"[ \t]*GOTO[ \t]+LBL(?![A-Z])", FLAGS)
-_PGM = re.compile(r"PGM(?![A-Z])", FLAGS)
+_PGM = re.compile(r"[ \t]*PGM(?![A-Z])", FLAGS)
 
 COMPARISONS = {9: "EQU", 10: "NE", 11: "GT", 12: "LT"}
 

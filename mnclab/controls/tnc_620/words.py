@@ -174,8 +174,12 @@ class Cursor:
         return Fault(f"{c!r} has no meaning here", self.at, hint=hint)
 
     def without_number(self, found: re.Match[str]) -> Fault:
-        """The fault of an address whose value is missing or odd."""
+        """The fault of an address whose value is missing or odd, or of a whole word where none is taken."""
         name, after = found.group().upper(), self.text[found.end() : self.stop].lstrip()[:1]
+        for pattern in (PARAMETER, SIGNED):
+            if value := pattern.match(self.text, found.end(), self.stop):
+                word = f"{name}{value.group().strip()}"
+                return Fault(f"{word} has no meaning in this block", self.at, value.end() - found.start())
         hint = ""
         if after in ("O", "o"):
             hint = "the letter O stands where the digit 0 was meant"

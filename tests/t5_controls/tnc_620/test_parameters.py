@@ -68,7 +68,9 @@ def test_functions_with_two_operands(block: str, expected: float, inside) -> Non
 
 
 def test_a_parameter_loses_its_value(inside) -> None:
-    run = inside("2 Q5 = 1\n3 FN 0: Q5 SET UNDEFINED\n4 FN 9: IF Q5 IS UNDEFINED GOTO LBL 1\n5 Q6 = 1\n6 LBL 1\n7 L X+Q5")
+    run = inside(
+        "2 Q5 = 1\n3 FN 0: Q5 SET UNDEFINED\n4 FN 9: IF Q5 IS UNDEFINED GOTO LBL 1\n5 Q6 = 1\n6 LBL 1\n7 L X+Q5"
+    )
     (alarm,) = run.alarms
     assert (alarm.message, alarm.span[:2]) == ("no value was given to Q5", (8, 7))
     assert "Q5" not in run.variables and "Q6" not in run.variables
@@ -171,8 +173,8 @@ def test_the_tool_in_parameters(tnc) -> None:
 
 
 def test_spindle_and_coolant_in_parameters(inside) -> None:
-    blocks = ["Q1 = Q110", "M3", "Q2 = Q110", "M5", "Q3 = Q110", "M14", "Q4 = Q110", "Q5 = Q111", "M5 M9", "Q6 = Q110", "Q7 = Q111"]
-    run = inside("\n".join(f"{k} {block}" for k, block in enumerate(blocks, 2)))
+    blocks = "Q1 = Q110; M3; Q2 = Q110; M5; Q3 = Q110; M14; Q4 = Q110; Q5 = Q111; M5 M9; Q6 = Q110; Q7 = Q111"
+    run = inside("\n".join(f"{k} {block}" for k, block in enumerate(blocks.split("; "), 2)))
     assert run.ok, run.alarms
     assert [run.variables[f"Q{k}"] for k in range(1, 8)] == [-1, 0, 2, 1, 1, 3, 0]
 

@@ -125,10 +125,14 @@ PREASSIGNED: dict[str, Callable[[Machine], float | None]] = {
 NAMES = re.compile(r"(?:Q1?\d{1,3}|Q[LR][1-4]?\d{1,2}|QS1?\d{1,3})")
 
 
+def _is_number(value: object) -> bool:
+    return type(value) in (int, float) and math.isfinite(value)  # type: ignore[arg-type]
+
+
 def start(m: Machine) -> None:
     """The values that were there before the program; QL parameters belong to a program and have none."""
     for name, value in m.setup.variables.items():
-        fits = isinstance(value, str) if name.startswith("QS") else type(value) in (int, float) and math.isfinite(value)
+        fits = isinstance(value, str) if name.startswith("QS") else _is_number(value)
         if not NAMES.fullmatch(name) or not fits:
             m.alarm(f"Setup(variables=…): {name} cannot be {value!r}", hint="numbers in Q and QR, texts in QS")
         if name not in PREASSIGNED and not name.startswith("QL"):
