@@ -48,6 +48,7 @@ class Flow:
             LONGEST + len(program),
             0,
         )  # steps obeyed in bulk do not count: they end by themselves
+        self.watched: Callable[[int], None] = lambda steps: None  # hears now and then how many steps were begun
         self.returning = self.over = False  # the subprogram, the called program ends
         self.target = -1  # block to go on at, after a jump
         self.found: dict[tuple[str, str], int] = {}  # indices of programs by folder of the caller, and name
@@ -174,12 +175,15 @@ class Flow:
         step = self._counted + len(blocks)
         if step - self.in_bulk >= self.limit:
             raise Alarm(f"jumps, repeats and calls ran {LONGEST} blocks without an end", self.span_of_block(block))
+        if not step & 1023:
+            self.watched(step)
         blocks.append(block)
         return step
 
     def begin_many(self, first: int, count: int) -> int:
         """Note the execution of blocks in a row; the number of the first step."""
         self._flush()
+        self.watched(self._counted)
         self._chunks.append((self.running[-1], range(first, first + count)))
         self._counted += count
         self.in_bulk += count

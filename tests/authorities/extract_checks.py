@@ -29,6 +29,10 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "tnc620-threading": [
+        *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
+        "PGM 1 (section 5.11)",
+    ],
 }
 
 #: Files whose G and M codes are listed.
@@ -53,7 +57,7 @@ def examples(folder, name, codes):
     for code in codes:
         for example in found[code].get("examples") or []:
             check = example.get("check", example.get("checks"))
-            kept = {key: example[key] for key in ("title", "origin", "program", "expected")}
+            kept = {key: example[key] for key in ("title", "origin", "program", "expected") if key in example}
             yield {"code": code, **kept, "check": check}
 
 
