@@ -19,6 +19,7 @@ from mnclab.path.listing import figure, point, words
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.expression import Expression
 from mnclab.text.program import Word
+from mnclab.text.strings import NumberFromText, TextFormula
 
 if TYPE_CHECKING:
     from mnclab.machine.run import Moment, Run
@@ -236,17 +237,13 @@ def _changes(what: Function | type[Cycle], word: Word | None) -> str:
 
 
 def _value(run: Run, moment: Moment, word: Word | None) -> str:
-    """The number of a word whose text is an expression."""
-    if word is None or not isinstance(word.value, Expression):
+    """The number or the text that a formula had."""
+    if word is None or not isinstance(word.value, Expression | TextFormula | NumberFromText):
         return ""
-    variables = {
-        token.text: run.history.value(token.text, moment.step - 1)
-        for token in word.value.tokens
-        if token.kind == "variable"
-    }
-    known = {name: value for name, value in variables.items() if value is not None}
+    known = {name: run.history.value(name, moment.step - 1) for name in run.history}
     try:
-        return figure(word.value.evaluate(known), 6)
+        value = word.value.evaluate({name: value for name, value in known.items() if value is not None})
+        return figure(value, 6) if isinstance(value, float) else f'"{value}"'
     except Alarm:  # a variable without a value: the run says so
         return ""
 
@@ -324,9 +321,9 @@ def _plain(value: Any) -> str:
         return ""
     if isinstance(value, int | float):
         return figure(float(value), 6)
-    if isinstance(value, tuple) and np.asarray(value).shape == (4, 4):
+    if type(value) is tuple and np.asarray(value).shape == (4, 4):
         return _describe(np.array(value)) or "none"
-    if isinstance(value, tuple) and np.asarray(value).ndim == 1:
+    if type(value) is tuple and np.asarray(value).ndim == 1:
         return " ".join(figure(each, 4) for each in value)
     number = getattr(value, "number", None)
     return f"T{number} {value.name}".strip() if number is not None else str(value)

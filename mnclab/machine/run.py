@@ -9,6 +9,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -121,7 +122,9 @@ class Run:
             step = int(found[pass_ - 1])
         if not 0 <= step < len(self.steps.block):
             raise ValueError(f"step must be 0 … {len(self.steps.block) - 1}, got {step}")
-        block = self.programs[self.steps.program[step]][int(self.steps.block[step])]
+        which = int(self.steps.program[step])
+        block = self.programs[which][int(self.steps.block[step])]
+        block = replace(block, span=block.span._replace(program=which))
         position = self.history.value("position", step)
         path = self.toolpath
         a, b = np.searchsorted(path.step, [step, step + 1]).tolist() if len(path) else (0, 0)

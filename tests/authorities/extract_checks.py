@@ -29,6 +29,8 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "tnc620-klartext": ["CALL LBL", "FN"],
+    "tnc620-special": ["CYCL DEF 12"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
@@ -58,6 +60,8 @@ def examples(folder, name, codes):
         for example in found[code].get("examples") or []:
             check = example.get("check", example.get("checks"))
             kept = {key: example[key] for key in ("title", "origin", "program", "expected") if key in example}
+            if "program_adopted" in example:  # printed with a misprint
+                kept |= {"printed": example["program"], "program": example["program_adopted"]}
             yield {"code": code, **kept, "check": check}
 
 

@@ -183,3 +183,10 @@ def test_the_unit_and_the_overlap_in_parameters(tnc) -> None:
     run = tnc("0 BEGIN PGM A INCH\n1 TOOL CALL 1 Z\n2 Q1 = Q113\n3 Q2 = Q108\n4 Q3 = Q112\n", overlap=1.4)
     assert run.ok and run.variables == pytest.approx({"Q1": 1, "Q2": 5 / 25.4, "Q3": 1.4})
     assert tnc("0 BEGIN PGM A MM\n1 Q1 = Q113\n").variables["Q1"] == 0
+
+
+def test_explained_formulas_show_their_values(inside) -> None:
+    run = inside('2 QS1 = "AB"\n3 QS2 = QS1 || "C"\n4 Q1 = STRLEN(SRC_QS2)\n5 FN 9: IF Q1 EQU +3 GOTO LBL 1\n6 LBL 1')
+    assert 'QS1 || "C"  formula of QS (Text) = "ABC"' in str(run.explain(4))
+    assert "formula of Q (Formula) = 3" in str(run.explain(5))
+    assert "the first operand of FN 9 (Jump if equal) = 3" in str(run.explain(6))
