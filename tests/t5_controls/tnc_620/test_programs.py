@@ -218,3 +218,14 @@ def test_both_tiers_agree_in_a_called_program(calling) -> None:
     assert one.steps.block.tolist() == other.steps.block.tolist()
     assert one.steps.program.tolist() == other.steps.program.tolist()
     assert one.toolpath.program.tolist() == other.toolpath.program.tolist()
+
+
+def test_the_sample_of_an_ellipse() -> None:
+    """Four rounds of 72 lines; every point is on the ellipse, and each round ends where it began."""
+    run = mnc.run(Path(__file__).parents[3] / "data/programs/tnc-620/ellipse.h")
+    assert run.ok and not run.alarms, run.alarms
+    rounds = run.toolpath[run.toolpath.program == 1]
+    x, y, z = rounds.end.T
+    assert len(rounds) == 4 * 72 and sorted(set(z)) == [-8, -6, -4, -2]
+    assert ((x / 40) ** 2 + (y / 25) ** 2).tolist() == pytest.approx([1] * len(x))
+    assert rounds.end[71::72, :2].ravel().tolist() == pytest.approx([40, 0] * 4, abs=1e-9)
