@@ -129,7 +129,7 @@ def test_a_control_without_variables_takes_none() -> None:
 
 
 def test_parameters_local_to_a_contour_subprogram(inside) -> None:
-    """A contour reads only the QL parameters that it assigns itself (seed line 5007), and leaves the others alone."""
+    """A contour reads only the QL parameters that it assigns itself (chapter 8), and leaves the others alone."""
     data = (
         "2 CYCL DEF 14.0 CONTOUR\n3 CYCL DEF 14.1 LABEL1\n4 CYCL DEF 20 CONTOUR DATA\nQ1=-5\nQ2=1\nQ3=0\nQ4=0\nQ5=0\nQ6=2\n"
         "Q7=50\nQ8=0\nQ9=1\n5 CYCL DEF 22 ROUGH-OUT\nQ10=-5\nQ11=100\nQ12=200\nQ18=0\nQ19=0\nQ208=500\n6 QL1 = 30\n"

@@ -100,7 +100,7 @@ def test_a_called_program_in_inches(inside) -> None:
 
 
 def test_a_program_as_a_cycle_where_m99_stands(inside) -> None:
-    """12.3: rapid to X20 Y50, then the program once there (seed lines 7725 to 7732, with the line break repaired)."""
+    """12.3: rapid to X20 Y50, then the program once there; its line break is repaired."""
     blocks = "55 CYCL DEF 12.0 PGM CALL\n56 CYCL DEF 12.1 PGM TNC:\\KLAR35\\FK1\\50.H\n57 L X+20 Y+50 FMAX M99"
     for name in ("TNC:\\KLAR35\\FK1\\50.H", "tnc:/klar35/fk1/50.h", "50.H", "50"):
         run = inside("3 M3\n" + blocks, mnc.Setup(files={name: HOLE}))
