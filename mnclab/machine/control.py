@@ -16,7 +16,7 @@ from mnclab.machine.settings import Setting, settings_html
 from mnclab.text.program import Program, Word
 
 if TYPE_CHECKING:
-    from mnclab.machine.cycle import CycleTable
+    from mnclab.machine.cycle import CycleTable, Parameter
     from mnclab.machine.machine import Machine
     from mnclab.path.compensation import Compensation
 
@@ -126,7 +126,8 @@ class Control:
     asked once for each kind of block.
     ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
-    ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself.
+    ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; ``predefined``
+    what PREDEF stands for in a parameter of a cycle of a code.
     """
 
     name: str
@@ -152,6 +153,7 @@ class Control:
     bulk: Any = None
     one_command: bool = False
     named: Callable[[Machine, Word], float | str] | None = None
+    predefined: Callable[[Machine, str, Parameter, Word], float | str] | None = None
     lathe: bool = False
 
     def power_on(self) -> dict[str, str]:

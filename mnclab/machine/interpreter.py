@@ -155,7 +155,7 @@ class Interpreter:
         else:
             definition = Definition(cycle, code, values, words, head)
         definition.values = cycle.prepare(values, words, machine, definition.extra)
-        if self.control.storage == "variables":
+        if self.control.storage == "variables" and cycle.in_variables:
             store(machine, definition)
         if cycle.runs == "definition":
             self.execute(definition)
@@ -184,13 +184,15 @@ class Interpreter:
         for word in given:
             fitting = (p for p in cycle.parameters() if word.address in (p.address, *p.aliases))
             parameter = next(p for p in fitting if p.several or p.name not in words)
-            value = self.value_of(parameter, code, word)
+            value = self.value_of(parameter, code, word, cycle.in_variables)
             words.setdefault(parameter.name, word)
             values[parameter.name] = (*values.get(parameter.name, ()), value) if parameter.several else value
         return values, words
 
-    def value_of(self, parameter: Parameter, code: str, word: Word) -> Any:
+    def value_of(self, parameter: Parameter, code: str, word: Word, in_variables: bool = True) -> Any:
         """The number of a parameter; a word in place of a number only where it is allowed."""
+        if word.value == "PREDEF" and self.control.predefined:
+            return self.control.predefined(self.machine, code, parameter, word)
         if isinstance(word.value, str) and parameter.type != "text":
             if word.value.rstrip("0123456789.") not in parameter.also:
                 allowed = f"a number{', ' + ', '.join(parameter.also) if parameter.also else ''}"
@@ -201,7 +203,7 @@ class Interpreter:
         if word.value is None or isinstance(word.value, str):
             return word.value
         value = self.machine.value(word)
-        if self.control.storage == "variables" and is_variable(parameter):
+        if in_variables and self.control.storage == "variables" and is_variable(parameter):
             self.machine.variables[parameter.address] = value  # exactly as written
         return value * unit_of(self.machine, parameter)
 
@@ -243,7 +245,7 @@ def verify(definition: Definition) -> None:
 
 def run_cycle(machine: Machine, definition: Definition) -> None:
     """Bind a definition with the values as they stand now, check it, and make its moves."""
-    if machine.control.storage == "variables":
+    if machine.control.storage == "variables" and definition.cycle.in_variables:
         numbers = {
             p.name: machine.variables[p.address] * unit_of(machine, p)
             for p in definition.cycle.parameters()

@@ -29,6 +29,12 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "tnc620-using-cycles": [
+        *("fixed cycles", "CYCL DEF", "CYCL CALL PAT", "CYCL CALL POS", "M89", "PREDEF"),
+        *(f"PATTERN DEF {form}" for form in ("POS", "ROW", "PAT", "FRAME", "CIRC", "PITCHCIRC")),
+        *("point table", "SEL PATTERN"),
+    ],
+    "tnc620-patterns": ["CYCL DEF 220", "CYCL DEF 221"],
 }
 
 #: Files whose G and M codes are listed.
@@ -53,7 +59,7 @@ def examples(folder, name, codes):
     for code in codes:
         for example in found[code].get("examples") or []:
             check = example.get("check", example.get("checks"))
-            kept = {key: example[key] for key in ("title", "origin", "program", "expected")}
+            kept = {key: example[key] for key in ("title", "origin", "program", "expected") if key in example}
             yield {"code": code, **kept, "check": check}
 
 
@@ -63,7 +69,8 @@ def parameters(folder):
     for file in sorted(folder.glob("*.yaml")):
         loaded = yaml.safe_load(file.read_text(encoding="utf-8"))
         for entry in loaded.get("entries") or []:
-            if entry.get("kind") == "cycle" and entry.get("parameters"):
+            declared = entry.get("kind") == "cycle" or str(entry["code"]).startswith("GLOBAL DEF ")
+            if declared and entry.get("parameters"):
                 rows = [{key: row[key] for key in KEYS if row.get(key) is not None} for row in entry["parameters"]]
                 record = {"code": str(entry["code"]), "aliases": entry.get("aliases") or [], "parameters": rows}
                 controls.setdefault(loaded["control"], []).append(record)
