@@ -127,7 +127,8 @@ class Control:
     ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; ``predefined``
-    what PREDEF stands for in a parameter of a cycle of a code.
+    what PREDEF stands for in a parameter of a cycle of a code; ``calls_again`` whether a modal call of a cycle (a modal
+    function of the group "call") calls it in a block with a keyword and words.
     """
 
     name: str
@@ -154,6 +155,7 @@ class Control:
     one_command: bool = False
     named: Callable[[Machine, Word], float | str] | None = None
     predefined: Callable[[Machine, str, Parameter, Word], float | str] | None = None
+    calls_again: Callable[[Machine, str, list[Word]], bool] | None = None
     lathe: bool = False
 
     def power_on(self) -> dict[str, str]:

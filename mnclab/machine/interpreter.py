@@ -8,6 +8,7 @@ time than obeying them.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -132,7 +133,8 @@ class Interpreter:
         """The plan for this kind of block, made when it is first met."""
         machine = self.machine
         active = machine.position_cycle.cycle if machine.position_cycle else None
-        key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None)
+        calling = machine.modal.get("call")
+        key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None, calling)
         plan = self.plans.get(key)
         if plan is None:
             plan = self.plans[key] = Planner(self.control, machine, self.phases, keyword, words, active).plan()
@@ -169,6 +171,8 @@ class Interpreter:
             else:
                 instance(definition)
             machine.cycle, machine.position_cycle = definition, None
+            if machine.modal.get("call"):
+                machine.set_modal("call", "")  # a new cycle ends the modal call of the old one
         else:
             machine.cycle, machine.position_cycle = None, definition
             self.execute(definition)
@@ -245,23 +249,22 @@ def verify(definition: Definition) -> None:
 
 def run_cycle(machine: Machine, definition: Definition) -> None:
     """Bind a definition with the values as they stand now, check it, and make its moves."""
-    if machine.control.storage == "variables" and definition.cycle.in_variables:
-        numbers = {
-            p.name: machine.variables[p.address] * unit_of(machine, p)
-            for p in definition.cycle.parameters()
-            if is_variable(p) and p.address in machine.variables
-        }
-        definition = Definition(
-            definition.cycle,
-            definition.code,
-            definition.values | numbers,
-            definition.words,
-            definition.head,
-            definition.extra,
-        )
+    definition = as_it_stands(machine, definition)
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
     try:
         bind(definition, machine).moves(machine)
     except TooMany as error:
         raise fault(definition, None, str(error)) from None
     machine.label = label
+
+
+def as_it_stands(machine: Machine, definition: Definition) -> Definition:
+    """A definition with the numbers that its variables have now."""
+    if machine.control.storage == "variables" and definition.cycle.in_variables:
+        numbers = {
+            p.name: machine.variables[p.address] * unit_of(machine, p)
+            for p in definition.cycle.parameters()
+            if is_variable(p) and p.address in machine.variables
+        }
+        return replace(definition, values=definition.values | numbers)
+    return definition

@@ -10,7 +10,19 @@ import re
 
 from mnclab.controls.tnc_620 import later, reader
 from mnclab.controls.tnc_620.cycles import contours, defaults, drilling, transformations
-from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
+from mnclab.controls.tnc_620.cycles import patterns as point_patterns
+from mnclab.controls.tnc_620.language import (
+    approach,
+    auxiliary,
+    calls,
+    flow,
+    motion,
+    parameters,
+    pattern_calls,
+    patterns,
+    program,
+    tools,
+)
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -28,14 +40,25 @@ SETTINGS = (
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
     ),
+    Setting(
+        "pattern_cycles", "refuse", "cycles 220 and 221 with a cycle that the manual does not name for them", "7.1",
+        {"refuse": "an alarm", "warn": "a warning, and they run"},
+    ),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
 FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
-    | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | auxiliary.FUNCTIONS | calls.FUNCTIONS | pattern_calls.FUNCTIONS | patterns.FUNCTIONS
 )  # fmt: skip
-CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES | defaults.CYCLES
+CYCLES = (
+    drilling.CYCLES
+    | contours.CYCLES
+    | transformations.CYCLES
+    | presets.CYCLES
+    | defaults.CYCLES
+    | point_patterns.CYCLES
+)
 
 _KLARTEXT = re.compile(
     r"^[ \t\ufeff]*\d*[ \t]*(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M
@@ -58,7 +81,8 @@ CONTROL = Control(
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
     refused=later.refused(FUNCTIONS, CYCLES),
-    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0),
+    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
     named=motion.named,
     predefined=defaults.predefined,
+    calls_again=calls.calls_again,
 )
