@@ -59,8 +59,7 @@ def visit(
         m.label = ""
         run_at(m, definition, x, y, z)
         m.label = f"{CODE} to the clearance height"
-        if m.programmed[2] < height:
-            m.rapid(z=height)
+        m.rapid(z=height)
         m.label = ""
 
     return go
