@@ -27,6 +27,7 @@ CLOSED = ")"
 _FORM = re.compile(rf"({'|'.join(sorted(FORMS, key=len, reverse=True))})[ \t]*(\d*)", FLAGS)
 _OPEN = re.compile(r"\(")
 _CLOSE = re.compile(r"\)")
+_NAME = re.compile(r"[A-Z]+", FLAGS)
 _ADDRESS = re.compile(rf"(I?)({'|'.join(sorted(ADDRESSES, key=len, reverse=True))})(?![A-PR-Z])", FLAGS)
 
 
@@ -72,7 +73,10 @@ class PatternWords:
         begin = cursor.at
         found = cursor.match(_ADDRESS)
         if found is None:
-            raise cursor.unexpected()
+            name = cursor.match(_NAME)
+            if name is None:
+                raise cursor.unexpected()
+            raise Fault(f"{name.group()} is no word of a pattern", begin, len(name.group()), " ".join(FORMS[self.form]))
         self.pending = found.group(2).upper(), begin, INCREMENTAL if found.group(1) else 0
         if cursor.done:  # completed in the next line, or a word without a number
             cursor.add(self.pending[0], None, begin, self.pending[2])

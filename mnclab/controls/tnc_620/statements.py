@@ -151,6 +151,8 @@ def file_name(cursor: Cursor) -> None:
     else:
         name = cursor.rest().strip()
         cursor.at = cursor.stop
+    if not name:
+        raise Fault("the name of a file is missing", begin, hint='for example SEL PATTERN "HOLES"')
     cursor.add("file", name, begin)
 
 

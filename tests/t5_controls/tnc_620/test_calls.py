@@ -165,7 +165,8 @@ def test_holes_repeated_as_columns_are_the_holes_one_by_one(frame: str, count: i
     """A row, and a row 5 mm higher, at once and one by one: the same path, alarms, history."""
     cycle = D.replace("Q202=0", f"Q202={infeed}").replace("Q211=0", "Q211=0.5")
     points = f"ROW1 (X+3 Y+4 D+2.5 NUM{count} ROT+20 Z+0) ROW2 (X+3 Y+40 D+2.5 NUM{count} ROT+20 Z+{5 * high})"
-    text = f"0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n{cycle}{frame}{HIGH}PATTERN DEF {points}\nCYCL CALL PAT {feed}\nL X+9\n"
+    head = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n"
+    text = f"{head}{cycle}{frame}{HIGH}PATTERN DEF {points}\nCYCL CALL PAT {feed}\nL X+9\n"
     fast = mnc.run(text, "tnc-620")
     kept, pattern.FEWEST = pattern.FEWEST, 10**9
     try:
