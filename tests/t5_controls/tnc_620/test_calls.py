@@ -52,7 +52,9 @@ def test_m89_drills_after_a_move_of_the_tool_axis_too(inside) -> None:
 
 def test_m89_ends_with_a_new_cycle_but_not_with_a_transformation(inside) -> None:
     shift = "5 CYCL DEF 7.0 S\n6 CYCL DEF 7.1 X+100\n"
-    run = inside(f"{D}{HIGH}4 L X+10 Y+10 FMAX M89\n{shift}7 L X+0\n8 {CYCLE.format(Q203=0, Q204=20)}9 L X+5\n10 L X+6 M99")
+    run = inside(
+        f"{D}{HIGH}4 L X+10 Y+10 FMAX M89\n{shift}7 L X+0\n8 {CYCLE.format(Q203=0, Q204=20)}9 L X+5\n10 L X+6 M99"
+    )
     assert [hole[0] for hole in holes(run)] == [10, 100, 106]
 
 
@@ -160,8 +162,16 @@ def test_in_inches(tnc) -> None:
 FRAMES = ["", "CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+33\n", "CYCL DEF 7.0 S\nCYCL DEF 7.1 X+12.5\nCYCL DEF 7.2 Z-3\n"]
 
 
-@given(st.sampled_from(FRAMES), st.integers(1, 40), st.sampled_from(["FMAX", "F900"]), st.sampled_from([0, 4]), st.booleans())
-def test_holes_repeated_as_columns_are_the_holes_one_by_one(frame: str, count: int, feed: str, infeed: int, high: bool) -> None:
+@given(
+    st.sampled_from(FRAMES),
+    st.integers(1, 40),
+    st.sampled_from(["FMAX", "F900"]),
+    st.sampled_from([0, 4]),
+    st.booleans(),
+)
+def test_holes_repeated_as_columns_are_the_holes_one_by_one(
+    frame: str, count: int, feed: str, infeed: int, high: bool
+) -> None:
     """A row, and a row 5 mm higher, at once and one by one: the same path, alarms, history."""
     cycle = D.replace("Q202=0", f"Q202={infeed}").replace("Q211=0", "Q211=0.5")
     points = f"ROW1 (X+3 Y+4 D+2.5 NUM{count} ROT+20 Z+0) ROW2 (X+3 Y+40 D+2.5 NUM{count} ROT+20 Z+{5 * high})"

@@ -250,7 +250,9 @@ def test_points_on_an_arc(start: int, stop: int, step: int, count: int, way: int
     if way == 0:
         assert not len(arcs)
     else:
-        assert arcs.sweep == pytest.approx(np.full(count - 1, math.radians(s))) and np.isinf(arcs.feed).all()
+        assert (
+            arcs.sweep == pytest.approx(np.full(count - 1, math.radians(s))) and (arcs.feed == 10_000).all()
+        )  # the rapid speed of the axes
         assert arcs.centre[:, :2] == pytest.approx(np.tile([50.0, 40], (count - 1, 1))) and (arcs.end[:, 2] == 80).all()
 
 

@@ -158,7 +158,27 @@ def test_the_first_hole_of_the_example_program() -> None:
     path = mnc.run(program, "tnc-620").toolpath
     rows = [row for row in path if row.line == first_pattern]
     seen = [f"{row.time:g} s" if row.kind == mnc.Kind.DWELL else f"Z{round(float(row.end[2]), 4):g}" for row in rows]
-    peck = ["Z2", "Z-4", "0.25 s", "Z2", "Z-2", "Z-8", "0.25 s", "Z2", "Z-6", "Z-12", "0.25 s", "Z2", "Z-10", "Z-15", "0.25 s"]
+    peck = [
+        "Z2",
+        "Z-4",
+        "0.25 s",
+        "Z2",
+        "Z-2",
+        "Z-8",
+        "0.25 s",
+        "Z2",
+        "Z-6",
+        "Z-12",
+        "0.25 s",
+        "Z2",
+        "Z-10",
+        "Z-15",
+        "0.25 s",
+    ]
     assert seen[:18] == ["Z100", "Z100", *peck, "Z100"]
-    assert [tuple(row.end[:2]) for row in rows[:19]] == [(0, 0), *[(55, 70)] * 17, pytest.approx((50.225, 84.695), abs=1e-3)]
+    assert [tuple(row.end[:2]) for row in rows[:19]] == [
+        (0, 0),
+        *[(55, 70)] * 17,
+        pytest.approx((50.225, 84.695), abs=1e-3),
+    ]
     assert path.end[path.is_motion][-1, 2] == 250

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.interpreter import run_cycle
-from mnclab.machine.machine import INF, Machine
+from mnclab.machine.machine import Machine
 from mnclab.machine.pattern import at_each
 from mnclab.machining import patterns
 
@@ -142,7 +142,7 @@ class PolarPattern(PointPattern):
         self.run(m, patterns.circle(self.centre(), radius, start, self.step(), int(self.nr_of_repetitions)))
 
     def run_others(self, m: Machine, points: Floats) -> None:
-        """Straight, or along the pitch circle."""
+        """Straight, or along the pitch circle, as fast as each axis may go: an arc has a feed rate."""
         if self.type_of_traverse == 0:
             super().run_others(m, points)
             return
@@ -150,7 +150,7 @@ class PolarPattern(PointPattern):
             self.go(m, z=self.between, to="the level between the points")
             label, m.label = m.label, f"{self.code} along the pitch circle"
             if self.pitch_circle_diameter:
-                m.turn(self.centre(), self.step(), f=INF)
+                m.turn(self.centre(), self.step(), f=float(np.min(m.setup.limits.rapid)))
             m.label = label
             self.work(m)
 

@@ -29,7 +29,8 @@ COUNTS = {"NUM": "number of positions", "NUMX": "number of columns", "NUMY": "nu
 MEANINGS = COUNTS | {
     "X": "coordinate", "Y": "coordinate", "Z": "workpiece surface", "D": "spacing or diameter", "DX": "spacing along X",
     "DY": "spacing along Y", "ROT": "rotation", "ROTX": "rotation of the first axis", "ROTY": "rotation of the second axis",
-    "START": "starting angle", "STEP": "stepping angle", "END": "stopping angle",
+    "START": "starting angle", "STEP": "stepping angle", "END": "stopping angle", "POS": "single position", "ROW": "row",
+    "PAT": "grid", "FRAME": "frame of a grid", "CIRC": "circle", "PITCHCIRC": "part of a circle", CLOSED: "end of an element",
 }  # fmt: skip
 
 
