@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
+from mnclab.show import trial
 
 D = "2 CYCL DEF 200 D\nQ200=2\nQ201=-15\nQ206=250\nQ202=0\nQ210=0\nQ203=0\nQ204=20\nQ211=0\n"  # lines 3 to 11
 HIGH = "3 L Z+50 R0 FMAX M3\n"  # line 12
@@ -301,6 +302,83 @@ def test_many_points_are_the_points_one_by_one(inside) -> None:
                 )
             )
     assert holes[:, :2] == pytest.approx(np.array(expected))
+
+
+OTHERS = {"Q247": 30, "Q301": 0, "Q246": 300}  # where half of the value would do the same
+
+
+@pytest.mark.parametrize("address", [*POLAR, *LINES, *BOTH, "Q365"])
+def test_each_parameter_acts(address: str, inside) -> None:
+    """Another value of it alone makes another path."""
+    values = POLAR | LINES | BOTH | {"Q365": 0}
+    make = lines if address in LINES else polar
+    other = OTHERS.get(address, values[address] / 2 if values[address] > 1 else values[address] + 1)
+    before, after = inside(f"{D}{HIGH}{make()}").toolpath, inside(f"{D}{HIGH}{make(**{address: other})}").toolpath
+    assert before.end.tolist() != after.end.tolist() or before.kind.tolist() != after.kind.tolist()
+
+
+def test_a_cycle_that_the_manual_does_not_name_runs_if_the_setting_says_so(inside) -> None:
+    contour = "LBL 1\nL X+0 Y+0 RR F100\nL Y+30\nL X+40\nL Y+0\nL X+0\nLBL 0\n"
+    data = "CYCL DEF 20 C\nQ1=-5\nQ2=1\nQ3=0\nQ4=0\nQ5=0\nQ6=2\nQ7=30\nQ8=0\nQ9=1\n"
+    rough = "CYCL DEF 22 R\nQ10=5\nQ11=100\nQ12=200\nQ18=0\nQ19=0\nQ208=FMAX\n"
+    blocks = f"2 CYCL DEF 14.0 C\n3 CYCL DEF 14.1 1\n{data}{rough}{HIGH}{polar(Q241=2)}M2\n{contour}"
+    run = inside(blocks, pattern_cycles="warn")
+    assert run.ok and [a.message for a in run.alarms] == [
+        "CYCL DEF 220 cannot be combined with CYCL DEF 22 (Rough-out)"
+    ]
+    assert (run.toolpath.kind == mnc.Kind.LINE).sum() > 4
+
+
+def test_a_form_of_each_pattern_begins_with_a_path() -> None:
+    for code, count in (("CYCL DEF 220", 8), ("CYCL DEF 221", 24)):
+        cycle = mnc.controls["tnc-620"].cycles[code]
+        values = {p.name: trial.first_value(p) for p in cycle.parameters()}
+        run = mnc.run(trial.program("tnc-620", cycle, values), "tnc-620")
+        assert run.alarms == () and len({tuple(hole) for hole in drilled(run)[:, :2].round(6).tolist()}) == count
+
+
+# --- any text ---------------------------------------------------------------------------------------------------------
+
+WHOLE_PROGRAM = f"""{HEAD}{D}{HIGH}PATTERN DEF POS1 (X+25 Y+33.5 Z+0)
+POS2 (X+15 IY+6.5 Z
++0) PAT1 (X+25 Y+33,5 ~
+DX+8 DY+10 NUMX5 NUMY4 ROT+0
+ROTX+0 ROTY+0 Z+0) PITCHCIRC1 (X+Q1 Y+33 D80 START+45 STEP30 NUM8 Z+0)
+CYCL CALL PAT F5000 M8
+SEL PATTERN "T"
+CYCL CALL PAT
+CYCL CALL POS X+1 Y+2 Z+3 FMAX
+{polar()}L X+5 R0 FMAX M89
+L IY+5 M99
+"""
+SCRAPS = st.sampled_from([
+    "X", "+", "-", ".", "9", "0", " ", "\n", ";", "~", '"', "=", "(", ")", "Q1", "NUM", "POS3 (", "FRAME1", "END", "IX", "M89",
+    "99999999", "\u0661", "Q241=", "CIRC1 (X+1 Y+1 D", "GLOBAL DEF 125 Q345=", "PREDEF", "LBL 0", "PATTERN DEF ", "CYCL DEF 221 ",
+])  # fmt: skip
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.integers(0, len(WHOLE_PROGRAM)), st.integers(0, 12), st.lists(SCRAPS, max_size=3))
+def test_no_program_raises(at: int, gone: int, scraps: list[str]) -> None:
+    text = WHOLE_PROGRAM[:at] + "".join(scraps) + WHOLE_PROGRAM[at + gone :]
+    run = with_table("T MM\nNR X Y\n0 1 2\n1 4 5\n[END]", text[len(HEAD) :])
+    assert np.isfinite(run.toolpath.end).all()
+    assert all(alarm.message and alarm.span for alarm in run.alarms)
+
+
+GOOD_TABLE = TABLE + "0    +10   +20   +1   Y    +60\n1    +30   -2\n[END]\n"
+
+
+@given(
+    st.integers(0, len(GOOD_TABLE)),
+    st.integers(0, 9),
+    st.text(alphabet="0123456789+-.,YNXZ \n[]EDMINCHq\t\u0661\0", max_size=6),
+)
+def test_no_table_raises(at: int, gone: int, scrap: str) -> None:
+    run = with_table(GOOD_TABLE[:at] + scrap + GOOD_TABLE[at + gone :])
+    assert np.isfinite(run.toolpath.end).all() and (
+        run.ok or run.alarms[0].message.startswith("SEL PATTERN T.PNT, line ")
+    )
 
 
 FIRST = "CYCL DEF 220"

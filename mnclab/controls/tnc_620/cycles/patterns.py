@@ -103,15 +103,15 @@ class PointPattern(Cycle):
 class PolarPattern(PointPattern):
     """Runs the cycle defined last at points on a circle or an arc."""
 
-    center_in_1st_axis: float = addresses.coordinate("Q216", "centre along the first axis")
-    center_in_2nd_axis: float = addresses.coordinate("Q217", "centre along the second axis")
-    pitch_circle_diameter: float = addresses.length("Q244", "diameter of the pitch circle")
-    starting_angle: float = addresses.angle("Q245", "starting angle")
-    stopping_angle: float = addresses.angle("Q246", "stopping angle", note="where Q247 is 0")
+    center_in_1st_axis: float = addresses.coordinate("Q216", "centre along the first axis", example=50)
+    center_in_2nd_axis: float = addresses.coordinate("Q217", "centre along the second axis", example=50)
+    pitch_circle_diameter: float = addresses.length("Q244", "diameter of the pitch circle", example=80)
+    starting_angle: float = addresses.angle("Q245", "starting angle", example=0)
+    stopping_angle: float = addresses.angle("Q246", "stopping angle", example=360, note="where Q247 is 0")
     stepping_angle: float = addresses.angle(
         "Q247", "stepping angle", incremental=True, note="0: from the other angles and the number"
     )
-    nr_of_repetitions: float = addresses.number("Q241", "number of operations")
+    nr_of_repetitions: float = addresses.number("Q241", "number of operations", example=8)
     clearance: float = addresses.clearance()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
@@ -161,13 +161,13 @@ class CartesianPattern(PointPattern):
 
     combines = PointPattern.combines | {"CYCL DEF 254"}
 
-    starting_point_1st_axis: float = addresses.coordinate("Q225", "starting point along the first axis")
-    starting_point_2nd_axis: float = addresses.coordinate("Q226", "starting point along the second axis")
-    spacing_in_1st_axis: float = addresses.coordinate("Q237", "spacing along a line", incremental=True)
-    spacing_in_2nd_axis: float = addresses.coordinate("Q238", "spacing of the lines", incremental=True)
-    number_of_columns: float = addresses.number("Q242", "number of operations on a line")
-    number_of_lines: float = addresses.number("Q243", "number of lines")
-    angle_of_rotation: float = addresses.angle("Q224", "rotation about the starting point")
+    starting_point_1st_axis: float = addresses.coordinate("Q225", "starting point along the first axis", example=15)
+    starting_point_2nd_axis: float = addresses.coordinate("Q226", "starting point along the second axis", example=15)
+    spacing_in_1st_axis: float = addresses.coordinate("Q237", "spacing along a line", example=10, incremental=True)
+    spacing_in_2nd_axis: float = addresses.coordinate("Q238", "spacing of the lines", example=8, incremental=True)
+    number_of_columns: float = addresses.number("Q242", "number of operations on a line", example=6)
+    number_of_lines: float = addresses.number("Q243", "number of lines", example=4)
+    angle_of_rotation: float = addresses.angle("Q224", "rotation about the starting point", example=15)
     clearance: float = addresses.clearance()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
