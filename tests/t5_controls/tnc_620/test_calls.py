@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab.machine import pattern
+from mnclab.machine.interpreter import Interpreter
+from mnclab.machine.machine import Machine
 from mnclab.path.toolpath import COLUMNS
 
 CYCLE = "CYCL DEF 200 D\nQ200=2\nQ201=-15\nQ206=250\nQ202=0\nQ210=0\nQ203={Q203}\nQ204={Q204}\nQ211=0\n"
@@ -149,6 +151,35 @@ def test_a_contour_cycle_has_its_datum_at_each_point(inside) -> None:
     cut = run.toolpath.end[run.toolpath.kind == mnc.Kind.LINE]
     half = len(cut) // 2
     assert half > 4 and cut[half:] - cut[:half] == pytest.approx(np.tile([60.0, 10, 5], (half, 1)))
+
+
+@pytest.mark.parametrize(("unit", "scale"), [("MM", 1), ("INCH", 25.4)])
+def test_the_height_of_a_contour_cycle(unit: str, scale: float, tnc) -> None:
+    """Between the points at Q7 + Z, whatever Q5 is, in both units: to (0, 0) at 3 + 1, and to (60, 0) at 3 + 2."""
+    contour = "LBL 1\nL X+0 Y+0 RR F100\nL Y+30\nL X+40\nL Y+0\nL X+0\nLBL 0\n"
+    data = "CYCL DEF 20 C\nQ1=-2\nQ2=1\nQ3=0\nQ4=0\nQ5=1\nQ6=1\nQ7=3\nQ8=0\nQ9=1\n"
+    rough = "CYCL DEF 22 R\nQ10=5\nQ11=100\nQ12=200\nQ18=0\nQ19=0\nQ208=FMAX\n"
+    run = tnc(f"0 BEGIN PGM A {unit}\n1 TOOL CALL 1 Z S1000\n2 CYCL DEF 14.0 C\n3 CYCL DEF 14.1 1\n{data}{rough}"
+              "4 L X+0 Y-9 Z+2 R0 FMAX M3\nPATTERN DEF POS1 (X+0 Y+0 Z+1) POS2 (X+60 Y+0 Z+2)\nCYCL CALL PAT FMAX\nM2\n"
+              f"{contour}")  # fmt: skip
+    assert run.ok, run.alarms
+    path = run.toolpath
+    to_points = [k for k, label in enumerate(path.label) if path.labels[label] == "CYCL CALL PAT to the point"]
+    across = [k for k in to_points if path.start[k, :2].tolist() != path.end[k, :2].tolist()]
+    assert path.end[across] / scale == pytest.approx(np.array([[0, 0, 4], [60, 0, 5]]))
+    assert path.end[:, 2].min() / scale == pytest.approx(0) and path.end[-1, 2] / scale == pytest.approx(5)
+
+
+def test_the_points_of_a_pattern_need_the_tool_axis_z() -> None:
+    """PATTERN DEF works out X and Y; with another plane the call is refused."""
+    control = mnc.controls["tnc-620"]
+    program = control.read(f"0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n{D}{HIGH}{TWO}5 CYCL CALL PAT FMAX\n", "a.h")
+    machine = Machine(control, mnc.Setup())
+    interpreter = Interpreter(control, machine, program)
+    machine.flow.section(0, len(program) - 1)
+    machine.change("plane", "YZ")
+    with pytest.raises(mnc.Alarm, match="the tool axis must be Z"):
+        interpreter.obey(len(program) - 1)
 
 
 def test_in_inches(tnc) -> None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 import mnclab as mnc
+from mnclab.show import trial
 
 GLOBAL_100 = "GLOBAL DEF 100 GENERAL\nQ200=3 ;A\nQ204=40 ;B\nQ253=750 ;C\nQ208=1000 ;D\n"
 GLOBAL_105 = "GLOBAL DEF 105 DRILLING\nQ256=0.2\nQ210=0.3\nQ211=0.4\n"
@@ -54,6 +57,43 @@ def test_in_inches(tnc, drilled) -> None:
 def test_two_names_of_the_positioning_height(address: str, inside) -> None:
     """The text of the manual says Q352, its example Q345."""
     assert inside(f"2 GLOBAL DEF 125 POSITIONARE\n{address}=+1").ok
+
+
+VALUES = {
+    100: {"Q200": 3, "Q204": 40, "Q253": 750, "Q208": 900}, 105: {"Q256": 0.3, "Q210": 0.5, "Q211": 0.7},
+    110: {"Q370": 1.2, "Q351": -1, "Q366": 2}, 111: {"Q2": 1.3, "Q6": 4, "Q7": 60, "Q9": -1},
+    120: {"Q320": 5, "Q260": 80, "Q301": 1}, 125: {"Q345": 1},
+}  # fmt: skip
+EVERYTHING = "".join(
+    f"GLOBAL DEF {n}\n" + "".join(f"{q}={v}\n" for q, v in values.items()) for n, values in VALUES.items()
+)
+CYCLES = mnc.controls["tnc-620"].cycles
+LINKS = [
+    (code, parameter)
+    for code, cycle in CYCLES.items()
+    for source in CYCLES.values()
+    if code in getattr(source, "serves", ()) and cycle.runs == "call"
+    for parameter in cycle.parameters()
+    if parameter.address in {p.address for p in source.parameters()}
+]
+
+
+def test_every_value_is_kept(tnc) -> None:
+    run = tnc(EVERYTHING)
+    assert run.ok and {q: run.history[f"default {q}"][-1] for values in VALUES.values() for q in values} == {
+        q: v for values in VALUES.values() for q, v in values.items()
+    }
+
+
+@pytest.mark.parametrize(("code", "parameter"), LINKS, ids=lambda case: getattr(case, "address", case))
+def test_every_cycle_takes_the_values_made_for_it(code: str, parameter: Any, tnc) -> None:
+    """Drilling the clearances and dwells, milling the overlap, …: the Q parameter has the value of GLOBAL DEF."""
+    values = {p.address: trial.first_value(p) for p in CYCLES[code].parameters()} | {parameter.address: "PREDEF"}
+    run = tnc(f"{EVERYTHING}{code} X\n" + "".join(f"{q}={v}\n" for q, v in values.items()))
+    assert run.ok, run.alarms
+    assert run.variables[parameter.address] == next(
+        v[parameter.address] for v in VALUES.values() if parameter.address in v
+    )
 
 
 REFUSED = [

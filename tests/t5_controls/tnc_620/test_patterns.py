@@ -272,6 +272,26 @@ def test_levels_of_a_pattern(clearance: float, second: float, move: int, level: 
         assert set(starts[:, 2]) == {30 + clearance}
 
 
+@given(
+    st.integers(0, 9), st.integers(-20, 20), st.integers(0, 30), st.integers(0, 1), st.integers(-50, 50), st.integers(0, 1),
+    st.booleans(),
+)  # fmt: skip
+def test_no_rapid_through_material(
+    clearance: int, surface: int, second: int, move: int, at: int, way: int, cartesian: bool
+) -> None:
+    """Over the plate nothing goes across below the set-up plane, and no rapid goes down below it, wherever it began."""
+    levels = {"Q200": clearance, "Q203": surface, "Q204": second, "Q301": move}
+    blocks = lines(**levels) if cartesian else polar(**levels, Q365=way, Q247=20)
+    run = mnc.run(f"{HEAD}{D}3 L Z{at:+d} R0 FMAX M3\n{blocks}", "tnc-620")
+    assert run.ok and len(drilled(run)) == (24 if cartesian else 8)
+    path = run.toolpath[run.toolpath.line > 12]
+    across = (path.start[:, :2] != path.end[:, :2]).any(1)
+    down = (path.kind == mnc.Kind.RAPID) & (path.end[:, 2] < path.start[:, 2])
+    assert (path.start[across][:, 2] >= surface + clearance).all() and (
+        path.end[down][:, 2] >= surface + clearance
+    ).all()
+
+
 def test_the_overwritten_parameters_stay(inside) -> None:
     """Q203 = 30 of cycle 220 is that of the drilling from then on, until it is defined again."""
     run = inside(f"{D}{HIGH}{polar(Q241=1)}5 L X+0 Y+0 Z+90 FMAX M99\n6 {D[2:]}7 L X+1 FMAX M99")

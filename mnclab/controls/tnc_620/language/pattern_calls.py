@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles.defaults import defaults
-from mnclab.controls.tnc_620.language.calls import planes, ready, run_at
+from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM, planes, ready, run_at
 from mnclab.controls.tnc_620.language.motion import feed
 from mnclab.controls.tnc_620.language.patterns import Pattern
 from mnclab.machine.control import FunctionTable, Words
@@ -75,7 +75,8 @@ def clearance_heights(m: Machine, definition: Definition, pattern: Pattern) -> F
     at_call, choice = m.programmed[2], defaults(m).get("Q345")
     z = pattern.points[:, 2]
     surface = own + z
-    above = second + (surface if pattern.table else np.where(z > own, z, surface))
+    whole = pattern.table or definition.cycle.code in PLACED_BY_DATUM
+    above = second + (surface if whole else np.where(z > own, z, surface))
     if choice == 1:
         heights = np.fmax(above, pattern.clearance)
     elif not np.isnan(pattern.clearance).all():
