@@ -60,6 +60,14 @@ def test_m89_ends_with_a_new_cycle_but_not_with_a_transformation(inside) -> None
     assert [hole[0] for hole in holes(run)] == [10, 100, 106]
 
 
+def test_a_block_under_m89_is_explained(inside) -> None:
+    run = inside(f"{D}{HIGH}4 L X+10 Y+10 FMAX M89\n5 L X+20 FMAX")
+    title = "Cycle call in every positioning block"
+    said = {line: [(m.word, m.says) for m in run.explain(line=line).meanings] for line in (13, 14)}
+    assert said[13][0] == said[14][0] == ("L", "Straight line")
+    assert said[13][-1] == ("M89", title) and said[14][-1] == ("(M89)", f"{title}, active from before")
+
+
 def test_m89_drills_in_long_runs_of_plain_blocks(inside) -> None:
     """Fifty blocks that the bulk tier would take."""
     blocks = "\n".join(f"{k} L X{k} R0" for k in range(10, 60))
