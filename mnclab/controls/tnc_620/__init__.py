@@ -9,7 +9,15 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620 import later, reader
-from mnclab.controls.tnc_620.cycles import contours, defaults, drilling, transformations
+from mnclab.controls.tnc_620.cycles import (
+    contours,
+    defaults,
+    drilling,
+    tapping,
+    thread_drilling,
+    threads,
+    transformations,
+)
 from mnclab.controls.tnc_620.cycles import patterns as point_patterns
 from mnclab.controls.tnc_620.language import (
     approach,
@@ -44,6 +52,10 @@ SETTINGS = (
         "pattern_cycles", "refuse", "cycles 220 and 221 with a cycle that the manual does not name for them", "7.1",
         {"refuse": "an alarm", "warn": "a warning, and they run"},
     ),
+    Setting(
+        "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
+        unit="s", at_least=0,
+    ),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -54,6 +66,7 @@ FUNCTIONS = (
 CYCLES = (
     drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES | defaults.CYCLES | point_patterns.CYCLES
 )  # fmt: skip
+CYCLES |= tapping.CYCLES | threads.CYCLES | thread_drilling.CYCLES
 
 #: What the words of statements are.
 MEANINGS = {

@@ -73,7 +73,7 @@ def ready(m: Machine, code: str, word: Word | None) -> Definition:
         )
     if m.tool.number == 0:
         m.warn(f"{code}: no tool was called", word)
-    if not m.turning:
+    if not m.turning and not m.cycle.cycle.own_spindle:
         m.warn(f"{code}: the spindle does not turn", word, hint="write M3 or M4 before the call")
     return m.cycle
 
