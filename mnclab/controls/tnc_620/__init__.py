@@ -10,9 +10,11 @@ import re
 
 from mnclab.controls.tnc_620 import later, reader
 from mnclab.controls.tnc_620.cycles import (
+    boring,
     contours,
     defaults,
     drilling,
+    pecking,
     tapping,
     thread_drilling,
     threads,
@@ -34,6 +36,7 @@ from mnclab.controls.tnc_620.language import (
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
+from mnclab.machine.cycle import CycleTable
 from mnclab.machine.settings import Setting
 from mnclab.path.compensation import Compensation
 
@@ -44,6 +47,7 @@ SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
+    Setting("controlled_spindle", True, "the spindle can stop at an angle, as cycles 202 and 204 need it", "4.5"),
     Setting(
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
@@ -63,10 +67,17 @@ FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS | pattern_calls.FUNCTIONS | patterns.FUNCTIONS
 )  # fmt: skip
-CYCLES = (
-    drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES | defaults.CYCLES | point_patterns.CYCLES
-)  # fmt: skip
-CYCLES |= tapping.CYCLES | threads.CYCLES | thread_drilling.CYCLES
+CYCLES = CycleTable()
+for chapter in (
+    defaults,
+    drilling, boring, pecking,
+    tapping, threads, thread_drilling,
+    point_patterns,
+    contours,
+    transformations,
+    presets,
+):  # fmt: skip
+    CYCLES |= chapter.CYCLES
 
 #: What the words of statements are.
 MEANINGS = {
