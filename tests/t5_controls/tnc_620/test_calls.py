@@ -198,6 +198,7 @@ def test_in_inches(tnc) -> None:
     assert [tuple(np.round(hole, 6)) for hole in holes(run)] == [(25.4, 0, 0), (50.8, 0, 0)]
 
 
+TAP = "CYCL DEF 207 T\nQ200=2\nQ201=-15\nQ239=+1\nQ203=0\nQ204=20\n"
 FRAMES = ["", "CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+33\n", "CYCL DEF 7.0 S\nCYCL DEF 7.1 X+12.5\nCYCL DEF 7.2 Z-3\n"]
 
 
@@ -205,14 +206,13 @@ FRAMES = ["", "CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+33\n", "CYCL DEF 7.0 S\nCYCL D
     st.sampled_from(FRAMES),
     st.integers(1, 40),
     st.sampled_from(["FMAX", "F900"]),
-    st.sampled_from([0, 4]),
+    st.sampled_from([D, D.replace("Q202=0", "Q202=4").replace("Q211=0", "Q211=0.5"), TAP]),
     st.booleans(),
 )
 def test_holes_repeated_as_columns_are_the_holes_one_by_one(
-    frame: str, count: int, feed: str, infeed: int, high: bool
+    frame: str, count: int, feed: str, cycle: str, high: bool
 ) -> None:
-    """A row, and a row 5 mm higher, at once and one by one: the same path, alarms, history."""
-    cycle = D.replace("Q202=0", f"Q202={infeed}").replace("Q211=0", "Q211=0.5")
+    """A row, and a row 5 mm higher, at once and one by one: the same path, alarms, history; tapping turns the spindle."""
     points = f"ROW1 (X+3 Y+4 D+2.5 NUM{count} ROT+20 Z+0) ROW2 (X+3 Y+40 D+2.5 NUM{count} ROT+20 Z+{5 * high})"
     head = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n"
     text = f"{head}{cycle}{frame}{HIGH}PATTERN DEF {points}\nCYCL CALL PAT {feed}\nL X+9\n"
@@ -222,7 +222,7 @@ def test_holes_repeated_as_columns_are_the_holes_one_by_one(
         slow = mnc.run(text, "tnc-620")
     finally:
         pattern.FEWEST = kept
-    assert fast.ok and slow.ok and len(holes(fast)) == 2 * count * (4 if infeed else 1)
+    assert fast.ok and slow.ok and len(holes(fast)) == 2 * count * (4 if "Q202=4" in cycle else 1)
     for name in COLUMNS:
         one, other = getattr(fast.toolpath, name), getattr(slow.toolpath, name)
         if one.dtype.kind == "f":
