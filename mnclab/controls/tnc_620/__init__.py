@@ -47,7 +47,7 @@ SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
-    Setting("controlled_spindle", True, "the spindle can stop at an angle, as cycles 202 and 204 need it", "4.5"),
+    Setting("controlled_spindle", True, "the spindle's angle is controlled, as 202, 204, 207, 209 need it", "4.5, 5.3"),
     Setting(
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
