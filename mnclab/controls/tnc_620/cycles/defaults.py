@@ -61,7 +61,7 @@ class Drilling(Defaults):
 
     serves = DRILLING
 
-    chip_breaking_distance: float = addresses.length("Q256", "retraction for chip breaking", incremental=True)
+    break_retract: float = addresses.length("Q256", "retraction for chip breaking", incremental=True)
     dwell_top: float = addresses.seconds("Q210", "dwell at the set-up clearance")
     dwell_bottom: float = addresses.dwell_bottom()
 
@@ -73,7 +73,7 @@ class PocketMilling(Defaults):
     serves = MILLING
 
     overlap: float = param("Q370", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True)
-    climb_or_up_cut: float = addresses.choice("Q351", "sense of milling", CLIMB)
+    climb: float = addresses.choice("Q351", "sense of milling", CLIMB)
     plunging_type: float = addresses.choice(
         "Q366", "plunging strategy", {0: "vertical", 1: "helical", 2: "reciprocating"}
     )
@@ -88,7 +88,7 @@ class ContourMilling(Defaults):
     overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True)
     clearance: float = addresses.length("Q6", "set-up clearance", incremental=True)
     height: float = addresses.coordinate("Q7", "clearance height")
-    climb_or_up_cut: float = addresses.choice("Q9", "sense of milling", CLIMB)
+    climb: float = addresses.choice("Q9", "sense of milling", CLIMB)
 
 
 @CYCLES("GLOBAL DEF 120", "Defaults of probing cycles", runs="definition", source="3.2")
