@@ -35,6 +35,7 @@ EXAMPLES = {
         *("point table", "SEL PATTERN"),
     ],
     "tnc620-patterns": ["CYCL DEF 220", "CYCL DEF 221"],
+    "tnc620-klartext": ["L", "C", "CT", "CP"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",

@@ -26,10 +26,13 @@ from mnclab.controls.tnc_620.language import (
     auxiliary,
     calls,
     flow,
+    joints,
     motion,
     parameters,
     pattern_calls,
     patterns,
+    polar,
+    pole,
     program,
     tools,
 )
@@ -64,7 +67,8 @@ SETTINGS = (
 )  # fmt: skip
 
 FUNCTIONS = (
-    motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
+    pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
+    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS | pattern_calls.FUNCTIONS | patterns.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
@@ -83,7 +87,8 @@ for chapter in (
 MEANINGS = {
     "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "S": "spindle speed",
     "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
-    "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
+    "RR": "compensation to the right", "LEN": "length", "PR": "polar radius", "PA": "polar angle",
+    "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
     "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length", "file": "name of a file",
