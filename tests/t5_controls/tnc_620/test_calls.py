@@ -46,6 +46,13 @@ def test_m89_until_m99(inside) -> None:
     assert [hole[:2] for hole in holes(run)] == [(10, 10), (20, 10), (30, 20), (40, 30), (41, 30)]
 
 
+def test_m89_goes_with_polar_blocks(inside) -> None:
+    run = inside(
+        f"{D}{HIGH}4 CC X+0 Y+0\n5 L X+10 Y+0 FMAX M89\n6 LP PR+20 PA+90 FMAX\n7 CP PA+180 DR+ F200\n8 LP PR+5 M99"
+    )
+    assert np.array(holes(run))[:, :2] == pytest.approx(np.array([[10, 0], [0, 20], [-20, 0], [-5, 0]]))
+
+
 def test_m89_drills_after_a_move_of_the_tool_axis_too(inside) -> None:
     """The text excepts no positioning block: M89 is to be cancelled before the tool is retracted."""
     run = inside(f"{D}{HIGH}4 L X+10 Y+10 FMAX M89\n5 L Z+90\n6 L X+20 M99")
