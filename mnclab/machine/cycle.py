@@ -141,6 +141,8 @@ class Cycle:
     source: ClassVar[str] = ""
     triggers: ClassVar[tuple[str, ...]] = ()
     """Addresses that run a "position" cycle in a later block."""
+    in_variables: ClassVar[bool] = True
+    """Whether its Q parameters are variables of the program, on a control that has them."""
     own_spindle: ClassVar[bool] = False
     """Whether it turns the spindle itself, so that none need turn before it."""
 
