@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 from difflib import get_close_matches
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,17 @@ from mnclab.text.words import Scan, characters, scan
 _UNIT = re.compile(r"(?:^|[\r\n])[ \t\ufeff]*/?[ \t]*\d*[ \t]*BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
-_PLAIN = "XYZFR"
+_PLAIN = "FRXYZ"  # letters of plain lines
+PIECE = 1 << 14  # lines whose words are looked at together
+
+# A hexadecimal digit for each letter: added over a line of so few words that none overflows, 1 says that a letter stands once.
+_STRANGE = 1 << 4 * len(_PLAIN)
+_ONCE = int("1" * len(_PLAIN), 16)
+_DIGIT_OF_LETTER = np.full(256, _STRANGE, np.int32)
+_PLACE_OF_LETTER, _FORM_OF_LETTER = np.zeros(256, np.int16), np.zeros(256, np.uint8)
+for _place, _letter in enumerate(_PLAIN):
+    _DIGIT_OF_LETTER[ord(_letter)], _PLACE_OF_LETTER[ord(_letter)] = 1 << 4 * _place, _place
+_FORM_OF_LETTER[ord("R")] = NONE
 
 
 def read(text: str, name: str = "program") -> Program:
@@ -200,46 +211,68 @@ class _Lines:
 
 
 def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_], BulkBlocks]:
-    """Which lines (l,) are plain straight lines, and their blocks."""
-    with_words = np.flatnonzero(found.count)  # lines
-    heads = np.cumsum(found.count[with_words]) - found.count[with_words]
-    first = np.zeros(len(found.letter), dtype=bool)
-    first[heads] = True
-    count = found.count[with_words] - 1
-    data = np.append(characters(text), np.uint8(10))
+    """Which lines (l,) are plain straight lines, and their blocks.
 
-    after = data[found.offset[heads] + 1]
-    good = (found.letter[heads] == ord("L")) & (found.length[heads] == 1) & (count > 0) & ((after == 32) | (after == 9))
-    bits = np.zeros(256, dtype=np.int32)
-    bits[[ord(c) for c in _PLAIN]] = 1 << np.arange(len(_PLAIN))
-    strange = (bits[found.letter] == 0) & ~first
-    strange |= (np.abs(found.value) >= LARGEST) | (
-        (found.letter == ord("R")) & ((found.value != 0) | (found.length != 2))
-    )
-    if len(heads):
-        word = np.where(first, 0, bits[found.letter])
-        good &= np.bitwise_or.reduceat(word, heads) == np.add.reduceat(word, heads)  # each address once
-        good &= ~np.logical_or.reduceat(strange, heads)
+    The columns of ``found`` are used up: the words that stay are moved to their beginning, in pieces that stay in the
+    cache, because new columns would cost more than the work on them.
+    """
+    with_words = np.flatnonzero(found.count)  # lines
+    count = found.count[with_words]
+    first = first_words(count)
+    good = (count > 1) & (count <= 1 + len(_PLAIN))
     if "~" in text:  # the line after it goes on with a block
-        good &= ~np.isin(with_words, np.searchsorted(found.starts, np.flatnonzero(data == ord("~")), "right"))
+        good &= ~np.isin(
+            with_words, np.searchsorted(found.starts, np.flatnonzero(characters(text) == ord("~")), "right")
+        )
+
+    address, form = np.empty(len(found.letter), np.int16), np.empty(len(found.letter), np.uint8)
+    columns: list[NDArray[Any]] = [found.value, found.offset, found.length]
+    kept = 0
+    for i in range(0, len(count), PIECE):
+        here = slice(int(first[i]), int(first[min(i + PIECE, len(count))]))
+        letter, heads = found.letter[here], first[i : i + PIECE][: len(count) - i] - first[i]
+        good[i : i + PIECE] &= _plain(letter, found.value[here], found.length[here], heads)
+        keep = np.repeat(good[i : i + PIECE], count[i : i + PIECE])
+        keep[heads] = False
+        letter = letter[keep]
+        to = slice(kept, kept + len(letter))
+        address[to], form[to] = _PLACE_OF_LETTER[letter], _FORM_OF_LETTER[letter]
+        for column in columns:
+            column[to] = column[here][keep]
+        kept = to.stop
+    for column in (*columns, address, form):
+        column.resize(kept, refcheck=False)
 
     plain = np.zeros(len(found.starts), dtype=bool)
     plain[with_words[good]] = True
-    keep = np.repeat(good, found.count[with_words]) & ~first
-    letter, value = found.letter[keep], found.value[keep]
-    address = np.searchsorted(np.array(sorted(ord(c) for c in _PLAIN)), letter)
     starts = found.starts[with_words[good]]
-    while (indented := (data[starts] == 32) | (data[starts] == 9)).any():
-        starts = starts + indented
+    if found.indented:
+        data = characters(text)
+        while (indented := (data[starts] == 32) | (data[starts] == 9)).any():
+            starts = starts + indented
     return plain, BulkBlocks(
-        addresses=tuple("R0" if c == "R" else c for c in sorted(_PLAIN)),
+        addresses=tuple("R0" if c == "R" else c for c in _PLAIN),
         address=address,
-        value=value * INCH if inch else value,
-        offset=found.offset[keep],
-        length=found.length[keep],
+        value=found.value * INCH if inch else found.value,
+        offset=found.offset,
+        length=found.length,
         keyword="L",
         start=starts,
-        first=first_words(count[good]),
+        first=first_words(count[good] - 1),
         plain=np.ones(int(good.sum()), dtype=bool),
-        form=np.where(letter == ord("R"), NONE, 0).astype(np.uint8),
+        form=form,
     )
+
+
+def _plain(
+    letter: NDArray[np.uint8], value: NDArray[np.float64], length: NDArray[np.int16], heads: NDArray[np.int32]
+) -> NDArray[np.bool_]:
+    """Which lines are an L alone and plain words, each once; of their words (w,), ``heads`` are the first ones."""
+    digits = _DIGIT_OF_LETTER[letter]
+    digits[heads] = 0
+    radius = np.flatnonzero(letter == ord("R"))
+    digits[radius[(value[radius] != 0) | (length[radius] != 2)]] = _STRANGE  # an R that is not R0
+    if max(value.max(), -value.min()) >= LARGEST:
+        digits[np.abs(value) >= LARGEST] = _STRANGE
+    good = (letter[heads] == ord("L")) & (length[heads] == 1)
+    return good & ((np.add.reduceat(digits, heads) & ~_ONCE) == 0)
