@@ -10,7 +10,19 @@ import re
 
 from mnclab.controls.tnc_620 import later, reader
 from mnclab.controls.tnc_620.cycles import contours, drilling, transformations
-from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
+from mnclab.controls.tnc_620.language import (
+    approach,
+    auxiliary,
+    calls,
+    feed_rules,
+    feeds,
+    flow,
+    machine_datum,
+    motion,
+    parameters,
+    program,
+    tools,
+)
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -28,18 +40,26 @@ SETTINGS = (
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
     ),
+    Setting("m6_stop", False, "M6 stops the program for a change of the tool by hand", "M6"),
+    Setting("spindle_angle", 0, "where M19 and M20 stop the spindle without Cycle 13", "12.5", unit="deg"),
+    *(
+        Setting(f"m92_{axis}", 0, f"{axis.upper()} of the position that M92 counts from", "M92", unit="mm")
+        for axis in "xyz"
+    ),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
-FUNCTIONS = (
+FUNCTIONS = feeds.in_all_forms(
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
-    | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | machine_datum.FUNCTIONS | feed_rules.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
 )  # fmt: skip
 CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
 
 #: What the words of statements are.
 MEANINGS = {
-    "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "S": "spindle speed",
+    "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL",
+    "M103:F": "share downwards in percent",
+    "FU": "feed per revolution", "FZ": "feed per tooth", "S": "spindle speed",
     "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
     "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
@@ -70,5 +90,5 @@ CONTROL = Control(
     refused=later.refused(FUNCTIONS, CYCLES),
     meanings=MEANINGS,
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0),
-    named=motion.named,
+    named=feeds.named,
 )

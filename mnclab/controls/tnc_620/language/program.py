@@ -51,8 +51,11 @@ def end(m: Machine, words: Words) -> None:
 
 
 def finish(m: Machine) -> None:
-    """The end of the run: spindle off, transformations cancelled (11.1)."""
+    """The end of the run: spindle and coolant off, transformations cancelled (11.1)."""
     m.spindle(turning=0)
+    if m.modal.get("coolant", "M9") != "M9":
+        m.set_modal("coolant", "M9")
+        m.coolant()
     cancel(m)
     m.ended = True
 
@@ -63,8 +66,8 @@ def least_corner(m: Machine, words: Words) -> None:
     if "axis" not in words:
         m.alarm("BLK FORM 0.1 needs the tool axis", None, hint="for example BLK FORM 0.1 Z X+0 Y+0 Z-20")
     axis = str(words["axis"].value)
-    if axis != "Z":
-        m.alarm(f"BLK FORM 0.1: the tool axis {axis} is not built yet, Z is", words["axis"])
+    if axis not in ("X", "Y", "Z"):
+        m.alarm(f"BLK FORM 0.1: the tool axis must be X, Y or Z, got {axis}", words["axis"])
     keep(m, Blank(axis, corner(m, words, None)))
 
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from mnclab.controls.tnc_620.language.feeds import PER_TOOTH, set_feed, with_another_tool
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
+LAST = 32767  # number of a tool
+DELTAS = {"DL": "dl", "DR": "dr", "DR2": "corner"}  # words and the dimensions that they are added to
 
 
 @FUNCTIONS("TOOL CALL,", "Tool call", takes="tool axis S F DL DR DR2", source="TOOL CALL")
@@ -23,20 +26,28 @@ def tool_call(m: Machine, words: Words) -> None:
         )
     if "axis" in words and words["axis"].value != "Z":
         m.alarm(f"TOOL CALL: the tool axis {words['axis'].value} is not built yet, Z is", words["axis"])
-    if "DR2" in words:
-        m.alarm("TOOL CALL DR2 (delta of the corner radius) is not built yet", words["DR2"])
     speed, feed = numbers(m, words, "S", "spindle speed", 0), numbers(m, words, "F", "feed rate", None)
-    deltas = {name.lower(): m.value(words[name]) for name in ("DL", "DR") if name in words}
+    deltas = {DELTAS[name]: m.value(words[name]) for name in DELTAS if name in words}
     if "tool" in words or deltas:
-        base = find(m, words["tool"]) if "tool" in words else m.tables.tools.get(m.tool.number, m.tool)
-        kept = {} if "tool" in words else {"dl": m.tool.dl - base.dl, "dr": m.tool.dr - base.dr}
-        delta = {"dl": 0.0, "dr": 0.0} | kept | deltas
-        m.change_tool(replace(base, dl=base.dl + delta["dl"], dr=base.dr + delta["dr"]))
+        put_in(m, find(m, words["tool"]) if "tool" in words else None, deltas, words)
     if speed is not None:
         m.spindle(speed=speed)
     if feed is not None:
         m.memory["auto feed"] = feed
-        m.change("feed", feed)
+        m.memory.pop(PER_TOOTH, None)
+        set_feed(m, feed)
+
+
+def put_in(m: Machine, tool: Tool | None, deltas: dict[str, float], words: Words) -> None:
+    """Change to a tool with its deltas, or give the present one other deltas; those not written are 0, or stay."""
+    base = m.tables.tools.get(m.tool.number, m.tool) if tool is None else tool
+    kept = {} if tool else {name: getattr(m.tool, name) - getattr(base, name) for name in DELTAS.values()}
+    changed = {name: getattr(base, name) + value for name, value in (kept | deltas).items()}
+    if changed.get("corner", 0) < 0:
+        corner = base.corner
+        m.alarm(f"TOOL CALL DR2 (delta corner radius) must be at least {-corner:g}, the corner radius", words["DR2"])
+    m.change_tool(replace(base, **changed))
+    with_another_tool(m)
 
 
 def numbers(m: Machine, words: Words, address: str, meaning: str, least: float | None) -> float | None:
@@ -66,16 +77,26 @@ def find(m: Machine, word: Word) -> Tool:
             word,
             hint=f"tools: {', '.join(map(str, sorted(tools)))}",
         )
-    return tools[int(number)]
+    return tools[number]  # type: ignore[index]  # an index such as 5.2 is a row of its own
 
 
 @FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool L R", source="TOOL DEF")
 def tool_def(m: Machine, words: Words) -> None:
-    """With a tool table it only names the next tool; nothing moves."""
+    """With a tool table it only names the next tool; without one it defines length and radius. Nothing moves."""
+    if "tool" not in words:
+        m.alarm("TOOL DEF needs the number of the tool", None, hint="for example TOOL DEF 5 L+100 R+4")
     for address in ("L", "R"):
-        if address in words:
+        if address in words and m.setup.tools:
             m.alarm(
                 f"TOOL DEF {address}: the tool table is active, it holds the dimensions of the tools", words[address]
             )
-    if "tool" in words:
+    if m.setup.tools:
         find(m, words["tool"])
+        return
+    number = words["tool"].value if isinstance(words["tool"].value, str) else m.value(words["tool"])
+    if isinstance(number, str) or number != int(number) or not 0 < number <= LAST:
+        m.alarm(f"TOOL DEF: the tool must be a whole number from 1 to {LAST}", words["tool"])
+    length, radius = (m.value(words[address]) if address in words else 0.0 for address in ("L", "R"))
+    if radius < 0:
+        m.alarm(f"TOOL DEF R (radius) must be at least 0, got {radius:g}", words["R"])
+    m.write_table("tools", int(number), Tool(radius=radius, length=length, number=int(number)))
