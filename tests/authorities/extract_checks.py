@@ -29,7 +29,11 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "tnc620-klartext": ["BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN"],
 }
+
+#: Controls all of whose example programs are copied, for tests of their readers, and how their files begin.
+PROGRAMS = {"tnc-620": "tnc620-"}
 
 #: Files whose G and M codes are listed.
 CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
@@ -53,8 +57,19 @@ def examples(folder, name, codes):
     for code in codes:
         for example in found[code].get("examples") or []:
             check = example.get("check", example.get("checks"))
-            kept = {key: example[key] for key in ("title", "origin", "program", "expected")}
+            kept = {key: example[key] for key in ("title", "origin", "program", "expected") if key in example}
+            kept["title"] = re.sub(r" \(seed lines? [^)]*\)", "", kept["title"])
             yield {"code": code, **kept, "check": check}
+
+
+def programs(folder, prefix):
+    """Every example program, as printed or as it is to be read."""
+    for file in sorted(folder.glob(f"{prefix}*.yaml")):
+        for entry in yaml.safe_load(file.read_text(encoding="utf-8"))["entries"]:
+            for example in entry.get("examples") or []:
+                text = example.get("program_adopted", example.get("program_english", example["program"]))
+                if text:
+                    yield {"code": str(entry["code"]), "program": text}
 
 
 def parameters(folder):
@@ -105,6 +120,8 @@ def save(name, records):
 def main(folder):
     for name, codes in EXAMPLES.items():
         save(name, examples(folder, name, codes))
+    for control, prefix in PROGRAMS.items():
+        save(f"programs-{control}", programs(folder, prefix))
     for control, records in parameters(folder).items():
         save(f"parameters-{control}", records)
     save("codes", listed(folder, CODES))

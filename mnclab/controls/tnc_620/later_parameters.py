@@ -83,9 +83,9 @@ def strange_parameters(built: Container[str]) -> Callable[[Machine, list[Word]],
     def check(m: Machine, words: list[Word]) -> None:
         program: Any = m.flow.program
         code = program.keywords[program.keyword[m.flow.current]]
-        known = PARAMETERS.get(code)
-        for word in words if known and code not in built else ():
-            if word.address not in known:
-                m.warn(f"{code} has no parameter {word.address}", word)
+        if code in PARAMETERS and code not in built:
+            for word in words:
+                if word.address not in PARAMETERS[code]:
+                    m.warn(f"{code} has no parameter {word.address}", word)
 
     return check

@@ -3,7 +3,8 @@
 A block is a number, a statement and its words; ``/`` before or after the number marks a block that may be passed over,
 ``;`` begins a comment, ``*`` a structure block. A block goes on over several lines when a line ends in ``~``, in a
 definition whose further lines carry no number, and in the sub-blocks n.0, n.1, … of older cycles, which become one block.
-So ``Q200=5`` without a number below a definition is a parameter of it; with a number it is an assignment.
+So ``Q200=5`` without a number below a definition is a parameter of it; with a number it is an assignment, and so it is
+where the lines of the definition were joined by ~ and the last one has none.
 
 Plain straight lines (``12 L X+1.5 Y-2 F500 R0``) are found for the whole text at once; every other line is read one by
 one, and a fault ends the reading of its block alone.
@@ -72,13 +73,14 @@ class _Lines:
         self.last = -1  # the line read last
         self.statement: Statement | None = None  # of the block that may go on
         self.tilde = False  # the line before ended in ~
+        self.over = False  # the last line of a block was joined by a ~ and has none itself
         self.skip = self.faulty = self.begun = False
         self.end: int | None = None  # place of END PGM
 
     def read(self, line: int) -> None:
         """One line: a block, a part of the block before it, a comment, or nothing."""
         if line != self.last + 1:
-            self.statement, self.tilde = None, False  # plain lines stand between
+            self.statement, self.tilde, self.over = None, False, False  # plain lines stand between
         self.last = line
         begin, stop, comment, tilde = self.bounds(line)
         joined, self.tilde = self.tilde, tilde
@@ -92,8 +94,10 @@ class _Lines:
         at = begin if joined else head.end()
         try:
             if joined or (not head.group(2) and self.goes_on(at, stop)):
+                self.over = joined and not tilde
                 self.go_on(Cursor(self.builder, at, stop, self.inch))
             else:
+                self.over = False
                 start = begin + len(head.group()) - len(head.group().lstrip(" \t"))
                 self.block(start, bool(head.group(1) or head.group(3)), Cursor(self.builder, at, stop, self.inch))
         except Fault as fault:
@@ -125,7 +129,7 @@ class _Lines:
 
     def goes_on(self, at: int, stop: int) -> bool:
         """Whether a line without a number belongs to the block before it."""
-        if self.statement is None or self.statement.more is None or self.text[at] == "*":
+        if self.statement is None or self.statement.more is None or self.over or self.text[at] == "*":
             return False
         try:
             begins = recognize(Cursor(self.builder, at, stop, self.inch))

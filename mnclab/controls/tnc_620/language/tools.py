@@ -44,8 +44,8 @@ def put_in(m: Machine, tool: Tool | None, deltas: dict[str, float], words: Words
     kept = {} if tool else {name: getattr(m.tool, name) - getattr(base, name) for name in DELTAS.values()}
     changed = {name: getattr(base, name) + value for name, value in (kept | deltas).items()}
     if changed.get("corner", 0) < 0:
-        corner = base.corner
-        m.alarm(f"TOOL CALL DR2 (delta corner radius) must be at least {-corner:g}, the corner radius", words["DR2"])
+        least = f"{0 - base.corner:g}, got {m.value(words['DR2']):g}: the corner radius is {base.corner:g}"
+        m.alarm(f"TOOL CALL DR2 (delta corner radius) must be at least {least}", words["DR2"])
     m.change_tool(replace(base, **changed))
     with_another_tool(m)
 
@@ -61,7 +61,7 @@ def numbers(m: Machine, words: Words, address: str, meaning: str, least: float |
     return value
 
 
-def find(m: Machine, word: Word) -> Tool:
+def find(m: Machine, word: Word, code: str = "TOOL CALL") -> Tool:
     """The tool of a number or a name."""
     tools = m.tables.tools
     if isinstance(word.value, str):
@@ -69,11 +69,11 @@ def find(m: Machine, word: Word) -> Tool:
             if tool.name.upper() == word.value.upper():
                 return tool
         known = ", ".join(f'"{tool.name}"' for tool in tools.values() if tool.name)
-        m.alarm(f'TOOL CALL "{word.value}" has no row in the tool table', word, hint=f"names: {known}")
+        m.alarm(f'{code} "{word.value}" has no row in the tool table', word, hint=f"names: {known}")
     number = m.value(word)
     if number not in tools:
         m.alarm(
-            f"TOOL CALL {number:g} has no row in the tool table",
+            f"{code} {number:g} has no row in the tool table",
             word,
             hint=f"tools: {', '.join(map(str, sorted(tools)))}",
         )
@@ -91,7 +91,7 @@ def tool_def(m: Machine, words: Words) -> None:
                 f"TOOL DEF {address}: the tool table is active, it holds the dimensions of the tools", words[address]
             )
     if m.setup.tools:
-        find(m, words["tool"])
+        find(m, words["tool"], "TOOL DEF")
         return
     number = words["tool"].value if isinstance(words["tool"].value, str) else m.value(words["tool"])
     if isinstance(number, str) or number != int(number) or not 0 < number <= LAST:
