@@ -63,8 +63,8 @@ SCRAPS = st.sampled_from([
 ])  # fmt: skip
 PIECES = [
     "X", "+", "-", ".", ",", "9", "0", " ", "\n", "\r", ";", "~", "/", '"', "=", "(", "#", "Q1", "Q201=", "RL", "RR", "R0",
-    "FMAX", "FU0.1", "FZ.1 ", "FAUTO", "M91 ", "M103 F20", "M118 X1", "M99", "M110", "M6", "M13 ", "LBL 1\n", "TOOL DEF 5 L+1", "\ufeff",
-    "CYCL DEF 200", "CYCL CALL\n", "BLK FORM 0.2 ", "1e9", "999999", "INCH", " DR2+1", "-Q5", "QS1", "CC X+1 Y+1\n",
+    "FMAX", "FU0.1", "FZ.1 ", "FAUTO", "M91 ", "M103 F20", "M118 X1", "M99", "M110", "M6", "M13 ", "LBL 1\n", "TOOL DEF 5 L+1",
+    "\ufeff", "CYCL DEF 200", "CYCL CALL\n", "BLK FORM 0.2 ", "1e9", "999999", "INCH", " DR2+1", "-Q5", "QS1", "CC X+1 Y+1\n",
     "DR-", "C X+1 ",
 ]  # fmt: skip
 
