@@ -81,7 +81,6 @@ REFUSED = [
     ("2 LX+5 Y", 3, 3, "LX is no statement of this control (near: L)"),
     ("2 END PGM B", 3, 11, "the unit of the program is missing: MM or INCH must follow its name"),
     ("2 CYCL DEF", 3, 11, "CYCL DEF needs the number of a cycle"),
-    ("2 CYCL DEF 9999", 3, 1, "CYCL DEF 9999 is not a function of this control"),
     ("2 CYCL DEF 7.0 D\n/3 CYCL DEF 7.1 X+5", 4, 4, "all sub-blocks of a cycle must be marked with / or none"),
     ("2 CYCL DEF 200 D\nQ200=2 5", 4, 8, "'5' needs an address before it (a blank inside a number splits it)"),
     ("2 CYCL DEF 200 D\nQ200=1,2,3", 4, 9, "a number has only one decimal point"),
@@ -95,6 +94,12 @@ def test_refused(blocks: str, line: int, column: int, text: str) -> None:
     alarms = [a for a in run.alarms if a.severity == "alarm"]
     found = [(a.span.line, a.span.column, a.message + (f" ({a.hint})" if a.hint else "")) for a in alarms]
     assert found == [(line, column, text)]
+
+
+@pytest.mark.parametrize("code", ["CYCL DEF 9999", "TCH PROBE 9999", "CYCL DEF 6", "FN 99"])
+def test_numbers_that_nobody_knows(code: str) -> None:
+    (alarm,) = mnc.run(f"1 {code} X\n", "tnc-620").alarms
+    assert (alarm.span[:2], alarm.message) == ((1, 1), f"{code} is not a function of this control")
 
 
 def test_a_blank_without_its_second_corner_is_remarked() -> None:
