@@ -315,9 +315,9 @@ def _plain(value: Any) -> str:
         return ""
     if isinstance(value, int | float):
         return figure(float(value), 6)
-    if isinstance(value, tuple) and np.asarray(value).shape == (4, 4):
+    if isinstance(value, tuple) and all(isinstance(row, tuple) and len(row) == 4 for row in value):
         return _describe(np.array(value)) or "none"
-    if isinstance(value, tuple) and np.asarray(value).ndim == 1:
+    if isinstance(value, tuple) and all(isinstance(each, int | float) for each in value):
         return " ".join(figure(each, 4) for each in value)
     number = getattr(value, "number", None)
     return f"T{number} {value.name}".strip() if number is not None else str(value)

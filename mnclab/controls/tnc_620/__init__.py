@@ -88,7 +88,7 @@ MEANINGS = {
     "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
-    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
+    "text": "name of the tool in a text parameter", "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
 }  # fmt: skip
 
 _KLARTEXT = re.compile(

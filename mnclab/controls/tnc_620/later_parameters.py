@@ -6,7 +6,6 @@ Once a cycle is built, its own declaration counts and its entry here no more.
 from __future__ import annotations
 
 from collections.abc import Callable, Container
-from typing import Any
 
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
@@ -77,12 +76,10 @@ PARAMETERS = {
 }
 
 
-def strange_parameters(built: Container[str]) -> Callable[[Machine, list[Word]], None]:
+def strange_parameters(built: Container[str]) -> Callable[[Machine, str, list[Word]], None]:
     """Warns about parameters that a cycle, known and not built, does not have."""
 
-    def check(m: Machine, words: list[Word]) -> None:
-        program: Any = m.flow.program
-        code = program.keywords[program.keyword[m.flow.current]]
+    def check(m: Machine, code: str, words: list[Word]) -> None:
         if code in PARAMETERS and code not in built:
             for word in words:
                 if word.address not in PARAMETERS[code]:

@@ -36,6 +36,7 @@ REFUSED = [
     ("2 TOOL CALL 1 Z DR2-1", 3, 17,
      "TOOL CALL DR2 (delta corner radius) must be at least 0, got -1: the corner radius is 0"),
     ("2 TOOL CALL Q7 Z", 3, 13, "no value was given to Q7"),
+    ("2 TOOL CALL QS7 Z", 3, 13, "TOOL CALL: no text was given to QS7"),
     ("2 TOOL DEF 5 L+10 R+4", 3, 14, "TOOL DEF L: the tool table is active, it holds the dimensions of the tools"),
     ("2 TOOL DEF 77", 3, 12, "TOOL DEF 77 has no row in the tool table (tools: 0, 1, 2, 3, 4, 5, 6)"),
     ("2 TOOL DEF", 3, 1, "TOOL DEF needs the number of the tool (for example TOOL DEF 5 L+100 R+4)"),

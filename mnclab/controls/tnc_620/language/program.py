@@ -22,6 +22,10 @@ class Blank(NamedTuple):
     minimum: Corner
     maximum: Corner | None = None
 
+    def __str__(self) -> str:
+        corners = (corner for corner in (self.minimum, self.maximum) if corner)
+        return " to ".join("X{:g} Y{:g} Z{:g}".format(*corner) for corner in corners)
+
 
 def start(m: Machine) -> None:
     """The active preset is the datum of the program (setting "preset")."""

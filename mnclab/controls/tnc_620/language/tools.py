@@ -15,7 +15,7 @@ LAST = 32767  # number of a tool
 DELTAS = {"DL": "dl", "DR": "dr", "DR2": "corner"}  # words and the dimensions that they are added to
 
 
-@FUNCTIONS("TOOL CALL,", "Tool call", takes="tool axis S F DL DR DR2", source="TOOL CALL")
+@FUNCTIONS("TOOL CALL,", "Tool call", takes="tool text axis S F DL DR DR2", source="TOOL CALL")
 def tool_call(m: Machine, words: Words) -> None:
     """Puts the tool into the spindle with its deltas; without a tool only speed, feed and deltas change."""
     if m.side:
@@ -28,8 +28,9 @@ def tool_call(m: Machine, words: Words) -> None:
         m.alarm(f"TOOL CALL: the tool axis {words['axis'].value} is not built yet, Z is", words["axis"])
     speed, feed = numbers(m, words, "S", "spindle speed", 0), numbers(m, words, "F", "feed rate", None)
     deltas = {DELTAS[name]: m.value(words[name]) for name in DELTAS if name in words}
-    if "tool" in words or deltas:
-        put_in(m, find(m, words["tool"]) if "tool" in words else None, deltas, words)
+    word = words.get("tool", words.get("text"))
+    if word or deltas:
+        put_in(m, find(m, word, "TOOL CALL") if word else None, deltas, words)
     if speed is not None:
         m.spindle(speed=speed)
     if feed is not None:
@@ -61,15 +62,19 @@ def numbers(m: Machine, words: Words, address: str, meaning: str, least: float |
     return value
 
 
-def find(m: Machine, word: Word, code: str = "TOOL CALL") -> Tool:
-    """The tool of a number or a name."""
-    tools = m.tables.tools
-    if isinstance(word.value, str):
+def find(m: Machine, word: Word, code: str) -> Tool:
+    """The tool of a number, of a name, or of the name in a text parameter."""
+    tools, name = m.tables.tools, word.value
+    if word.address == "text":
+        name = dict(m.variables).get(str(word.value))
+        if not isinstance(name, str):
+            m.alarm(f"{code}: no text was given to {word.value}", word)
+    if isinstance(name, str):
         for tool in tools.values():
-            if tool.name.upper() == word.value.upper():
+            if tool.name.upper() == name.strip().upper():
                 return tool
         known = ", ".join(f'"{tool.name}"' for tool in tools.values() if tool.name)
-        m.alarm(f'{code} "{word.value}" has no row in the tool table', word, hint=f"names: {known}")
+        m.alarm(f'{code} "{name}" has no row in the tool table', word, hint=f"names: {known}")
     number = m.value(word)
     if number not in tools:
         m.alarm(
@@ -80,10 +85,11 @@ def find(m: Machine, word: Word, code: str = "TOOL CALL") -> Tool:
     return tools[number]  # type: ignore[index]  # an index such as 5.2 is a row of its own
 
 
-@FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool L R", source="TOOL DEF")
+@FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool text L R", source="TOOL DEF")
 def tool_def(m: Machine, words: Words) -> None:
     """With a tool table it only names the next tool; without one it defines length and radius. Nothing moves."""
-    if "tool" not in words:
+    word = words.get("tool", words.get("text"))
+    if word is None:
         m.alarm("TOOL DEF needs the number of the tool", None, hint="for example TOOL DEF 5 L+100 R+4")
     for address in ("L", "R"):
         if address in words and m.setup.tools:
@@ -91,11 +97,11 @@ def tool_def(m: Machine, words: Words) -> None:
                 f"TOOL DEF {address}: the tool table is active, it holds the dimensions of the tools", words[address]
             )
     if m.setup.tools:
-        find(m, words["tool"], "TOOL DEF")
+        find(m, word, "TOOL DEF")
         return
-    number = words["tool"].value if isinstance(words["tool"].value, str) else m.value(words["tool"])
+    number = word.value if isinstance(word.value, str) else m.value(word)
     if isinstance(number, str) or number != int(number) or not 0 < number <= LAST:
-        m.alarm(f"TOOL DEF: the tool must be a whole number from 1 to {LAST}", words["tool"])
+        m.alarm(f"TOOL DEF: the tool must be a whole number from 1 to {LAST}", word)
     length, radius = (m.value(words[address]) if address in words else 0.0 for address in ("L", "R"))
     if radius < 0:
         m.alarm(f"TOOL DEF R (radius) must be at least 0, got {radius:g}", words["R"])
