@@ -315,9 +315,11 @@ def _plain(value: Any) -> str:
         return ""
     if isinstance(value, int | float):
         return figure(float(value), 6)
-    if isinstance(value, tuple) and all(isinstance(row, tuple) and len(row) == 4 for row in value):
+    if isinstance(value, str):
+        return value
+    if isinstance(value, tuple) and len(value) == 4 and np.shape(value[-1]) == (4,):
         return _describe(np.array(value)) or "none"
-    if isinstance(value, tuple) and all(isinstance(each, int | float) for each in value):
-        return " ".join(figure(each, 4) for each in value)
+    if isinstance(value, tuple):
+        return " ".join(figure(each, 4) if isinstance(each, int | float) else _plain(each) for each in value)
     number = getattr(value, "number", None)
     return f"T{number} {value.name}".strip() if number is not None else str(value)

@@ -26,9 +26,12 @@ from mnclab.controls.tnc_620.language import (
     feed_rules,
     feeds,
     flow,
+    joints,
     machine_datum,
     motion,
     parameters,
+    polar,
+    pole,
     program,
     tools,
 )
@@ -47,7 +50,7 @@ SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
-    Setting("controlled_spindle", True, "the spindle can stop at an angle, as cycles 202 and 204 need it", "4.5"),
+    Setting("controlled_spindle", True, "the spindle's angle is controlled, as 202, 204, 207, 209 need it", "4.5, 5.3"),
     Setting(
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
@@ -66,7 +69,8 @@ SETTINGS = (
 )  # fmt: skip
 
 FUNCTIONS = feeds.in_all_forms(
-    motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
+    pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
+    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | machine_datum.FUNCTIONS | feed_rules.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
@@ -85,7 +89,8 @@ MEANINGS = {
     "M103:F": "share downwards in percent",
     "FU": "feed per revolution", "FZ": "feed per tooth", "S": "spindle speed",
     "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
-    "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
+    "RR": "compensation to the right", "LEN": "length", "PR": "polar radius", "PA": "polar angle",
+    "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
     "text": "name of the tool in a text parameter", "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",

@@ -91,6 +91,13 @@ def test_rotary_axes_within_one_turn(inside, word: str) -> None:
     assert run.ok and run.toolpath.motion.rotary.tolist() == [[0, 0, 0]] * 2 and not math.isnan(run.profile().time)
 
 
+def test_a_rotary_axis_counts_on_from_less_than_a_turn(inside) -> None:
+    """C stands at 370 degrees; after M94 at 10, so that C+15 is 5 degrees away."""
+    run = inside("2 L C+370 A+400 FMAX\n3 L X+1 M94 C\n4 L C+15 FMAX")
+    degrees = [[round(math.degrees(a)) for a in move.rotary] for move in run.toolpath.motion]
+    assert run.ok and degrees == [[400, 0, 370], [400, 0, 10], [400, 0, 15]]
+
+
 def test_own_words_of_m_functions_do_not_meet_those_of_the_block(inside) -> None:
     run = inside("2 L X+0 Y+38.5 F125 M118 X1 Y1 Z+0.5\n3 L X+1 F500 M103 F20")
     assert run.ok and [(a.span[:2], a.message) for a in run.alarms] == [
