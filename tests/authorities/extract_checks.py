@@ -30,6 +30,7 @@ EXAMPLES = {
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
     "tnc620-klartext": ["BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN"],
+    "tnc620-special": ["CYCL DEF 12"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
