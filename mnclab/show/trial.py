@@ -99,8 +99,14 @@ def _nc_31(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
     return "\n".join(["S800", "M3", "F20", "X4000 ~ *", "Z200 ~", " *\n".join(frames), ""])
 
 
+def _g43(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+    block = " ".join([cycle.code, *(address + number(value) for address, value in words)])
+    return f"T2 M6\nG43 G0 X0 Y0 Z20 S1000 M3\n{block}\nG80\n"
+
+
 PROGRAMS: dict[str, Callable[[Any, Sequence[tuple[str, float]]], str | None]] = {
     "mnc": _mnc,
     "tnc-620": _tnc_620,
     "nc-31": _nc_31,
+    "g43": _g43,
 }

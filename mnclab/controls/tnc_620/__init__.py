@@ -26,8 +26,11 @@ from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
     calls,
+    feed_rules,
+    feeds,
     flow,
     joints,
+    machine_datum,
     motion,
     parameters,
     pattern_calls,
@@ -37,6 +40,7 @@ from mnclab.controls.tnc_620.language import (
     program,
     tools,
 )
+from mnclab.controls.tnc_620.later_parameters import strange_parameters
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -57,6 +61,12 @@ SETTINGS = (
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
     ),
+    Setting("m6_stop", False, "M6 stops the program for a change of the tool by hand", "M6"),
+    Setting("spindle_angle", 0, "where M19 and M20 stop the spindle without Cycle 13", "12.5", unit="deg"),
+    *(
+        Setting(f"m92_{axis}", 0, f"{axis.upper()} of the position that M92 counts from", "M92", unit="mm")
+        for axis in "xyz"
+    ),
     Setting(
         "pattern_cycles", "refuse", "cycles 220 and 221 with a cycle that the manual does not name for them", "7.1",
         {"refuse": "an alarm", "warn": "a warning, and they run"},
@@ -68,10 +78,11 @@ SETTINGS = (
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
-FUNCTIONS = (
+FUNCTIONS = feeds.in_all_forms(
     pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
-    | auxiliary.FUNCTIONS | calls.FUNCTIONS | pattern_calls.FUNCTIONS | patterns.FUNCTIONS
+    | machine_datum.FUNCTIONS | feed_rules.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | pattern_calls.FUNCTIONS | patterns.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in (
@@ -88,12 +99,15 @@ for chapter in (
 
 #: What the words of statements are.
 MEANINGS = {
-    "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "S": "spindle speed",
+    "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL",
+    "M103:F": "share downwards in percent",
+    "FU": "feed per revolution", "FZ": "feed per tooth", "S": "spindle speed",
     "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
     "RR": "compensation to the right", "LEN": "length", "PR": "polar radius", "PA": "polar angle",
     "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
+     "text": "name of the tool in a text parameter",
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
@@ -122,9 +136,10 @@ CONTROL = Control(
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
     refused=later.refused(FUNCTIONS, CYCLES),
+    together=strange_parameters(CYCLES),
     meanings=MEANINGS,
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
-    named=motion.named,
+    named=feeds.named,
     preassigned=parameters.PREASSIGNED,
     local_variables="QL",
     predefined=defaults.predefined,
