@@ -61,6 +61,9 @@ NAMES = {
     "number_in_table": "row",
     "datum_ts_axis": "datum",
     "measured_value_transfer": "transfer",
+    "center_axis_1": "centre_x",
+    "center_axis_2": "centre_y",
+    "slot_position_reference": "slot_position",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -142,9 +145,10 @@ def tabled(row):
     adopted = re.fullmatch(rf".*adopt ({NUMBER})", str(default))
     return {
         "limits": limits(row.get("range")),
-        "choices": {float(choice) for choice in row.get("choices") or ()},
+        "choices": {float(choice) for choice in row.get("choices") or () if choice != "PREDEF"},
         "default": float(adopted[1]) if adopted else default if isinstance(default, int | float) else None,
-        "also": {*re.findall(r"\b(F[A-Z]+|PREDEF)\b", row.get("range", "")), *row.get("alternatives", ())},
+        "also": {*re.findall(r"\b(F[A-Z]+|PREDEF)\b", row.get("range", "")), *row.get("alternatives", ())}
+        | {"PREDEF"}.intersection(row.get("choices") or ()),
         **{key: row.get(key) for key in ("unit", "type", "required", "modal", "incremental")},
     }
 

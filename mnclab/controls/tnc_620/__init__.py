@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620 import later, reader
-from mnclab.controls.tnc_620.cycles import contours, drilling, transformations
+from mnclab.controls.tnc_620.cycles import contours, drilling, pockets, slots, transformations
 from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
@@ -24,6 +24,7 @@ SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
+    Setting("plunge_error", True, "a helix narrower than twice the tool is an alarm (suppressPlungeErr, no. 201006)", "6.2"),
     Setting(
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
@@ -35,7 +36,7 @@ FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS
 )  # fmt: skip
-CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
+CYCLES = drilling.CYCLES | contours.CYCLES | pockets.CYCLES | slots.CYCLES | transformations.CYCLES | presets.CYCLES
 
 _KLARTEXT = re.compile(
     r"^[ \t\ufeff]*\d*[ \t]*(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M
