@@ -29,6 +29,7 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "tnc620-pockets": ["CYCL DEF 251", "CYCL DEF 252", "CYCL DEF 253", "CYCL DEF 254", "PGM C210 (section 6.10)"],
 }
 
 #: Files whose G and M codes are listed.
@@ -53,7 +54,7 @@ def examples(folder, name, codes):
     for code in codes:
         for example in found[code].get("examples") or []:
             check = example.get("check", example.get("checks"))
-            kept = {key: example[key] for key in ("title", "origin", "program", "expected")}
+            kept = {key: example[key] for key in ("title", "origin", "program", "expected") if key in example}
             yield {"code": code, **kept, "check": check}
 
 

@@ -150,7 +150,7 @@ class Pocket(InsideMilling):
             )  # fmt: skip
             perform(m, self.code, layers, centre)
         clearing, levels = self.clearing(radius, 0.0), self.wall_levels()
-        if self.finishes_side and clearing.passes:
+        if self.finishes_side and clearing.passes and clearing.passes[-1].closed:
             wall, size = clearing.passes[-1], min(self.side_allowance + self.clearance, whole.half_width)
             around = finish_walls(
                 wall, levels, above=levels[0] + self.lift, clearance=self.lift, feeds=self.side_feeds(radius),

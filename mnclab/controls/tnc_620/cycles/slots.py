@@ -79,12 +79,12 @@ class Slot(InsideMilling):
 
     def is_as_wide_as(self, radius: float) -> bool:
         """Whether the tool just fits."""
-        return abs(self.slot_width - 2 * radius) <= SAME
+        return abs(self.slot_width / 2 - radius) <= concentric.NOTHING
 
     def check_figure(self, m: Machine) -> Iterator[tuple[str, str]]:
         """The tool fits, and gets down."""
         least = 2 * m.radius
-        if self.slot_width < least - SAME:
+        if self.slot_width < least and not self.is_as_wide_as(m.radius):
             yield "slot_width", f"must be at least the tool diameter, {least:g}, got {self.slot_width:g}"
         least += 2 * self.side_allowance
         if self.slot_width < least - SAME and not self.is_as_wide_as(m.radius):
@@ -108,9 +108,10 @@ class Slot(InsideMilling):
     def clearing(self, line: Contour, radius: float, allowance: float) -> Clearing:
         """Along the line and round it; on circles where the slot has no length."""
         width = self.slot_width
+        if self.is_as_wide_as(radius):
+            width, allowance = 2 * radius, 0.0
         if line.length <= concentric.NOTHING:
-            spare = 0.0 if self.is_as_wide_as(radius) else allowance
-            return concentric.circle(width, radius, radius, allowance=spare, climb=self.climb, angle=math.pi)
+            return concentric.circle(width, radius, radius, allowance=allowance, climb=self.climb, angle=math.pi)
         return concentric.slot(line, width, radius, allowance=allowance, climb=self.climb)
 
     def down(self, m: Machine, line: Contour) -> Down:
@@ -219,7 +220,7 @@ class CircularSlot(Slot):
 
     def check_figure(self, m: Machine) -> Iterator[tuple[str, str]]:
         """As all slots; the centre of the pitch circle lies outside of them."""
-        if self.pitch_circle_diameter <= self.slot_width:
+        if self.pitch_circle_diameter <= self.slot_width + concentric.NOTHING:
             found = f"{self.slot_width:g}, got {self.pitch_circle_diameter:g}"
             yield "pitch_circle_diameter", f"must be greater than the slot width Q219, {found}"
         yield from super().check_figure(m)
