@@ -23,8 +23,8 @@ def tables(control):
     return {code: entry["parameters"] for entry in entries for code in (entry["code"], *entry["aliases"])}
 
 
-TABLES = {control: tables(control) for control in mnclab.controls}
-CYCLES = [(control, code) for control in mnclab.controls for code in mnclab.controls[control].cycles]
+TABLES = {control: tables(control) for control in mnclab.controls if control != "g43"}  # its source has no cycles
+CYCLES = [(control, code) for control in TABLES for code in mnclab.controls[control].cycles]
 
 #: Our names where the table has a longer one: the word that the address does not say already.
 NAMES = {
@@ -85,6 +85,8 @@ EXPLAINED = {
     ("tnc-620", "CYCL DEF 22", "Q208", "default"): (math.inf, "FMAX"),
     ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 14", "LBL", "limits"): ({">=": 1, "<=": 65535}, "of each; twelve at most are a check"),
+    **{("tnc-620", f"CYCL DEF {n}", "Q355", "choices"): (set(), "2, 3, … too: any whole number") for n in (262, 267)},
+    **{("tnc-620", f"CYCL DEF {n}", "Q355", "type"): ("integer", "of a pitch per step") for n in (262, 267)},
     **{("nc-31", "G77", axis, "limits"): ({}, "any whole number of its unit") for axis in "XZ"},
     **{("nc-31", "G77", axis, "type"): ("number", "the reader refuses what is not whole") for axis in "XZ"},
     ("nc-31", "G77", "X", "unit"): ("0.01 mm", "that X is a diameter is in its meaning"),
@@ -145,7 +147,7 @@ def tabled(row):
     adopted = re.fullmatch(rf".*adopt ({NUMBER})", str(default))
     return {
         "limits": limits(row.get("range")),
-        "choices": {float(choice) for choice in row.get("choices") or () if choice != "PREDEF"},
+        "choices": {float(choice) for choice in row.get("choices") or () if re.fullmatch(NUMBER, str(choice))},
         "default": float(adopted[1]) if adopted else default if isinstance(default, int | float) else None,
         "also": {*re.findall(r"\b(F[A-Z]+|PREDEF)\b", row.get("range", "")), *row.get("alternatives", ())}
         | {"PREDEF"}.intersection(row.get("choices") or ()),

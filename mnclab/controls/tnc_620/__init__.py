@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620 import later, reader
-from mnclab.controls.tnc_620.cycles import contours, drilling, pockets, slots, transformations
+from mnclab.controls.tnc_620.cycles import contours, drilling, pockets, slots, tapping, thread_drilling, threads
+from mnclab.controls.tnc_620.cycles import transformations
 from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
@@ -29,6 +30,10 @@ SETTINGS = (
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
     ),
+    Setting(
+        "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
+        unit="s", at_least=0,
+    ),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -36,7 +41,19 @@ FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS
 )  # fmt: skip
-CYCLES = drilling.CYCLES | contours.CYCLES | pockets.CYCLES | slots.CYCLES | transformations.CYCLES | presets.CYCLES
+CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
+CYCLES |= tapping.CYCLES | threads.CYCLES | thread_drilling.CYCLES
+CYCLES |= pockets.CYCLES | slots.CYCLES
+
+#: What the words of statements are.
+MEANINGS = {
+    "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "S": "spindle speed",
+    "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
+    "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
+    "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
+    "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
+    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
+}  # fmt: skip
 
 _KLARTEXT = re.compile(
     r"^[ \t\ufeff]*\d*[ \t]*(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M
@@ -59,6 +76,7 @@ CONTROL = Control(
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
     refused=later.refused(FUNCTIONS, CYCLES),
+    meanings=MEANINGS,
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0),
     named=motion.named,
 )
