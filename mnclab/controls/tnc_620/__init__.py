@@ -9,8 +9,16 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620 import later, reader
-from mnclab.controls.tnc_620.cycles import contours, drilling, pockets, slots, tapping, thread_drilling, threads
-from mnclab.controls.tnc_620.cycles import transformations
+from mnclab.controls.tnc_620.cycles import (
+    contours,
+    drilling,
+    pockets,
+    slots,
+    tapping,
+    thread_drilling,
+    threads,
+    transformations,
+)
 from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
