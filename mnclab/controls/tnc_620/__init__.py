@@ -10,8 +10,10 @@ import re
 
 from mnclab.controls.tnc_620 import later, reader
 from mnclab.controls.tnc_620.cycles import (
+    boring,
     contours,
     drilling,
+    pecking,
     pockets,
     slots,
     tapping,
@@ -23,6 +25,7 @@ from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, m
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
+from mnclab.machine.cycle import CycleTable
 from mnclab.machine.settings import Setting
 from mnclab.path.compensation import Compensation
 
@@ -33,6 +36,7 @@ SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
+    Setting("controlled_spindle", True, "the spindle can stop at an angle, as cycles 202 and 204 need it", "4.5"),
     Setting("plunge_error", True, "a helix narrower than twice the tool is an alarm (suppressPlungeErr, no. 201006)", "6.2"),
     Setting(
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
@@ -49,9 +53,16 @@ FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS
 )  # fmt: skip
-CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
-CYCLES |= tapping.CYCLES | threads.CYCLES | thread_drilling.CYCLES
-CYCLES |= pockets.CYCLES | slots.CYCLES
+CYCLES = CycleTable()
+for chapter in (
+    drilling, boring, pecking,
+    tapping, threads, thread_drilling,
+    pockets, slots,
+    contours,
+    transformations,
+    presets,
+):  # fmt: skip
+    CYCLES |= chapter.CYCLES
 
 #: What the words of statements are.
 MEANINGS = {

@@ -1,11 +1,9 @@
 """What the cycles for pockets, slots and studs share (chapter 6): depths, heights, what is done, and the feeds for it.
 
-    s = sign of Q201, -1 downwards                         Z_floor = Q203 + Q201
-    set-up plane Q203 - s·Q200                             second one Q203 + Q204, if it is the higher of the two
-    roughing: infeeds of Q202, at most LCUTS, down to Z_floor - s·Q369; the rest last
-    side finishing: infeeds of Q338, or one, down to the same level;  floor finishing: one infeed at Z_floor
+    roughing: infeeds of Q202, at most LCUTS, down to Q369 above the floor; the last one is the rest
+    side finishing: infeeds of Q338, or one, down to the same level;  floor finishing: one infeed at Q203 + Q201
 
-A cycle says where its figure lies and which passes make it; `to_start` and `leave` go to it and away from it.
+A cycle says where its figure lies and which passes make it; `to_start` and `to_end` go to it and away from it.
 """
 
 from __future__ import annotations
@@ -15,7 +13,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.machine.cycle import Cycle, too_many
+from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machining.depths import infeeds
@@ -28,7 +27,7 @@ ORIGIN = (0.0, 0.0)
 
 
 @dataclass(frozen=True)
-class FigureMilling(Cycle):
+class FigureMilling(AtSurface):
     """A figure that is roughed in layers, then finished at its side and on its floor where allowances were left."""
 
     machining_operation: float = addresses.operation(example=0)
@@ -69,20 +68,14 @@ class FigureMilling(Cycle):
 
     # --- heights -----------------------------------------------------------------------------------------------------
 
-    @property
-    def up(self) -> float:
-        """+1 where the tool works downwards, -1 with a positive depth."""
-        return -math.copysign(1.0, self.depth)
+    def depths(self) -> dict[str, float]:
+        """Q201 alone."""
+        return {"depth": self.depth}
 
     @property
     def lift(self) -> float:
         """The set-up clearance as an increment against the direction of work."""
-        return self.up * self.clearance
-
-    @property
-    def set_up(self) -> float:
-        """The set-up plane."""
-        return self.surface + self.lift
+        return self.down * self.clearance
 
     @property
     def end(self) -> float:
@@ -97,7 +90,7 @@ class FigureMilling(Cycle):
     @property
     def left_over(self) -> float:
         """Where roughing and side finishing end."""
-        return self.floor + self.up * self.floor_allowance
+        return self.floor + self.down * self.floor_allowance
 
     def levels(self, tool: Tool) -> tuple[float, ...]:
         """Of roughing."""
@@ -138,8 +131,7 @@ class FigureMilling(Cycle):
         """The sign of the depth, a tool with a radius, feeds for all that is done; what else :meth:`check_figure` finds."""
         if self.depth == 0:
             return
-        if self.depth > 0 and m.settings["depth_error"]:
-            yield "depth", f"must be negative, got {self.depth:g}: a positive depth works upwards"
+        yield from self.signs(m)
         if m.radius <= 0:
             yield "", f"needs a tool with a radius, got {m.radius:g}"
         finishes = self.finishes_side or self.finishes_floor
@@ -160,14 +152,11 @@ class FigureMilling(Cycle):
         steps = [
             Go("to the second set-up clearance", max(m.programmed[2], self.end)),
             Go("over the start", x=place[0], y=place[1]),
-            Go("to the set-up clearance", self.set_up),
+            Go("to the set-up clearance", self.above),
         ]
         perform(m, self.code, steps, ORIGIN)
 
-    def leave(self, m: Machine, place: tuple[float, float] | None = None) -> None:
-        """At rapid to the second set-up plane, working upwards by way of the set-up plane; and to the place, if any."""
-        steps = [Go("retract", self.set_up)] if self.depth > 0 else []
-        steps.append(Go("to the second set-up clearance", self.end))
-        if place is not None:
-            steps.append(Go("back", x=place[0], y=place[1]))
-        perform(m, self.code, steps, ORIGIN)
+    def to_end(self, m: Machine, place: tuple[float, float] | None = None) -> None:
+        """At rapid to the plane at the end, and there to the place, if any."""
+        back = [] if place is None else [Go("back", x=place[0], y=place[1])]
+        perform(m, self.code, [*self.leave(), *back], ORIGIN)

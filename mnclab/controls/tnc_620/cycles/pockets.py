@@ -122,13 +122,13 @@ class Pocket(InsideMilling):
             found = f"{2 * room.half_length:g} is less than twice the tool diameter, {4 * m.radius:g}"
             yield "plunging_strategy", f"2 has no room for a ramp: {found}"
         step = self.levels(m.tool)[0] - self.surface
-        yield from too_many("plunging_strategy", lambda: self.down(m)(0.0, step))
+        yield from too_many("plunging_strategy", lambda: self.way_in(m)(0.0, step))
 
     def check_size(self, radius: float) -> Iterator[tuple[str, str]]:
         """Whether the tool and its allowance fit into the pocket."""
         raise NotImplementedError
 
-    def down(self, m: Machine) -> Down:
+    def way_in(self, m: Machine) -> Down:
         """The way from one level to another; straight down where a helix is as narrow as the tool."""
         room = self.room(m.radius, self.side_allowance)
         sloping = self.slopes(m) and not (self.plunging_strategy == 1 and room.half_width < concentric.NOTHING)
@@ -145,7 +145,7 @@ class Pocket(InsideMilling):
         if self.roughs:
             layers = rough(
                 self.clearing(radius, self.side_allowance), self.levels(m.tool), surface=self.surface,
-                clearance=self.lift, down=self.down(m), feeds=self.roughing_feeds(radius),
+                clearance=self.lift, down=self.way_in(m), feeds=self.roughing_feeds(radius),
                 departure=min(self.clearance, room.half_width), side=side, end=self.last_lift(),
             )  # fmt: skip
             perform(m, self.code, layers, centre)
@@ -163,7 +163,7 @@ class Pocket(InsideMilling):
                 feeds=self.floor_feeds(radius), departure=min(self.clearance, whole.half_width), side=side,
             )  # fmt: skip
             perform(m, self.code, bottom, centre)
-        self.leave(m, called)
+        self.to_end(m, called)
 
     def onto_floor(self, room: Room, top: float, bottom: float) -> Descent:
         """On a quarter circle along the reference axis, which touches the floor in the middle; straight without room."""

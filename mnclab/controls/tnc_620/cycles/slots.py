@@ -95,7 +95,7 @@ class Slot(InsideMilling):
             if self.line_length <= concentric.NOTHING:
                 yield "plunging_strategy", f"{self.plunging_strategy:g} has no room for a ramp: the slot is round"
             step = self.levels(m.tool)[0] - self.surface
-            yield from too_many("plunging_strategy", lambda: self.down(m, line)(0.0, step))
+            yield from too_many("plunging_strategy", lambda: self.way_in(m, line)(0.0, step))
         yield from too_many("slot_width", lambda: self.clearing(line, m.radius, 0.0))
         passes = self.slots * len(self.clearing(line, m.radius, self.side_allowance).passes)
         yield from few_passes("infeed", len(self.levels(m.tool)), passes)
@@ -114,7 +114,7 @@ class Slot(InsideMilling):
             return concentric.circle(width, radius, radius, allowance=allowance, climb=self.climb, angle=math.pi)
         return concentric.slot(line, width, radius, allowance=allowance, climb=self.climb)
 
-    def down(self, m: Machine, line: Contour) -> Down:
+    def way_in(self, m: Machine, line: Contour) -> Down:
         """To and fro along the line, or straight down at its beginning."""
         if self.slopes(m):
             return lambda top, bottom: swing(line, top, bottom, m.tool.plunge_angle)
@@ -135,16 +135,16 @@ class Slot(InsideMilling):
                 self.rough(m, place)
             if not fits:
                 self.finish(m, place)
-            self.leave(m)
+            self.to_end(m)
         if last is not None:
-            self.leave(m, last)
+            self.to_end(m, last)
 
     def rough(self, m: Machine, place: Place) -> None:
         """Layer by layer, out of the slot after each."""
         feeds, side = self.roughing_feeds(m.radius), 1 if self.climb else -1
         layers = rough_slot(
             place.line, lambda line: self.clearing(line, m.radius, self.side_allowance), self.levels(m.tool),
-            surface=self.surface, above=self.set_up, clearance=self.lift, down=self.down(m, place.line), feeds=feeds,
+            surface=self.surface, above=self.above, clearance=self.lift, down=self.way_in(m, place.line), feeds=feeds,
             side=side,
         )  # fmt: skip
         perform(m, self.code, layers, place.start)
@@ -163,7 +163,7 @@ class Slot(InsideMilling):
             bottom = finish_floor(
                 self.clearing(place.line, radius, 0.0), self.floor, top=self.left_over, clearance=self.lift,
                 down=straight, feeds=self.floor_feeds(radius), departure=0.0, side=side,
-                end=self.set_up,
+                end=self.above,
             )  # fmt: skip
             perform(m, self.code, bottom, place.start)
 
@@ -216,7 +216,7 @@ class CircularSlot(Slot):
         "Q248", "opening angle of the slot", at_least=0, incremental=True, example=90
     )
     stepping_angle: float = addresses.angle("Q378", "stepping angle", incremental=True, example=180)
-    repetitions: float = addresses.count("Q377", "number of slots", at_least=1, at_most=99999, example=2)
+    repetitions: float = addresses.count("Q377", "number of slots", 99999, at_least=1, example=2)
 
     def check_figure(self, m: Machine) -> Iterator[tuple[str, str]]:
         """As all slots; the centre of the pitch circle lies outside of them."""
