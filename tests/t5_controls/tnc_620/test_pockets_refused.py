@@ -3,7 +3,10 @@
 Tool 1 has a radius of 5 and plunges at 3 degrees, tool 2 does not say how steeply, tool 3 has no radius.
 """
 
+import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Setup, Tool
@@ -141,3 +144,41 @@ def test_not_refused(number, change, settings):
     """The neighbours of what is refused, and what the settings allow."""
     found, _ = alarms(number, 1, change, **settings)
     assert found == []
+
+
+ODD = {
+    "Q218": (0, 10, 10.4, 12, 80), "Q219": (0, 10, 10.0000001, 10.000004, 12, 30), "Q223": (0, 10, 10.4000004, 20, 60),
+    "Q220": (0, 4, 5, 6), "Q224": (0, -360, 33.3), "Q374": (0, 360, 7), "Q367": (0, 1, 2, 3, 4), "Q370": (0.1, 1, 1.9999),
+    "Q375": (0, 12, 12.000001, 12.0001, 80), "Q376": (0, -360, 77), "Q248": (0, 1e-4, 0.01, 90, 180, 359.999, 360),
+    "Q378": (0, 360, -9), "Q377": (1, 3), "Q215": (0, 1, 2), "Q368": (0, 1e-7, 0.2, 5), "Q201": (-20, -1e-4, 0, 20),
+    "Q202": (0, 1e-3, 5, 99999), "Q369": (0, 1e-7, 0.1, 20), "Q338": (0, 1, 5), "Q200": (0, 2), "Q203": (0, -30, 8),
+    "Q204": (0, 50), "Q366": (0, 1, 2), "Q351": (0, 1, -1), "Q439": (0, 1, 2, 3), "Q385": (0, 500),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("number", ALL)
+@settings(max_examples=60)
+@given(data=st.data(), angle=st.sampled_from([0, 0.1, 3, 89.9, 90]), errors=st.booleans())
+def test_no_numbers_raise_anything_but_alarms(number, data, angle, errors):
+    """Whatever the numbers, the cycle runs or is refused at one of its words; what runs stays between floor and end."""
+    text, line = definition(number, "")
+    words = {address: data.draw(st.sampled_from(ODD[address])) for address in line if address in ODD}
+    text, line = definition(number, " ".join(f"{address}={value:.9f}" for address, value in words.items()))
+    setup = Setup(
+        tools={1: Tool(radius=5, plunge_angle=angle)}, settings={"depth_error": errors, "plunge_error": errors}
+    )
+    found = mnclab.run(f"TOOL CALL 1 Z S1000\n{text}\nCYCL CALL M3\n", "tnc-620", setup)
+    if not found.ok:
+        (alarm,) = [alarm for alarm in found.alarms if alarm.severity == "alarm"]
+        assert alarm.message.startswith(f"CYCL DEF {number} ") and alarm.span[:2] in {
+            (k, 1) for k in (2, *line.values())
+        }
+        return
+    rows = found.toolpath[found.toolpath.is_motion]
+    assert np.isfinite(rows.end).all() and (rows.feed > 0).all()
+    if len(rows):
+        floor, end = words["Q203"] + words["Q201"], words["Q203"] + max(words["Q200"], words["Q204"])
+        low, high = min(floor, words["Q203"] - words["Q200"], 0), max(end, floor, words["Q203"], 0)
+        assert rows.end[:, 2].min() >= low - 1e-9 and rows.end[:, 2].max() <= high + 1e-9
+        if words["Q201"] < 0:
+            assert rows.end[:, 2].min() >= min(floor, 0) - 1e-9
