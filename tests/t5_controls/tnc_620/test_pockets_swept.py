@@ -52,7 +52,7 @@ POSITION = st.integers(0, 4)
 TURN = st.floats(-180, 180)
 FIGURES = {
     251: (rectangle, {
-        "Q218": st.floats(22, 60), "Q219": st.floats(22, 60), "Q220": st.sampled_from([0, 5.5, 9]), "Q224": TURN,
+        "Q218": st.floats(31.5, 60), "Q219": st.floats(22, 60), "Q220": st.sampled_from([0, 5.5, 9]), "Q224": TURN,
         "Q367": POSITION, "Q370": st.floats(0.4, 1.9999), "Q366": st.sampled_from([0, 1, 2]),
     }),
     252: (circle, {"Q223": st.floats(24, 60), "Q370": st.floats(0.4, 1.9999), "Q366": st.just(1)}),
