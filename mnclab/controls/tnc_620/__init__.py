@@ -21,7 +21,19 @@ from mnclab.controls.tnc_620.cycles import (
     threads,
     transformations,
 )
-from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
+from mnclab.controls.tnc_620.language import (
+    approach,
+    auxiliary,
+    calls,
+    flow,
+    joints,
+    motion,
+    parameters,
+    polar,
+    pole,
+    program,
+    tools,
+)
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -36,7 +48,7 @@ SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
-    Setting("controlled_spindle", True, "the spindle can stop at an angle, as cycles 202 and 204 need it", "4.5"),
+    Setting("controlled_spindle", True, "the spindle's angle is controlled, as 202, 204, 207, 209 need it", "4.5, 5.3"),
     Setting("plunge_error", True, "a helix narrower than twice the tool is an alarm (suppressPlungeErr, no. 201006)", "6.2"),
     Setting(
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
@@ -50,7 +62,8 @@ SETTINGS = (
 )  # fmt: skip
 
 FUNCTIONS = (
-    motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
+    pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
+    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
@@ -68,7 +81,8 @@ for chapter in (
 MEANINGS = {
     "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "S": "spindle speed",
     "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
-    "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
+    "RR": "compensation to the right", "LEN": "length", "PR": "polar radius", "PA": "polar angle",
+    "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
     "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
