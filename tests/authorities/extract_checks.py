@@ -29,7 +29,8 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
-    "tnc620-klartext": ["L", "C", "CT", "CP"],
+    "tnc620-klartext": ["L", "C", "CT", "CP", "CALL LBL", "FN"],
+    "tnc620-special": ["CYCL DEF 12"],
     "tnc620-pockets": ["CYCL DEF 251", "CYCL DEF 252", "CYCL DEF 253", "CYCL DEF 254", "PGM C210 (section 6.10)"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
