@@ -1,7 +1,7 @@
 """mnclab from a shell: check, run, plot, time, help, lab; ``python -m mnclab`` is the same as ``mnclab``.
 
-Exit status: 0 clean, 1 alarms, 2 a command line that makes no sense. Alarms go to stderr, one line each, in the form
-that editors understand: ``FILE:LINE:COLUMN: alarm: message (hint)``.
+Exit status: 0 clean, 1 alarms, 2 a command line that makes no sense, 130 stopped by Ctrl-C. Alarms go to stderr, one
+line each, in the form that editors understand: ``FILE:LINE:COLUMN: alarm: message (hint)``.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from mnclab.show.export import save
 from mnclab.text.alarm import ALARM, Alarm
 
 Result = TypeVar("Result")
-CLEAN, ALARMS, USAGE = 0, 1, 2
+CLEAN, ALARMS, USAGE, INTERRUPTED = 0, 1, 2, 130
 FIRST_LESSON = "00_first_path.ipynb"
 
 EPILOG = f"""\
-exit status: 0 clean, 1 alarms (or an unreadable file), 2 a wrong command line
+exit status: 0 clean, 1 alarms (or an unreadable file), 2 a wrong command line, 130 Ctrl-C
 warnings are shown too, but leave the status at 0
 
 a setup file (--setup) looks like this:
@@ -53,6 +53,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # the reader (head, less) has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return CLEAN
+    except KeyboardInterrupt:
+        print("mnclab: interrupted", file=sys.stderr)
+        return INTERRUPTED
 
 
 def parser() -> argparse.ArgumentParser:

@@ -31,9 +31,10 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
     "ezdxf": ("geometry.dxf",),
     "ipywidgets": ("show.forms", "show.editor"),
     "IPython": ("show.magic",),
+    "tqdm": ("text.progress",),
 }
 SEES_ALL = ("show.forms", "show.editor", "show.magic")
-HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython"}
+HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm"}
 VAGUE = {"util", "utils", "helper", "helpers", "common", "base", "core", "misc"}
 LONGEST = 450
 

@@ -32,6 +32,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.progress import progress
 
 if TYPE_CHECKING:
     from mnclab.show.plot.picture import Picture
@@ -206,20 +207,22 @@ def compare(
         stepover = 2 * radius * (1 - overlap)
     named = strategies if isinstance(strategies, Mapping) else {name: name for name in strategies}
     trials = []
-    for name, how in named.items():
-        if isinstance(how, Clearing):
-            clearing = how
-        elif callable(how):
-            clearing = how(region, radius, stepover)
-        else:
-            clearing = clear(how, region, radius, stepover, allowance=allowance, climb=climb)
-        path = toolpath(clearing, (-depth,), entry=entry, feed=feed, plunge_feed=plunge_feed, climb=climb)
-        moves, counted = level_moves(clearing, entry, depth, climb)
-        found = engagement(moves, radius, spacing=radius / DISCS)
-        found = found.chosen(np.array(counted, dtype=bool)[found.move])
-        trials.append(
-            Trial(name, region, clearing, path, found, depth, feed, np.radians(limit), allowance, limits, rapid)
-        )
+    with progress("comparing", len(named), "strategies") as done:
+        for name, how in named.items():
+            if isinstance(how, Clearing):
+                clearing = how
+            elif callable(how):
+                clearing = how(region, radius, stepover)
+            else:
+                clearing = clear(how, region, radius, stepover, allowance=allowance, climb=climb)
+            path = toolpath(clearing, (-depth,), entry=entry, feed=feed, plunge_feed=plunge_feed, climb=climb)
+            moves, counted = level_moves(clearing, entry, depth, climb)
+            found = engagement(moves, radius, spacing=radius / DISCS)
+            found = found.chosen(np.array(counted, dtype=bool)[found.move])
+            trials.append(
+                Trial(name, region, clearing, path, found, depth, feed, np.radians(limit), allowance, limits, rapid)
+            )
+            done(len(trials))
     return Comparison(tuple(trials))
 
 

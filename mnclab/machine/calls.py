@@ -41,6 +41,7 @@ class Flow:
             LONGEST + len(program),
             0,
         )  # steps obeyed in bulk do not count: they end by themselves
+        self.watched: Callable[[int], None] = lambda steps: None  # hears now and then how many steps were begun
         self.returning = False
         self.current = 0  # block being obeyed
         self._chunks: list[NDArray[np.int64] | range] = []
@@ -113,12 +114,15 @@ class Flow:
         step = self._counted + len(blocks)
         if step - self.in_bulk >= self.limit:
             raise Alarm(f"repeats and calls ran {LONGEST} blocks without an end", self.program.span_of_block(block))
+        if not step & 1023:
+            self.watched(step)
         blocks.append(block)
         return step
 
     def begin_many(self, first: int, count: int) -> int:
         """Note the execution of blocks in a row; the number of the first step."""
         self._flush()
+        self.watched(self._counted)
         self._chunks.append(range(first, first + count))
         self._counted += count
         self.in_bulk += count

@@ -126,6 +126,8 @@ class Control:
     asked once for each kind of block.
     ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
+    ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
+    ("G4 P").
     ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself.
     """
 
@@ -148,6 +150,7 @@ class Control:
     finish: Callable[[Machine], None] | None = None
     looks_like: Callable[[str], bool] | None = None
     refused: Mapping[str, str] = field(default_factory=dict)
+    meanings: Mapping[str, str] = field(default_factory=dict)
     together: Callable[[Machine, list[Word]], None] | None = None
     bulk: Any = None
     one_command: bool = False

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
-from mnclab.machine.control import Function
+from mnclab.machine.control import Control, Function
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
@@ -158,7 +158,7 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
                 says, source = f"cycle: {what.title}", what.source
             elif isinstance(what, Function):
                 assert word is not None
-                says, source = f"{_coordinate(word)} of {what.code} ({what.title})", ""
+                says, source = f"{_meaning(run.control, what, word)} of {what.code} ({what.title})", ""
             else:
                 assert word is not None
                 says, source = _parameter(what, action.code, word), ""
@@ -199,12 +199,15 @@ def _plan(run: Run, moment: Moment) -> Plan | None:
         return None
 
 
-def _coordinate(word: Word) -> str:
-    """What a word of a motion is, as far as its letter says."""
-    letter = word.address
-    if letter in ("X", "Y", "Z"):
-        return f"increment along {letter}" if word.incremental else f"coordinate {letter}"
-    return f"word {letter}" if letter.isalpha() and letter.isupper() else "part"
+def _meaning(control: Control, what: Function, word: Word) -> str:
+    """What a word of a function is."""
+    address = word.address
+    says = control.meanings.get(f"{what.code} {address}") or control.meanings.get(address)
+    if says:
+        return says
+    if address in ("X", "Y", "Z"):
+        return f"increment along {address}" if word.incremental else f"coordinate {address}"
+    return f"word {address}" if address.isalpha() and address.isupper() else "part"
 
 
 def _parameter(cycle: type[Cycle], code: str, word: Word) -> str:

@@ -22,6 +22,7 @@ from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import NONE, NUMBER, Program, Word, place_of
+from mnclab.text.progress import progress
 
 WINDOW = 256  # blocks whose words are made at once; more would keep the garbage collector busy
 
@@ -67,7 +68,8 @@ class Interpreter:
             self.machine.set_modal(group, code)
         if self.control.start:
             self.control.start(self.machine)
-        self.machine.flow.section(0, len(self.program))
+        with progress("running", len(self.program), "blocks") as self.machine.flow.watched:
+            self.machine.flow.section(0, len(self.program))
         if self.control.finish and not self.machine.ended:
             self.control.finish(self.machine)
 

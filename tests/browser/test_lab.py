@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-FIRST = Path(__file__).resolve().parent.parent.parent / "notebooks" / "00_first_path.ipynb"
+LESSONS = sorted(path.name for path in (Path(__file__).resolve().parents[2] / "notebooks").glob("*.ipynb"))
 
 FIGURE = """
 import matplotlib.pyplot as plt
@@ -12,9 +12,10 @@ plt.plot([0, 1], [0, 1]);
 """
 
 
-@pytest.mark.skipif(not FIRST.exists(), reason="there is no first lesson yet")
-def test_first_lesson_runs_from_top_to_bottom(run_lesson):
-    run_lesson(FIRST.name)
+@pytest.mark.parametrize("name", LESSONS)
+def test_a_lesson_runs_from_top_to_bottom(run_lesson, name):
+    page = run_lesson(name)
+    assert page.locator("[data-mime-type='application/vnd.jupyter.stderr']").all_inner_texts() == []
 
 
 def test_a_figure_shows(run_cells):

@@ -93,3 +93,18 @@ def test_every_block_of_the_samples_can_be_explained(file):
         if row >= 0:
             tip = next(stage for stage in explanation.stages if stage.name == "tool tip")
             assert tip.point == pytest.approx(run.toolpath.end[row])
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "line", "says"),
+    [
+        ("mnc", "G17 G90 G54 F200\nG2 X10 Y0 I5 J0", 2, ["centre along X", "centre along Y"]),
+        ("mnc", "G17 G90 G54 F200\nG0 X0 Y0\nG4 P2", 3, ["seconds"]),
+        ("mnc", "G17 G90 G54\nG39 A30 X5 Y7", 2, ["angle in degrees", "rotation centre's X"]),
+        ("tnc-620", "1 TOOL CALL 1 Z S1000 DR+0.1", 1, ["tool axis", "spindle speed", "delta radius"]),
+        ("tnc-620", "1 TOOL CALL 1 Z S1000\n2 L X+1 R0 FMAX M3", 2, ["no radius compensation", "rapid traverse"]),
+    ],
+)
+def test_words_are_called_what_they_are(control, text, line, says):
+    explained = str(mnclab.run(text + "\n", control).explain(line=line))
+    assert all(meaning in explained for meaning in says)

@@ -39,6 +39,18 @@ def looks_like(text: str) -> bool:
     return _G_BLOCK.search(text) is not None and re.search(r"[*~@;']|BEGIN[ \t]+PGM", text) is None
 
 
+#: What the words of functions are, where their letters do not say it.
+MEANINGS = {
+    **{f"G{n} {letter}": f"centre along {axis}" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
+    "R": "radius", "A": "angle in degrees", "Q": "number of a datum", "G4 P": "seconds",
+    **{f"{code} {axis}": f"{what} {axis}" for axis in "XYZ" for code, what in (
+        ("G37", "scaling factor along"), ("G51", "mirror plane across"), ("G39", "rotation centre's"),
+        ("G16", "pole's"),
+    )},
+    **{f"G{n} K": "height of the helix" for n in (12, 13)},
+    **{letter: f"increment along {axis}" for letter, axis in zip("UVW", "XYZ")},
+}  # fmt: skip
+
 FUNCTIONS = (
     language.FUNCTIONS | auxiliary.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | compensation.FUNCTIONS
     | fixed.FUNCTIONS | prepared.FUNCTIONS
@@ -58,6 +70,7 @@ CONTROL = Control(
     start=language.power_on,
     looks_like=looks_like,
     refused=REFUSED,
+    meanings=MEANINGS,
     together=language.together,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},

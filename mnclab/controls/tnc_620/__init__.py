@@ -37,6 +37,16 @@ FUNCTIONS = (
 )  # fmt: skip
 CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
 
+#: What the words of statements are.
+MEANINGS = {
+    "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "S": "spindle speed",
+    "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
+    "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
+    "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
+    "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
+    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
+}  # fmt: skip
+
 _KLARTEXT = re.compile(
     r"^[ \t\ufeff]*\d*[ \t]*(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M
 )
@@ -58,6 +68,7 @@ CONTROL = Control(
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
     refused=later.refused(FUNCTIONS, CYCLES),
+    meanings=MEANINGS,
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0),
     named=motion.named,
 )
