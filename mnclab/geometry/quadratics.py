@@ -32,7 +32,9 @@ class Form:
 
     def __init__(self, const: float = 0.0, linear: dict[int, float] | None = None,
                  square: dict[tuple[int, int], float] | None = None) -> None:  # fmt: skip
-        self.const, self.linear, self.square = float(const), linear or {}, square or {}
+        self.const = float(const)
+        self.linear = {i: a for i, a in (linear or {}).items() if a}
+        self.square = {ij: a for ij, a in (square or {}).items() if a}
 
     def __add__(self, other: Form | float) -> Form:
         if not isinstance(other, Form):
@@ -64,23 +66,22 @@ class Form:
                 {ij: a * other for ij, a in self.square.items()},
             )
         assert not (self.square or other.square), "a product of degree three"
-        result = Form(self.const * other.const)
-        for i, a in self.linear.items():
-            result.linear[i] = result.linear.get(i, 0.0) + a * other.const
+        linear: dict[int, float] = {i: a * other.const for i, a in self.linear.items()}
         for i, a in other.linear.items():
-            result.linear[i] = result.linear.get(i, 0.0) + a * self.const
+            linear[i] = linear.get(i, 0.0) + a * self.const
+        square: dict[tuple[int, int], float] = {}
         for i, a in self.linear.items():
             for j, b in other.linear.items():
                 ij = (min(i, j), max(i, j))
-                result.square[ij] = result.square.get(ij, 0.0) + a * b
-        return result
+                square[ij] = square.get(ij, 0.0) + a * b
+        return Form(self.const * other.const, linear, square)
 
     __rmul__ = __mul__
 
     @property
     def variables(self) -> set[int]:
         """The unknowns that occur."""
-        return {i for i, a in self.linear.items() if a} | {i for ij, a in self.square.items() if a for i in ij}
+        return set(self.linear) | {i for ij in self.square for i in ij}
 
     def at(self, values: Array) -> float:
         """Its value."""
@@ -93,8 +94,7 @@ class Form:
 
     def power(self, dims: Sequence[int]) -> int:
         """The dimension of its value: mm to this power."""
-        found = [dims[i] for i, a in self.linear.items() if a]
-        return max(found + [dims[i] + dims[j] for (i, j), a in self.square.items() if a], default=1)
+        return max([dims[i] for i in self.linear] + [dims[i] + dims[j] for i, j in self.square], default=1)
 
     def gap(self, values: Array, dims: Sequence[int]) -> float:
         """By how much the equation form = 0 is missed, mm; an angle counts as on an arm of 10 mm."""
@@ -173,9 +173,7 @@ class System:
         found = self._nonlinear(a, b, c, begin, basis, newton)
         return None if found is None else self._distinct(begin + basis @ t for t in found)
 
-    def _nonlinear(
-        self, a: Array, b: Array, c: Array, begin: Array, basis: Array, newton: bool
-    ) -> list[Array] | None:
+    def _nonlinear(self, a: Array, b: Array, c: Array, begin: Array, basis: Array, newton: bool) -> list[Array] | None:
         """What is left after all linear equations, in coordinates of the basis; None if too little is left."""
         count = basis.shape[1]
         if count == 0:
@@ -270,13 +268,12 @@ def conics(first: Conic, second: Conic) -> list[Array] | None:
     The axes are turned so that two of the points hardly ever lie above each other.
     """
     (a1, b1, c1), (a2, b2, c2) = ((_TURN.T @ a @ _TURN, b @ _TURN, c) for a, b, c in (first, second))
-    p1, p2 = ([a[1, 1]] for a in (a1, a2))
-    q1, q2 = ([2 * a[0, 1], b[1]] for a, b in ((a1, b1), (a2, b2)))
-    r1, r2 = ([a[0, 0], b[0], c] for a, b, c in ((a1, b1, c1), (a2, b2, c2)))
-    pr, pq, qr = (np.polysub(np.polymul(s, v), np.polymul(u, t)) for s, t, u, v in
-                  ((p1, r1, p2, r2), (p1, q1, p2, q2), (q1, r1, q2, r2)))  # fmt: skip
-    resultant = np.polysub(np.polymul(pr, pr), np.polymul(pq, qr))
-    resultant[np.abs(resultant) < 1e-14 * np.abs(resultant).max(initial=0)] = 0
+    p1, p2 = (np.array([a[1, 1]]) for a in (a1, a2))  # p y² + q(x) y + r(x), highest powers of x first
+    q1, q2 = (np.array([2 * a[0, 1], b[1]]) for a, b in ((a1, b1), (a2, b2)))
+    r1, r2 = (np.array([a[0, 0], b[0], c]) for a, b, c in ((a1, b1, c1), (a2, b2, c2)))
+    pr, pq, qr = _cross(p1, r1, p2, r2), _cross(p1, q1, p2, q2), _cross(q1, r1, q2, r2)
+    resultant = np.convolve(pr, pr) - np.convolve(pq, qr)
+    resultant[np.abs(resultant) < 1e-14 * np.abs(resultant).max()] = 0
     if not resultant.any():
         return None
     found = []
@@ -291,6 +288,11 @@ def conics(first: Conic, second: Conic) -> list[Array] | None:
     a, b, c = np.array([a1, a2]), np.array([b1, b2]), np.array([c1, c2])
     ends, _ = newton_from(a, b, c, np.array(found), rounds=60)
     return [_TURN @ end for end in ends]
+
+
+def _cross(s: Array, t: Array, u: Array, v: Array) -> Array:
+    """The polynomial s v - u t."""
+    return np.asarray(np.convolve(s, v) - np.convolve(u, t))
 
 
 def newton_from(a: Array, b: Array, c: Array, starts: Array, rounds: int = 80) -> tuple[Array, NDArray[np.bool_]]:

@@ -10,7 +10,17 @@ import re
 
 from mnclab.controls.tnc_620 import later, reader
 from mnclab.controls.tnc_620.cycles import contours, drilling, transformations
-from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
+from mnclab.controls.tnc_620.language import (
+    approach,
+    auxiliary,
+    calls,
+    flow,
+    free_contours,
+    motion,
+    parameters,
+    program,
+    tools,
+)
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -33,7 +43,7 @@ SETTINGS = (
 
 FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
-    | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | auxiliary.FUNCTIONS | calls.FUNCTIONS | free_contours.FUNCTIONS
 )  # fmt: skip
 CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
 

@@ -145,7 +145,7 @@ def refuse_rapid(m: Machine, words: Words) -> None:
         m.alarm(f"{words.code} runs at feed: FMAX is for straight lines", words["FMAX"])
 
 
-@FUNCTIONS("RND", "Corner rounding", takes="R F", source="RND")
+@FUNCTIONS("RND", "Corner rounding", takes="R F", collects=True, source="RND")
 def rounding(m: Machine, words: Words) -> None:
     """A tangent arc between the element before and the one after; F counts for the rounding alone."""
     if "R" not in words:
