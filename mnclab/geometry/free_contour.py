@@ -9,9 +9,9 @@ that it joins the one before tangentially. Each datum is an equation between few
     tangent     at p with normal n:  p = C - ρ n;  hence n·C - c = ρ for a line, |C - D|² = (ρ - σ)² for another circle
 
 What the data leave open is kept by :mod:`.readings`: a line at a distance from a point passes it on either side, a line
-meets a circle twice. Readings come in this order: element after element in the order of the chain; where a line meets a curve, the place
-farther along the line first; a line at a distance to the right of its point first; of other places the one with the
-smaller y, then the larger x, first.
+meets a circle twice. Readings come in this order: element after element in the order of the chain; where a line meets a
+curve, the place farther along the line first; a line at a distance to the right of its point first; of other places the
+one with the smaller y, then the larger x, first.
 """
 
 from __future__ import annotations

@@ -239,6 +239,20 @@ class System:
         return [scaled * self.unit for scaled in kept]
 
 
+    def freedom(self) -> int:
+        """How many data more would settle the unknowns: those less the rank of the equations at one of the solutions.
+
+        At any other place equations that follow from each other would look independent. 0 where no solution is found.
+        """
+        random = np.random.default_rng(len(self.unknowns))
+        starts = random.normal(0, 1.0, (STARTS // 10, len(self.unknowns)))
+        if not len(self.c):
+            return len(self.unknowns)
+        ends, _ = newton_from(self.a, self.b, self.c, starts)
+        ranks = [np.linalg.matrix_rank(2 * self.a @ end + self.b, 1e-7) for end in ends]
+        return len(self.unknowns) - int(max(ranks, default=len(self.unknowns)))
+
+
 def _linear_rows(a: Array, b: Array, c: Array, flat: NDArray[np.bool_]) -> tuple[Array, Array]:
     """Equations without a quadratic part, and those that appear where quadratic parts are proportional: (m, v), (m,)."""
     linear = flat & (np.abs(b).max(axis=1, initial=0) > 1e-9)
@@ -308,7 +322,7 @@ def newton_from(a: Array, b: Array, c: Array, starts: Array, rounds: int = 80) -
         ax = np.einsum("kij,nj->nki", a, x)
         f = np.einsum("nki,ni->nk", ax, x) + x @ b.T + c
         slope = 2 * ax + b
-        damping = np.minimum((f**2).sum(axis=1), 1.0)[:, None, None] * 0.1 + 1e-18
+        damping = np.minimum((f**2).sum(axis=1), 1.0)[:, None, None] * 0.1 + 1e-13
         matrix = np.einsum("nki,nkj->nij", slope, slope) + damping * eye
         step = np.linalg.solve(matrix, np.einsum("nki,nk->ni", slope, f)[:, :, None])[:, :, 0]
         length = np.linalg.norm(step, axis=1, keepdims=True)

@@ -196,15 +196,9 @@ class Readings:
             self.conflict = (self.equations[number][2], gap)
 
     def missing(self, reading: Reading) -> int:
-        """How many data a reading lacks: unknowns less independent equations among them."""
-        unknowns = self.open_unknowns(reading)
-        values = reading.values.copy()
-        values[unknowns] = np.random.default_rng(1).normal(0, self.size, len(unknowns))
+        """How many data a reading lacks; 0 also where no solution is found."""
         forms = [form for _, form, rest in self._holding(reading.values) if rest]
-        system = System(forms, unknowns, values, self.dims, self.size)
-        x = values[unknowns] / system.unit
-        slopes = 2 * system.a @ x + system.b
-        return len(unknowns) - int(np.linalg.matrix_rank(slopes, 1e-9)) if len(forms) else len(unknowns)
+        return System(forms, self.open_unknowns(reading), reading.values, self.dims, self.size).freedom()
 
 
 def _alike(a: Array, b: Array, tolerance: float) -> bool:
