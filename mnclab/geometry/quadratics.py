@@ -245,10 +245,10 @@ class System:
         At any other place equations that follow from each other would look independent. 0 where no solution is found.
         """
         random = np.random.default_rng(len(self.unknowns))
-        starts = random.normal(0, 1.0, (STARTS // 10, len(self.unknowns)))
+        starts = random.normal(0, 1.0, (20, len(self.unknowns)))
         if not len(self.c):
             return len(self.unknowns)
-        ends, _ = newton_from(self.a, self.b, self.c, starts)
+        ends, _ = newton_from(self.a, self.b, self.c, starts, rounds=40)
         ranks = [np.linalg.matrix_rank(2 * self.a @ end + self.b, 1e-7) for end in ends]
         return len(self.unknowns) - int(max(ranks, default=len(self.unknowns)))
 
@@ -314,21 +314,27 @@ def newton_from(a: Array, b: Array, c: Array, starts: Array, rounds: int = 80) -
 
     Levenberg's damping fades with the residual, so that the last steps are Newton's.
     """
-    x = starts.copy()
-    eye = np.eye(x.shape[1])
-    scale = np.sqrt((a**2).sum(axis=(1, 2)) + (b**2).sum(axis=1))
+    x, (k, v) = starts.copy(), b.shape
+    eye = np.eye(v)
+    scale = np.maximum(np.sqrt((a**2).sum(axis=(1, 2)) + (b**2).sum(axis=1)), 1e-300)
     a, b, c = a / scale[:, None, None], b / scale[:, None], c / scale
+    flat = a.reshape(k * v, v).T
+
+    def value_and_slope() -> tuple[Array, Array]:
+        ax = (x @ flat).reshape(len(x), k, v)
+        return (ax * x[:, None]).sum(axis=2) + x @ b.T + c, 2 * ax + b
+
     for _ in range(rounds):
-        ax = np.einsum("kij,nj->nki", a, x)
-        f = np.einsum("nki,ni->nk", ax, x) + x @ b.T + c
-        slope = 2 * ax + b
+        f, slope = value_and_slope()
+        error = np.abs(f).max(axis=1, initial=0)
+        if (error < 1e-14).all():
+            break
         damping = np.minimum((f**2).sum(axis=1), 1.0)[:, None, None] * 0.1 + 1e-13
-        matrix = np.einsum("nki,nkj->nij", slope, slope) + damping * eye
-        step = np.linalg.solve(matrix, np.einsum("nki,nk->ni", slope, f)[:, :, None])[:, :, 0]
+        matrix = slope.transpose(0, 2, 1) @ slope + damping * eye
+        step = np.linalg.solve(matrix, (f[:, None] @ slope)[:, 0, :, None])[:, :, 0]
         length = np.linalg.norm(step, axis=1, keepdims=True)
         x = x - step * np.minimum(1.0, 3.0 / np.maximum(length, 1e-300))
-    ax = np.einsum("kij,nj->nki", a, x)
-    f = np.einsum("nki,ni->nk", ax, x) + x @ b.T + c
+    f, slope = value_and_slope()
     good = (np.abs(f).max(axis=1) < 1e-11) & (np.abs(x).max(axis=1) < 1e4)
-    steepness = np.linalg.svd(2 * ax[good] + b, compute_uv=False)[:, -1] if good.any() else np.empty(0)
+    steepness = np.linalg.svd(slope[good], compute_uv=False)[:, -1] if good.any() else np.empty(0)
     return x[good], steepness > 1e-7
