@@ -15,7 +15,12 @@ from importlib.metadata import entry_points
 from mnclab.machine.control import Control
 
 #: Name of a control -> the module that builds it.
-MODULES = {"mnc": "mnclab.controls.mnc", "tnc-620": "mnclab.controls.tnc_620", "nc-31": "mnclab.controls.nc_31"}
+MODULES = {
+    "mnc": "mnclab.controls.mnc",
+    "tnc-620": "mnclab.controls.tnc_620",
+    "nc-31": "mnclab.controls.nc_31",
+    "g43": "mnclab.controls.g43",
+}
 
 
 class Controls(Mapping[str, Control]):

@@ -247,22 +247,25 @@ class FreeContour(Readings):
         """Elements come in the order of the chain, a joint behind the elements on both its sides."""
         return place + 1.95 if place % 2 == 0 else place
 
-    def rank(self, values: Array, window: Sequence[int]) -> list[float]:
+    def rank(self, values: Array, before: Array, window: Sequence[int]) -> list[float]:
         """What solutions of a window are sorted by: see the module."""
         for i in window:
-            joint = self.places[i] / 2
-            if joint == int(joint) and self.dims[i]:
-                point = self.elements[int(joint) - 1].end
-                for element in self.elements[int(joint) : int(joint) + 1] + self.elements[int(joint) - 1 : int(joint)]:
-                    if element.normal is not None and not np.isnan(element.normal.x.at(values)):
-                        n = element.normal
-                        return [round(n.x.at(values) * point.y.at(values) - n.y.at(values) * point.x.at(values), 6)]
-                return [round(point.y.at(values), 6), -round(point.x.at(values), 6)]
+            joint, odd = divmod(self.places[i], 2)
+            if odd or not self.dims[i]:
+                continue
+            k = int(joint)
+            point = self.elements[k - 1].end
+            for element in self.elements[k : k + 1] + self.elements[k - 1 : k]:
+                n = element.normal
+                if n is not None and not np.isnan(n.x.at(before)):
+                    return [round(n.x.at(values) * point.y.at(values) - n.y.at(values) * point.x.at(values), 6)]
+            return _low_first(point, values)
         for i in window:
-            centre = self.elements[int(self.places[i] // 2)].centre if self.places[i] % 2 == 1 else None
-            if centre is not None and not any(np.isnan(values[k]) for k in centre.x.variables | centre.y.variables):
-                return [round(centre.y.at(values), 6), -round(centre.x.at(values), 6)]
-        return super().rank(values, window)
+            element = self.elements[int(self.places[i] // 2)]
+            pair = element.centre or (element.normal and Pair(element.normal.y, -element.normal.x))
+            if self.places[i] % 2 == 1 and pair and not np.isnan(pair.x.at(values) + pair.y.at(values)):
+                return _low_first(pair, values)
+        return super().rank(values, before, window)
 
     def pieces(self, reading: Reading) -> list[Piece]:
         """The elements of a reading that has settled everything."""
@@ -272,3 +275,8 @@ class FreeContour(Readings):
             centre = None if element.centre is None else (element.centre.x.at(v), element.centre.y.at(v))
             found.append(Piece(start, end, centre, 0 if centre is None else int(np.sign(element.radius.at(v)))))
         return found
+
+
+def _low_first(pair: Pair, values: Array) -> list[float]:
+    """Smaller y first, then larger x."""
+    return [round(pair.y.at(values), 6), -round(pair.x.at(values), 6)]

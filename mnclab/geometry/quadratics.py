@@ -23,6 +23,7 @@ NEAR = 1e-3  # mm: data that are rounded as drawings are may contradict each oth
 SAME = 1e-7  # solutions closer than this, in units of the size of the contour, are one
 STARTS = 300  # starts of Newton's method in one round
 MOST_UNKNOWNS = 16
+MOST_SOLUTIONS = 64
 
 
 class Form:
@@ -208,19 +209,28 @@ class System:
         return [np.array([middle - width]), np.array([middle + width])]
 
     def _from_starts(self, a: Array, b: Array, c: Array, begin: Array, basis: Array) -> list[Array] | None:
-        """Newton's method from random starts, until a round finds nothing new; None where solutions are not single."""
+        """Newton's method from random starts, until rounds find nothing new; None where solutions are not single.
+
+        Half of the starts lie near solutions found before: solutions often come in close pairs.
+        """
         random = np.random.default_rng(len(self.unknowns))
         found: list[Array] = []
-        for _ in range(8):
-            ends, single = newton_from(a, b, c, (random.normal(0, 1.0, (STARTS, len(begin))) - begin) @ basis)
+        idle = 0
+        while idle < 3 and len(found) < MOST_SOLUTIONS:
+            starts = (random.normal(0, 1.0, (STARTS, len(begin))) - begin) @ basis
+            if found:
+                near = np.array(found)[random.integers(len(found), size=STARTS // 2)]
+                starts[: len(near)] = near + random.normal(0, 1, near.shape) * 10 ** random.uniform(
+                    -3, 0, (len(near), 1)
+                )
+            ends, single = newton_from(a, b, c, starts)
             if len(ends) and not single.any():
                 return None
             before = len(found)
             for end in ends[single]:
                 if all(np.abs(end - other).max() > SAME for other in found):
                     found.append(end)
-            if len(found) == before and (found or _ > 2):
-                break
+            idle = 0 if len(found) > before else idle + 1
         return found
 
     def gap(self, k: int, scaled: Array) -> float:
@@ -237,7 +247,6 @@ class System:
                 if all(np.abs(scaled - other).max() > SAME for other in kept):
                     kept.append(scaled)
         return [scaled * self.unit for scaled in kept]
-
 
     def freedom(self) -> int:
         """How many data more would settle the unknowns: those less the rank of the equations at one of the solutions.
@@ -277,7 +286,7 @@ _TURN = np.array([[np.cos(0.7), -np.sin(0.7)], [np.sin(0.7), np.cos(0.7)]])
 def conics(first: Conic, second: Conic) -> list[Array] | None:
     """Where two conics xᵀAx + bx + c = 0 meet, points (2,): roots of the resultant of degree four, polished.
 
-    None when they have a curve in common.
+    A point may come more than once. None when they have a curve in common.
 
     The axes are turned so that two of the points hardly ever lie above each other.
     """

@@ -51,8 +51,8 @@ class Readings:
         self.size = 1.0
         self.conflict: tuple[Label, float] | None = None
 
-    def rank(self, values: Array, window: Sequence[int]) -> list[float]:
-        """What solutions for the unknowns of a window are sorted by."""
+    def rank(self, values: Array, before: Array, window: Sequence[int]) -> list[float]:
+        """What solutions for the unknowns of a window are sorted by; ``before`` is what was settled without them."""
         return [round(float(values[i]), 6) for i in window]
 
     def order_of(self, place: float) -> float:
@@ -175,7 +175,7 @@ class Readings:
         if len(readings) == 1:
             return [Reading(readings[0], reading.choices)]
         place = self.order_of(self.places[window[0]])
-        readings.sort(key=lambda values: self.rank(values, window))
+        readings.sort(key=lambda values: self.rank(values, reading.values, window))
         return [Reading(values, (*reading.choices, (place, k))) for k, values in enumerate(readings)]
 
     def _consistent(self, values: Array, holding: Sequence[tuple[int, Form, frozenset[int]]]) -> bool:

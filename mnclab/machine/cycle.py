@@ -141,6 +141,8 @@ class Cycle:
     source: ClassVar[str] = ""
     triggers: ClassVar[tuple[str, ...]] = ()
     """Addresses that run a "position" cycle in a later block."""
+    own_spindle: ClassVar[bool] = False
+    """Whether it turns the spindle itself, so that none need turn before it."""
 
     @classmethod
     @cache

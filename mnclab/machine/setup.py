@@ -53,12 +53,14 @@ class Setup:
 
     ``start`` is the spindle reference in machine coordinates, mm. ``part`` and ``stock`` stand in machine coordinates.
     ``files`` maps names to texts or paths of other programs and tables. ``settings`` overrides the declared choices of
-    the control (``mnclab.help("settings", control)``). Tools given without a number get the one they are listed under.
+    the control (``mnclab.help("settings", control)``). ``correctors`` are offsets along the axes, mm, of the controls whose
+    words D or L name them. Tools given without a number get the one they are listed under.
     """
 
     tools: Mapping[int, Tool] = field(default_factory=lambda: MAGAZINE)
     datums: Mapping[int, Datum | tuple[float, ...]] = field(default_factory=dict)
     presets: Mapping[int, Datum | tuple[float, ...]] = field(default_factory=dict)
+    correctors: Mapping[int, Datum | tuple[float, ...]] = field(default_factory=dict)
     stock: Any = None
     part: Any = None
     probe: Probe = Probe()
@@ -87,6 +89,7 @@ class Tables:
         self.tools: dict[int, Tool] = {0: MAGAZINE[0], **numbered}
         self.datums: dict[int, Datum] = {row: Datum(*datum) for row, datum in setup.datums.items()}
         self.presets: dict[int, Datum] = {row: Datum(*datum) for row, datum in setup.presets.items()}
+        self.correctors: dict[int, Datum] = {row: Datum(*datum) for row, datum in setup.correctors.items()}
 
     def __repr__(self) -> str:
         return f"<Tables: {len(self.tools)} tools, {len(self.datums)} datums, {len(self.presets)} presets>"

@@ -22,7 +22,7 @@ FORMAT = """\
 start = [0, 0, 300]            # machine position of the spindle before the program, mm
 
 [tools.1]                      # the row of the tool table; every key may be left out
-radius = 5                     # mm; also length, name, corner, dl, dr, teeth, kind, cutting_length,
+radius = 5                     # mm; also length, name, corner, dl, dr, teeth, kind, cutting_length, pitch,
 length = 80                    # and in degrees angle (of the point) and plunge_angle
 
 [datums]                       # work offsets: machine coordinates of the zero points, mm
@@ -30,6 +30,7 @@ length = 80                    # and in degrees angle (of the point) and plunge_
 2 = { x = 300, y = 50, z = -200, rotation = 30 }
 
 [presets]                      # written like datums, where a control has them
+[correctors]                   # offsets along the axes, written like datums, where words D or L name them
 [limits]                       # rapid, acceleration, jerk, corner_speed, corner_tolerance, corner_jump, rapid_motion,
                                # spindle, spindle_acceleration, tool_change; a number, or [x, y, z] per axis
 [probe]                        # clearance, reach, feed, rapid
@@ -37,7 +38,7 @@ length = 80                    # and in degrees angle (of the point) and plunge_
 [files]                        # names that programs call -> files, seen from this one
 """
 
-ROWS = {"tools": Tool, "datums": Datum, "presets": Datum}
+ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum}
 RECORDS = {"limits": Limits, "probe": Probe}
 TEXTS = ("name", "kind", "corner_speed", "rapid_motion")  # of a tool; of the limits
 KNOWN = ("start", *ROWS, *RECORDS, "settings", "files")

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import RAPID, Coolant, Go, Orient, Spin, Step, Wait
@@ -15,6 +16,30 @@ from mnclab.machining.steps import RAPID, Coolant, Go, Orient, Spin, Step, Wait
 #: Where a tool is shifted to before it leaves a bore: unit steps along the two axes of the plane.
 DIRECTIONS = {1: (-1.0, 0.0), 2: (0.0, -1.0), 3: (1.0, 0.0), 4: (0.0, 1.0)}
 DISENGAGED = 0.2  # mm, the shift after boring
+
+
+class Guided(NamedTuple):
+    """Levels at which a long drill begins to drill and clears its chips without leaving its guide."""
+
+    start: float
+    clear: float
+
+
+def guided(surface: float, deepened: float, clearance: float, up: float = 1.0) -> Guided:
+    """The levels for a hole that is there already down to ``deepened`` below the surface; 0: both over the surface.
+
+    Drilling begins 0.2 of that depth above its end, chips are cleared 0.8 of it above, but never more than ``clearance``
+    (TNC 620, positioning behaviour with Q379). ``up`` is -1 where the hole is drilled upwards.
+
+    >>> guided(0, 2, 2)
+    Guided(start=-1.6, clear=-0.4)
+    >>> guided(0, 0, 2)
+    Guided(start=2.0, clear=2.0)
+    """
+    if not deepened:
+        return Guided(surface + up * clearance, surface + up * clearance)
+    start, clear = (surface - up * (deepened - min(part * deepened, clearance)) for part in (0.2, 0.8))
+    return Guided(start, clear)
 
 
 def drill(
@@ -30,29 +55,33 @@ def drill(
     breaks: int = 0,
     break_every: float = 0.0,
     back: float = 0.0,
+    back_feed: float | None = None,
     approach: float | None = None,
+    start: float | None = None,
 ) -> Iterator[Step]:
     """Drill to each of the ``levels``; between two, break the chip or withdraw to ``above`` at the feed ``withdraw``.
 
     A withdrawal waits ``dwell_top`` seconds and returns at rapid to ``reenter`` mm over the last depth: one distance, or
-    one for each return (advanced stop distances). ``breaks`` chips are broken, by ``back`` mm, before each withdrawal; 0:
-    every level is followed by one. ``break_every`` breaks a chip after that much within a level, with a return to the
-    depth at the feed ``approach``. ``dwell_each`` acts at every level but the last, ``dwell_bottom`` there.
+    one for each return (advanced stop distances). ``breaks`` chips are broken, by ``back`` mm at the feed ``back_feed`` (None:
+    as a withdrawal), before each withdrawal; 0: every level is followed by one. ``break_every`` breaks a chip after that
+    much within a level, with a return to the depth at the feed ``approach``; the first level counts from ``start``, which
+    is ``above`` if nothing else is said. ``dwell_each`` acts at every level but the last, ``dwell_bottom`` there.
     """
-    up, start, returns = math.copysign(1.0, above - levels[-1]), above, 0
+    up, returns = math.copysign(1.0, above - levels[-1]), 0
+    back_feed, start = withdraw if back_feed is None else back_feed, above if start is None else start
     for number, level in enumerate(levels, 1):
         peck = f"peck {number} of {len(levels)}" if len(levels) > 1 else "drill"
         first = levels[number - 2] if number > 1 else start
         for depth in infeeds(first, level, break_every)[:-1] if break_every else ():
             yield Go(peck, depth, feed)
-            yield Go("break the chip", depth + up * back, withdraw)
+            yield Go("break the chip", depth + up * back, back_feed)
             yield Go("break the chip", depth, approach)
         yield Go(peck, level, feed)
         if number == len(levels):
             break
         yield Wait("dwell", dwell_each)
         if number % (breaks + 1):
-            yield Go("break the chip", level + up * back, withdraw)
+            yield Go("break the chip", level + up * back, back_feed)
             continue
         yield Go("clear the chips", above, withdraw)
         yield Wait("dwell at the top", dwell_top)
@@ -94,6 +123,26 @@ def bore(
     yield Go("retract", above, retract)
 
 
+def bore_and_stop(
+    bottom: float, *, above: float, turning: int, dwell: float = 0.0, shift: float = 0.0, feed: float | None = None
+) -> Iterator[Step]:
+    """Bore, stop the spindle, retract at rapid, turn the spindle on again.
+
+    With a ``shift`` the spindle stops oriented and the tool leaves the wall by that much along -x; it ends on the axis.
+    """
+    yield Go("bore", bottom, feed)
+    yield Wait("dwell at the bottom", dwell)
+    if shift:
+        yield Orient("orient the spindle to 0 degrees", 0.0)
+        yield Go("leave the wall", x=-shift, y=0.0)
+    else:
+        yield Spin("stop the spindle", 0)
+    yield Go("retract", above)
+    if shift:
+        yield Go("back to the axis", x=0.0, y=0.0)
+    yield Spin("spindle on", turning)
+
+
 def back_bore(
     *,
     above: float,
@@ -106,11 +155,13 @@ def back_bore(
     travel: float | None,
     dwell: float,
     turning: int,
+    coolant: bool = False,
 ) -> Iterator[Step]:
     """Counterbore from below: shifted through the hole, back to its axis, up to the ``bottom`` of the counterbore.
 
     Levels are those of the tip: ``below`` with the edge free under the workpiece. ``travel`` is the feed through the hole.
-    The tool ends at ``above``, still shifted, with the spindle stopped.
+    ``coolant``: it is switched on and off together with the spindle. The tool ends at ``above``, still shifted, with the
+    spindle stopped.
     """
     x, y = (eccentricity * step for step in DIRECTIONS[direction])
     oriented = Orient(f"orient the spindle to {angle:g} degrees", angle)
@@ -119,12 +170,23 @@ def back_bore(
     yield Go("through the hole", below, travel)
     yield Go("back to the axis", x=0.0, y=0.0)
     yield Spin("spindle on", turning)
+    if coolant:
+        yield Coolant("coolant on", True)
     yield Go("counterbore", bottom, feed)
     yield Wait("dwell at the bottom", dwell)
     yield Go("leave the counterbore", below, travel)
     yield oriented
+    if coolant:
+        yield Coolant("coolant off", False)
     yield Go("shift off the axis", x=x, y=y)
     yield Go("retract", above, travel)
+
+
+def back_to_axis(level: float, turning: int, name: str = "retract") -> Iterator[Step]:
+    """Out of a bore with a shifted tool: first up to a level, then to the axis, then the spindle as it turned before."""
+    yield Go(name, level)
+    yield Go("back to the axis", x=0.0, y=0.0)
+    yield Spin("spindle as before", turning)
 
 
 def gun_drill(
@@ -140,26 +202,35 @@ def gun_drill(
     dwell: float = 0.0,
     pause: float | None = None,
     feed_after: float | None = None,
+    coolant: tuple[str, str] = ("coolant on", "coolant off"),
+    cool_until_slow: bool = False,
 ) -> Iterator[Step]:
     """Single-lip drilling: in and out with the spindle as ``entry`` (turning, speed), drilling at ``speed`` with coolant.
 
     Drilling begins at ``start``, reached at the feed ``approach``; at each of the ``levels``, and at the level ``pause``,
-    the tool dwells. From ``pause`` on it drills at ``feed_after``, where that is given.
+    the tool dwells. From ``pause`` on it drills at ``feed_after``, where that is given. ``coolant`` is what its two
+    switchings are called, "" for none; it is off before the spindle takes the speed of the exit, or after it
+    (``cool_until_slow``).
     """
+    on, off = [Coolant(coolant[0], True)][: bool(coolant[0])], [Coolant(coolant[1], False)][: bool(coolant[1])]
     yield Spin("spindle for the entry", *entry)
     yield Go("to the start of the drilling", start, approach)
     yield Spin("spindle for the drilling", 1, speed)
-    yield Coolant("coolant on", True)
+    yield from on
     last = start
     for number, level in enumerate(levels, 1):
         name = f"peck {number} of {len(levels)}" if len(levels) > 1 else "drill"
-        if pause is not None and (last - pause) * (pause - level) > 0:
+        paused = pause is not None and pause != last and (last - pause) * (pause - level) >= 0
+        if paused and pause != level:
             yield Go(name, pause, feed)
             yield Wait("dwell on the way", dwell)
             feed = feed if feed_after is None else feed_after
         yield Go(name, level, feed)
         yield Wait("dwell at the bottom" if number == len(levels) else "dwell", dwell)
+        if paused and feed_after is not None:
+            feed = feed_after
         last = level
-    yield Coolant("coolant off", False)
-    yield Spin("spindle for the exit", *entry)
+    slow = Spin("spindle for the exit", *entry)
+    leaving: list[Step] = [slow, *off] if cool_until_slow else [*off, slow]
+    yield from leaving
     yield Go("retract", above, retract)

@@ -51,7 +51,7 @@ def helices(depth: float, pitch: float, bottom: float, upwards: bool, a_step: in
     >>> helices(20, 1.5, 10, True, 4)
     [(10.0, 11.5), (16.0, 17.5), (22.0, 23.5), (28.0, 29.5)]
     """
-    count = math.ceil((depth - DRIFT) / (max(a_step, 1) * pitch)) if a_step else 1
+    count = max(1, math.ceil((depth - DRIFT) / (max(a_step, 1) * pitch))) if a_step else 1
     if count > MOST:
         raise TooMany(f"{pitch:g} divides {depth:g} into more than {MOST} turns")
     lowest = [bottom + k * a_step * pitch for k in range(count)] if a_step > 1 else [bottom]
@@ -82,31 +82,51 @@ def mill_thread(
     """
     side = -sense if external else sense  # the half circles join the helix tangentially
     rise = pitch * path.approach / (2 * path.radius)
-    if path.start and not external:
-        yield Go("beside the thread", feed=position_feed, x=path.start, y=0.0)
-    middle = ((path.start + path.radius) / 2, 0.0)
+    middle, beside = ((path.start + path.radius) / 2, 0.0), path.start > DRIFT and not external
     for number, (begin, end) in enumerate(runs, 1):
-        way = 1 if end > begin else -1
-        name = "helix" if len(runs) == 1 else f"helix {number} of {len(runs)}"
-        yield Go("to the start level", begin, position_feed)
-        yield Go("back by the rise of the approach", begin - way * rise, position_feed)
-        yield Turn("approach", side * math.pi, begin, approach_feed, middle)
-        yield Turn(name, sense * WHOLE * round(abs(end - begin) / pitch), end, feed)
-        yield Turn("departure", side * math.pi, None, feed, middle)
-    if not external:
+        way, which = 1 if end > begin else -1, "" if len(runs) == 1 else f" {number} of {len(runs)}"
+        yield Go("to the start level" + which, begin, position_feed)
+        if number == 1 and beside:
+            yield Go("beside the thread", feed=position_feed, x=path.start, y=0.0)
+        yield Go("back by the rise of the approach" + which, begin - way * rise, position_feed)
+        yield Turn("approach" + which, side * math.pi, begin, approach_feed, middle)
+        yield Turn("helix" + which, sense * WHOLE * round(abs(end - begin) / pitch), end, feed)
+        yield Turn("departure" + which, side * math.pi, None, feed, middle)
+    if beside:
         yield Go("back to the axis", feed=position_feed, x=0.0, y=0.0)
 
 
 def countersink(path: Path, offset: float, *, sense: int, feed: float, external: bool = False) -> Iterator[Step]:
-    """A full circle of radius ``offset`` at the level of the tool, from the axis (outside: from the start point) and back."""
-    start = path.start if external else 0.0
-    if external:
-        side = 1 if offset < start else -1
-        middle = ((start + offset) / 2, 0.0)
-        yield Turn("to the countersink", -side * sense * math.pi, None, feed, middle)
-        yield Turn("countersink", sense * WHOLE, None, feed)
-        yield Turn("back from the countersink", -side * sense * math.pi, None, feed, middle)
+    """A full circle of radius ``offset`` at the level of the tool, from the axis (outside: from the start point) and back.
+
+    None without an offset: then the tool has countersunk where it stands.
+    """
+    if not offset:
         return
-    yield Turn("to the countersink", sense * math.pi, None, feed, (offset / 2, 0.0))
+    start = path.start if external else 0.0
+    # outside, and coming from outside the circle, the half circles turn the other way
+    half, middle = (-1 if offset < start else 1) * sense * math.pi, ((start + offset) / 2, 0.0)
+    apart = abs(offset - start) > DRIFT
+    if apart:
+        yield Turn("to the countersink", half, None, feed, middle)
     yield Turn("countersink", sense * WHOLE, None, feed)
-    yield Turn("back to the axis", sense * math.pi, None, feed, (offset / 2, 0.0))
+    if apart:
+        yield Turn("back from the countersink", half, None, feed, middle)
+
+
+def chamfer(radius: float, pitch: float, *, sense: int, feed: float, position_feed: float) -> Iterator[Step]:
+    """A full circle of a radius of the tool centre at its level, from the axis and back, approached as a thread is.
+
+    A narrow tool is brought to two pitches from the circle first; no circle where the tool fills the hole.
+    """
+    if radius <= DRIFT:
+        return
+    start = radius - 2 * min(radius / 2, pitch)
+    middle = ((start + radius) / 2, 0.0)
+    if start > DRIFT:
+        yield Go("beside the core", feed=position_feed, x=start, y=0.0)
+    yield Turn("to the core", sense * math.pi, None, feed, middle)
+    yield Turn("countersink at the side", sense * WHOLE, None, feed)
+    yield Turn("away from the core", sense * math.pi, None, feed, middle)
+    if start > DRIFT:
+        yield Go("back to the axis", feed=position_feed, x=0.0, y=0.0)

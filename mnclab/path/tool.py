@@ -10,7 +10,7 @@ class Tool:
     """Dimensions in mm, angles in degrees.
 
     ``angle`` is the point angle, ``plunge_angle`` the steepest plunge, ``dl`` and ``dr`` are deltas added to length and
-    radius, ``corner`` is the corner radius, ``cutting_length`` the length of the edges.
+    radius, ``corner`` is the corner radius, ``cutting_length`` the length of the edges, ``pitch`` that of a tap.
     """
 
     radius: float = 0.0
@@ -25,6 +25,7 @@ class Tool:
     teeth: int = 0
     cutting_length: float = 0.0
     kind: str = ""
+    pitch: float = 0.0
 
     @property
     def effective_radius(self) -> float:

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from mnclab.geometry.free_contour import FreeContour, known, normal_of
-from mnclab.geometry.readings import Contradiction, TooManyReadings
+from mnclab.geometry.quadratics import Form, System, conics
+from mnclab.geometry.readings import Contradiction
 
 START = (3.0, -2.0)
 
@@ -35,17 +36,24 @@ def draw(random, count):
     return drawn
 
 
-def measured(random, element):
-    """Everything that may be told of an element, in random order."""
+def somewhere(random, element):
+    """A point of an element, and the unit normal there."""
     _, start, end, centre, _, heading, sweep = element
-    share, off = random.uniform(0.2, 0.8), random.uniform(2, 9) * random.choice([-1, 1])
+    share = random.uniform(0.2, 0.8)
     n = np.array([-math.sin(heading + share * sweep), math.cos(heading + share * sweep)])
     if centre is None:
-        point = start + share * (end - start)
-    else:
-        c, s = math.cos(share * sweep), math.sin(share * sweep)
-        point = centre + np.array([[c, -s], [s, c]]) @ (start - centre)
-    kinds = ["x", "y", "direction", "length", "ix", "iy", ("through", point), ("beside", point + off * n, abs(off))]
+        return start + share * (end - start), n
+    c, s = math.cos(share * sweep), math.sin(share * sweep)
+    return centre + np.array([[c, -s], [s, c]]) @ (start - centre), n
+
+
+def measured(random, element):
+    """Everything that may be told of an element, in random order."""
+    centre = element[3]
+    point, _ = somewhere(random, element)
+    off = random.uniform(2, 9) * random.choice([-1, 1])
+    foot, n = somewhere(random, element)
+    kinds = ["x", "y", "direction", "length", "ix", "iy", ("through", point), ("beside", foot + off * n, abs(off))]
     if centre is not None:
         kinds += ["radius", "radius", "cx", "cy", "angle"]
     order = random.permutation(len(kinds))
@@ -127,7 +135,7 @@ def distance(contour, reading, drawn):
     return found
 
 
-@pytest.mark.parametrize("seed", range(200))
+@pytest.mark.parametrize("seed", range(60))
 def test_a_drawn_contour_is_found_again(seed):
     random = np.random.default_rng(seed)
     drawn = draw(random, int(random.integers(1, 4)))
@@ -135,3 +143,49 @@ def test_a_drawn_contour_is_found_again(seed):
     contour.follow(thoroughly=True)
     assert not any(contour.open_unknowns(reading) for reading in contour.readings)
     assert min(distance(contour, reading, drawn) for reading in contour.readings) < 1e-9
+
+
+def test_a_contradiction_names_the_datum():
+    contour = FreeContour((0, 0))
+    contour.line()
+    contour.same(contour.end(), known(30, 40), "end")
+    contour.length(0, 51, "length")
+    with pytest.raises(Contradiction) as found:
+        contour.follow()
+    assert found.value.label == "length"
+
+
+def test_what_is_missing_is_counted():
+    contour = FreeContour((0, 0))
+    contour.line()
+    contour.arc(tangent=True)  # its end and its radius
+    contour.direction(0, normal_of(0.3), "direction")
+    contour.follow()
+    assert contour.missing(contour.readings[0]) == 3  # the length of the line too
+
+
+def test_two_conics_meet_in_four_points():
+    # x²/25 + y² = 1 and x² + y²/25 = 1 meet where x² = y² = 25/26
+    flat, tall = np.diag([1 / 25, 1.0]), np.diag([1.0, 1 / 25])
+    found = conics((flat, np.zeros(2), -1.0), (tall, np.zeros(2), -1.0))
+    assert np.abs(found) == pytest.approx(math.sqrt(25 / 26), abs=1e-12)
+    assert {tuple(np.sign(point)) for point in found} == {(1, 1), (1, -1), (-1, 1), (-1, -1)}
+    assert conics((flat, np.zeros(2), -1.0), (flat, np.zeros(2), -1.0)) is None
+
+
+def test_the_circles_of_apollonius():
+    # circles of radius ρ that touch three of radius 1 about the corners of an equilateral triangle of side 4 from the
+    # same side: about its middle, 4/√3 from the corners, so that |ρ - 1| = 4/√3
+    x, y, r = (Form(0.0, {i: 1.0}) for i in range(3))
+    corners = [(0.0, 0.0), (4.0, 0.0), (2.0, 2 * math.sqrt(3))]
+    forms = [(x - a) * (x - a) + (y - b) * (y - b) - (r - 1.0) * (r - 1.0) for a, b in corners]
+    found = System(forms, [0, 1, 2], np.full(3, np.nan), [1, 1, 1], 4.0).solve()
+    assert sorted(value[2] for value in found) == pytest.approx([1 - 4 / math.sqrt(3), 1 + 4 / math.sqrt(3)])
+    assert np.array(found)[:, :2] == pytest.approx(np.array([(2, 2 / math.sqrt(3))] * 2))
+
+
+def test_a_circle_touched_within_the_precision_of_drawings_is_touched():
+    for gap, count in ((0.0005, 1), (0.01, 0), (-0.01, 2)):
+        x, y = (Form(0.0, {i: 1.0}) for i in range(2))
+        forms = [x * x + y * y - 100.0, y - 10 - gap]
+        assert len(System(forms, [0, 1], np.full(2, np.nan), [1, 1], 10.0).solve()) == count

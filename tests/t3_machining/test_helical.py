@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab.machining.depths import TooMany
-from mnclab.machining.helical import bore_milling, turns
+from mnclab.machining.helical import bore_milling, steepest_pitch, turns
 from mnclab.machining.steps import Go, Orient, Spin, Thread, Turn, Wait
 from mnclab.machining.tapping import tap
 from mnclab.machining.thread_milling import centre_feed, countersink, helices, mill_thread, path_of
@@ -43,6 +43,12 @@ def test_turns_are_counted_and_too_many_refused():
             turns(82, pitch)
 
 
+def test_a_plunge_angle_limits_the_turn():
+    """One turn unrolled: the angle between 2 pi r and the infeed; 45 degrees make them equal."""
+    assert steepest_pitch(3, 45) == pytest.approx(6 * math.pi)
+    assert steepest_pitch(3, 0) == steepest_pitch(3, 90) == math.inf
+
+
 @pytest.mark.parametrize(
     ("step", "upwards", "runs"),
     [  # TNC 620, 5.6: pitch 1.5, thread from 30 down to 10
@@ -67,9 +73,9 @@ def test_a_thread_milled_in_one_turn(trace):
     found = trace(steps, 32)
     assert [point for _, point in found] == [
         pytest.approx(point, abs=1e-9)
-        for point in [(0, 0, 10), (0, 0, 9.625), (2, 0, 10), (2, 0, 11.5), (0, 0, 11.5), (0, 0, 11.5)]
+        for point in [(0, 0, 10), (0, 0, 9.625), (2, 0, 10), (2, 0, 11.5), (0, 0, 11.5)]
     ]
-    assert [step.feed for step, _ in found] == [750, 750, 180, 200, 200, 750]
+    assert [step.feed for step, _ in found] == [750, 750, 180, 200, 200]
 
 
 def test_a_thread_milled_downwards_from_above(trace):
@@ -88,7 +94,8 @@ def test_a_narrow_tool_begins_beside_the_thread(trace):
     path = path_of(30, 5, 1.5)
     assert path == (10, 1.5, 7)
     found = trace(mill_thread(path, [(0, 1.5)], pitch=1.5, sense=1, feed=1, approach_feed=1, position_feed=1))
-    assert found[0][1] == (7, 0, 0) and found[2][1][2] == pytest.approx(-0.1125)
+    assert [found[k][1] for k in (0, 1)] == [(0, 0, 0), (7, 0, 0)] and found[2][1][2] == pytest.approx(-0.1125)
+    assert found[-1][0].label == "back to the axis" and found[-1][1][:2] == (0, 0)
 
 
 def tangent(step, before):

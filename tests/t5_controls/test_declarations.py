@@ -23,8 +23,8 @@ def tables(control):
     return {code: entry["parameters"] for entry in entries for code in (entry["code"], *entry["aliases"])}
 
 
-TABLES = {control: tables(control) for control in mnclab.controls}
-CYCLES = [(control, code) for control in mnclab.controls for code in mnclab.controls[control].cycles]
+TABLES = {control: tables(control) for control in mnclab.controls if control != "g43"}  # its source has no cycles
+CYCLES = [(control, code) for control in TABLES for code in mnclab.controls[control].cycles]
 
 #: Our names where the table has a longer one: the word that the address does not say already.
 NAMES = {
@@ -61,6 +61,32 @@ NAMES = {
     "number_in_table": "row",
     "datum_ts_axis": "datum",
     "measured_value_transfer": "transfer",
+    # drilling (TNC 620, chapter 4)
+    "select_diameter_or_depth": "mode",
+    "centering_diameter": "diameter",
+    "number_of_chip_breaks": "chip_breaks",
+    "minimum_infeed_depth": "min_infeed",
+    "chip_breaking_distance": "break_retract",
+    "disengaging_direction": "disengage",
+    "spindle_orientation_angle": "spindle_angle",
+    "material_thickness": "thickness",
+    "off_center_distance": "eccentricity",
+    "tool_edge_height": "edge_height",
+    "pre_positioning_feed_rate": "positioning_feed",
+    "counterboring_feed_rate": "feed",
+    "dwell_time": "dwell_bottom",
+    "infeed_per_helix": "pitch",
+    "nominal_diameter": ("diameter", "nominal_diameter"),
+    "climb_or_up_cut": "climb",
+    "upper_advanced_stop_distance": ("first_stop", "upper_advanced_stop_distance"),
+    "lower_advanced_stop_distance": "last_stop",
+    "infeed_depth_for_chip_breaking": "break_every",
+    "deepened_starting_point": "start_depth",
+    "spindle_direction_entry_exit": "spindle_direction",
+    "spindle_speed_entry_exit": "entry_speed",
+    "spindle_speed_drilling": "drilling_speed",
+    "coolant_on_m_function": "coolant_on",
+    "coolant_off_m_function": "coolant_off",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -82,6 +108,9 @@ EXPLAINED = {
     ("tnc-620", "CYCL DEF 22", "Q208", "default"): (math.inf, "FMAX"),
     ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 14", "LBL", "limits"): ({">=": 1, "<=": 65535}, "of each; twelve at most are a check"),
+    **{("tnc-620", f"CYCL DEF {n}", "Q355", "choices"): (set(), "2, 3, … too: any whole number") for n in (262, 267)},
+    **{("tnc-620", f"CYCL DEF {n}", "Q355", "type"): ("integer", "of a pitch per step") for n in (262, 267)},
+    ("tnc-620", "CYCL DEF 201", "Q203", "limits"): ({">=": -99999.9999, "<=": 99999.9999}, "a misprint: as everywhere"),
     **{("nc-31", "G77", axis, "limits"): ({}, "any whole number of its unit") for axis in "XZ"},
     **{("nc-31", "G77", axis, "type"): ("number", "the reader refuses what is not whole") for axis in "XZ"},
     ("nc-31", "G77", "X", "unit"): ("0.01 mm", "that X is a diameter is in its meaning"),
@@ -142,7 +171,7 @@ def tabled(row):
     adopted = re.fullmatch(rf".*adopt ({NUMBER})", str(default))
     return {
         "limits": limits(row.get("range")),
-        "choices": {float(choice) for choice in row.get("choices") or ()},
+        "choices": {float(choice) for choice in row.get("choices") or () if re.fullmatch(NUMBER, str(choice))},
         "default": float(adopted[1]) if adopted else default if isinstance(default, int | float) else None,
         "also": {*re.findall(r"\b(F[A-Z]+|PREDEF)\b", row.get("range", "")), *row.get("alternatives", ())},
         **{key: row.get(key) for key in ("unit", "type", "required", "modal", "incremental")},

@@ -36,7 +36,7 @@ _G_BLOCK = re.compile(r"^[ \t/\ufeff]*(N[ \t]*\d+[ \t]*)?G[ \t]*\d", re.IGNORECA
 
 def looks_like(text: str) -> bool:
     """Blocks of G words, and none of the marks by which other languages are known."""
-    return _G_BLOCK.search(text) is not None and re.search(r"[*~@;']|BEGIN[ \t]+PGM", text) is None
+    return _G_BLOCK.search(text) is not None and re.search(r"[*~@;']|BEGIN[ \t]+PGM|G[ \t]*4[349](?!\d)", text) is None
 
 
 #: What the words of functions are, where their letters do not say it.

@@ -9,7 +9,16 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.tnc_620 import later, reader
-from mnclab.controls.tnc_620.cycles import contours, drilling, transformations
+from mnclab.controls.tnc_620.cycles import (
+    boring,
+    contours,
+    drilling,
+    pecking,
+    tapping,
+    thread_drilling,
+    threads,
+    transformations,
+)
 from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
@@ -24,6 +33,7 @@ from mnclab.controls.tnc_620.language import (
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
+from mnclab.machine.cycle import CycleTable
 from mnclab.machine.settings import Setting
 from mnclab.path.compensation import Compensation
 
@@ -34,9 +44,14 @@ SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
+    Setting("controlled_spindle", True, "the spindle's angle is controlled, as 202, 204, 207, 209 need it", "4.5, 5.3"),
     Setting(
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
+    ),
+    Setting(
+        "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
+        unit="s", at_least=0,
     ),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
@@ -45,7 +60,15 @@ FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS | free_contours.FUNCTIONS
 )  # fmt: skip
-CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
+CYCLES = CycleTable()
+for chapter in (
+    drilling, boring, pecking,
+    tapping, threads, thread_drilling,
+    contours,
+    transformations,
+    presets,
+):  # fmt: skip
+    CYCLES |= chapter.CYCLES
 
 #: What the words of statements are.
 MEANINGS = {

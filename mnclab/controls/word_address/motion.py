@@ -128,12 +128,18 @@ def corrector(m: Machine, words: Words) -> None:
     row = tool_row(m, words["D"], "corrector")
     refuse_change(m, "corrector", words["D"])
     own = m.tables.tools[m.tool.number]
-    length = row.length if m.settings.get("corrector_length") else own.length
-    corrected = replace(own, radius=row.radius, length=length, dr=row.dr, dl=row.dl)
-    if corrected.effective_length != m.tool.effective_length:
-        m.change_tool(corrected)
+    other = replace(corrected(own, row), dl=row.dl)
+    if m.settings.get("corrector_length"):
+        other = replace(other, length=row.length)
+    if other.effective_length != m.tool.effective_length:
+        m.change_tool(other)
     else:
-        m.change("tool", corrected)
+        m.change("tool", other)
+
+
+def corrected(tool: Tool, row: Tool) -> Tool:
+    """A tool with the radius of another row of the table."""
+    return replace(tool, radius=row.radius, dr=row.dr)
 
 
 def tool_row(m: Machine, word: Word, name: str) -> Tool:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -47,3 +50,51 @@ def drilled() -> Callable[[mnc.Run], list[str]]:
         return found
 
     return words
+
+
+THREADING = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-threading.json"
+
+
+@pytest.fixture(scope="session")
+def printed() -> dict[int, dict[str, str]]:
+    """The definitions that chapter 5 prints: number of the cycle -> its Q parameters as they are written, in order."""
+    examples = json.loads(THREADING.read_text(encoding="utf-8"))
+    found = {int(e["code"].split()[-1]): e["program"] for e in examples if e["code"].startswith("CYCL DEF")}
+    return {number: dict(re.findall(r"(Q\d+)=(\S+)", text)) for number, text in found.items()}
+
+
+@pytest.fixture(scope="session")
+def called(printed: dict[int, dict[str, str]]) -> Runner:
+    """Run a printed definition, with some Q parameters changed, at X0 Y0 from Z100; ``start`` is written before it.
+
+    Tool 3 has a radius of 3, or the one given; the definition begins in line 4, its parameters follow one a line.
+    """
+
+    def run(
+        number: int, start: str = "M3", radius: float = 3, pitch: float = 0, speed: float = 500, unit: str = "MM",
+        limits: mnc.Limits | None = None, settings: dict[str, object] | None = None, **changed: object,
+    ) -> mnc.Run:  # fmt: skip
+        values = printed[number] | {address: str(value) for address, value in changed.items()}
+        lines = [f"{address}={value}" for address, value in values.items() if value != "None"]
+        tools = {3: mnc.Tool(radius=radius, pitch=pitch)}
+        setup = mnc.Setup(tools=tools, limits=limits or mnc.Limits(), settings=settings or {})
+        return mnc.run(
+            f"0 BEGIN PGM A {unit}\n1 TOOL CALL 3 Z S{speed:g} F333\n2 L X+0 Y+0 Z+100 R0 FMAX {start}\n"
+            + "\n".join([f"3 CYCL DEF {number} X", *lines, "4 CYCL CALL", f"99 END PGM A {unit}\n"]),
+            "tnc-620",
+            setup,
+        )
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def rows() -> Callable[[mnc.Run], mnc.Toolpath]:
+    """The rows of the cycles of a run that ended well."""
+
+    def of(run: mnc.Run) -> mnc.Toolpath:
+        assert run.ok, run.alarms
+        path = run.toolpath
+        return path[[path.labels[k].startswith("CYCL DEF") for k in path.label]]
+
+    return of

@@ -121,7 +121,7 @@ REFUSED = [
      "CYCL DEF 200 Q206 (feed rate for plunging) must be greater than 0 to drill with, got 0"),
     (D200.replace("Q202=5", "Q202=.0001") + "3 CYCL CALL M3", 7, 1,
      "CYCL DEF 200 Q202 (infeed depth) 0.0001 divides 15 into more than 10000 infeeds"),
-    ("2 CYCL DEF 201 ALEZARE", 3, 1, "CYCL DEF 201 is refused: Reaming, not built yet"),
+    ("2 CYCL DEF 225 GRAVARE", 3, 1, "CYCL DEF 225 is refused: Engraving, not built yet"),
     ("2 CYCL DEF 310", 3, 1,
      "CYCL DEF 310 is refused: a cycle of the machine tool builder, whose manual alone describes it"),
     ("2 TCH PROBE 417 X\nQ263=1", 3, 1, "TCH PROBE 417 is refused: Preset in the probe axis, not built yet"),

@@ -10,13 +10,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from mnclab.controls.word_address.holes import approach, initial_level, leave
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes import drill, ream
-from mnclab.machining.steps import Go
 from mnclab.machining.tapping import tap
 from mnclab.text.program import Word
 
@@ -36,12 +36,6 @@ def cycle_off(m: Machine, words: Words) -> None:
 @FUNCTIONS("G98 G99", RETURN, group="return", phase="plane", power_on="G98", source="9")
 def return_level(m: Machine, words: Words) -> None:
     """Where a fixed cycle leaves the tool; the prepared cycles always end at their start point."""
-
-
-def initial_level(m: Machine, kept: dict[str, Any]) -> float:
-    """Z of the program where the tool stood when the cycle was first called."""
-    x, y, _ = m.tip
-    return m.to_program((x, y, kept["initial"]))[2]
 
 
 @dataclass(frozen=True)
@@ -115,19 +109,6 @@ class FixedCycle(Cycle):
         if "machine coordinates" in m.memory:
             yield "", "and G53 stand in one block: the cycle counts from the workpiece"
 
-    def approach(self, m: Machine) -> None:
-        """Movements 1 and 2: over the hole, then to level R."""
-        m.label = f"{self.code} to the hole"
-        m.rapid(x=self.x, y=self.y)
-        perform(m, self.code, [Go("to level R", self.r_level)])
-
-    def leave(self, m: Machine) -> None:
-        """Movements 5 and 6: to level R, and with G98 to the initial level."""
-        steps = [Go("retract", self.r_level)]
-        if m.modal["return"] == "G98" and m.position_cycle:
-            steps.append(Go("to the initial level", initial_level(m, m.position_cycle.extra)))
-        perform(m, self.code, steps)
-
 
 @CYCLES("G83", "Deep-hole drilling", runs="position", source="MNC 9.1", triggers=POSITION)
 class DeepHoleDrilling(FixedCycle):
@@ -159,11 +140,11 @@ class DeepHoleDrilling(FixedCycle):
 
     def moves(self, m: Machine) -> None:
         """Position, level R, pecks, dwell, and up."""
-        self.approach(m)
+        approach(m, self.code, self.x, self.y, self.r_level)
         clearance = m.settings["peck_clearance"]
         steps = drill(self.levels(), above=self.r_level, feed=None, reenter=clearance, dwell_bottom=self.dwell)
         perform(m, self.code, steps)
-        self.leave(m)
+        leave(m, self.code, self.r_level)
 
 
 @CYCLES("G84", "Tapping", runs="position", source="MNC 9.2", triggers=POSITION)
@@ -180,13 +161,13 @@ class Tapping(FixedCycle):
 
     def moves(self, m: Machine) -> None:
         """The cycle runs at a feed per revolution; F in mm/min is divided by the speed."""
-        self.approach(m)
+        approach(m, self.code, self.x, self.y, self.r_level)
         pitch = m.feed_of(None) / abs(m.speed)
         steps = tap(
             [self.bottom], above=self.r_level, pitch=pitch, sense=m.turning, end=m.turning, dwell=self.dwell
         )  # fmt: skip
         perform(m, self.code, steps)
-        self.leave(m)
+        leave(m, self.code, self.r_level)
 
 
 @CYCLES("G85", "Boring and reaming", runs="position", source="MNC 9.3", triggers=POSITION)
@@ -195,6 +176,6 @@ class Reaming(FixedCycle):
 
     def moves(self, m: Machine) -> None:
         """Position, level R, in at feed, dwell, out at feed."""
-        self.approach(m)
+        approach(m, self.code, self.x, self.y, self.r_level)
         perform(m, self.code, ream(self.bottom, above=self.r_level, feed=None, retract=None, dwell=self.dwell))
-        self.leave(m)
+        leave(m, self.code, self.r_level)

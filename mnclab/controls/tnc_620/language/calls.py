@@ -36,6 +36,6 @@ def call(m: Machine, code: str, word: Word | None) -> None:
         )
     if m.tool.number == 0:
         m.warn(f"{code}: no tool was called", word)
-    if not m.turning:
+    if not m.turning and not m.cycle.cycle.own_spindle:
         m.warn(f"{code}: the spindle does not turn", word, hint="write M3 or M4 before the call")
     run_cycle(m, m.cycle)

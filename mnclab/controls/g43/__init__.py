@@ -1,0 +1,98 @@
+"""A milling control of ISO words with G43, G44 and G49; of its manual there is one chapter.
+
+``lengths`` holds what that chapter says, ``language`` the functions of its example and what its other titles must mean,
+``cycles`` the drilling cycles of ISO controls.
+"""
+
+from __future__ import annotations
+
+import re
+
+from mnclab.controls.g43 import cycles, language, lengths
+from mnclab.controls.word_address.reader import reader
+from mnclab.machine.bulk import PlainWords
+from mnclab.machine.control import Control
+from mnclab.machine.machine import Machine
+from mnclab.machine.settings import Setting
+from mnclab.machine.setup import Datum
+from mnclab.path.compensation import Compensation
+
+#: Order inside a block.
+PHASES = (
+    *(
+        "plane",
+        "feed",
+        "spindle",
+        "tool",
+        "change",
+        "corrector",
+        "length",
+        "auxiliary",
+        "frames",
+        "local",
+        "compensation",
+    ),
+    *("dwell", "motion", "call", "end"),
+)
+
+SETTINGS = (
+    Setting("block_skip", False, "operator mode: blocks with / are passed over", "ISO 6983"),
+    Setting(
+        "undescribed", "warn", "codes of chapters that the source does not have", "other chapters",
+        {"warn": "their ISO meaning, with a warning", "accept": "their ISO meaning, without a word", "refuse": "an alarm"},
+    ),
+    Setting("peck_clearance", 1.0, "where G83 returns to above the last depth, and how far G73 lifts", "", {}, "mm", 0),
+    Setting("arc_tolerance", 0.01, "difference of the radii at start and end of an arc", "", {}, "mm", 0),
+    Setting(
+        "gouge", "refuse", "what happens where a compensated tool does not fit", "",
+        {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
+    ),
+    Setting("bulk", True, "obey long runs of plain blocks at once", ""),
+)  # fmt: skip
+
+_NO_SYNTAX = "the source does not say how this control writes it"
+REFUSED = (
+    {code: f"not built: subprograms; {_NO_SYNTAX}" for code in ("M98", "M99", "G65", "G66", "G67")}
+    | {code: "not built: boring that needs an operator or a shifted tool" for code in ("G87", "G88")}
+    | {code: "not built: only the first reference point is, G28" for code in ("G29", "G30")}
+)
+
+MEANINGS = {
+    **{f"G{n} {letter}": f"centre along {axis}" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
+    "R": "radius", "G4 P": "milliseconds", "G4 X": "seconds",
+}  # fmt: skip
+
+_LENGTHS = re.compile(r"^[^;\n]*G[ \t]*4[349](?!\d)", re.I | re.M)
+
+
+def start(m: Machine) -> None:
+    """G54 is active at the start; the tip hangs below the spindle by the length of the tool."""
+    m.select_datum(m.tables.datums.get(1, Datum()))
+    lengths.place(m, "tip")
+
+
+FUNCTIONS = language.FUNCTIONS | lengths.FUNCTIONS | cycles.FUNCTIONS
+
+CONTROL = Control(
+    name="g43",
+    title="ISO milling control with G43, G44, G49",
+    suffixes=(".g43", ".iso"),
+    read=reader("g43", comment=";"),
+    functions=FUNCTIONS,
+    cycles=cycles.CYCLES,
+    phases=PHASES,
+    settings=SETTINGS,
+    frames=("datum", "local", "length"),
+    compensation=Compensation(approach="corner", change=True, look_ahead=True),
+    start=start,
+    looks_like=lambda text: _LENGTHS.search(text) is not None,
+    refused=REFUSED,
+    meanings=MEANINGS,
+    together=language.together,
+    bulk=PlainWords(
+        motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
+        ready=lambda m: not lengths.pending(m) and {"G2", "G3"} <= m.memory.get("told", set()),
+        absolute=lambda m: m.modal["dimension"] == "G90",
+        tolerance=lambda m: float(m.settings["arc_tolerance"]),
+    ),
+)

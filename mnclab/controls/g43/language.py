@@ -1,0 +1,239 @@
+"""Motion, planes, datums, feed, spindle and auxiliary functions.
+
+The source has one chapter, on G43, G44 and G49; its example uses G0, G1, G17, G54, F, T and M6. Of the other chapters there
+are only the titles: what they must mean is taken from ISO 6983, and a program that uses it gets a warning (setting
+``undescribed``).
+"""
+
+from __future__ import annotations
+
+from mnclab.controls.g43.lengths import activate
+from mnclab.controls.word_address import motion
+from mnclab.controls.word_address.motion import AXES, first_word
+from mnclab.geometry import frames
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.machine import Machine
+from mnclab.machine.setup import Datum
+from mnclab.text.program import Word, digits
+
+FUNCTIONS = FunctionTable()
+ISO = "ISO 6983, not described"
+DATUMS = {f"G{n}": n - 53 for n in range(54, 60)}
+ARCS = {"G2": "Circular interpolation clockwise", "G3": "Circular interpolation counter-clockwise"}
+LENGTHS = ("G43", "G44", "G49")
+
+
+def together(m: Machine, words: list[Word]) -> None:
+    """The length compensation needs a straight motion."""
+    codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
+    axes = any(word.address in AXES for word in words)
+    arcs = [code for code in ARCS if code in codes] or [code for code in ARCS if m.modal["motion"] == code and axes]
+    for code in LENGTHS:
+        if code in codes and arcs and not {"G0", "G1"} & codes.keys():
+            m.alarm(f"{code} needs a straight motion, got {arcs[0]} in its block", codes[code], "write two blocks")
+
+
+def undescribed(m: Machine, words: Words) -> None:
+    """Say once for each code that its chapter is not there."""
+    told = m.memory.setdefault("told", set())
+    if words.code not in told:
+        told.add(words.code)
+        sentence = f"{words.code}: not described in the manual; it is taken in its ISO meaning"
+        motion.remark(m, "undescribed", sentence, words)
+
+
+def targets(m: Machine, words: Words) -> dict[str, float]:
+    """Where the axes that are written go; their offsets count from now on."""
+    to = motion.coordinates(m, words, m.modal["dimension"] == "G90")
+    if to and "machine coordinates" not in m.memory:
+        activate(m, "".join(to).upper())
+    return to
+
+
+@FUNCTIONS("G0", "Rapid positioning", group="motion", takes="X Y Z", power_on="G0", moves=True, source="7.1, example")
+def rapid(m: Machine, words: Words) -> None:
+    """All axes at their greatest speed."""
+    if to := targets(m, words):
+        m.rapid(**to)
+
+
+@FUNCTIONS("G1", "Linear interpolation", group="motion", takes="X Y Z", moves=True, source="7.1, example")
+def line(m: Machine, words: Words) -> None:
+    """A straight line at feed F."""
+    if to := targets(m, words):
+        m.line(**to, word=first_word(words))
+
+
+@FUNCTIONS("G2 G3", ARCS, group="motion", takes="X Y Z I J K R", moves=True, source=ISO)
+def arc(m: Machine, words: Words) -> None:
+    """An arc by R (negative: above 180 degrees) or by I J K from the start."""
+    undescribed(m, words)
+    targets(m, words)
+    motion.arc(m, words, -1 if words.code == "G2" else 1, m.modal["dimension"] == "G90")
+
+
+@FUNCTIONS(
+    "G17 G18 G19", {"G17": "Plane XY", "G18": "Plane ZX", "G19": "Plane YZ"},
+    group="plane", phase="plane", power_on="G17", source="7.1, example",
+)  # fmt: skip
+def plane(m: Machine, words: Words) -> None:
+    """The plane of arcs and radius compensation; lengths and holes lie along Z in all of them."""
+    if words.code != "G17":
+        undescribed(m, words)
+    motion.set_plane(m, {"G17": "XY", "G18": "ZX", "G19": "YZ"}[words.code], first_word(words))
+
+
+@FUNCTIONS(
+    "G90 G91", {"G90": "Absolute dimensions", "G91": "Incremental dimensions"},
+    group="dimension", phase="plane", power_on="G90", source=ISO,
+)  # fmt: skip
+def dimension(m: Machine, words: Words) -> None:
+    """Coordinates, or distances from the last programmed point."""
+    if words.code == "G91":
+        undescribed(m, words)
+
+
+# --- datums --------------------------------------------------------------------------------------------------------------
+
+
+@FUNCTIONS(
+    "G54 G55 G56 G57 G58 G59", "Work offset", group="datum", phase="frames", power_on="G54", source="7.1, example"
+)
+def work_offset(m: Machine, words: Words) -> None:
+    """Rows 1 to 6 of the datum table; a row that is not there is the machine's zero."""
+    if m.side:
+        m.alarm("a work offset cannot change under radius compensation", first_word(words), hint="write G40 first")
+    m.select_datum(m.tables.datums.get(DATUMS[words.code], Datum()))
+
+
+@FUNCTIONS("G53", "Machine coordinates", phase="frames", modal=False, source=ISO)
+def machine_coordinates(m: Machine, words: Words) -> None:
+    """In this block, coordinates are those of the spindle reference: no offset counts."""
+    undescribed(m, words)
+    if m.side:
+        m.alarm("G53 cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    kept = [(name, frame) for name, frame in m.frames]
+
+    def restore() -> None:
+        for name, frame in kept:
+            m.set_frame(name, frame)
+        m.memory.pop("machine coordinates")
+
+    m.memory["machine coordinates"] = True
+    for name, _ in kept:
+        m.set_frame(name, None)
+    m.set_frame("length", frames.shift(z=-m.tool.effective_length))
+    m.at_block_end(restore)
+
+
+@FUNCTIONS(
+    "G52 G92", {"G52": "Local shift", "G92": "Set position"},
+    phase="local", takes="X Y Z", still=True, modal=False, source=ISO,
+)  # fmt: skip
+def shift(m: Machine, words: Words) -> None:
+    """G52 moves the origin from that of the work offset; G92 gives the present point new coordinates. No motion."""
+    undescribed(m, words)
+    if m.side:
+        m.alarm(f"{words.code} cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    place = m.frames["local"][:3, 3].copy()
+    for k, axis in enumerate(AXES):
+        if axis in words:
+            value = m.value(words[axis])
+            place[k] = value if words.code == "G52" else place[k] + m.programmed[k] - value
+    m.set_frame("local", frames.shift(*place))
+
+
+@FUNCTIONS("G28", "Return to the reference point", takes="X Y Z", still=True, modal=False, source=ISO)
+def reference(m: Machine, words: Words) -> None:
+    """The axes written go to their points at rapid, then to machine zero; without axes all go at once."""
+    undescribed(m, words)
+    if m.side:
+        m.alarm("G28 cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    if to := targets(m, words):
+        m.rapid(**to)
+    home = m.to_program((0.0, 0.0, -m.tool.effective_length))
+    axes = [k for k, axis in enumerate(AXES) if axis.lower() in to or not to]
+    m.rapid(**{AXES[k].lower(): home[k] for k in axes})
+
+
+# --- feed, spindle, auxiliary functions -----------------------------------------------------------------------------------
+
+FUNCTIONS("F", "Feed", phase="feed", source="7.1, example")(motion.feed)
+FUNCTIONS("S", "Spindle speed", phase="spindle", source=ISO)(motion.spindle_speed)
+
+FEED = {"G94": "Feed per minute", "G95": "Feed per revolution"}
+SPINDLE = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise", "M5": "Spindle stop"}
+STOPS = {"G61": "Exact stop between blocks", "G64": "Block blending"}
+
+
+@FUNCTIONS("G94 G95", FEED, group="feed mode", phase="plane", power_on="G94", source=ISO)
+def feed_mode(m: Machine, words: Words) -> None:
+    """What F means: mm/min or mm/rev; a new F must follow."""
+    undescribed(m, words)
+    if m.per_rev != (words.code == "G95"):
+        m.change("feed", None)
+    m.change("per_rev", words.code == "G95")
+
+
+@FUNCTIONS("G61 G64", STOPS, group="blending", phase="plane", power_on="G64", source=ISO)
+def exact_stop(m: Machine, words: Words) -> None:
+    """Whether every motion ends with exact positioning; the path is the same."""
+    undescribed(m, words)
+    m.change("exact", words.code == "G61")
+
+
+@FUNCTIONS("G4", "Dwell", phase="dwell", takes="P X", still=True, modal=False, source=ISO)
+def dwell(m: Machine, words: Words) -> None:
+    """A pause of X seconds or P milliseconds."""
+    undescribed(m, words)
+    if len(words.words) != 2:
+        m.alarm("G4 needs P (milliseconds) or X (seconds)", first_word(words))
+    word = words.words[1]
+    value = m.value(word)
+    if not 0 <= value <= 1e6:
+        m.alarm(f"G4 {word.address} (dwell) must be at least 0 and at most 1e+06, got {value:g}", word)
+    m.dwell(value if word.address == "X" else value / 1000)
+
+
+@FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source=ISO)
+def spindle(m: Machine, words: Words) -> None:
+    """M3 and M4 before the motion of the block, M5 after it."""
+    if words.code == "M5":
+        m.at_block_end(lambda: m.spindle(turning=0))
+    else:
+        m.spindle(turning=1 if words.code == "M3" else -1)
+
+
+@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source=ISO)
+def program_stop(m: Machine, words: Words) -> None:
+    """Wait for the operator after the motion of the block."""
+    m.stop()
+
+
+@FUNCTIONS("M2 M30", "Program end", phase="end", modal=False, source=ISO)
+def program_end(m: Machine, words: Words) -> None:
+    """The program ends here, after the motion of the block."""
+    m.ended = True
+
+
+COOLANT = {"M7": "Mist on", "M8": "Coolant on", "M9": "Coolant off"}
+
+
+def coolant(m: Machine, words: Words) -> None:
+    """On before the motion of the block, off after it."""
+    m.coolant()
+
+
+FUNCTIONS("M7 M8", COOLANT, group="coolant", phase="auxiliary", source=ISO)(coolant)
+FUNCTIONS("M9", COOLANT, group="coolant", phase="end", power_on="M9", source=ISO)(coolant)
+
+SIDES = {"G40": 0, "G41": 1, "G42": -1}
+COMPENSATION = {"G40": "Radius compensation off", "G41": "Radius compensation left", "G42": "Radius compensation right"}
+
+
+@FUNCTIONS("G40 G41 G42", COMPENSATION, group="compensation", phase="compensation", power_on="G40", source=ISO)
+def compensation(m: Machine, words: Words) -> None:
+    """Takes effect with the next straight line in the plane; the radius is that of corrector D."""
+    if words.code != "G40":
+        undescribed(m, words)
+    m.change("side", SIDES[words.code])

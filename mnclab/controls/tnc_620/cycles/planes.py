@@ -1,0 +1,52 @@
+"""The planes of a cycle in the tool axis, and the rule of the sign of its depths (4.3, 5.2, 5.5).
+
+S is the surface Q203, A = S + Q200 the set-up plane, E the plane at the end: S + Q204 where that is higher than A. A positive
+depth works upwards from A = S - Q200, where the setting "depth_error" allows it; E stays above the surface.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from mnclab.machine.cycle import Cycle
+from mnclab.machine.machine import Machine
+from mnclab.machining.steps import Go
+
+
+class AtSurface(Cycle):
+    """What a cycle at a surface shares; who inherits declares the parameters."""
+
+    clearance: float
+    surface: float
+    second_clearance: float
+
+    def depths(self) -> dict[str, float]:
+        """The depths by name, in the order in which their signs are evaluated; 0 leaves a step out."""
+        raise NotImplementedError
+
+    @property
+    def down(self) -> float:
+        """+1 where the cycle works downwards, -1 upwards, 0 where it has nothing to do."""
+        depth = next((depth for depth in self.depths().values() if depth), 0.0)
+        return -math.copysign(1.0, depth) if depth else 0.0
+
+    @property
+    def above(self) -> float:
+        """A, the set-up plane."""
+        return self.surface + (-self.clearance if self.down < 0 else self.clearance)
+
+    def signs(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """The first depth that is not 0 sets the direction; the others follow it."""
+        worked = {name: depth for name, depth in self.depths().items() if depth}
+        for number, (name, depth) in enumerate(worked.items()):
+            if number == 0 and depth > 0 and m.settings["depth_error"]:
+                yield name, f"must be negative, got {depth:g}: a positive depth works upwards"
+            if depth * self.down > 0:
+                yield name, f"must have the sign of the other depths, got {depth:g}"
+
+    def leave(self) -> Iterator[Go]:
+        """At rapid to E; a tool that worked upwards first goes to A under the workpiece."""
+        if self.down < 0:
+            yield Go("retract", self.above)
+        yield Go("retract", self.surface + max(self.second_clearance, self.clearance))

@@ -1,0 +1,78 @@
+"""The drilling cycles of ISO controls, against LinuxCNC where both have them (tests/authorities/generate_g43.py)."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mnclab
+from mnclab import Kind, Setup, Tool
+
+RECORDS = json.loads((Path(__file__).parents[2] / "authorities" / "g43.json").read_text("utf-8"))["records"]
+KINDS = {"rapid": Kind.RAPID, "line": Kind.LINE}
+QUIET = {"undescribed": "accept"}
+
+
+def joined(rows):
+    """Rows (line, kind, end, feed); two rapids on one after the other along Z, the same way, are one."""
+    found = []
+    for row in rows:
+        if len(found) > 1 and row[1] == found[-1][1] == Kind.RAPID:
+            a, b, c = (np.array(one[2]) for one in (found[-2], found[-1], row))
+            if (a[:2] == b[:2]).all() and (b[:2] == c[:2]).all() and (b - a)[2] * (c - b)[2] > 0:
+                found.pop()
+        found.append(row)
+    return found
+
+
+@pytest.mark.parametrize("record", RECORDS, ids=lambda record: record["name"])
+def test_against_linuxcnc(record):
+    run = mnclab.run(record["text"], "g43", Setup(settings=QUIET | {"peck_clearance": 0.254}))
+    assert run.ok and not run.alarms
+    moves = run.toolpath.motion
+    ours = joined(zip(moves.line.tolist(), moves.kind.tolist(), moves.end.round(9).tolist(), moves.feed.tolist()))
+    theirs = joined(
+        (m["line"], KINDS[m["kind"]], np.round(m["to"], 9).tolist(), m.get("feed", np.inf)) for m in record["motion"]
+    )
+    assert [row[:2] for row in ours] == [row[:2] for row in theirs]
+    assert np.abs(np.array([row[2] for row in ours]) - [row[2] for row in theirs]).max() < 2e-9
+    assert [row[3] for row in ours] == pytest.approx([row[3] for row in theirs])
+
+
+def run(text, **setup):
+    found = mnclab.run(text, "g43", Setup(settings=QUIET, **setup))
+    assert found.ok, found.alarms
+    return found
+
+
+def test_a_hole_under_length_compensation():
+    """The cycle's first motion takes the offset up: the tip drills to Z-10 with the tool's own length."""
+    found = run("T2 M6\nG43 S800 M3 F100\nG81 X5 Y5 Z-10 R2\nG80\n", tools={2: Tool(length=120)}, start=(0, 0, 300))
+    motion = found.toolpath.motion
+    assert motion.end[:, 2].tolist() == [300, 2, -10, 2, 300]  # register 300 stays: with its offset the tip is at 300
+
+
+def test_dwells_count_milliseconds():
+    found = run("F100 Z9\nG82 X5 Z-10 R2 P1500\nG4 P250\nG4 X2\n")
+    assert found.toolpath[found.toolpath.kind == Kind.DWELL].time.tolist() == [1.5, 0.25, 2]
+
+
+@pytest.mark.parametrize(("code", "senses"), [("G84", [1, -1, 1]), ("G74", [-1, 1, -1])])
+def test_tapping(code, senses):
+    found = run(f"S400 M{3 if code == 'G84' else 4} F500 Z9\n{code} X5 Z-10 R2\n")
+    path = found.toolpath
+    assert [np.sign(speed) for speed in path[path.kind == Kind.SPINDLE].spindle] == [senses[0], senses[1], senses[2]]
+    threads = path[path.synchronous]
+    assert threads.feed.tolist() == [500, 500] and (threads.per_rev == 500 / 400).all()
+
+
+def test_fine_boring_leaves_the_wall():
+    found = run("S400 M3 F50 Z9\nG76 X5 Y1 Z-10 R2 Q0.3\n")
+    ends = found.toolpath.motion.end.tolist()
+    assert ends[3:7] == [[5, 1, -10], [4.7, 1, -10], [4.7, 1, 2], [5, 1, 2]]
+
+
+def test_every_code_of_another_chapter_is_remarked_once():
+    found = mnclab.run("G91 X1\nG91 X1\nG2 X2 R1 F100\nX2 R1\n", "g43")
+    assert [str(alarm).split(": ", 2)[2].split(":")[0] for alarm in found.alarms] == ["G91", "G2"]
