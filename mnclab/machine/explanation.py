@@ -315,9 +315,11 @@ def _plain(value: Any) -> str:
         return ""
     if isinstance(value, int | float):
         return figure(float(value), 6)
-    if isinstance(value, tuple) and np.asarray(value).shape == (4, 4):
+    if isinstance(value, str):
+        return value
+    if isinstance(value, tuple) and len(value) == 4 and np.shape(value[-1]) == (4,):
         return _describe(np.array(value)) or "none"
-    if isinstance(value, tuple) and np.asarray(value).ndim == 1:
-        return " ".join(figure(each, 4) for each in value)
+    if isinstance(value, tuple):
+        return " ".join(figure(each, 4) if isinstance(each, int | float) else _plain(each) for each in value)
     number = getattr(value, "number", None)
     return f"T{number} {value.name}".strip() if number is not None else str(value)

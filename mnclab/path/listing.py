@@ -35,9 +35,9 @@ def words(move: Move) -> str:
     """The part of a row that says what happens."""
     match move.kind:
         case Kind.RAPID:
-            return point(move.end)
+            return f"{point(move.end)}{_rotary(move)}"
         case Kind.LINE | Kind.PROBE:
-            return f"{point(move.end)}{_feed(move)}"
+            return f"{point(move.end)}{_rotary(move)}{_feed(move)}"
         case Kind.ARC:
             return f"{point(move.end)} centre {point(move.centre)} sweep {figure(np.degrees(move.sweep))}{_feed(move)}"
         case Kind.DWELL:
@@ -50,7 +50,16 @@ def words(move: Move) -> str:
             return ""
 
 
+def _rotary(move: Move) -> str:
+    """`` A90`` for each rotary axis that does not stand at zero."""
+    return "".join(
+        f" {axis}{figure(np.degrees(value))}" for axis, value in zip("ABC", move.rotary, strict=True) if value
+    )
+
+
 def _feed(move: Move) -> str:
+    if move.kind == Kind.LINE and np.isfinite(move.time) and np.array_equal(move.start, move.end):
+        return f" F{figure(np.degrees(move.feed))} degrees/min"
     if np.isfinite(move.per_rev):
         return f" F{figure(move.per_rev)}/rev"
     if np.isfinite(move.feed):

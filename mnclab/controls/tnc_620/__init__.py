@@ -25,8 +25,11 @@ from mnclab.controls.tnc_620.language import (
     calls,
     flow,
     free_contours,
+    joints,
     motion,
     parameters,
+    polar,
+    pole,
     program,
     tools,
 )
@@ -57,7 +60,8 @@ SETTINGS = (
 )  # fmt: skip
 
 FUNCTIONS = (
-    motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
+    pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
+    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS | free_contours.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
@@ -74,7 +78,8 @@ for chapter in (
 MEANINGS = {
     "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "S": "spindle speed",
     "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
-    "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
+    "RR": "compensation to the right", "LEN": "length", "PR": "polar radius", "PA": "polar angle",
+    "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
     "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",

@@ -345,7 +345,8 @@ def _known_by_name(cursor: Cursor, keyword: str, begin: int) -> Statement:
     """A statement whose rest is not read; its form is part of the name."""
     form = cursor.rest().split()[:1]
     if keyword in ("APPR", "DEP"):
-        raise Fault(f"{keyword} must be followed by one of {', '.join(_FORMS)}", begin, cursor.at - begin)
+        known = _FORMS if keyword == "APPR" else [form for form in _FORMS if form not in ("PLT", "PLN", "PCT")]
+        raise Fault(f"{keyword} must be followed by one of {', '.join(known)}", begin, cursor.at - begin)
     if form and keyword in ("BLK FORM", "PLANE", "FUNCTION"):
         keyword = f"{keyword} {form[0].upper()}"
     return Statement(keyword, ignored, ignored if KEYWORDS_ONLY.get(keyword) else None)

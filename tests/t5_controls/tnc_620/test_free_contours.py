@@ -90,6 +90,7 @@ KNOWN = {
     "crossed belt": ("2 FC DR+ R10 CCX+0 CCY+10\n3 FLT\n4 FCT DR- R10 CCX+50 CCY+10 X+60 Y+10",
                      [(4, 10 - math.sqrt(84)), (46, 10 + math.sqrt(84)), (60, 10)]),
     "after a line": ("2 L X+10\n3 FCT DR+ R5 CCA90\n4 FLT LEN5", [(10, 0), (15, 5), (15, 10)]),
+    "chamfer and formula in an open chain": ("2 FL AN+0\n3 CHF2\n4 Q1=20\n5 FL AN+90 X+30 Y+Q1", [(30, 0), (30, 20)]),
     "rounding between": ("2 FL X+30 Y+0\n3 RND R5\n4 Q1=20\n5 FL AN+90 Y+Q1", [(30, 0), (30, 20)]),
 }  # fmt: skip
 
@@ -227,7 +228,8 @@ def test_a_contour_needs_a_start(tnc):
 MUTATED = HEAD + "2 L X+10 Y+5\n" + "\n".join(blocks for blocks, _ in list(KNOWN.values())[:12]) + "\n" + C20["program"] + "\n"
 SCRAPS = st.sampled_from([
     "X", "+", "-", ".", "9", "0", " ", "\n", "I", "Q1", "RL", "FMAX", "DR-", "DR+", "R10 ", "AN+45 ", "LEN5 ", "CLSD+ ", "CLSD- ",
-    "FLT\n", "FCT R5 DR+\n", "FL\n", "FC\n", "FSELECT 2\n", "FPOL X+0 Y+0\n", "PAR3 ", "RX2 ", "D5 ", "CCX", "PR", "PA", "CCA", "RND R1\n",
+    "FLT\n", "FCT R5 DR+\n", "FL\n", "FC\n", "FSELECT 2\n", "FPOL X+0 Y+0\n",
+    "PAR3 ", "RX2 ", "D5 ", "CCX", "PR", "PA", "CCA", "RND R1\n",
     "M3 ", "LBL 0\n", "CALL LBL 1\n", "99999999", "P1X+1 P1Y+2 ", "L X+5\n", "0.0000001",
 ])  # fmt: skip
 

@@ -13,7 +13,7 @@ TITLES = {
 }  # fmt: skip
 
 
-@FUNCTIONS(", ".join(TITLES), TITLES, takes="target value", source="FN")
+@FUNCTIONS(", ".join(TITLES), TITLES, takes="target value", collects=True, source="FN")
 def assign(m: Machine, words: Words) -> None:
     """A Q parameter takes the value of its formula, with the variables as they stand."""
     m.variables[str(words["target"].value)] = m.value(words["value"])
