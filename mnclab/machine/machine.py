@@ -33,6 +33,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import WARNING, Alarm, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import Word
+from mnclab.text.strings import NumberFromText
 
 if TYPE_CHECKING:
     from mnclab.machine.calls import Flow
@@ -118,7 +119,7 @@ class Machine:
         value = word.value
         if isinstance(value, float):
             return value
-        if isinstance(value, Expression):
+        if isinstance(value, Expression | NumberFromText):
             try:
                 return value.evaluate(self.variables)
             except Alarm as alarm:

@@ -29,7 +29,8 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
-    "tnc620-klartext": ["L", "C", "CT", "CP", "FK"],
+    "tnc620-klartext": ["L", "C", "CT", "CP", "CALL LBL", "FN", "FK"],
+    "tnc620-special": ["CYCL DEF 12"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",

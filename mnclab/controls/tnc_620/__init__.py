@@ -14,6 +14,7 @@ from mnclab.controls.tnc_620.cycles import (
     contours,
     drilling,
     pecking,
+    program_call,
     tapping,
     thread_drilling,
     threads,
@@ -46,6 +47,7 @@ PHASES = ("start", "motion", "call", "end", "last")
 SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
+    Setting("overlap", 1.0, "path overlap factor of pockets (pocketOverlap), which Q112 shows", ""),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
     Setting("controlled_spindle", True, "the spindle's angle is controlled, as 202, 204, 207, 209 need it", "4.5, 5.3"),
     Setting(
@@ -71,6 +73,7 @@ for chapter in (
     contours,
     transformations,
     presets,
+    program_call,
 ):  # fmt: skip
     CYCLES |= chapter.CYCLES
 
@@ -83,6 +86,9 @@ MEANINGS = {
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
     "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
+    "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
+    "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
+    "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
 }  # fmt: skip
 
 _KLARTEXT = re.compile(
@@ -109,4 +115,6 @@ CONTROL = Control(
     meanings=MEANINGS,
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0),
     named=motion.named,
+    preassigned=parameters.PREASSIGNED,
+    local_variables="QL",
 )

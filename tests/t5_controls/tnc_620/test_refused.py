@@ -78,7 +78,7 @@ REFUSED = [
     ("2 FN 4: Q1 = +5 DIV +0", 3, 17, "division by zero at DIV"),
     ("2 FN 5: Q1 = SQRT -4", 3, 14, "SQRT of -4 has no real value"),
     ("2 FN 0: Q1 = +5 + +3", 3, 14, "the function must have the form FN 0: Q1 = +2"),
-    ("2 FN 9: IF +Q1 EQU +Q3 GOTO LBL 5", 3, 1, "FN 9 is refused: jump if equal, not built yet"),
+    ("2 FN 16: F-PRINT A.A / A.TXT", 3, 1, "FN 16 is refused: formatted output, not built yet"),
     ("2 Q5000 = 3", 3, 3, "Q5000 does not exist: Q0 to Q1999, QL0 to QL499 and QR0 to QR499 are allowed"),
     ("2 Q1 = 3 * (", 3, 12, "the expression ends where a number or a variable was expected"),
     # tools and the blank
