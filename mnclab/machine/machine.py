@@ -16,7 +16,7 @@ import numpy as np
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import sweep_of_one
 from mnclab.geometry.frames import FrameChain, Matrix
-from mnclab.machine.circles import centre_by_radius, check_radii, turn
+from mnclab.machine.circles import centre_by_radius, check_radii, check_start, turn
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
 from mnclab.machine.rows import add_row, spindle_axis
@@ -25,7 +25,9 @@ from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
 from mnclab.machine.variables import Measured, Variables
+from mnclab.machine.waiting import Pending
 from mnclab.path.compensation import Gouge
+from mnclab.path.feed_rules import FeedRule
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
@@ -33,6 +35,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import WARNING, Alarm, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import Word
+from mnclab.text.strings import NumberFromText
 
 if TYPE_CHECKING:
     from mnclab.machine.calls import Flow
@@ -84,6 +87,7 @@ class Machine:
         self.position_cycle: Definition | None = None
         self.pole: tuple[float, float] | None = None
         self.memory: dict[str, Any] = {}  # what a control keeps beside the common state
+        self.pending: Pending | None = None  # motion that waits for later blocks
 
         self.recorder = Recorder(self.tip)
         self.programmed_pieces: list[Toolpath] = []
@@ -91,6 +95,7 @@ class Machine:
         self.altered = False  # whether a pass changed anything
         self.cut: int | None = None  # the step of a fault found in a pass: nothing from there on counts
         self.gouges: list[Gouge] = []  # where the tool does not fit
+        self.feed_rules: list[FeedRule] = []  # how the feed depends on the way
         self._state: int | None = None
         self.log("position", self.programmed)
 
@@ -119,7 +124,7 @@ class Machine:
         value = word.value
         if isinstance(value, float):
             return value
-        if isinstance(value, Expression):
+        if isinstance(value, Expression | NumberFromText):
             try:
                 return value.evaluate(self.variables)
             except Alarm as alarm:
@@ -276,7 +281,7 @@ class Machine:
         if tip != self.tip:
             self._row(kind, tip, feed=feed, joint=joint)
         elif joint is not None:
-            self.alarm("a rounding or an approach needs a path element that moves")
+            self.alarm("an approach or a departure needs a move: the tool stands at its end already")
         self.programmed, self.tip = point, tip
 
     def arc(
@@ -291,11 +296,7 @@ class Machine:
         """
         feed = self.feed_of(f, word)
         point = self.target(x, y, z)
-        if (away := math.dist(self.to_machine(self.programmed), self.tip)) > tolerance:
-            fault = (
-                f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move"
-            )
-            self.alarm(fault, word, hint="lead the tool to the start of the arc by a straight move first")
+        check_start(self, tolerance, word)
         first, second, _ = PLANES[self.plane]
         here = self.programmed
         s, e = (here[first], here[second]), (point[first], point[second])
@@ -355,7 +356,7 @@ class Machine:
 
     def mark_joint(self, joint: Any) -> bool:
         """Put a joint on the last motion not settled yet; False if there is none, or if it has one already."""
-        return self.recorder.mark(joint)
+        return self.pending.mark(joint) if self.pending else self.recorder.mark(joint)
 
     def heading(self) -> tuple[float, float, float] | None:
         """The unit tangent at the end of the last motion not settled yet, in machine axes; None if there is none."""
