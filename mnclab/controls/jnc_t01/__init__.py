@@ -60,7 +60,7 @@ def start(m: Machine) -> None:
     m.change("plane", "ZX")
 
 
-def together(m: Machine, words: list[Word]) -> None:
+def together(m: Machine, keyword: str, words: list[Word]) -> None:
     """One function that acts once in a block."""
     codes = [(f"G{digits(w.value)}", w) for w in words if w.address == "G" and isinstance(w.value, float)]
     once = [(code, word) for code, word in codes if code in ONCE]
