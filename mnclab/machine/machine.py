@@ -77,7 +77,8 @@ class Machine:
         self.per_rev = False
         self.per_time = False  # the feed is the time of each move, s
         self.speed, self.turning = 0.0, 0  # S, and +1, -1, 0 for M3, M4, M5
-        self.surface, self.speed_limit = NAN, INF  # constant cutting speed m/min, and how fast it may turn the spindle
+        self.surface: float | None = None  # the constant cutting speed, m/min, …
+        self.speed_limit = INF  # … and how fast it may turn the spindle
         self.tool: Tool = self.tables.tools[0]
         self.side, self.corner_rule = 0, 0
         self.exact, self.exact_here, self.synchronous = False, False, False
@@ -172,11 +173,14 @@ class Machine:
             if self._shift is None:
                 axis = self._turned_axis()
             per_rev = self.feed if self.per_rev and self.feed is not None else NAN
+            surface = NAN, INF, 0.0
+            if self.surface is not None:
+                surface = self.surface, self.speed_limit, spindle_axis(self)
             self._state = self.recorder.state(
                 State(
-                    self.program, axis, self.rotary, per_rev, self.surface, self.spindle_speed, self.tool.number, self.radius,
+                    self.program, axis, self.rotary, per_rev, *surface[:1], self.spindle_speed, self.tool.number, self.radius,
                     self.side * self.orientation, self.corner_rule, self.exact, self.synchronous,
-                    *((INF, 0.0) if math.isnan(self.surface) else (self.speed_limit, spindle_axis(self))),
+                    *surface[1:],
                 )
             )  # fmt: skip
         return self._state

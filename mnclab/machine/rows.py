@@ -37,7 +37,7 @@ def add_row(
     other_feed = m.per_rev and feed != (m.feed or 0.0) * abs(m.spindle_speed)  # a rapid, or a feed in mm/min of a cycle
     if feed < 0:
         time, feed = -feed, -60 * length(m, kind, tip, centre, angle) / feed
-    if m.surface == m.surface and kind <= Kind.PROBE:
+    if m.surface is not None and kind <= Kind.PROBE:
         if m.per_rev and not other_feed:
             assert m.feed is not None
             feed = m.feed / mean_turn(m.surface, radii(m, kind, tip, centre, angle), m.speed_limit)
@@ -57,7 +57,9 @@ def spindle_axis(m: Machine) -> float:
 
 
 def speed_at(m: Machine, tip: Point) -> float:
-    """The spindle speed that the constant cutting speed asks for at a tip, rev/min."""
+    """The spindle speed that the constant cutting speed asks for at a tip, rev/min; the present one without it."""
+    if m.surface is None:
+        return m.speed
     return float(spindle_speed(m.surface, tip[0] - spindle_axis(m), m.speed_limit))
 
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
 
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.rows import speed_at
-from mnclab.path.recorder import NAN
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
@@ -63,8 +61,9 @@ def speed_mode(m: Machine, words: Words) -> None:
 
     G96 without S takes the last cutting speed, G97 without S keeps the spindle speed of the moment.
     """
-    m.change("surface", m.memory.get("cutting speed", 0.0) if words.code == "G96" else NAN)
-    m.change("speed_limit", float(m.settings["max_spindle_speed"]) if words.code == "G96" else math.inf)
+    m.change("surface", m.memory.get("cutting speed", 0.0) if words.code == "G96" else None)
+    if words.code == "G96":
+        m.change("speed_limit", float(m.settings["max_spindle_speed"]))
     if "S" in words:
         speed(m, words)
     else:
@@ -75,7 +74,7 @@ def speed_mode(m: Machine, words: Words) -> None:
 def speed(m: Machine, words: Words) -> None:
     """rev/min under G97, m/min under G96."""
     value = m.value(words["S"])
-    if math.isnan(m.surface):
+    if m.surface is None:
         m.spindle(speed=value)
         return
     if not value > 0:
@@ -87,7 +86,7 @@ def speed(m: Machine, words: Words) -> None:
 
 def follow_speed(m: Machine) -> None:
     """Under constant cutting speed the spindle has the speed of where the tool stands."""
-    if not math.isnan(m.surface):
+    if m.surface is not None:
         m.spindle(speed=speed_at(m, m.tip))
 
 

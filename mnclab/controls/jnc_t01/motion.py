@@ -150,7 +150,7 @@ def thread(m: Machine, words: Words) -> None:
         m.alarm(f"G32 F (thread pitch) must be greater than 0, got {pitch:g}", words["F"])
     if not m.spindle_speed:
         m.alarm("G32 needs a turning spindle", head, hint="write S and M3 before the move")
-    if not math.isnan(m.surface):
+    if m.surface is not None:
         m.warn(
             "G32 under constant cutting speed (G96): the spindle speed changes where X does", head, "write G97 S first"
         )
@@ -235,4 +235,4 @@ def home(m: Machine, words: Words) -> None:
 def plain(m: Machine) -> bool:
     """Whether words of motion mean nothing but motion now: radii, a feed per minute, no corrector to take up."""
     pending = m.memory.get("corrector", 0) != m.memory.get("active corrector", 0)
-    return not (m.settings["diameter"] or m.per_time or pending or m.surface == m.surface)
+    return not (m.settings["diameter"] or m.per_time or pending or m.surface is not None)
