@@ -219,7 +219,7 @@ def unit_of(machine: Machine, parameter: Parameter) -> float:
 
 def is_variable(parameter: Parameter) -> bool:
     """Whether a parameter is a variable of the program (Q200), not an address (X)."""
-    return parameter.address[0] == "Q" and parameter.address[1:].isdigit()
+    return parameter.address[0] == "Q" and parameter.address[1:].isdigit() and parameter.type != "text"
 
 
 def store(machine: Machine, definition: Definition) -> None:

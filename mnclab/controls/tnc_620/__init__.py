@@ -8,8 +8,20 @@ from __future__ import annotations
 
 import re
 
-from mnclab.controls.tnc_620 import later, reader
-from mnclab.controls.tnc_620.cycles import contours, drilling, tapping, thread_drilling, threads, transformations
+from mnclab.controls.tnc_620 import datum_tables, later, reader
+from mnclab.controls.tnc_620.cycles import (
+    contours,
+    datums,
+    drilling,
+    engraving,
+    face_milling,
+    special,
+    tapping,
+    thread_drilling,
+    threads,
+    tilting,
+    transformations,
+)
 from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
@@ -32,14 +44,16 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
+    *tilting.SETTINGS, *engraving.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
 FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
-    | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | auxiliary.FUNCTIONS | calls.FUNCTIONS | datum_tables.FUNCTIONS
 )  # fmt: skip
 CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
+CYCLES |= datums.CYCLES | tilting.CYCLES | special.CYCLES | engraving.CYCLES | face_milling.CYCLES
 CYCLES |= tapping.CYCLES | threads.CYCLES | thread_drilling.CYCLES
 
 #: What the words of statements are.
@@ -49,7 +63,7 @@ MEANINGS = {
     "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
-    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
+    "file": "file name", "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
 }  # fmt: skip
 
 _KLARTEXT = re.compile(

@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple
 
+from mnclab.controls.tnc_620 import sub_blocks
 from mnclab.controls.tnc_620.words import FLAGS, NUMBER, TEXT, Cursor, Fault
 
 Read = Callable[[Cursor], None]
@@ -252,19 +253,13 @@ def datum_shift(cursor: Cursor) -> None:
     cursor.words()
 
 
-def axes(cursor: Cursor) -> None:
-    """8.1: letters of axes."""
-    cursor.words(bare="XYZUVWABC")
-
-
 #: How sub-blocks n.1, n.2 … are read; the others are known by their number alone.
 PARTS: dict[str, Read] = {
     "CYCL DEF 7": datum_shift,
-    "CYCL DEF 8": axes,
+    **sub_blocks.READERS,
     "CYCL DEF 10": plain,
     "CYCL DEF 11": plain,
     "CYCL DEF 14": contour_labels,
-    "CYCL DEF 19": plain,
 }
 
 
@@ -274,7 +269,7 @@ def definition(keyword: str, part: int) -> Statement:
         return Statement(keyword, cycle_parameters, cycle_parameters)
     if part == 0:
         return Statement(keyword, ignored, None, 0)
-    read = PARTS.get(keyword, ignored)
+    read = PARTS.get(f"{keyword}.{part}", PARTS.get(keyword, ignored))
     return Statement(keyword, read, read, part)
 
 
@@ -286,13 +281,14 @@ WORDS: dict[str, Read] = {
     "RND": with_radius, "CHF": leading("length"), "FPOL": plain, "FL": plain, "FLT": plain, "FC": with_radius,
     "FCT": with_radius, "FSELECT": leading("number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
     "CYCL CALL": plain, "LBL": set_label, "CALL LBL": call_label, "TOOL CALL": tool_call, "TOOL DEF": tool_def,
+    "SEL TABLE": sub_blocks.table_name,
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
 
 #: Statements whose rest is not read: keyword -> whether further lines without a number belong to them.
 KEYWORDS_ONLY = {
-    "BLK FORM": False, "CALL PGM": False, "SEL PATTERN": False, "SEL CONTOUR": False, "SEL TABLE": False, "SEL PGM": False,
+    "BLK FORM": False, "CALL PGM": False, "SEL PATTERN": False, "SEL CONTOUR": False, "SEL PGM": False,
     "CALL SELECTED PGM": False, "DECLARE CONTOUR": True, "CONTOUR DEF": True, "PATTERN DEF": True, "PLANE": False,
     "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
 }  # fmt: skip
