@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 Pair = Sequence[float]
 FULL = 1e-3  # mm: a start and an end that are closer are a whole turn
+STRAIGHT = 1e-6  # mm: an arc that is flatter is a line
 
 
 def sweep(start: ArrayLike, end: ArrayLike, centre: ArrayLike, sense: ArrayLike) -> Array:
@@ -63,3 +64,17 @@ def centre_of_one(start: Pair, end: Pair, radius: float, sense: int) -> tuple[tu
     height = math.sqrt(max((abs(radius) - half) * (abs(radius) + half), 0.0))
     side = sense * float(np.sign(radius)) * height / (2 * half if half > 0 else 1.0)
     return ((sx + ex) / 2 + side * -dy, (sy + ey) / 2 + side * dx), half - abs(radius)
+
+
+def tangent_arc_of_one(start: Pair, end: Pair, travel: Pair) -> tuple[tuple[float, float], int] | None:
+    """Centre and sense of the arc from start to end that begins along the unit vector ``travel``; None if there is none.
+
+    With alpha from the travel to the chord d, the radius is |d| / (2 sin alpha). The sense is 0 for a straight line: where
+    the end lies ahead, within a millionth of a millimetre; straight behind the start no arc leads there.
+    """
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    across, along = travel[0] * dy - travel[1] * dx, travel[0] * dx + travel[1] * dy  # |d| sin alpha, |d| cos alpha
+    if abs(across) / 4 <= STRAIGHT:  # the height of a flat arc is |d| alpha / 4
+        return ((math.nan, math.nan), 0) if along > 0 else None
+    radius = (dx * dx + dy * dy) / (2 * across)  # positive to the left
+    return (start[0] - radius * travel[1], start[1] + radius * travel[0]), 1 if across > 0 else -1

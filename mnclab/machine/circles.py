@@ -30,6 +30,13 @@ def normal(matrix: Matrix, first: int, second: int) -> tuple[float, float, float
     return x, y, z
 
 
+def check_start(m: Machine, tolerance: float = 0.01, word: Word | None = None) -> None:
+    """An Alarm when the register is not where the tool stands: an arc could not begin there."""
+    if (away := math.dist(m.to_machine(m.programmed), m.tip)) > tolerance:
+        fault = f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move"
+        m.alarm(fault, word, hint="lead the tool to the start of the arc by a straight move first")
+
+
 def centre_by_radius(
     m: Machine, s: Point, e: Point, radius: float, sense: int, tolerance: float, word: Word | None
 ) -> Point:
@@ -68,6 +75,7 @@ def turn(
     """Round a centre in the first two axes by an angle, to a level of the third; a whole turn ends where it began."""
     first, second, normal = axes
     feed, sense = m.feed_of(f), m._arc_sense()
+    check_start(m)
     point, middle = list(m.programmed), list(m.programmed)
     middle[first], middle[second] = centre
     u, v = point[first] - centre[0], point[second] - centre[1]

@@ -129,6 +129,8 @@ class Control:
     ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
     ("G4 P").
     ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself.
+    ``preassigned`` are variables that the control keeps itself; names that begin with ``local_variables`` belong to one
+    program.
     """
 
     name: str
@@ -156,6 +158,8 @@ class Control:
     one_command: bool = False
     named: Callable[[Machine, Word], float | str] | None = None
     lathe: bool = False
+    preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
+    local_variables: str = ""
 
     def power_on(self) -> dict[str, str]:
         """The modal state at the start: group -> code."""

@@ -213,6 +213,7 @@ class Definition:
     words: dict[str, Word]
     head: Word | None
     extra: dict[str, Any] = field(default_factory=dict)
+    program: int = 0  # which of Run.programs the words stand in
 
 
 def bind(definition: Definition, m: Machine) -> Cycle:
@@ -266,7 +267,7 @@ def fault(definition: Definition, parameter: Parameter | None, sentence: str) ->
     word = definition.words.get(parameter.name) if parameter else None
     word = word or definition.head
     name = f" {parameter.address} ({parameter.meaning})" if parameter else ""
-    return Alarm(f"{definition.code}{name} {sentence}", word.span if word else None)
+    return Alarm(f"{definition.code}{name} {sentence}", word.span._replace(program=definition.program) if word else None)
 
 
 @contextmanager

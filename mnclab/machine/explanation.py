@@ -19,6 +19,7 @@ from mnclab.path.listing import figure, point, words
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.expression import Expression
 from mnclab.text.program import Word
+from mnclab.text.strings import NumberFromText, TextFormula
 
 if TYPE_CHECKING:
     from mnclab.machine.run import Moment, Run
@@ -53,7 +54,8 @@ class Explanation:
     def __init__(self, run: Run, moment: Moment) -> None:
         self.run, self.moment = run, moment
         span = moment.block.span
-        self.alarms = tuple(alarm for alarm in run.alarms if alarm.span and alarm.span.line == span.line)
+        self.program = run.programs[run.steps.program[moment.step]]
+        self.alarms = tuple(a for a in run.alarms if a.span and a.source is self.program and a.span.line == span.line)
         history = run.history
         self.changed = [
             (name, _plain(history.value(name, moment.step - 1)) if moment.step else "", _plain(value))
@@ -70,8 +72,8 @@ class Explanation:
     @property
     def title(self) -> str:
         """The line, and the block as written."""
-        text = self.run.program.line_text(self.moment.line).strip()
-        times = int((self.run.steps.block[: self.moment.step + 1] == self.run.steps.block[self.moment.step]).sum())
+        text = self.program.line_text(self.moment.line).strip()
+        times = _executions(self.run, self.moment.step)
         again = f" (execution {times})" if times > 1 else ""
         return f"line {self.moment.line}{again}: {text}"
 
@@ -135,6 +137,13 @@ class Explanation:
         return f"<div>{''.join(parts)}</div>"
 
 
+def _executions(run: Run, step: int) -> int:
+    """How often the block of a step was executed up to it."""
+    steps = run.steps
+    same = (steps.block[: step + 1] == steps.block[step]) & (steps.program[: step + 1] == steps.program[step])
+    return int(same.sum())
+
+
 # --- words -----------------------------------------------------------------------------------------------------------
 
 
@@ -180,7 +189,8 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
 
 def _plan(run: Run, moment: Moment) -> Plan | None:
     """How the words were handed out: planned anew in the state before the block; None where that is an alarm."""
-    if any(alarm.severity == ALARM and alarm.span and alarm.span.line == moment.line for alarm in run.program.alarms):
+    program = run.programs[run.steps.program[moment.step]]
+    if any(alarm.severity == ALARM and alarm.span and alarm.span.line == moment.line for alarm in program.alarms):
         return None
     control, history, before = run.control, run.history, moment.step - 1
     machine = Machine(control, run.setup)
@@ -227,17 +237,13 @@ def _changes(what: Function | type[Cycle], word: Word | None) -> str:
 
 
 def _value(run: Run, moment: Moment, word: Word | None) -> str:
-    """The number of a word whose text is an expression."""
-    if word is None or not isinstance(word.value, Expression):
+    """The number or the text that a formula had."""
+    if word is None or not isinstance(word.value, Expression | TextFormula | NumberFromText):
         return ""
-    variables = {
-        token.text: run.history.value(token.text, moment.step - 1)
-        for token in word.value.tokens
-        if token.kind == "variable"
-    }
-    known = {name: value for name, value in variables.items() if value is not None}
+    known = {name: run.history.value(name, moment.step - 1) for name in run.history}
     try:
-        return figure(word.value.evaluate(known), 6)
+        value = word.value.evaluate({name: value for name, value in known.items() if value is not None})
+        return figure(value, 6) if isinstance(value, float) else f'"{value}"'
     except Alarm:  # a variable without a value: the run says so
         return ""
 
@@ -315,9 +321,11 @@ def _plain(value: Any) -> str:
         return ""
     if isinstance(value, int | float):
         return figure(float(value), 6)
-    if isinstance(value, tuple) and np.asarray(value).shape == (4, 4):
+    if isinstance(value, str):
+        return value
+    if isinstance(value, tuple) and len(value) == 4 and np.shape(value[-1]) == (4,):
         return _describe(np.array(value)) or "none"
-    if isinstance(value, tuple) and np.asarray(value).ndim == 1:
-        return " ".join(figure(each, 4) for each in value)
+    if isinstance(value, tuple):
+        return " ".join(figure(each, 4) if isinstance(each, int | float) else _plain(each) for each in value)
     number = getattr(value, "number", None)
     return f"T{number} {value.name}".strip() if number is not None else str(value)

@@ -8,6 +8,7 @@ time than obeying them.
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
+from mnclab.machine.programs import alarms_of
 from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
 from mnclab.text.expression import Expression
@@ -25,30 +27,21 @@ from mnclab.text.program import NONE, NUMBER, Program, Word, place_of
 from mnclab.text.progress import progress
 
 WINDOW = 256  # blocks whose words are made at once; more would keep the garbage collector busy
+RECENT = 4  # windows that are kept
 
 
 class Stop(Exception):
     """The run stops at an alarm that the reader has already reported."""
 
 
-class Interpreter:
-    """Runs one program on one machine."""
+class Loaded:
+    """A program ready to run: its alarms as a run shows them, the blocks that a fault stands in, its bulk tier."""
 
-    def __init__(self, control: Control, machine: Machine, program: Program) -> None:
-        self.control, self.machine, self.program = control, machine, program
-        self.phases = {name: k for k, name in enumerate(control.phases)}
-        self.plans: dict[Any, Plan] = {}
-        self.window = range(0)
-        self.blocks: list[tuple[int, bool, str, list[Word], tuple[Any, ...]]] = []
-        """Of the blocks in the window: line, skip, keyword, words, and of each word its address, with the value where that
-        makes another function."""
-        self.skips = bool(machine.settings.get("block_skip"))
-        self.alarms = [self._passed_over(alarm) for alarm in program.alarms]
+    def __init__(self, control: Control, machine: Machine, program: Program, index: int) -> None:
+        self.program, self.skips = program, bool(machine.settings.get("block_skip"))
+        self.alarms = [self._passed_over(alarm) for alarm in alarms_of(program, index)]
         self.faulty = {self._block_of(alarm) for alarm in self.alarms if alarm.severity == ALARM and alarm.span}
         self.bulk = Bulk(control, machine, program, self.faulty)
-        machine.recorder.expected = len(program)
-        machine.flow = Flow(program, self.obey, self.bulk.obey)
-        machine.flow.machine = machine
 
     def _block_of(self, alarm: Alarm) -> int:
         """The block in which the reader found a fault: the run stops there."""
@@ -62,10 +55,41 @@ class Interpreter:
             return alarm
         return Alarm(alarm.message, alarm.span, WARNING, alarm.hint, alarm.source)
 
+
+class Interpreter:
+    """Runs a program, and those it calls, on one machine."""
+
+    def __init__(self, control: Control, machine: Machine, program: Program) -> None:
+        self.control, self.machine, self.program = control, machine, program
+        self.phases = {name: k for k, name in enumerate(control.phases)}
+        self.plans: dict[Any, Plan] = {}
+        self.window = range(0)
+        self.blocks: list[tuple[int, bool, str, list[Word], tuple[Any, ...]]] = []
+        """Of the blocks in the window: line, skip, keyword, words, and of each word its address, with the value where that
+        makes another function."""
+        self.recent: deque[tuple[int, range, list[Any]]] = deque(maxlen=RECENT)  # of which program; window, blocks
+        self.skips = bool(machine.settings.get("block_skip"))
+        main = Loaded(control, machine, program, 0)
+        self.loaded, self.alarms, self.faulty = {0: main}, main.alarms, main.faulty
+        machine.recorder.expected = len(program)
+        machine.flow = Flow(program, self.obey, main.bulk.obey, self.switch)
+        machine.flow.machine = machine
+
+    def switch(self, index: int) -> None:
+        """Obey the blocks of another program from now on."""
+        flow = self.machine.flow
+        self.program = flow.programs[index]
+        if index not in self.loaded:
+            self.loaded[index] = Loaded(self.control, self.machine, self.program, index)
+            self.alarms += self.loaded[index].alarms
+        flow.bulk, self.faulty, self.window = self.loaded[index].bulk.obey, self.loaded[index].faulty, range(0)
+
     def run(self) -> None:
         """From the first block to the end, or to the first alarm."""
         for group, code in self.control.power_on().items():
             self.machine.set_modal(group, code)
+        if self.machine.setup.variables and not self.control.preassigned:
+            self.machine.alarm(f"Setup(variables=…): programs of {self.control.name} have no variables")
         if self.control.start:
             self.control.start(self.machine)
         with progress("running", len(self.program), "blocks") as self.machine.flow.watched:
@@ -102,7 +126,12 @@ class Interpreter:
             machine.log("position", machine.programmed)
 
     def open_window(self, index: int) -> range:
-        """Make the next blocks: columns as lists, for plain Python is faster on those."""
+        """Make the next blocks: columns as lists, for plain Python is faster on those. A loop finds them once more."""
+        running = self.machine.program
+        for which, window, blocks in self.recent:
+            if which == running and index in window:
+                self.window, self.blocks = window, blocks
+                return window
         program, new, codes = self.program, tuple.__new__, self.control.codes
         window = range(index, min(index + WINDOW, len(program)))
         here = slice(index, window.stop)
@@ -126,6 +155,7 @@ class Interpreter:
         keys = program.keywords
         self.blocks = [(n, skip, keys[k], words[i:j], tuple(kinds[i:j])) for n, skip, k, i, j in heads]
         self.window = window
+        self.recent.append((running, window, self.blocks))
         return window
 
     # --- planning ----------------------------------------------------------------------------------------------------
@@ -156,6 +186,7 @@ class Interpreter:
             definition = Definition(cycle, code, values, words, head, again.extra)
         else:
             definition = Definition(cycle, code, values, words, head)
+        definition.program = machine.program
         definition.values = cycle.prepare(values, words, machine, definition.extra)
         if self.control.storage == "variables":
             store(machine, definition)
@@ -258,6 +289,7 @@ def run_cycle(machine: Machine, definition: Definition) -> None:
             definition.words,
             definition.head,
             definition.extra,
+            definition.program,
         )
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
     try:

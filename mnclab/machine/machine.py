@@ -16,7 +16,7 @@ import numpy as np
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import sweep_of_one
 from mnclab.geometry.frames import FrameChain, Matrix
-from mnclab.machine.circles import centre_by_radius, check_radii, normal, turn
+from mnclab.machine.circles import centre_by_radius, check_radii, check_start, normal, turn
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
 from mnclab.machine.settings import chosen
@@ -32,6 +32,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import WARNING, Alarm, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import Word
+from mnclab.text.strings import NumberFromText
 
 if TYPE_CHECKING:
     from mnclab.machine.calls import Flow
@@ -117,7 +118,7 @@ class Machine:
         value = word.value
         if isinstance(value, float):
             return value
-        if isinstance(value, Expression):
+        if isinstance(value, Expression | NumberFromText):
             try:
                 return value.evaluate(self.variables)
             except Alarm as alarm:
@@ -272,7 +273,7 @@ class Machine:
         if tip != self.tip:
             self._row(kind, tip, feed=feed, joint=joint)
         elif joint is not None:
-            self.alarm("a rounding or an approach needs a path element that moves")
+            self.alarm("an approach or a departure needs a move: the tool stands at its end already")
         self.programmed, self.tip = point, tip
 
     def arc(
@@ -287,11 +288,7 @@ class Machine:
         """
         feed = self.feed_of(f, word)
         point = self.target(x, y, z)
-        if (away := math.dist(self.to_machine(self.programmed), self.tip)) > tolerance:
-            fault = (
-                f"the arc begins {away:.4f} mm away from the tool: a transformation was switched after the last move"
-            )
-            self.alarm(fault, word, hint="lead the tool to the start of the arc by a straight move first")
+        check_start(self, tolerance, word)
         first, second, _ = PLANES[self.plane]
         here = self.programmed
         s, e = (here[first], here[second]), (point[first], point[second])

@@ -52,7 +52,8 @@ def record(m: Machine, label: str, span: Span | None = None, after: Recording | 
     m.tip = m.programmed = _NOWHERE
     m.side, m.feed, m.exact_here = 0, m.feed or 1.0, False
     try:
-        m.flow.call(label, span)
+        with m.variables.own_level():
+            m.flow.call(label, span)
         path = corners.apply(m.recorder.take())
         chain, memory = m.frames, m.memory
     except PathFault as fault:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path import compensation, corners, rapids
+from mnclab.path import compensation, corners, leads, rapids
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import join
 from mnclab.path.toolpath import Toolpath, concatenate
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def settle(m: Machine, unfinished: bool = False) -> None:
-    """Corners, then compensation; ``unfinished`` says that an alarm broke the program off.
+    """Corners, compensation, leads; ``unfinished`` says that an alarm broke the program off.
 
     A fault is an Alarm at the block of its row, and the machine notes the step from which nothing counts.
     """
@@ -30,9 +30,8 @@ def settle(m: Machine, unfinished: bool = False) -> None:
         return
     m.programmed_pieces.append(piece)
     labels = m.recorder
-    if (piece.joint >= 0).any():
-        labels.label("rounding")
-        labels.label("approach")
+    for joint in labels.joints:
+        labels.label(joint.label)
     if (piece.side != 0).any():
         labels.label(compensation.CORNER)
     piece = piece.annotated(labels=tuple(labels.labels), joints=tuple(labels.joints))
@@ -57,6 +56,7 @@ def settle(m: Machine, unfinished: bool = False) -> None:
 def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.Report | None = None) -> Toolpath:
     turned, gouge = corners.apply(piece, unfinished), str(m.settings.get("gouge", "refuse"))
     path = compensation.apply(turned, m.control.compensation, unfinished, gouge, report)
+    path = leads.apply(path, turned, unfinished)
     return rapids.broken(path, m.setup.limits.rapid) if m.settings.get("rapid_path") == "broken" else path
 
 

@@ -21,6 +21,15 @@ def turns(length: float, pitch: float) -> float:
     return length / pitch
 
 
+def steepest_pitch(radius: float, angle: float) -> float:
+    """The most infeed per turn of a tool that plunges at most at an angle, degrees; inf for 0, not known, and 90.
+
+    >>> round(steepest_pitch(4.5, 3), 4)
+    1.4818
+    """
+    return WHOLE * radius * math.tan(math.radians(angle)) if 0 < angle < 90 else math.inf
+
+
 def bore_milling(
     bottom: float, *, above: float, radius: float, pitch: float, sense: int, feed: float | None, by_arc: bool = False
 ) -> Iterator[Step]:

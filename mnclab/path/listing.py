@@ -35,9 +35,9 @@ def words(move: Move) -> str:
     """The part of a row that says what happens."""
     match move.kind:
         case Kind.RAPID:
-            return point(move.end)
+            return f"{point(move.end)}{_rotary(move)}"
         case Kind.LINE | Kind.PROBE:
-            return f"{point(move.end)}{_feed(move)}"
+            return f"{point(move.end)}{_rotary(move)}{_feed(move)}"
         case Kind.ARC:
             return f"{point(move.end)} centre {point(move.centre)} sweep {figure(np.degrees(move.sweep))}{_feed(move)}"
         case Kind.DWELL:
@@ -50,7 +50,16 @@ def words(move: Move) -> str:
             return ""
 
 
+def _rotary(move: Move) -> str:
+    """`` A90`` for each rotary axis that does not stand at zero."""
+    return "".join(
+        f" {axis}{figure(np.degrees(value))}" for axis, value in zip("ABC", move.rotary, strict=True) if value
+    )
+
+
 def _feed(move: Move) -> str:
+    if move.kind == Kind.LINE and np.isfinite(move.time) and np.array_equal(move.start, move.end):
+        return f" F{figure(np.degrees(move.feed))} degrees/min"
     if np.isfinite(move.per_rev):
         return f" F{figure(move.per_rev)}/rev"
     if np.isfinite(move.feed):
@@ -66,7 +75,12 @@ def listing(path: Toolpath) -> str:
 def _row(move: Move) -> str:
     side = {1: " left", -1: " right"}.get(move.side, "") if move.kind in (Kind.LINE, Kind.ARC) else ""
     label = f"  ; {move.label}" if move.label else ""
-    return f"{move.line:4d} {Kind(move.kind).name.lower():7s} {words(move)}{side}{label}"
+    return f"{line(move):>4s} {Kind(move.kind).name.lower():7s} {words(move)}{side}{label}"
+
+
+def line(move: Move) -> str:
+    """The line of a row; of a program that was called, its number before it."""
+    return f"{move.program}:{move.line}" if move.program else str(move.line)
 
 
 def table(path: Toolpath) -> str:
@@ -90,7 +104,7 @@ def table(path: Toolpath) -> str:
         detail = move.label if move.kind <= Kind.PROBE else f"{words(move)} {move.label}".strip()
         cells = (
             i,
-            move.line,
+            line(move),
             Kind(move.kind).name.lower(),
             *map(figure, move.end),
             feed,

@@ -145,6 +145,15 @@ class Recorder:
         self.joints.append(joint)
         return True
 
+    def last(self) -> tuple[Kind, Any] | None:
+        """The kind and the joint of the last motion; None if it has none."""
+        found = self._last_motion()
+        if found is None:
+            return None
+        chunk, row = found
+        number = int(np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape)[row])
+        return Kind(int(chunk["kind"][row])), self.joints[number] if number >= 0 else None
+
     def heading(self) -> NDArray[np.float64] | None:
         """The unit tangent (3,) at the end of the last motion; None if it has none."""
         last = self._last_motion()

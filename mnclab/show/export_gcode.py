@@ -96,7 +96,7 @@ class Writer:
                 yield comment(f"line {values['line']}{': ' + label if label else ''}")
             if kind in MOTION_KINDS:
                 if first and kind != Kind.RAPID:
-                    yield self.move("G0", values["start"], values["rotary"])
+                    yield self.move("G0", values["start"], [0.0, 0.0, 0.0])
                 first = False
                 yield from self.travel(values)
             else:
@@ -105,6 +105,7 @@ class Writer:
     def travel(self, row: dict[str, Any]) -> Iterator[str]:
         """A row that moves."""
         kind, end = row["kind"], row["end"]
+        feed = math.degrees(row["feed"]) if row["start"] == end and kind == Kind.LINE else row["feed"]  # rotary alone
         if row["exact"] != self.exact:
             self.exact = row["exact"]
             yield "G61.1" if self.exact else "G61"
@@ -115,7 +116,7 @@ class Writer:
             return
         if kind == Kind.ARC and (words := self.arc(row)):
             yield from words
-        elif block := self.move("G0" if kind == Kind.RAPID else "G1", end, row["rotary"], row["feed"]):
+        elif block := self.move("G0" if kind == Kind.RAPID else "G1", end, row["rotary"], feed):
             yield block + (" " + comment("probing, to the point touched") if kind == Kind.PROBE else "")
 
     def move(self, code: str, end: list[float], rotary: list[float], feed: float = math.inf) -> str:

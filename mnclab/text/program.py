@@ -13,13 +13,16 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.expression import Expression
+
+if TYPE_CHECKING:
+    from mnclab.text.strings import NumberFromText, TextFormula
 
 NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
 INCREMENTAL, RAPID_MARK, GROUP_MARK = 1, 2, 4  # bits of column ``flag``
@@ -46,7 +49,7 @@ class Word(NamedTuple):
     """An address with its value, and where it stands."""
 
     address: str
-    value: float | str | Expression | None
+    value: float | str | Expression | TextFormula | NumberFromText | None
     place: int
     flag: int = 0
 
@@ -117,6 +120,8 @@ class Program:
     comment_mark: str = "//"
     """What a comment begins with, as a regular expression."""
     encoding: str = "utf-8"
+    folder: str = ""
+    """Where the file lies that the program was read from; empty for a text. Programs that it calls are sought there."""
     labels: Mapping[str, int] = field(default_factory=dict)
     """Block index of each jump target, as the reader of the control found them."""
 
@@ -265,9 +270,7 @@ class ProgramBuilder:
         key = self.keywords.setdefault(keyword, len(self.keywords))
         self.blocks.append((offset, key, skip, plain, len(self.words)))
 
-    def word(
-        self, address: str, value: float | str | Expression | None, offset: int, length: int, flag: int = 0
-    ) -> None:
+    def word(self, address: str, value: Any, offset: int, length: int, flag: int = 0) -> None:
         """Add a word to the block begun last."""
         index = self.addresses.setdefault(address, len(self.addresses))
         if isinstance(value, int | float):

@@ -29,9 +29,15 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "tnc620-klartext": ["L", "C", "CT", "CP", "CALL LBL", "FN"],
+    "tnc620-special": ["CYCL DEF 12"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
+    ],
+    "tnc620-drilling": [
+        *("Q379 positioning behavior", "CYCL DEF 240", "CYCL DEF 200", "CYCL DEF 201", "CYCL DEF 202", "CYCL DEF 203"),
+        *("CYCL DEF 204", "CYCL DEF 205", "CYCL DEF 208", "CYCL DEF 241", "PGM C200", "PGM 1 (4.11)"),
     ],
 }
 
@@ -58,6 +64,9 @@ def examples(folder, name, codes):
         for example in found[code].get("examples") or []:
             check = example.get("check", example.get("checks"))
             kept = {key: example[key] for key in ("title", "origin", "program", "expected") if key in example}
+            kept["title"] = re.sub(r" \(seed lines? [^)]*\)", "", kept["title"])
+            if "program_adopted" in example:  # printed with a misprint
+                kept |= {"printed": example["program"], "program": example["program_adopted"]}
             yield {"code": code, **kept, "check": check}
 
 

@@ -10,10 +10,10 @@ import json
 import re
 
 from exported_programs import PROGRAMS
+from read_back import blocks_of
 from recording import HERE, ask, version
 
 import mnclab
-from mnclab.show.export_gcode import lines
 
 TOOL_CHANGE = re.compile(r"T\d+ M6|G43 H\d+|G49")
 
@@ -24,7 +24,7 @@ def main():
     for name, (control, text) in PROGRAMS.items():
         run = mnclab.run(text, control)
         assert run.ok, run.alarms
-        blocks = [block for block in lines(run) if not block.startswith("(")]
+        blocks = blocks_of(run)
         asked = "\n".join("" if TOOL_CHANGE.fullmatch(block) else block for block in blocks) + "\n"
         records.append({"name": name, "blocks": blocks, **ask(asked)})
     record = {"authority": version(), "programs": records}

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab.machining.depths import TooMany
-from mnclab.machining.helical import bore_milling, turns
+from mnclab.machining.helical import bore_milling, steepest_pitch, turns
 from mnclab.machining.steps import Go, Orient, Spin, Thread, Turn, Wait
 from mnclab.machining.tapping import tap
 from mnclab.machining.thread_milling import centre_feed, countersink, helices, mill_thread, path_of
@@ -41,6 +41,12 @@ def test_turns_are_counted_and_too_many_refused():
     for pitch in (1e-9, float("nan"), 0.0):
         with pytest.raises(TooMany):
             turns(82, pitch)
+
+
+def test_a_plunge_angle_limits_the_turn():
+    """One turn unrolled: the angle between 2 pi r and the infeed; 45 degrees make them equal."""
+    assert steepest_pitch(3, 45) == pytest.approx(6 * math.pi)
+    assert steepest_pitch(3, 0) == steepest_pitch(3, 90) == math.inf
 
 
 @pytest.mark.parametrize(

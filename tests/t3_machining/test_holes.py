@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab.machining.depths import MOST, TooMany, advanced_stops, infeeds
-from mnclab.machining.holes import DIRECTIONS, back_bore, bore, drill, gun_drill, ream
+from mnclab.machining.holes import DIRECTIONS, back_bore, back_to_axis, bore, drill, guided, gun_drill, ream
 from mnclab.machining.steps import RAPID, Coolant, Go, Orient, Spin, Wait
 
 sizes = st.integers(1, 4000).map(lambda n: n / 100)
@@ -138,3 +138,61 @@ def test_gun_drilling_pauses_on_the_way_and_goes_on_slower():
     kinds = [step for step in steps if isinstance(step, Spin | Coolant)]
     assert [k[1:] for k in kinds] == [(-1, 25), (1, 500), (True,), (False,), (-1, 25)]
     assert cuts(steps, 700) == [-3] and cuts(steps, 900) == [2] and cuts(steps, RAPID) == []
+
+
+@given(deepened=sizes, clearance=sizes, up=st.sampled_from([1, -1]))
+def test_a_guided_drill_begins_and_clears_inside_the_hole(deepened, clearance, up):
+    """TNC 620, Q379: never above 0.8 or 0.2 of the depth, never more than the clearance above its end."""
+    planes = guided(10, deepened, clearance, up)
+    start, clear = (up * (10 - level) for level in planes)  # below the surface
+    assert start == pytest.approx(deepened - min(deepened / 5, clearance))
+    assert clear == pytest.approx(deepened - min(deepened * 4 / 5, clearance))
+    assert guided(10, 0, clearance, up) == (10 + up * clearance,) * 2
+
+
+def test_the_first_infeed_may_count_from_below_the_withdrawal():
+    """From -2, drilled in a guide that ends at -1; chips broken every 3 at a feed of their own."""
+    steps = list(
+        drill([-9, -12], above=-1, start=-2, feed=100, reenter=0.5, break_every=3, back=0.5, back_feed=60, approach=700)
+    )
+    assert cuts(steps, 100) == [-5, -8, -9, -12]
+    assert cuts(steps, 60) == [-4.5, -7.5] and cuts(steps, RAPID) == [-1, -8.5]
+
+
+def gun(**more):
+    return list(gun_drill([-10, -20, -30], above=2, start=-3, feed=100, approach=700, retract=900, entry=(1, 25), speed=500,
+                          dwell=0.5, **more))  # fmt: skip
+
+
+def test_gun_drilling_pauses_at_a_level_only_once():
+    steps = gun(pause=-20, feed_after=60)
+    assert cuts(steps, 100) == [-10, -20] and cuts(steps, 60) == [-30]
+    assert [step.seconds for step in steps if isinstance(step, Wait)] == [0.5] * 3
+
+
+@pytest.mark.parametrize("pause", [-3, 0, 5, -30.5])
+def test_gun_drilling_does_not_pause_where_it_does_not_drill(pause):
+    assert cuts(gun(pause=pause, feed_after=60), 100) == [-10, -20, -30]
+
+
+def test_the_coolant_of_gun_drilling_is_named_and_may_stay_on_until_the_spindle_is_slow():
+    last = [step for step in gun(coolant=("M8", "M9"), cool_until_slow=True) if isinstance(step, Spin | Coolant)][-2:]
+    assert [step.label for step in last] == ["spindle for the exit", "M9"]
+    assert [step.label for step in gun() if isinstance(step, Spin | Coolant)][-2:] == [
+        "coolant off",
+        "spindle for the exit",
+    ]
+    assert not any(isinstance(step, Coolant) for step in gun(coolant=("", "")))
+
+
+def test_out_of_a_bore_along_it_first(trace):
+    found = trace([Go("", -5, x=0.2, y=0.0), *back_to_axis(9, -1)], 2)
+    assert [point for _, point in found][1:3] == [(0.2, 0, 9), (0, 0, 9)]
+    assert found[-1][0][1:] == (-1, None)
+
+
+def test_back_boring_cools_while_it_bores():
+    steps = back_bore(above=2, below=-34, bottom=-27, eccentricity=3.5, direction=3, angle=0, feed=200, travel=750, dwell=1,
+                      turning=1, coolant=True)  # fmt: skip
+    order = [step.label for step in steps if isinstance(step, Coolant) or "counterbore" in step.label]
+    assert order == ["coolant on", "counterbore", "leave the counterbore", "coolant off"]

@@ -11,12 +11,17 @@ import mnclab
 from mnclab import Kind
 from mnclab.show import trial
 
-CYCLES = {code: cycle for code, cycle in mnclab.controls["mnc"].cycles.items() if code == cycle.code}
+#: Cycles of the TNC 620 that are varied too, by the numbers of CYCL DEF.
+TNC = (200, 201, 202, 203, 204, 205, 208, 240, 241)
+CYCLES = {code: cycle for code, cycle in mnclab.controls["mnc"].cycles.items() if code == cycle.code} | {
+    f"CYCL DEF {number}": mnclab.controls["tnc-620"].cycles[f"CYCL DEF {number}"] for number in TNC
+}
 
 #: What must be given beside a parameter for it to act.
 BESIDE = {
     ("G305", "diameter"): {"mode": 1},
     ("G306", "predrilled_diameter"): {"diameter": 14},
+    ("CYCL DEF 240", "diameter"): {"mode": 1},
 }
 #: A second value, where half of the first, or the next choice, would be refused.
 OTHER = {
@@ -28,16 +33,29 @@ OTHER = {
     ("G306", "predrilled_diameter"): 6,
     ("G307", "depth"): -12,
     ("G307", "spindle_direction"): 5,
+    ("CYCL DEF 203", "chip_breaks"): 2,
+    ("CYCL DEF 208", "diameter"): 12,
+    ("CYCL DEF 241", "depth"): -30,
+    ("CYCL DEF 241", "entry_speed"): 30,
+    ("CYCL DEF 241", "coolant_on"): 9,
+    ("CYCL DEF 241", "coolant_off"): 8,
 }
 #: Parameters that act beside the path, or not at all: what they do change.
-SPINDLE_ONLY = {("G307", "spindle_direction")}
-NOTHING = {("G306", "predrilled_diameter")}  # it only allows wider holes (MNC-G306-C); refusals are tested as such
+SPINDLE_ONLY = {("G307", "spindle_direction"), ("CYCL DEF 241", "spindle_direction")}
+LABELS_ONLY = {("CYCL DEF 241", "coolant_on"), ("CYCL DEF 241", "coolant_off")}  # rows say which M function it is
+NOTHING = {  # it only allows wider holes (MNC-G306-C; TNC 620, 4.9); refusals are tested as such
+    ("G306", "predrilled_diameter"), ("CYCL DEF 208", "roughing_diameter"),
+}  # fmt: skip
 
 CASES = [(code, parameter) for code, cycle in CYCLES.items() for parameter in cycle.parameters()]
 
 
+def control_of(code):
+    return "tnc-620" if code.startswith("CYCL DEF") else "mnc"
+
+
 def run(code, values):
-    found = mnclab.run(trial.program("mnc", CYCLES[code], values), "mnc")
+    found = mnclab.run(trial.program(control_of(code), CYCLES[code], values), control_of(code))
     assert found.ok, found.alarms
     return found.toolpath
 
@@ -66,7 +84,7 @@ def seen(path):
         "feeds": path.feed[motion & cut].round(9).tolist(),
         "dwells": path.time[path.kind == Kind.DWELL].tolist(),
         "spindle": path.spindle[path.kind == Kind.SPINDLE].tolist(),
-        "labels": [path.labels[k] for k in path.label[path.kind == Kind.SPINDLE]],
+        "labels": [path.labels[k] for k in path.label[np.isin(path.kind, (Kind.SPINDLE, Kind.COOLANT))]],
     }
 
 
@@ -85,10 +103,13 @@ def test_a_parameter_changes_what_it_means(code, parameter):
     if (code, parameter.name) in SPINDLE_ONLY:
         assert changed == {"spindle"}
         return
+    if (code, parameter.name) in LABELS_ONLY:
+        assert changed == {"labels"}
+        return
     if parameter.unit == "mm/rev" or (code, parameter.name) == ("G84", "feed"):
         assert changed == {"feeds"}
         return
-    kind = "path" if parameter.name == "rotation" else CHANGES.get(parameter.unit, "path")
+    kind = {"rotation": "path", "factor": "feeds"}.get(parameter.name) or CHANGES.get(parameter.unit, "path")
     assert kind in changed
     if kind in ("dwells", "feeds", "spindle", "labels"):
         assert changed == {kind}
@@ -99,8 +120,8 @@ def test_a_parameter_changes_what_it_means(code, parameter):
 @pytest.mark.parametrize(("code", "parameter"), CASES, ids=lambda case: getattr(case, "name", case))
 def test_left_out_it_is_its_default_or_missing(code, parameter):
     values = beginning(code, parameter.name)
-    text = trial.program("mnc", CYCLES[code], {k: v for k, v in values.items() if k != parameter.name})
-    found = mnclab.run(text, "mnc")
+    given = {k: v for k, v in values.items() if k != parameter.name}
+    found = mnclab.run(trial.program(control_of(code), CYCLES[code], given), control_of(code))
     if parameter.required:
         assert f"{code} {parameter.address} ({parameter.meaning}) is missing" in found.alarms[0].message
         assert found.alarms[0].span[:2] == (4, 1)
@@ -114,5 +135,6 @@ def test_every_event_and_every_step_of_a_cycle_is_labelled():
     for code in CYCLES:
         path = run(code, beginning(code, "clearance"))
         rows = path[path.line >= 4]
-        rows = rows[~((rows.line == 5) & (np.arange(len(rows)) == 0))]  # the block with M99 positions first
+        if rows[0].line != 4:  # the block with M99 positions first; END PGM stops the spindle
+            rows = rows[rows.line == rows.line[0]][1:]
         assert all(rows.labels[k].startswith(f"{code} ") and len(rows.labels[k]) > len(code) + 1 for k in rows.label)

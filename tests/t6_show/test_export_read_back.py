@@ -19,6 +19,7 @@ AUTHORITIES = Path(__file__).parent.parent / "authorities"
 RECORDED = json.loads((AUTHORITIES / "exported.json").read_text("utf-8"))["programs"]
 sys.path.insert(0, str(AUTHORITIES))
 from exported_programs import PROGRAMS  # noqa: E402
+from read_back import blocks_of, same_motion  # noqa: E402
 
 sys.path.pop(0)
 
@@ -46,21 +47,8 @@ def moves(path, kinds):
 def test_linuxcnc_reads_the_plain_blocks_as_the_same_path(record):
     control, text = PROGRAMS[record["name"]]
     run = mnclab.run(text, control)
-    blocks = [block for block in lines(run) if not block.startswith("(")]
-    assert blocks == record["blocks"], "record again: tests/authorities/generate_exported.py"
-    path, found = run.toolpath.motion, record["motion"]
-    if path.kind[0] != Kind.RAPID:
-        found = found[1:]  # the rapid to where the path begins
-    assert record["ok"] and len(found) == len(path)
-    assert np.abs([move["to"] for move in found] - path.end).max() < 1e-6
-    names = {"rapid": Kind.RAPID, "feed": Kind.LINE, "arc": Kind.ARC}
-    for move, row in zip(found, path):
-        assert names[move["kind"]] == row.kind
-        assert row.kind == Kind.RAPID or math.isclose(move["feed"], row.feed, abs_tol=1e-4)
-        if row.kind == Kind.ARC:
-            spoke = (np.array(move["centre"]) - row.centre) * (1 - np.abs(row.axis))
-            assert np.abs(spoke).max() < 2e-6
-            assert math.copysign(1, move["turns"]) == math.copysign(1, row.sweep * row.axis.sum())
+    assert blocks_of(run) == record["blocks"], "record again: tests/authorities/generate_exported.py"
+    same_motion(run, record)
 
 
 def test_turns_beyond_the_first_are_counted():

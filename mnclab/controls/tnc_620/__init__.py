@@ -10,11 +10,14 @@ import re
 
 from mnclab.controls.tnc_620 import datum_tables, later, reader
 from mnclab.controls.tnc_620.cycles import (
+    boring,
     contours,
     datums,
     drilling,
     engraving,
     face_milling,
+    pecking,
+    program_call,
     special,
     tapping,
     thread_drilling,
@@ -22,10 +25,23 @@ from mnclab.controls.tnc_620.cycles import (
     tilting,
     transformations,
 )
-from mnclab.controls.tnc_620.language import approach, auxiliary, calls, flow, motion, parameters, program, tools
+from mnclab.controls.tnc_620.language import (
+    approach,
+    auxiliary,
+    calls,
+    flow,
+    joints,
+    motion,
+    parameters,
+    polar,
+    pole,
+    program,
+    tools,
+)
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
+from mnclab.machine.cycle import CycleTable
 from mnclab.machine.settings import Setting
 from mnclab.path.compensation import Compensation
 
@@ -35,7 +51,9 @@ PHASES = ("start", "motion", "call", "end", "last")
 SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
+    Setting("overlap", 1.0, "path overlap factor of pockets (pocketOverlap), which Q112 shows", ""),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
+    Setting("controlled_spindle", True, "the spindle's angle is controlled, as 202, 204, 207, 209 need it", "4.5, 5.3"),
     Setting(
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
@@ -49,21 +67,34 @@ SETTINGS = (
 )  # fmt: skip
 
 FUNCTIONS = (
-    motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
+    pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
+    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | auxiliary.FUNCTIONS | calls.FUNCTIONS | datum_tables.FUNCTIONS
 )  # fmt: skip
-CYCLES = drilling.CYCLES | contours.CYCLES | transformations.CYCLES | presets.CYCLES
-CYCLES |= datums.CYCLES | tilting.CYCLES | special.CYCLES | engraving.CYCLES | face_milling.CYCLES
-CYCLES |= tapping.CYCLES | threads.CYCLES | thread_drilling.CYCLES
+CYCLES = CycleTable()
+for chapter in (
+    drilling, boring, pecking,
+    tapping, threads, thread_drilling,
+    contours,
+    transformations, datums, tilting,
+    special, engraving, face_milling,
+    presets,
+    program_call,
+):  # fmt: skip
+    CYCLES |= chapter.CYCLES
 
 #: What the words of statements are.
 MEANINGS = {
     "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "S": "spindle speed",
     "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
-    "RR": "compensation to the right", "LEN": "length", "REP": "repetitions", "label": "label",
+    "RR": "compensation to the right", "LEN": "length", "PR": "polar radius", "PA": "polar angle",
+    "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
     "file": "file name", "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
+    "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
+    "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
+    "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
 }  # fmt: skip
 
 _KLARTEXT = re.compile(
@@ -90,4 +121,6 @@ CONTROL = Control(
     meanings=MEANINGS,
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0),
     named=motion.named,
+    preassigned=parameters.PREASSIGNED,
+    local_variables="QL",
 )

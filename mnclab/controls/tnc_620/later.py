@@ -50,15 +50,12 @@ PROBING = {
 }  # fmt: skip
 
 STATEMENTS = {
-    "CT": "tangential arc", "CHF": "chamfer", "LP": "polar line", "CP": "polar arc", "CTP": "tangential polar arc",
     "FPOL": "pole of free contours", "FL": "free line", "FLT": "free tangential line", "FC": "free arc",
-    "FCT": "free tangential arc", "FSELECT": "choice of a free contour", "CALL PGM": "program call",
+    "FCT": "free tangential arc", "FSELECT": "choice of a free contour",
     "CYCL CALL PAT": "cycle call at a pattern", "CYCL CALL POS": "cycle call at a position", "PATTERN DEF": "point pattern",
     "SEL PATTERN": "point table", "SEL CONTOUR": "contour definition", "SEL TABLE": "datum table", "SEL PGM": "program choice",
     "CALL SELECTED PGM": "program call", "DECLARE CONTOUR": "contour designator", "CONTOUR DEF": "simple contour formula",
     "TRANS DATUM": "datum shift", "QS": "string parameter", "QC": "contour formula",
-    **{f"APPR {form}": "approach" for form in "LN CT LCT PLT PLN PCT PLCT".split()},
-    **{f"DEP {form}": "departure" for form in "LN CT LCT PLT PLN PCT PLCT".split()},
     **{f"GLOBAL DEF {n}": "program defaults of cycles" for n in (100, 105, 110, 111, 120, 125)},
     **{f"PLANE {form}": "tilted plane" for form in "SPATIAL PROJECTED EULER VECTOR POINTS RELATIV AXIAL RESET".split()},
     **{f"FUNCTION {form}": "special function" for form in "TCPM PARAXMODE PARAXCOMP RESET MODE DWELL FEED".split()},
@@ -89,10 +86,14 @@ M = {
 
 BUILDER = "a cycle of the machine tool builder, whose manual alone describes it"
 
+#: Forms that do not exist, although their neighbours do.
+NOT_THERE = {
+    f"DEP {form}": f"it names no point that could be polar; write DEP {form[1:]}" for form in ("PLT", "PLN", "PCT")
+}
+
 WORDS = {
     **{axis: f"the axis {axis} is not built yet" for axis in "UVWABC"},
     "FU": "a feed per revolution is not built yet", "FZ": "a feed per tooth is not built yet",
-    "PR": "polar coordinates are not built yet", "PA": "polar coordinates are not built yet",
 }  # fmt: skip
 
 
@@ -104,4 +105,4 @@ def refused(functions: FunctionTable, cycles: Container[str]) -> dict[str, str]:
     known |= STATEMENTS | {f"FN {n}": title for n, title in FN.items()} | {f"M{n}": title for n, title in M.items()}
     builder = {f"CYCL DEF {n}": BUILDER for n in range(300, 400)} | {f"TCH PROBE {n}": BUILDER for n in range(500, 600)}
     waiting = {code: title for code, title in known.items() if code not in functions and code not in cycles}
-    return {code: f"{title}, not built yet" for code, title in waiting.items()} | builder | WORDS
+    return {code: f"{title}, not built yet" for code, title in waiting.items()} | builder | NOT_THERE | WORDS

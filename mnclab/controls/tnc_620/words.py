@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from typing import Any
 
 from mnclab.text.expression import Expression, parse
 from mnclab.text.program import INCREMENTAL, ProgramBuilder
@@ -80,9 +81,9 @@ class Cursor:
             self.at = found.end()
         return found
 
-    def add(self, address: str, value: float | str | Expression | None, offset: int, flag: int = 0) -> None:
-        """A word from ``offset`` to here."""
-        if self.inch and address in LENGTHS and not isinstance(value, str | None):
+    def add(self, address: str, value: Any, offset: int, flag: int = 0) -> None:
+        """A word from ``offset`` to here; ``value`` as in :class:`mnclab.text.program.Word`."""
+        if self.inch and address in LENGTHS and isinstance(value, float | Expression):
             value = value * INCH if isinstance(value, float) else replace(value, scale=INCH)
         self.builder.word(address, value, offset, self.at - offset, flag)
 
@@ -173,8 +174,12 @@ class Cursor:
         return Fault(f"{c!r} has no meaning here", self.at, hint=hint)
 
     def without_number(self, found: re.Match[str]) -> Fault:
-        """The fault of an address whose value is missing or odd."""
+        """The fault of an address whose value is missing or odd, or of a whole word where none is taken."""
         name, after = found.group().upper(), self.text[found.end() : self.stop].lstrip()[:1]
+        for pattern in (PARAMETER, SIGNED):
+            if value := pattern.match(self.text, found.end(), self.stop):
+                word = f"{name}{value.group().strip()}"
+                return Fault(f"{word} has no meaning in this block", self.at, value.end() - found.start())
         hint = ""
         if after in ("O", "o"):
             hint = "the letter O stands where the digit 0 was meant"

@@ -149,6 +149,8 @@ def _s_curves(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows) -> Plan
 def _events(found: Plan, limits: Limits, waits: NDArray[np.bool_] | None) -> None:
     """Time for dwells, tool changes and for the spindle to reach its speed."""
     kind, seconds = found.path.kind, found.seconds
+    if (turns := (found.rows.length == 0) & np.isfinite(found.path.time)).any():  # rotary axes alone
+        seconds[turns] = found.path.time[turns]
     events = np.flatnonzero(kind > Kind.PROBE)
     if not len(events):
         return

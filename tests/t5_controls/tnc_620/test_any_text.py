@@ -42,6 +42,14 @@ PROGRAM = """\
 21 CALL LBL "A" REP 6/6
 22 Q5 = 3 * (SIN 30 + Q1) ^ 2
 23 L X+Q5 M99
+23 QS1 = "A" || SUBSTR ( SRC_QS1 BEG0 LEN1 ) || TOCHAR ( DAT+Q1 DECIMALS2 )
+23 Q6 = TONUMB ( SRC_QS1 )
+23 FN 8: Q7 = +Q1 LEN -4
+23 FN 11: IF +Q1 GT +3 GOTO LBL "A"
+23 FN 18: SYSREAD Q8 = ID20 NR1
+23 CALL PGM OTHER
+23 CYCL DEF 12.0 PGM CALL
+23 CYCL DEF 12.1 PGM TNC:\\X\\OTHER.H
 24 CYCL DEF 14.0 CONTOUR
 25 CYCL DEF 14.1 CONTOUR LABEL1/2
 26 M30
@@ -72,7 +80,7 @@ def test_mutated_programs(edits: list[tuple[int, int, str]]) -> None:
     text = PROGRAM
     for at, cut, scrap in edits:
         text = text[:at] + scrap + text[at + cut :]
-    run = mnc.run(text, "tnc-620")
+    run = mnc.run(text, "tnc-620", mnc.Setup(files={"OTHER": "\n".join(text.splitlines()[:9])}))
     assert all(alarm.span is None or alarm.span.column >= 1 for alarm in run.alarms)
     str(run.toolpath), repr(run), list(run.program)
 

@@ -31,14 +31,14 @@ def test_rectangle_with_approach_and_departure(inside) -> None:
     """Outside, clockwise, RL: the tool runs 5 mm left of the travel.
 
     The first element goes up (direction +Y) from PA (0, 20), so left of it is -X: the tool reaches the auxiliary point
-    10 mm before PA, (0, 10), at (-5, 10). Then up to the corner (0, 40): an arc about it to (0, 45); along Y = 45, about
-    (60, 40) to (65, 40), down X = 65, about (60, 0) to (60, -5), back along Y = -5, about (0, 0) to (-5, 0), up to
-    (-5, 20), and 15 mm on to (-5, 35).
+    10 mm before PA, (0, 10), at (-5, 10), at the feed of the block before. Then up to the corner (0, 40): an arc about
+    it to (0, 45); along Y = 45, about (60, 40) to (65, 40), down X = 65, about (60, 0) to (60, -5), back along Y = -5,
+    about (0, 0) to (-5, 0), up to (-5, 20), and 15 mm on to (-5, 35).
     """
     run = inside(RECTANGLE)
     assert run.ok, run.alarms
     assert rows(run) == [
-        ("LINE", [-5, 10], 200),
+        ("LINE", [-5, 10], 100),
         ("LINE", [-5, 20], 200),
         ("LINE", [-5, 40], 200),
         ("ARC", [0, 45], 200),
@@ -49,8 +49,9 @@ def test_rectangle_with_approach_and_departure(inside) -> None:
         ("LINE", [0, -5], 200),
         ("ARC", [-5, 0], 200),
         ("LINE", [-5, 20], 200),
-        ("LINE", [-5, 35], 500),
     ]
+    leave = run.toolpath[run.toolpath.line == 11][0]
+    assert (leave.label, leave.end[:2].tolist(), leave.feed) == ("departure", [-5, 35], 500)
     arcs = run.toolpath[run.toolpath.kind == mnc.Kind.ARC]
     assert arcs.sweep.tolist() == pytest.approx([-math.pi / 2] * 4)
     assert arcs.centre[:, :2].tolist() == [[0, 40], [60, 40], [60, 0], [0, 0]]
@@ -79,8 +80,8 @@ def test_departure_from_an_arc(inside) -> None:
         ("LINE", [15, 42]),
         ("LINE", [15, 50]),
         ("ARC", [15, 50]),
-        ("LINE", [15, 60]),
     ]
+    assert run.toolpath[run.toolpath.line == 7].end[:, :2].tolist() == [pytest.approx([15, 60])]
     assert run.toolpath.end[-1].tolist() == pytest.approx([20, 50, 0])
 
 

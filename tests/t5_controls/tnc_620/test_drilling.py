@@ -1,4 +1,4 @@
-"""Cycle 200: the manual's examples move by move, parameters in Q, FAUTO, limits, calls."""
+"""Cycle 200 as one of all cycles: parameters in Q, FAUTO, limits, calls. Its examples: test_drilling_examples.py."""
 
 from __future__ import annotations
 
@@ -6,83 +6,14 @@ import pytest
 
 import mnclab as mnc
 
-EXAMPLE_4_3 = """\
-11 CYCL DEF 200 GAURIRE
-Q200=2 ;DIST. DE SIGURANTA
-Q201=-15 ;ADANCIME
-Q206=250 ;VIT. AVANS PLONJARE
-Q202=5 ;ADANCIME PLONJARE
-Q210=0 ;TEMPOR. PARTEA SUP.
-Q203=+20 ;COORDONATA SUPRAFATA
-Q204=100 ;DIST. DE SIGURANTA 2
-Q211=0.1 ;TEMPOR. LA ADANCIME
-Q395=0 ;REFERINCA ADANCIME
-12 L X+30 Y+20 FMAX M3
-13 CYCL CALL
-14 L X+80 Y+50 FMAX M99
-"""
-
-HOLE = ["Z22 FMAX", "Z15 F250", "dwell 0.1 s", "Z22 FMAX", "Z17 FMAX", "Z10 F250", "dwell 0.1 s", "Z22 FMAX", "Z12 FMAX",
-        "Z5 F250", "dwell 0.1 s", "Z120 FMAX"]  # fmt: skip
-
 DEFINITION = "CYCL DEF 200 D\nQ200=2\nQ201=-15\nQ206=250\nQ202=5\nQ210=0\nQ203=0\nQ204=20\nQ211=0\n"
 
 
-def test_example_4_3_move_by_move(tnc, drilled) -> None:
-    run = tnc(EXAMPLE_4_3)
-    assert run.ok and drilled(run) == HOLE + HOLE
-    holes = run.toolpath[run.toolpath.kind == mnc.Kind.LINE]
-    assert holes.end[:, :2].tolist() == [[30, 20]] * 3 + [[80, 50]] * 3
-    assert {int(line) for line in holes.line} == {12, 13}  # rows carry the line of the calling block
-
-
-def test_pgm_c200(tnc, drilled) -> None:
-    """The complete example of 4.11: four holes, surface Z-10, three infeeds, cycle end Z10."""
-    run = tnc("""\
-0 BEGIN PGM C200 MM
-1 BLK FORM 0.1 Z X+0 Y+0 Z-20
-2 BLK FORM 0.2 X+100 Y+100 Z+0
-3 TOOL CALL 1 Z S4500
-4 L Z+250 R0 FMAX
-5 CYCL DEF 200 GAURIRE
-Q200=2 ;DIST. DE SIGURANTA
-Q201=-15 ;ADANCIME
-Q206=250 ;VIT. AVANS PLONJARE
-Q202=5 ;ADANCIME PLONJARE
-Q210=0 ;TEMPOR. PARTEA SUP.
-Q203=-10 ;COORDONATA SUPRAFATA
-Q204=20 ;DIST. DE SIGURANTA 2
-Q211=0.2 ;TEMPOR. LA ADANCIME
-Q395=0 ;REFERINCA ADANCIME
-6 L X+10 Y+10 R0 FMAX M3
-7 CYCL CALL
-8 L Y+90 R0 FMAX M99
-9 L X+90 R0 FMAX M99
-10 L Y+10 R0 FMAX M99
-11 L Z+250 R0 FMAX M2
-12 END PGM C200 MM
-""")
-    hole = ["Z-8 FMAX", "Z-15 F250", "dwell 0.2 s", "Z-8 FMAX", "Z-13 FMAX", "Z-20 F250", "dwell 0.2 s", "Z-8 FMAX",
-            "Z-18 FMAX", "Z-25 F250", "dwell 0.2 s", "Z10 FMAX"]  # fmt: skip
-    path = run.toolpath
-    assert run.alarms == () and drilled(run) == ["Z250 FMAX", *hole * 4, "Z250 FMAX"]
-    cut = path[path.kind == mnc.Kind.LINE]
-    assert cut.end[::3, :2].tolist() == [[10, 10], [10, 90], [90, 90], [90, 10]]
-    assert cut.length == pytest.approx(4 * 21) and float((cut.lengths / cut.feed).sum() * 60) == pytest.approx(4 * 5.04)
-    assert path.motion[-1].end.tolist() == [90, 10, 250]
-
-
-def test_depth_of_the_cylindrical_part(tnc, drilled) -> None:
-    """Q395=1, diameter 4.8, point angle 120: t = 2.4 / tan 60 = 1.3856; the tip goes to Z-26.3856 in six infeeds."""
-    definition = (
-        DEFINITION.replace("Q201=-15", "Q201=-25").replace("Q206=250", "Q206=150").replace("Q204=20", "Q204=10")
-    )
-    setup = mnc.Setup(tools={2: mnc.Tool(radius=2.4, angle=120)})
-    run = tnc(f"1 TOOL CALL 2 Z S1000\n2 {definition}Q395=1\n3 CYCL CALL M3\n", setup)
-    assert drilled(run) == [
-        "Z2 FMAX", "Z-5 F150", "Z2 FMAX", "Z-3 FMAX", "Z-10 F150", "Z2 FMAX", "Z-8 FMAX", "Z-15 F150", "Z2 FMAX", "Z-13 FMAX",
-        "Z-20 F150", "Z2 FMAX", "Z-18 FMAX", "Z-25 F150", "Z2 FMAX", "Z-23 FMAX", "Z-26.3856 F150", "Z10 FMAX",
-    ]  # fmt: skip
+def test_rows_carry_the_line_of_the_calling_block(tnc) -> None:
+    run = tnc(f"11 {DEFINITION}12 L X+30 Y+20 FMAX M3\n13 CYCL CALL\n14 L X+80 Y+50 FMAX M99\n")
+    cut = run.toolpath[run.toolpath.kind == mnc.Kind.LINE]
+    assert cut.line.tolist() == [11] * 3 + [12] * 3
+    assert cut.end[:, :2].tolist() == [[30, 20]] * 3 + [[80, 50]] * 3
 
 
 def test_dwell_at_the_top_and_end_at_the_set_up_plane(inside, drilled) -> None:

@@ -138,3 +138,11 @@ def test_a_parameter_that_a_program_changes_is_checked_at_the_call(printed) -> N
     text = f"1 TOOL CALL 3 Z S500\n2 CYCL DEF 262 X\n{values}\n3 Q239 = 0\n4 CYCL CALL M3\n"
     alarms = [a for a in mnc.run(text, "tnc-620").alarms if a.severity == "alarm"]
     assert [(a.message, a.span[:2]) for a in alarms] == [("CYCL DEF 262 Q239 (thread pitch) must not be 0", (4, 1))]
+
+
+@pytest.mark.parametrize("number", [207, 209])
+def test_rigid_tapping_needs_a_controlled_spindle(called, number) -> None:
+    run = called(number)
+    run = run.again(run.setup.with_settings(controlled_spindle=False))
+    (alarm,) = run.alarms
+    assert alarm.span[:2] == (4, 1) and alarm.message.startswith(f"CYCL DEF {number} needs a controlled spindle")

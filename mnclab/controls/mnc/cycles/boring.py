@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 
 from mnclab.controls.mnc.cycles.prepared import (
     PreparedCycle,
@@ -16,22 +17,13 @@ from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machining.helical import bore_milling, turns
-from mnclab.machining.holes import back_bore, bore, ream
-from mnclab.machining.steps import Go, Spin
+from mnclab.machining.holes import back_bore, back_to_axis, bore, ream
 
 CYCLES = CycleTable()
 
 DISENGAGE = {0.0: "not at all", 1.0: "in -X", 2.0: "in -Y", 3.0: "in +X", 4.0: "in +Y"}
 SHIFT = {choice: where for choice, where in DISENGAGE.items() if choice}
 MODE = {1.0: "climb (counter-clockwise)", -1.0: "conventional (clockwise)", 0.0: "as 1"}
-
-
-def back_to_centre(m: Machine, x: float, y: float, code: str, end: float, turning: int) -> None:
-    """Out of a bore with a shifted tool: first Z, then the axis of the hole, then the spindle as it turned before."""
-    perform(m, code, [Go("to the start point", end)])
-    m.label = f"{code} back to the axis"
-    m.rapid(x=x, y=y)
-    perform(m, code, [Spin("spindle as before", turning)])
 
 
 @CYCLES("G301, G201", "Reaming", runs="call", source="MNC 9.5")
@@ -68,14 +60,13 @@ class Boring(PreparedCycle):
 
     def moves(self, m: Machine) -> None:
         """Steps 1 to 6 of the manual; the spindle turns again as before, for the next call."""
-        (x, y, _), turning, out = m.programmed, m.turning, self.retract_feed or self.feed
+        turning, out = m.turning, self.retract_feed or self.feed
         end = self.approach(m)
         steps = bore(
             self.surface + self.depth, above=self.level, feed=self.feed, retract=out, dwell=self.dwell_bottom,
             angle=self.spindle_angle, direction=int(self.disengage),
         )  # fmt: skip
-        perform(m, self.code, steps)
-        back_to_centre(m, x, y, self.code, end, turning)
+        perform(m, self.code, chain(steps, back_to_axis(end, turning, "to the start point")))
 
 
 @CYCLES("G304, G204", "Back boring", runs="call", source="MNC 9.8")
@@ -106,7 +97,7 @@ class BackBoring(PreparedCycle):
 
     def moves(self, m: Machine) -> None:
         """Steps 1 to 6 of the manual; levels are those of the end of the bar."""
-        (x, y, _), turning = m.programmed, m.turning
+        turning = m.turning
         lower = self.surface - self.thickness - self.edge_height
         end = self.approach(m)
         steps = back_bore(
@@ -114,8 +105,7 @@ class BackBoring(PreparedCycle):
             eccentricity=self.eccentricity, direction=int(self.disengage), angle=self.spindle_angle,
             feed=self.feed, travel=self.positioning_feed, dwell=self.dwell_bottom, turning=turning or 1,
         )  # fmt: skip
-        perform(m, self.code, steps)
-        back_to_centre(m, x, y, self.code, end, turning)
+        perform(m, self.code, chain(steps, back_to_axis(end, turning, "to the start point")))
 
 
 @CYCLES("G306, G208", "Bore milling", runs="call", source="MNC 9.9")

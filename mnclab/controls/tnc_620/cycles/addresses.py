@@ -15,6 +15,7 @@ LONG = 3600.0  # s
 
 CLIMB: dict[float, str] = {1: "climb", -1: "conventional", 0: "climb"}
 TIP: dict[float, str] = {0: "depth refers to the tool tip", 1: "depth refers to the cylindrical part of the tool"}
+DISENGAGE: dict[float, str] = {0: "not at all", 1: "in -X", 2: "in -Y", 3: "in +X", 4: "in +Y"}
 OPERATION: dict[float, str] = {0: "roughing and finishing", 1: "only roughing", 2: "only finishing"}
 
 
@@ -52,34 +53,65 @@ def choice(address: str, meaning: str, choices: dict[float, str], **more: Any) -
     return _declare(address, meaning, "choice", {"choices": choices}, more)
 
 
+def count(address: str, meaning: str, most: float, unit: str = "count", **more: Any) -> Any:
+    """A whole number from 0."""
+    return _declare(address, meaning, unit, {"at_least": 0, "at_most": most, "type": "integer"}, more)
+
+
 def clearance(**more: Any) -> Any:
     """Q200: from the tool tip to the surface before the tool goes in at its feed."""
-    return length("Q200", "set-up clearance", **{"incremental": True} | more)
+    return length("Q200", "set-up clearance", **{"incremental": True, "example": 2} | more)
 
 
 def depth(**more: Any) -> Any:
     """Q201: from the surface, negative downwards."""
-    return coordinate("Q201", "depth", **{"incremental": True, "note": "from the surface; negative is down"} | more)
+    note = "from the surface; negative is down"
+    return coordinate("Q201", "depth", **{"incremental": True, "note": note, "example": -20} | more)
 
 
 def infeed(**more: Any) -> Any:
     """Q202: how deep the tool goes at once."""
-    return length("Q202", "infeed depth", **{"incremental": True, "note": "0: in one pass"} | more)
+    return length("Q202", "infeed depth", **{"incremental": True, "note": "0: in one pass", "example": 5} | more)
+
+
+def decrement(**more: Any) -> Any:
+    """Q212: how much smaller each infeed is than the one before."""
+    return length("Q212", "decrement of the infeed", **{"incremental": True, "example": 1} | more)
+
+
+def min_infeed(**more: Any) -> Any:
+    """Q205: what the decrement leaves of an infeed."""
+    return length("Q205", "least infeed", **{"incremental": True, "note": "where Q212 is not 0", "example": 3} | more)
+
+
+def break_retract(**more: Any) -> Any:
+    """Q256: how far the tool goes back to break the chip."""
+    return length(
+        "Q256", "distance back to break the chip", **{"incremental": True, "at_most": FAST, "example": 0.2} | more
+    )
+
+
+def start_depth(**more: Any) -> Any:
+    """Q379: how deep the hole is already."""
+    note = "the tool moves at Q253 to a level above it"
+    return length("Q379", "depth of the starting point", **{"incremental": True, "note": note, "example": 5} | more)
 
 
 def surface(**more: Any) -> Any:
     """Q203: where the workpiece begins."""
-    return coordinate("Q203", "coordinate of the workpiece surface", **more)
+    return coordinate("Q203", "coordinate of the workpiece surface", **{"example": 0} | more)
 
 
 def second_clearance(**more: Any) -> Any:
     """Q204: how high above the surface nothing is in the way."""
-    return length("Q204", "second set-up clearance", **{"incremental": True, "note": "if greater than Q200"} | more)
+    return length(
+        "Q204", "second set-up clearance", **{"incremental": True, "note": "if greater than Q200", "example": 20} | more
+    )
 
 
 def plunge_feed(also: tuple[str, ...] = ("FAUTO", "FU"), **more: Any) -> Any:
     """Q206: along the tool axis."""
-    return feed("Q206", "feed rate for plunging", also, **more)
+    return feed("Q206", "feed rate for plunging", also, **{"example": 150} | more)
 
 
 def milling_feed(also: tuple[str, ...] = ("FAUTO", "FU", "FZ"), **more: Any) -> Any:
@@ -87,9 +119,35 @@ def milling_feed(also: tuple[str, ...] = ("FAUTO", "FU", "FZ"), **more: Any) -> 
     return feed("Q207", "feed rate for milling", also, **more)
 
 
+def retract_feed(also: tuple[str, ...] = ("FMAX", "FAUTO"), **more: Any) -> Any:
+    """Q208: out of the hole."""
+    return feed("Q208", "retraction feed rate", also, **{"note": "0: as Q206", "example": 500} | more)
+
+
+def positioning_feed(also: tuple[str, ...] = ("FMAX", "FAUTO"), **more: Any) -> Any:
+    """Q253: where the tool moves inside the hole without cutting."""
+    return feed("Q253", "feed rate for pre-positioning", also, **{"at_most": FAR, "example": 750} | more)
+
+
+def dwell_top(**more: Any) -> Any:
+    """Q210: over the hole, for the chips."""
+    return seconds("Q210", "dwell at the set-up clearance", **{"example": 0.1} | more)
+
+
 def dwell_bottom(**more: Any) -> Any:
     """Q211: at the bottom."""
-    return seconds("Q211", "dwell at the bottom", **more)
+    return seconds("Q211", "dwell at the bottom", **{"example": 0.25} | more)
+
+
+def disengage(shift: bool = False, **more: Any) -> Any:
+    """Q214: where a tool goes before it leaves a bore; a ``shift`` must have a direction."""
+    choices = {key: where for key, where in DISENGAGE.items() if key or not shift}
+    return choice("Q214", "direction in which the tool leaves the wall", choices, **{"example": 1} | more)
+
+
+def spindle_angle(**more: Any) -> Any:
+    """Q336: where the spindle stops before that."""
+    return angle("Q336", "angle of the spindle stop", **{"example": 30} | more)
 
 
 def climb(**more: Any) -> Any:
@@ -99,4 +157,4 @@ def climb(**more: Any) -> Any:
 
 def reference(**more: Any) -> Any:
     """Q395: what of the drill reaches the depth."""
-    return choice("Q395", "depth reference", TIP, **{"default": 0} | more)
+    return choice("Q395", "depth reference", TIP, **{"default": 0, "example": 0} | more)

@@ -1,8 +1,4 @@
-"""Drilling cycles (chapter 4).
-
-Planes in the tool axis: S the surface Q203, A = S + Q200 the set-up plane, B the bottom, E the plane at the end of the
-cycle. With a positive depth the cycle works upwards, where the setting "depth_error" allows it.
-"""
+"""Centring, drilling and reaming (4.2 to 4.4, 4.6): cycles 240, 200, 201 and 203."""
 
 from __future__ import annotations
 
@@ -10,62 +6,143 @@ import math
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.machine.cycle import Cycle, CycleTable, too_many
+from mnclab.controls.tnc_620.cycles.holes import Hole, depth_sign, moving, point_angle, point_length, rate
+from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes import drill
-from mnclab.machining.steps import Go
+from mnclab.machining.holes import drill, ream
+from mnclab.machining.steps import Go, Step, Wait
 
 CYCLES = CycleTable()
 
+CENTRED: dict[float, str] = {0: "to the depth Q201", 1: "to the diameter Q344"}
+
+
+@CYCLES("CYCL DEF 240", "Centering", runs="call", source="4.2")
+class Centering(Hole):
+    """Centres to a depth, or so deep that the point of the tool leaves a cone of a diameter on the surface."""
+
+    clearance: float = addresses.clearance()
+    mode: float = addresses.choice("Q343", "what the centring goes to", CENTRED, example=0)
+    depth: float = addresses.depth(example=-3)
+    diameter: float = addresses.coordinate(
+        "Q344", "diameter of the centring", note="negative is down; counts with Q343=1", example=-9
+    )
+    feed: float = addresses.plunge_feed()
+    dwell_bottom: float = addresses.dwell_bottom()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+
+    def down(self, m: Machine) -> float:
+        """The depth, or that of a cone of the diameter; the parameter that is not chosen does not count."""
+        return (
+            -math.copysign(point_length(abs(self.diameter) / 2, m.tool.angle), self.diameter)
+            if self.mode
+            else -self.depth
+        )
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """The sign of what Q343 chooses, the point angle for a diameter, a feed."""
+        yield from depth_sign(m, *(("diameter", self.diameter) if self.mode else ("depth", self.depth)))
+        if self.mode:
+            yield from point_angle(m, "mode")
+        yield from moving("feed", self.feed, "to drill with")
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        """Down, dwell, out."""
+        yield Go("centre", self.bottom(m), self.feed)
+        yield Wait("dwell at the bottom", self.dwell_bottom)
+        yield from self.leave(m)
+
 
 @CYCLES("CYCL DEF 200", "Drilling", runs="call", source="4.3")
-class Drilling(Cycle):
+class Drilling(Hole):
     """Drills in infeeds with full retraction to the set-up plane, a dwell after each infeed, and a rapid to the end plane."""
 
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
     feed: float = addresses.plunge_feed()
     infeed: float = addresses.infeed()
-    dwell_top: float = addresses.seconds("Q210", "dwell at the set-up clearance")
+    dwell_top: float = addresses.dwell_top()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
     dwell_bottom: float = addresses.dwell_bottom()
     reference: float = addresses.reference()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The sign of the depth, the point angle for Q395=1, a feed to drill with."""
-        if self.depth > 0 and m.settings["depth_error"]:
-            yield "depth", f"must be negative, got {self.depth:g}: a positive depth works upwards"
-        if self.reference == 1 and not 0 < m.tool.angle < 180:
-            yield "reference", f"needs the point angle of tool {m.tool.number} (T-ANGLE of the tool table)"
-        yield from too_many("infeed", lambda: infeeds(0.0, self.depth, self.infeed))
-        if self.feed == 0:
-            yield "feed", "must be greater than 0 to drill with, got 0"
+        """Those of every hole; no more infeeds than one can have."""
+        yield from super().check(m)
+        yield from too_many("infeed", lambda: self.levels(m))
 
-    def moves(self, m: Machine) -> None:
-        """Set-up plane; infeed, dwell, set-up plane, dwell, back above the last depth; end plane."""
-        if self.depth == 0:
-            return  # not executed
-        down = -math.copysign(1.0, self.depth)  # +1 downwards
-        above = self.surface + down * self.clearance
-        bottom = self.surface + self.depth - down * self.point(m)
-        code = self.code
-        perform(m, code, [Go("to the set-up clearance", above)])
-        steps = drill(
-            infeeds(self.surface, bottom, self.infeed or None), above=above, feed=self.feed, reenter=self.clearance,
-            dwell_top=self.dwell_top, dwell_each=self.dwell_bottom, dwell_bottom=self.dwell_bottom,
+    def levels(self, m: Machine) -> tuple[float, ...]:
+        """Infeeds count from the surface."""
+        return infeeds(self.surface, self.bottom(m), self.infeed)
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        """Infeed, dwell, set-up plane, dwell, back above the last depth; end plane."""
+        yield from drill(
+            self.levels(m), above=self.above(m), feed=self.feed, reenter=self.clearance, dwell_top=self.dwell_top,
+            dwell_each=self.dwell_bottom, dwell_bottom=self.dwell_bottom,
         )  # fmt: skip
-        perform(m, code, steps)
-        self.leave(m, above, down)
+        yield from self.leave(m)
 
-    def point(self, m: Machine) -> float:
-        """The length of the drill point, mm: half the diameter over the tangent of half the point angle."""
-        return m.radius / math.tan(math.radians(m.tool.angle / 2)) if self.reference == 1 else 0.0
 
-    def leave(self, m: Machine, above: float, down: float) -> None:
-        """To the second set-up clearance if it is greater than the first, upwards drilling over the set-up plane."""
-        end = self.surface + max(self.second_clearance, self.clearance)
-        levels = [above, end] if down < 0 else [end]
-        perform(m, self.code, [Go("retract", level) for level in levels])
+@CYCLES("CYCL DEF 201", "Reaming", runs="call", source="4.4")
+class Reaming(Hole):
+    """In and out at feed: a reamer does not leave its hole at rapid."""
+
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    feed: float = addresses.plunge_feed()
+    dwell_bottom: float = addresses.dwell_bottom()
+    retract_feed: float = addresses.retract_feed(())
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        """Down, dwell, to the set-up plane; end plane."""
+        out = rate(self.retract_feed, self.feed)
+        yield from ream(self.bottom(m), above=self.above(m), feed=self.feed, retract=out, dwell=self.dwell_bottom)
+        yield from self.leave(m)
+
+
+@CYCLES("CYCL DEF 203", "Universal drilling", runs="call", source="4.6")
+class UniversalDrilling(Hole):
+    """Drills with infeeds that may shrink; breaks the chip Q213 times before each full retraction.
+
+    The infeed after the last chip break ends with the retraction, so Q213 + 1 infeeds lie between two of them. Back in the
+    hole the rapid ends Q256 above the last depth, or Q200 above it where Q256 is 0.
+    """
+
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    feed: float = addresses.plunge_feed()
+    infeed: float = addresses.infeed()
+    dwell_top: float = addresses.dwell_top()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+    decrement: float = addresses.decrement()
+    chip_breaks: float = addresses.count("Q213", "chip breaks before each retraction", 99999, example=1)
+    min_infeed: float = addresses.min_infeed()
+    dwell_bottom: float = addresses.dwell_bottom()
+    retract_feed: float | str = addresses.retract_feed()
+    break_retract: float = addresses.break_retract()
+    reference: float = addresses.reference()
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """Those of every hole; no more infeeds than one can have."""
+        yield from super().check(m)
+        yield from too_many("infeed", lambda: self.levels(m))
+
+    def levels(self, m: Machine) -> tuple[float, ...]:
+        """Infeeds count from the surface."""
+        return infeeds(self.surface, self.bottom(m), self.infeed, self.decrement, self.min_infeed)
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        """Infeeds with chip breaks and retractions at Q208, dwell, end plane at rapid."""
+        yield from drill(
+            self.levels(m), above=self.above(m), feed=self.feed, reenter=self.break_retract or self.clearance,
+            withdraw=rate(self.retract_feed, self.feed), dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,
+            breaks=int(self.chip_breaks), back=self.break_retract,
+        )  # fmt: skip
+        yield from self.leave(m)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses, thread_parameters
+from mnclab.controls.tnc_620.cycles.holes import oriented
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
@@ -99,11 +100,12 @@ class RigidTapping(Tapping):
     """None need turn before it: the spindle is turned by the cycle."""
 
     def needs(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A pitch, that of the tap, and a speed."""
+        """A pitch, that of the tap, a speed, a spindle whose angle is controlled (5.3, 5.4)."""
         if self.pitch == 0:
             yield "pitch", "must not be 0"
         if not m.speed:
             yield "", "needs a spindle speed: write S in TOOL CALL"
+        yield from oriented(m)
         yield from pitch_of(m, "pitch", abs(self.pitch))
 
     @property

@@ -1,54 +1,152 @@
-"""Tangential approach and departure: APPR LT, DEP LT (catalogue: APPR, DEP)."""
+"""Approach and departure: APPR and DEP on lines and arcs, to Cartesian and polar points (catalogue: APPR, DEP).
+
+The forms are L or C, a line or an arc; T or N, tangent or square to the contour; LCT, a line and a tangent arc; P before
+them means a polar point. Lengths and radii count along the path of the tool centre: LEN of LN comes on top of the tool's
+radius, and an arc may be smaller than the tool. A height in the block is reached with the straight line: on the way to the
+auxiliary point, and along a departure.
+"""
 
 from __future__ import annotations
 
-from mnclab.controls.tnc_620.language.motion import coordinates, feed, refuse_rapid, side
+import math
+
+import numpy as np
+
+from mnclab.controls.tnc_620.language.motion import SIDES, coordinates, feed, heading, refuse_rapid, scaled, side
+from mnclab.controls.tnc_620.language.pole import polar_point
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.machine import PLANES, Machine
-from mnclab.path.corners import Approach
+from mnclab.machine.machine import INF, PLANES, Machine
+from mnclab.path.kinds import Kind
+from mnclab.path.leads import Lead, way
 
 FUNCTIONS = FunctionTable()
+END = " R0 RL RR F FMAX FAUTO"
 
 
-def length(m: Machine, words: Words) -> float:
-    """LEN, mm."""
-    if "LEN" not in words:
-        m.alarm(f"{words.code} needs the length LEN", None)
-    value = m.value(words["LEN"])
-    if value <= 0:
-        m.alarm(f"{words.code} LEN (length of the line) must be greater than 0, got {value:g}", words["LEN"])
+def positive(m: Machine, words: Words, address: str, meaning: str, most: float = INF) -> float:
+    """A length or an angle of the form, as written."""
+    if address not in words:
+        m.alarm(f"{words.code} needs {address} ({meaning})", None)
+    value = m.value(words[address])
+    if not 0 < value <= most:
+        limit = f" and at most {most:g}" if most < INF else ""
+        m.alarm(f"{words.code} {address} ({meaning}) must be greater than 0{limit}, got {value:g}", words[address])
     return value
 
 
-@FUNCTIONS("APPR LT,", "Approach on a tangent line", takes="X Y Z LEN R0 RL RR F FMAX FAUTO", source="APPR")
+def form(words: Words) -> str:
+    """LT, LN, CT or LCT, whether the point is polar or not."""
+    return words.code.split()[1].removeprefix("P")
+
+
+def shape(m: Machine, words: Words) -> Lead:
+    """The form of the block with its lengths, for the side of the tool as it is now."""
+    lead = Lead(form(words), m.step, m.side * m.orientation)
+    if lead.form in ("LT", "LN"):
+        return lead._replace(length=scaled(m, positive(m, words, "LEN", "length of the line")))
+    if lead.form == "LCT":
+        return lead._replace(radius=scaled(m, positive(m, words, "R", "radius of the arc")))
+    angle = math.radians(positive(m, words, "CCA", "centre angle of the arc", 360))
+    if "R" not in words:
+        m.alarm(f"{words.code} needs R (radius of the arc)", None)
+    radius = m.value(words["R"])
+    if radius == 0:
+        m.alarm(f"{words.code} R (radius of the arc) must not be 0", words["R"])
+    return lead._replace(radius=scaled(m, radius), angle=angle)
+
+
+# --- approach ---------------------------------------------------------------------------------------------------------
+
+
+@FUNCTIONS("APPR LT,", "Approach on a tangent line", takes="X Y Z LEN" + END, source="APPR")
+@FUNCTIONS("APPR LN,", "Approach on a line square to the contour", takes="X Y Z LEN" + END, source="APPR")
+@FUNCTIONS("APPR CT,", "Approach on a tangent arc", takes="X Y Z CCA R" + END, source="APPR")
+@FUNCTIONS("APPR LCT,", "Approach on a line and a tangent arc", takes="X Y Z R" + END, source="APPR")
+@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes="PR PA Z LEN" + END, source="APPR")
+@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes="PR PA Z LEN" + END, source="APPR")
+@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes="PR PA Z CCA R" + END, source="APPR")
+@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes="PR PA Z R" + END, source="APPR")
 def approach(m: Machine, words: Words) -> None:
-    """To the first contour point over a line tangent to the first element, with compensation from there on."""
-    f = feed(m, words)
+    """To the first contour point, compensated from there on; the line to the auxiliary point keeps the feed before."""
     refuse_rapid(m, words)
-    if "RL" not in words and "RR" not in words:
-        m.alarm("APPR LT needs RL or RR", None, hint="the side on which the tool runs beside the contour")
-    if m.side:
-        m.alarm("APPR LT begins radius compensation, which is active already", None, hint="end it with DEP or R0 first")
-    distance, to = length(m, words), coordinates(m, words)
-    if "x" not in to or "y" not in to:
-        m.alarm("APPR LT needs X and Y of the first contour point", None)
+    before = lead_feed(m)
+    f, to = feed(m, words), first_point(m, words)
+    begin_side(m, words)
+    lead = shape(m, words)
+    lead = lead._replace(feed=m.feed_of(f) if lead.form == "LCT" else before)
+    m.line(to["x"], to["y"], to.get("z"), f=f, joint=lead)
+
+
+def lead_feed(m: Machine) -> float:
+    """The feed of the line to the auxiliary point: rapid if the block before was, else the feed as it was."""
+    last = m.recorder.last()
+    kind = last[0] if last else None
+    for path in () if last else reversed(m.settled):
+        if len(motion := path.kind[path.is_motion]):
+            kind = motion[-1]
+            break
+    return INF if kind == Kind.RAPID else m.feed_of(None)
+
+
+def first_point(m: Machine, words: Words) -> dict[str, float]:
+    """The first contour point, and the depth if there is one."""
+    to = coordinates(m, words)
+    if words.code.split()[1].startswith("P"):
+        to["x"], to["y"] = polar_point(m, words)
+    elif "x" not in to or "y" not in to:
+        m.alarm(f"{words.code} needs X and Y of the first contour point", None)
+    return to
+
+
+def begin_side(m: Machine, words: Words) -> None:
+    """RL or RR; R0 where the form needs no side. What was compensated before ends where the tool stands."""
+    given = [words[name] for name in SIDES if name in words]
+    code = words.code
+    if not given and not m.side:
+        m.alarm(f"{code} needs RL or RR", None, hint="the side on which the tool runs beside the contour")
+    if form(words) in ("LN", "CT") and given and given[0].address == "R0":
+        m.alarm(f"{code} needs RL or RR: without a side it has no direction", given[0])
+    if m.side and not m.recorded_only:
+        m.observe()
     side(m, words, begins=True)
-    m.line(**to, f=f, joint=Approach(distance, m.step))
 
 
-@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="LEN F FAUTO", source="DEP")
+# --- departure --------------------------------------------------------------------------------------------------------
+
+
+@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN F FAUTO", source="DEP")
+@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN F FAUTO", source="DEP")
+@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R F FAUTO", source="DEP")
+@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R F FAUTO", source="DEP")
+@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R F FAUTO", source="DEP")
 def departure(m: Machine, words: Words) -> None:
-    """A line tangent to the last element; at its end the compensation is off, and the register is where the tool stands."""
-    f = feed(m, words)
-    distance = length(m, words)
-    if not m.side:
-        m.alarm(
-            "DEP LT ends radius compensation, and none is active", None, hint="begin it with APPR LT or with RL, RR"
-        )
-    heading, normal = m.heading(), PLANES[m.plane][2]
-    if heading is None or abs(heading[normal]) > 1e-9:
-        m.alarm("DEP LT needs a path element in the working plane directly before it", None)
-    end = m.to_program(t + distance * d for t, d in zip(m.tip, heading, strict=True))
-    m.line(*end, f=f)
-    m.observe()
+    """From the last contour point; at its end the compensation is off, and the register is where the tool stands."""
+    f, lead = feed(m, words), shape(m, words)._replace(departs=True)
+    if form(words) in ("LN", "CT") and not m.side:
+        m.alarm(f"{words.code} needs radius compensation: without a side it has no direction", None)
+    travel = heading(m, words)
+    if m.recorded_only:  # a recorded contour ends at its last point
+        m.change("side", 0)
+        return
+    x, y, z = last_point(m, words, lead, travel)
     m.change("side", 0)
+    m.line(x, y, z, f=f, joint=lead)
+
+
+def last_point(m: Machine, words: Words, lead: Lead, travel: tuple[float, float]) -> tuple[float, float, float]:
+    """Where a departure ends: written for LCT, else where the form leads the tool that touches the contour."""
+    z = coordinates(m, words, "Z").get("z", m.programmed[2])
+    if lead.form == "LCT":
+        if words.code == "DEP PLCT":
+            return *polar_point(m, words), z
+        to = coordinates(m, words, "XY")
+        if "x" not in to or "y" not in to:
+            m.alarm(f"{words.code} needs X and Y of its end", None)
+        return to["x"], to["y"], z
+    first, second, _ = PLANES[m.plane]
+    here, along = np.array(m.tip), np.array(m.heading())
+    normal = np.array([-along[second], along[first]]) * lead.side
+    place, t = here[[first, second]] + m.radius * normal, along[[first, second]]
+    here[[first, second]] = way(lead._replace(side=-lead.side), place, place, -t).by
+    x, y, _ = m.to_program(here)
+    return x, y, z

@@ -1,12 +1,17 @@
-"""Straight lines and arcs: L, CC, C, CR, RND, with feed and radius compensation (catalogue: axis words, F, R0 RL RR)."""
+"""Straight lines and arcs: L, C, CR, CT, with feed and radius compensation (catalogue: coordinates, F, R0 RL RR)."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
+from mnclab.controls.tnc_620.language.pole import polar_point, pole
+from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.machine import INF, Machine
-from mnclab.path.corners import Rounding
+from mnclab.machine.machine import INF, PLANES, Machine
+from mnclab.machine.rotary import AXES as AXES_OF_ROTATION
+from mnclab.machine.rotary import Angles, angles, set_angles, turn_axes
+from mnclab.path.corners import Corner
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
@@ -78,23 +83,36 @@ def side(m: Machine, words: Words, begins: bool) -> None:
         m.change("side", wanted)
 
 
-@FUNCTIONS("L", "Straight line", takes="X Y Z R0 RL RR F FMAX FAUTO", source="2 L")
+@FUNCTIONS("L", "Straight line", takes="X Y Z A B C PR PA R0 RL RR F FMAX FAUTO", source="2 L")
 def line(m: Machine, words: Words) -> None:
     """From the present position to the programmed point at feed, or with FMAX at rapid; axes not written keep their value."""
     f = feed(m, words)
     side(m, words, begins=True)
-    if to := coordinates(m, words):
+    to = coordinates(m, words)
+    if polar := [words[name] for name in ("PR", "PA") if name in words]:  # a block of the manual is printed so
+        if to:
+            m.alarm(f"{polar[0].address} and coordinates of axes stand in one block", polar[0], hint="write LP PR… PA…")
+        m.warn("L with polar coordinates is read as LP", polar[0])
+        to["x"], to["y"] = polar_point(m, words)
+    turned = rotary_angles(m, words)
+    moves = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))) != m.tip
+    if turned != angles(m) and not moves:
+        turn_axes(m, turned, f)
+        return
+    if turned != angles(m):
+        set_angles(m, turned)
+    if to:
         m.line(**to, f=f)
 
 
-@FUNCTIONS("CC", "Circle centre, pole", takes="X Y", source="CC")
-def centre(m: Machine, words: Words) -> None:
-    """No motion; without coordinates the last programmed position."""
-    to = coordinates(m, words)
-    if len(to) == 1:
-        m.alarm("CC needs both coordinates of the plane, or none for the last programmed position", words.words[0])
-    m.pole = (to.get("x", m.programmed[0]), to.get("y", m.programmed[1]))
-    m.log("pole", m.pole)
+def rotary_angles(m: Machine, words: Words) -> Angles:
+    """Where the rotary axes go, degrees; IA counts from where it stands."""
+    found = list(angles(m))
+    for k, axis in enumerate(AXES_OF_ROTATION):
+        if axis in words:
+            value = m.value(words[axis])
+            found[k] = found[k] + value if words[axis].incremental else value
+    return found[0], found[1], found[2]
 
 
 def sense(m: Machine, words: Words) -> int:
@@ -114,11 +132,9 @@ def circle(m: Machine, words: Words) -> None:
     """An arc around the centre CC; an end equal to the start is a full circle."""
     f = feed(m, words)
     side(m, words, begins=False)
-    if m.pole is None:
-        m.alarm("C needs a circle centre: no CC was programmed", None, hint="write CC X… Y… before it")
-    turning = sense(m, words)
+    about, turning = pole(m, words, "circle centre"), sense(m, words)
     refuse_rapid(m, words)
-    m.arc(**coordinates(m, words, "XY"), sense=turning, centre=dict(enumerate(m.pole)), f=f, tolerance=TOLERANCE)
+    m.arc(**coordinates(m, words, "XY"), sense=turning, centre=dict(enumerate(about)), f=f, tolerance=TOLERANCE)
 
 
 @FUNCTIONS("CR", "Circular path with radius", takes="X Y R DR R0 RL RR F FMAX FAUTO", source="CR")
@@ -139,22 +155,56 @@ def circle_by_radius(m: Machine, words: Words) -> None:
     m.arc(**to, sense=turning, radius=radius, f=f, word=words["R"])
 
 
+@FUNCTIONS("CT", "Circular path with tangential connection", takes="X Y R0 RL RR F FMAX FAUTO", source="CT")
+def tangential_circle(m: Machine, words: Words) -> None:
+    """An arc that goes on where the element before it points; straight ahead it is a line."""
+    f = feed(m, words)
+    side(m, words, begins=False)
+    refuse_rapid(m, words)
+    to = coordinates(m, words, "XY")
+    if not to:
+        m.alarm("CT needs X or Y of its end", None)
+    x, y, _ = m.target(to.get("x"), to.get("y"), None)
+    tangent_arc(m, words, (x, y), f)
+
+
+def tangent_arc(m: Machine, words: Words, to: tuple[float, float], f: float | None) -> None:
+    """From where the tool stands, tangent to the element before, to a point of the plane."""
+    start, travel = (m.programmed[0], m.programmed[1]), heading(m, words)
+    if math.dist(start, to) < 1e-3:
+        m.alarm(f"{words.code} needs an end other than its start", None)
+    found = tangent_arc_of_one(start, to, travel)
+    if found is None:
+        m.alarm(f"{words.code}: the end lies straight behind the element before, no tangential arc leads there", None)
+    centre, turning = found
+    if turning == 0:
+        m.line(*to, f=f)
+    else:
+        m.arc(*to, sense=turning, centre=dict(enumerate(centre)), f=f, tolerance=TOLERANCE)
+
+
+def heading(m: Machine, words: Words) -> tuple[float, float]:
+    """The unit tangent at the end of the path element directly before, in program coordinates of the plane."""
+    before, travel = m.recorder.last(), m.heading()
+    if before is None or travel is None:
+        m.alarm(f"{words.code} needs a path element directly before it", None, hint="whose end gives the direction")
+    if abs(travel[PLANES[m.plane][2]]) > 1e-9:
+        m.alarm(f"{words.code} needs a path element in the working plane directly before it", None)
+    if isinstance(before[1], Corner):
+        word = "RND" if before[1].label == "rounding" else "CHF"
+        m.alarm(f"{words.code} cannot follow {word}: its direction is that of the element before", None)
+    here, on = m.to_program(m.tip), m.to_program(a + b for a, b in zip(m.tip, travel, strict=True))
+    u, v = on[0] - here[0], on[1] - here[1]
+    length = math.hypot(u, v)
+    return u / length, v / length
+
+
+def scaled(m: Machine, length: float) -> float:
+    """A length of the program in the plane, mm on the machine."""
+    return length * math.hypot(*m.frames.matrix[:3, PLANES[m.plane][0]].tolist())
+
+
 def refuse_rapid(m: Machine, words: Words) -> None:
     """Arcs run at feed."""
     if "FMAX" in words:
         m.alarm(f"{words.code} runs at feed: FMAX is for straight lines", words["FMAX"])
-
-
-@FUNCTIONS("RND", "Corner rounding", takes="R F", source="RND")
-def rounding(m: Machine, words: Words) -> None:
-    """A tangent arc between the element before and the one after; F counts for the rounding alone."""
-    if "R" not in words:
-        m.alarm("RND needs the radius R", None)
-    radius = m.value(words["R"])
-    if radius <= 0:
-        m.alarm(f"RND R (rounding radius) must be greater than 0, got {radius:g}", words["R"])
-    own = m.value(words["F"]) if "F" in words else float("nan")
-    if own <= 0:
-        m.alarm(f"RND F (feed rate) must be greater than 0, got {own:g}", words["F"])
-    if not m.mark_joint(Rounding(radius, m.step, own)):
-        m.alarm("RND needs a path element directly before it", words["R"])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from mnclab.controls.tnc_620.cycles.chain import cancel
+from mnclab.controls.tnc_620.language import parameters
 from mnclab.controls.tnc_620.words import INCH
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -30,6 +31,7 @@ def start(m: Machine) -> None:
     if any((preset.a, preset.b, preset.c, preset.rotation)):
         m.alarm(f"preset {row} carries a rotation, which is not built yet")
     m.select_datum(preset, "preset")
+    parameters.start(m)
 
 
 @FUNCTIONS("BEGIN PGM,", "Program begin", takes="name unit", source="BEGIN PGM")
@@ -37,17 +39,21 @@ def begin(m: Machine, words: Words) -> None:
     """Names the program and its unit; lengths and feeds of an INCH program become mm where they are read."""
     m.memory["name"], m.memory["unit"] = words["name"].value if "name" in words else "", words["unit"].value
     m.variable_unit = INCH if words["unit"].value == "INCH" else 1.0
+    m.memory.setdefault("main unit", words["unit"].value)  # the first one is that of the main program
 
 
 @FUNCTIONS("END PGM,", "Program end", takes="name unit", phase="last", source="END PGM")
 def end(m: Machine, words: Words) -> None:
-    """The last block of a program."""
+    """The last block of a program; a program that was called goes back to the one that calls."""
     name, unit = words["name"].value if "name" in words else "", words["unit"]
     if "unit" in m.memory and unit.value != m.memory["unit"]:
         m.alarm(f"END PGM says {unit.value}, BEGIN PGM {m.memory['unit']}", unit)
     if "name" in m.memory and name != m.memory["name"]:
         m.warn(f"END PGM names {name}, BEGIN PGM {m.memory['name']}", words.words[0])
-    finish(m)
+    if m.flow.called:
+        m.flow.end_program()
+    else:
+        finish(m)
 
 
 def finish(m: Machine) -> None:
@@ -119,4 +125,9 @@ def program_stop(m: Machine, words: Words) -> None:
 @FUNCTIONS("M2 M30", "Program end", phase="last", modal=False, source="M2")
 def program_end(m: Machine, words: Words) -> None:
     """The run ends after this block; subprograms may follow it."""
+    if m.flow.called:
+        m.alarm(
+            f"{words.code} ends the run and cannot stand in a program that was called", words.words[0],
+            "a called program ends with END PGM",
+        )  # fmt: skip
     finish(m)

@@ -1,0 +1,25 @@
+0 BEGIN PGM HEXAGON MM ; A hexagon in polar coordinates, and a bore milled along a helix. Made for this project.
+1 BLK FORM 0.1 Z X+0 Y+0 Z-15
+2 BLK FORM 0.2 X+100 Y+100 Z+0
+3 TOOL CALL 1 Z S3000 F500
+4 CC X+50 Y+50
+5 L X+120 Y+50 R0 FMAX M3
+6 L Z+2 FMAX
+7 L Z-8 F300
+8 APPR PLN PR+38 PA+0 LEN10 RL F400
+9 LP PA-60
+10 LP IPA-60
+11 LP IPA-60
+12 LP IPA-60
+13 LP IPA-60
+14 LP IPA-60
+15 DEP LT LEN12
+16 L Z+2 FMAX
+17 L X+50 Y+50 FMAX
+18 L Z+0 F300
+19 L X+65 RL F250 ; from the centre to the wall of a bore of 30 mm
+20 CP IPA+1440 IZ-12 DR+ ; four turns, 3 mm deep each
+21 CP IPA+360 DR+ F350
+22 DEP CT CCA90 R+6
+23 L Z+50 FMAX M30
+24 END PGM HEXAGON MM

@@ -1,0 +1,171 @@
+"""Boring, back boring and bore milling (4.5, 4.7, 4.9): cycles 202, 204 and 208.
+
+Both boring cycles stop the spindle at an angle; afterwards it turns as before the call, and the coolant is as it was.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import chain
+
+from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.holes import Hole, moving, oriented, rate
+from mnclab.geometry import frames
+from mnclab.machine.cycle import CycleTable, too_many
+from mnclab.machine.machine import Machine
+from mnclab.machining.depths import DRIFT
+from mnclab.machining.helical import bore_milling, steepest_pitch, turns
+from mnclab.machining.holes import back_bore, back_to_axis, bore
+from mnclab.machining.steps import Go, Step
+
+CYCLES = CycleTable()
+
+
+def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
+    """Steps off the axis go where they would without a mirror image; shifts and rotations count (4.5, 4.7)."""
+    plain = m.frames.copy()
+    plain.set("mirror", None)
+    (a, b), (c, d) = (frames.inverse(m.frames.matrix) @ plain.matrix)[:2, :2].tolist()
+    for step in steps:
+        if isinstance(step, Go) and step.x is not None and step.y is not None and "mirror" in m.frames:
+            step = step._replace(x=a * step.x + b * step.y, y=c * step.x + d * step.y)
+        yield step
+
+
+@CYCLES("CYCL DEF 202", "Boring", runs="call", source="4.5")
+class Boring(Hole):
+    """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws; ends on the axis of the hole."""
+
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    feed: float = addresses.plunge_feed()
+    dwell_bottom: float = addresses.dwell_bottom()
+    retract_feed: float | str = addresses.retract_feed()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+    disengage: float = addresses.disengage()
+    spindle_angle: float = addresses.spindle_angle()
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A spindle that stops at an angle; those of every hole."""
+        yield from oriented(m)
+        yield from super().check(m)
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        """Down, dwell, off the wall, to the set-up plane, end plane, axis."""
+        bored = bore(
+            self.bottom(m), above=self.above(m), feed=self.feed, retract=rate(self.retract_feed, self.feed),
+            dwell=self.dwell_bottom, angle=self.spindle_angle, direction=int(self.disengage),
+        )  # fmt: skip
+        yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
+
+
+@CYCLES("CYCL DEF 204", "Back boring", runs="call", source="4.7")
+class BackBoring(Hole):
+    """Counterbores from below, with a bar that goes through the hole off its axis.
+
+    Levels count for the lower end of the bar; its edge is Q252 above that.
+    """
+
+    clearance: float = addresses.clearance()
+    counterbore_depth: float = addresses.coordinate(
+        "Q249", "depth of the counterbore", incremental=True, note="from the lower surface; positive is up", example=5
+    )
+    thickness: float = addresses.length(
+        "Q250", "thickness of the workpiece", at_least=0.0001, incremental=True, example=20
+    )
+    eccentricity: float = addresses.length(
+        "Q251", "off-centre distance of the bar", at_least=0.0001, incremental=True, example=3.5
+    )
+    edge_height: float = addresses.length(
+        "Q252", "height of the edge above the end of the bar", at_least=0.0001, incremental=True, example=15
+    )
+    positioning_feed: float | str = addresses.positioning_feed()
+    feed: float = addresses.feed(
+        "Q254", "feed rate for counterboring", ("FAUTO", "FU"), at_most=addresses.FAR, example=200
+    )
+    dwell_bottom: float = addresses.seconds("Q255", "dwell at the bottom of the counterbore", example=0.5)
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+    disengage: float = addresses.disengage(shift=True)
+    spindle_angle: float = addresses.spindle_angle()
+
+    def down(self, m: Machine) -> float:
+        """The counterbore is made upwards; only its being 0 counts here."""
+        return self.counterbore_depth
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A spindle that stops at an angle; a counterbore upwards that stays inside the workpiece; feeds."""
+        yield from oriented(m)
+        if self.counterbore_depth < 0:
+            yield "counterbore_depth", f"must not be negative, got {self.counterbore_depth:g}"
+        if self.counterbore_depth >= self.thickness:
+            yield "counterbore_depth", f"must be less than Q250 = {self.thickness:g}, got {self.counterbore_depth:g}"
+        yield from moving("feed", self.feed, "to bore with")
+        yield from moving("positioning_feed", self.positioning_feed, "to position with")
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        """Shifted through the hole, counterbore from below, shifted out; end plane, axis."""
+        lower = self.surface - self.thickness - self.edge_height
+        bored = back_bore(
+            above=self.above(m), below=lower - self.clearance, bottom=lower + self.counterbore_depth,
+            eccentricity=self.eccentricity, direction=int(self.disengage), angle=self.spindle_angle, feed=self.feed,
+            travel=rate(self.positioning_feed), dwell=self.dwell_bottom, turning=m.turning or 1,
+            coolant=m.modal.get("coolant") == "M9",
+        )  # fmt: skip
+        yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
+
+
+@CYCLES("CYCL DEF 208", "Bore milling", runs="call", source="4.9")
+class BoreMilling(Hole):
+    """Mills a hole on a helix from the set-up plane, with a full circle at the bottom; as wide as the tool it drills it.
+
+    The infeed per turn is reduced where the plunge angle of the tool (ANGLE) demands it. A mirrored plane does not change
+    climb into up-cut milling.
+    """
+
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    feed: float = addresses.plunge_feed(("FAUTO", "FU", "FZ"))
+    pitch: float = addresses.length("Q334", "infeed per turn of the helix", incremental=True, example=1.5)
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance()
+    diameter: float = addresses.length("Q335", "diameter of the bore", example=14)
+    roughing_diameter: float = addresses.length(
+        "Q342", "diameter roughed before", note="above 0 the bore may be wider than twice the tool", example=0
+    )
+    climb: float = addresses.climb(example=1)
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A bore as wide as the tool, and at most twice as wide if no other came before; a helix that goes down."""
+        yield from super().check(m)
+        tool = 2 * m.radius
+        if self.radius(m) < 0:
+            yield "diameter", f"must be at least the tool diameter {tool:g}, got {self.diameter:g}"
+        if not self.roughing_diameter and self.diameter > 2 * tool + DRIFT:
+            yield "diameter", f"must be at most twice the tool diameter {tool:g} while Q342 is 0, got {self.diameter:g}"
+        if self.radius(m):
+            yield from moving("pitch", self.pitch, "to mill with")
+            yield from too_many("pitch", lambda: turns(self.clearance + abs(self.depth), self.pitch_on(m)))
+
+    def radius(self, m: Machine) -> float:
+        """Of the path of the tool centre; 0 where the bore is as wide as the tool."""
+        radius = self.diameter / 2 - m.radius
+        return 0.0 if abs(radius) < DRIFT else radius
+
+    def pitch_on(self, m: Machine) -> float:
+        """The infeed per turn that the tool allows."""
+        return min(self.pitch, steepest_pitch(self.radius(m), m.tool.plunge_angle))
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        """To the wall, helix, circle, back to the axis; end plane."""
+        pitch, sense = self.pitch_on(m), -1 if self.climb < 0 else 1
+        if pitch < self.pitch and self.radius(m) and m.cycle and m.cycle.extra.setdefault("told", pitch) == pitch:
+            m.cycle.extra["told"] = None  # once is enough
+            allowed = f"the plunge angle {m.tool.plunge_angle:g} of tool {m.tool.number} allows {pitch:.4g}"
+            m.warn(f"{self.code} Q334 {self.pitch:g} is reduced: {allowed}", m.cycle.words.get("pitch"))
+        yield from bore_milling(
+            self.bottom(m), above=self.above(m), radius=self.radius(m), pitch=pitch, sense=sense * m.orientation,
+            feed=self.feed, by_arc=True,
+        )  # fmt: skip
+        yield from (step._replace(x=0.0, y=0.0) for step in self.leave(m))  # turns end near the axis, not on it
