@@ -49,19 +49,15 @@ def select_table(m: Machine, words: Words) -> None:
 
 
 def row_of(m: Machine, row: int) -> Mapping[str, float]:
-    """Shifts by axis (x, y, z, a, b, c) in a row of the active table; an alarm if there is none."""
-    name, rows = m.memory.get(TABLE, ("the setup", None))
+    """Shifts by axis (x, y, z, a, b, c) in a row of the active table; a LookupError says what is missing."""
+    name, rows = m.memory.get(TABLE, ("of the setup", None))
     if rows is None:
         rows = {number: datum._asdict() for number, datum in m.tables.datums.items()}
         if not rows:
-            m.alarm(
-                "CYCL DEF 7 # needs an active datum table",
-                None,
-                'write SEL TABLE "NAME.D" before, or give Setup(datums=…)',
-            )
+            raise LookupError("needs an active datum table: write SEL TABLE before, or give Setup(datums=…)")
     if row not in rows:
         known = ", ".join(map(str, sorted(rows)[:12]))
-        m.alarm(f"CYCL DEF 7 #{row}: the datum table of {name} has no row {row}", None, hint=f"rows: {known}")
+        raise LookupError(f"names row {row}, which the datum table {name} does not have (rows: {known})")
     return {axis: value for axis, value in rows[row].items() if axis in "xyzabc"}
 
 

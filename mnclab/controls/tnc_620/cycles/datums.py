@@ -62,20 +62,18 @@ class DatumShift(Cycle):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Either axes or the row of a table."""
         if not self.written and self.datum_number is None:
-            yield "", "needs an axis, for example CYCL DEF 7.1 X+60, or a row of a datum table, CYCL DEF 7.1 #5"
+            yield "", "needs an axis, for example CYCL DEF 7.1 X+60"
         if self.written and self.datum_number is not None:
             yield "datum_number", "and shifts of axes cannot stand in one definition"
-        if self.datum_number is not None:
-            self.check_row(m)
-
-    def check_row(self, m: Machine) -> Mapping[str, float]:
-        """The row of the active table; an alarm if there is no table or no such row."""
-        assert self.datum_number is not None
-        return row_of(m, int(self.datum_number))
+        elif self.datum_number is not None:
+            try:
+                row_of(m, int(self.datum_number))
+            except LookupError as error:
+                yield "datum_number", str(error.args[0])
 
     def moves(self, m: Machine) -> None:
         """No motion: the register is read anew from where the tip stands."""
-        new = self.written if self.datum_number is None else self.check_row(m)
+        new = self.written if self.datum_number is None else row_of(m, int(self.datum_number))
         x, y, z = (new.get(axis, before) for axis, before in zip("xyz", chain.shift_of(m), strict=True))
         turned = tuple(new.get(axis, before) for axis, before in zip("abc", chain.rotary(m)[0], strict=True))
         m.memory[chain.ROTARY_SHIFT] = turned

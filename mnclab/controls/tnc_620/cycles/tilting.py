@@ -16,8 +16,8 @@ from mnclab.geometry import tilting
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
+from mnclab.machine.rotary import Angles, set_angles, turn_axes
 from mnclab.machine.settings import Setting
-from mnclab.path.kinds import Kind
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
@@ -151,10 +151,15 @@ class WorkingPlane(Cycle):
         way = math.degrees(max(abs(to[axis] - now[axis]) for axis in AXES))
         if not way:
             return
-        minutes, length = way / self.rotary_feed, math.hypot(*travel)
-        m.change("rotary", tuple(to[axis] for axis in AXES))
         m.label = f"{self.code} tilt"
-        if length > 0:
-            m.line(*m.to_program(p + d for p, d in zip(m.tip, travel, strict=True)), f=length / minutes)
-        else:
-            m._row(Kind.LINE, m.tip, feed=math.radians(self.rotary_feed), time=60 * minutes)
+        if not (length := math.hypot(*travel)):
+            turn_axes(m, degrees(to), self.rotary_feed)
+            return
+        set_angles(m, degrees(to))
+        m.line(*m.to_program(p + d for p, d in zip(m.tip, travel, strict=True)), f=length * self.rotary_feed / way)
+
+
+def degrees(angles: Mapping[str, float]) -> Angles:
+    """A, B and C, degrees."""
+    a, b, c = (math.degrees(angles[axis]) for axis in AXES)
+    return a, b, c
