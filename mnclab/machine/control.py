@@ -16,7 +16,7 @@ from mnclab.machine.settings import Setting, settings_html
 from mnclab.text.program import Program, Word
 
 if TYPE_CHECKING:
-    from mnclab.machine.cycle import CycleTable
+    from mnclab.machine.cycle import CycleTable, Parameter
     from mnclab.machine.machine import Machine
     from mnclab.path.compensation import Compensation
 
@@ -128,7 +128,9 @@ class Control:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
     ("G4 P").
-    ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself.
+    ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; ``predefined``
+    what PREDEF stands for in a parameter of a cycle of a code; ``calls_again`` whether a modal call of a cycle (a modal
+    function of the group "call") calls it in a block with a keyword and words.
     ``preassigned`` are variables that the control keeps itself; names that begin with ``local_variables`` belong to one
     program.
     """
@@ -157,6 +159,8 @@ class Control:
     bulk: Any = None
     one_command: bool = False
     named: Callable[[Machine, Word], float | str] | None = None
+    predefined: Callable[[Machine, str, Parameter, Word], float | str] | None = None
+    calls_again: Callable[[Machine, str, list[Word]], bool] | None = None
     lathe: bool = False
     preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
     local_variables: str = ""

@@ -141,6 +141,8 @@ class Cycle:
     source: ClassVar[str] = ""
     triggers: ClassVar[tuple[str, ...]] = ()
     """Addresses that run a "position" cycle in a later block."""
+    in_variables: ClassVar[bool] = True
+    """Whether its Q parameters are variables of the program, on a control that has them."""
     own_spindle: ClassVar[bool] = False
     """Whether it turns the spindle itself, so that none need turn before it."""
 
@@ -267,7 +269,9 @@ def fault(definition: Definition, parameter: Parameter | None, sentence: str) ->
     word = definition.words.get(parameter.name) if parameter else None
     word = word or definition.head
     name = f" {parameter.address} ({parameter.meaning})" if parameter else ""
-    return Alarm(f"{definition.code}{name} {sentence}", word.span._replace(program=definition.program) if word else None)
+    return Alarm(
+        f"{definition.code}{name} {sentence}", word.span._replace(program=definition.program) if word else None
+    )
 
 
 @contextmanager

@@ -88,6 +88,8 @@ def _tnc_620(cycle: Any, words: Sequence[tuple[str, float]]) -> str | None:
     lines = [f"{cycle.code} {cycle.title.upper()}", *(f"  {address}={value:+.6g}" for address, value in words)]
     call = ["L X+20 Y+10 R0 FMAX M99"] if cycle.runs == "call" else []
     start = ["BEGIN PGM TRIAL MM", "TOOL CALL 2 Z S1000", "L X+0 Y+0 Z+50 R0 FMAX M3"]
+    if cycle.code in ("CYCL DEF 220", "CYCL DEF 221"):  # which run the cycle before them
+        start += ["CYCL DEF 200 DRILLING", *"Q200=2 Q201=-15 Q206=120 Q202=5 Q210=0 Q203=0 Q204=20 Q211=0".split()]
     return "\n".join([*start, " ~\n".join(lines), *call, "END PGM TRIAL MM", ""])
 
 

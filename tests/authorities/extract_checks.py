@@ -31,6 +31,12 @@ EXAMPLES = {
     "mnc-milling": ["G320", "G321", "G343", "G344"],
     "tnc620-klartext": ["L", "C", "CT", "CP", "CALL LBL", "FN"],
     "tnc620-special": ["CYCL DEF 12"],
+    "tnc620-using-cycles": [
+        *("fixed cycles", "CYCL DEF", "CYCL CALL PAT", "CYCL CALL POS", "M89", "PREDEF"),
+        *(f"PATTERN DEF {form}" for form in ("POS", "ROW", "PAT", "FRAME", "CIRC", "PITCHCIRC")),
+        *("point table", "SEL PATTERN"),
+    ],
+    "tnc620-patterns": ["CYCL DEF 220", "CYCL DEF 221"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
@@ -76,7 +82,8 @@ def parameters(folder):
     for file in sorted(folder.glob("*.yaml")):
         loaded = yaml.safe_load(file.read_text(encoding="utf-8"))
         for entry in loaded.get("entries") or []:
-            if entry.get("kind") == "cycle" and entry.get("parameters"):
+            declared = entry.get("kind") == "cycle" or str(entry["code"]).startswith("GLOBAL DEF ")
+            if declared and entry.get("parameters"):
                 rows = [{key: row[key] for key in KEYS if row.get(key) is not None} for row in entry["parameters"]]
                 record = {"code": str(entry["code"]), "aliases": entry.get("aliases") or [], "parameters": rows}
                 controls.setdefault(loaded["control"], []).append(record)

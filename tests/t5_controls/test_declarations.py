@@ -103,6 +103,14 @@ ONCE = "only what L chooses is used: the example writes H0 beside L1, so the lim
 FEED = "the range of the word F (4.1)"
 MILLING = ("G320", "G321", "G343", "G344")
 TIME = "the table has no range; a time is not negative"
+AS_IN_CYCLES = "the table has none: that of the parameter in the cycles"
+LENGTH, SIGNED, TIMES = {">=": 0, "<=": 99999.9999}, {">=": -99999.9999, "<=": 99999.9999}, {">=": 0, "<=": 3600}
+FEEDS, OVERLAP = {">=": 0, "<=": 99999.999}, {">=": 0.0001, "<=": 1.9999}
+GLOBAL_LIMITS = [
+    *((100, q, LENGTH) for q in ("Q200", "Q204")), *((100, q, FEEDS) for q in ("Q253", "Q208")), (105, "Q256", LENGTH),
+    *((105, q, TIMES) for q in ("Q210", "Q211")), (110, "Q370", OVERLAP), (111, "Q2", OVERLAP), (111, "Q6", LENGTH),
+    (111, "Q7", SIGNED), (120, "Q320", LENGTH), (120, "Q260", SIGNED),
+]  # fmt: skip
 #: (control, code, address, key) -> what the declaration has, and why.
 EXPLAINED = {
     **{("mnc", code, "P", "limits"): ({">=": 0}, TIME) for code in ("G83", "G84", "G85")},
@@ -127,6 +135,8 @@ EXPLAINED = {
     ("tnc-620", "CYCL DEF 225", "Q201", "limits"): ({">=": -99999.9999, "<=": 99999.9999}, "its reading has them"),
     ("tnc-620", "CYCL DEF 225", "Q574", "limits"): ({">=": 0, "<=": 99999.9999}, "a length"),
     ("tnc-620", "CYCL DEF 14", "LBL", "limits"): ({">=": 1, "<=": 65535}, "of each; twelve at most are a check"),
+    **{("tnc-620", f"GLOBAL DEF {n}", q, "limits"): (limits, AS_IN_CYCLES) for n, q, limits in GLOBAL_LIMITS},
+    **{("tnc-620", "GLOBAL DEF 100", q, "also"): ({"FMAX", "FAUTO"}, AS_IN_CYCLES) for q in ("Q253", "Q208")},
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "choices"): (set(), "2, 3, … too: any whole number") for n in (262, 267)},
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "type"): ("integer", "of a pitch per step") for n in (262, 267)},
     ("tnc-620", "CYCL DEF 201", "Q203", "limits"): ({">=": -99999.9999, "<=": 99999.9999}, "a misprint: as everywhere"),

@@ -13,6 +13,7 @@ from mnclab.controls.tnc_620.cycles import (
     boring,
     contours,
     datums,
+    defaults,
     drilling,
     engraving,
     face_milling,
@@ -25,6 +26,7 @@ from mnclab.controls.tnc_620.cycles import (
     tilting,
     transformations,
 )
+from mnclab.controls.tnc_620.cycles import patterns as point_patterns
 from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
@@ -33,6 +35,8 @@ from mnclab.controls.tnc_620.language import (
     joints,
     motion,
     parameters,
+    pattern_calls,
+    patterns,
     polar,
     pole,
     program,
@@ -59,6 +63,10 @@ SETTINGS = (
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
     ),
     Setting(
+        "pattern_cycles", "refuse", "cycles 220 and 221 with a cycle that the manual does not name for them", "7.1",
+        {"refuse": "an alarm", "warn": "a warning, and they run"},
+    ),
+    Setting(
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
@@ -69,12 +77,15 @@ SETTINGS = (
 FUNCTIONS = (
     pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
-    | auxiliary.FUNCTIONS | calls.FUNCTIONS | datum_tables.FUNCTIONS
+    | auxiliary.FUNCTIONS | calls.FUNCTIONS | pattern_calls.FUNCTIONS | patterns.FUNCTIONS
+    | datum_tables.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in (
+    defaults,
     drilling, boring, pecking,
     tapping, threads, thread_drilling,
+    point_patterns,
     contours,
     transformations, datums, tilting,
     special, engraving, face_milling,
@@ -91,10 +102,11 @@ MEANINGS = {
     "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
-    "file": "file name", "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
+    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length", "file": "name of a file",
+    **{f"PATTERN DEF {address}": meaning for address, meaning in patterns.MEANINGS.items()},
 }  # fmt: skip
 
 _KLARTEXT = re.compile(
@@ -119,8 +131,10 @@ CONTROL = Control(
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
     refused=later.refused(FUNCTIONS, CYCLES),
     meanings=MEANINGS,
-    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0),
+    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
     named=motion.named,
     preassigned=parameters.PREASSIGNED,
     local_variables="QL",
+    predefined=defaults.predefined,
+    calls_again=calls.calls_again,
 )

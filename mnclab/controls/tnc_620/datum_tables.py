@@ -14,12 +14,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from pathlib import Path
 
+from mnclab.controls.tnc_620.table_files import Fault, text_of
 from mnclab.controls.tnc_620.words import INCH, LARGEST
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.text.program import Word, decode
+from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 SUFFIX = ".D"
@@ -32,13 +32,6 @@ Rows = Mapping[int, Mapping[str, float]]
 
 _NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)", re.ASCII)
 _FIELD = re.compile(r"\S+")
-
-
-class Fault(Exception):
-    """What is wrong in a line of the file."""
-
-    def __init__(self, message: str, line: int) -> None:
-        super().__init__(f"line {line}: {message}")
 
 
 @FUNCTIONS("SEL TABLE,", "Datum table", takes="file", source="11.3")
@@ -63,26 +56,9 @@ def row_of(m: Machine, row: int) -> Mapping[str, float]:
 
 def read_table(m: Machine, word: Word) -> Rows:
     """The table that SEL TABLE names; an alarm at that word if there is none, or for a fault in it."""
-    name = str(word.value)
-    file = name.replace("\\", "/").replace(":", "/").rpartition("/")[2]
-    if not file[:1].isalpha():
-        m.alarm(f"SEL TABLE {name}: the name of a datum table must begin with a letter", word)
-    if "." not in file:
-        name, file = name + SUFFIX, file + SUFFIX
-    if not file.upper().endswith(SUFFIX):
-        m.alarm(f"SEL TABLE {name}: a datum table has the type {SUFFIX}", word)
-    known = {key.replace("\\", "/").upper(): source for key, source in m.setup.files.items()}
-    source = known.get(name.replace("\\", "/").upper(), known.get(file.upper()))
-    if source is None:
-        names = ", ".join(sorted(m.setup.files)[:8])
-        m.alarm(f"SEL TABLE {name}: there is no such table", word, hint=f"Setup(files=…) has {names or 'no files'}")
-    if isinstance(source, Path):
-        try:
-            source = decode(source.read_bytes())[0]
-        except OSError as error:
-            m.alarm(f"SEL TABLE {name}: {source} cannot be read: {error.strerror}", word)
+    name, text = text_of(m, word, "SEL TABLE", "datum table", SUFFIX)
     try:
-        return parse(source)
+        return parse(text)
     except Fault as fault:
         m.alarm(f"SEL TABLE {name}, {fault}", word)
 

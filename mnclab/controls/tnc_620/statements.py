@@ -20,6 +20,7 @@ from mnclab.controls.tnc_620.labels import (
     select_program,
     set_label,
 )
+from mnclab.controls.tnc_620.pattern_words import PatternWords
 from mnclab.controls.tnc_620.words import FLAGS, NUMBER, TEXT, Cursor, Fault
 
 Read = Callable[[Cursor], None]
@@ -108,6 +109,19 @@ def program_name(cursor: Cursor) -> None:
     cursor.at = cursor.stop
 
 
+def file_name(cursor: Cursor) -> None:
+    """The name of a file, in quotes or up to the end of the line."""
+    begin = cursor.blanks()
+    if found := cursor.match(TEXT):
+        name = found.group(1).strip()
+    else:
+        name = cursor.rest().strip()
+        cursor.at = cursor.stop
+    if not name:
+        raise Fault("the name of a file is missing", begin, hint='for example SEL PATTERN "HOLES"')
+    cursor.add("file", name, begin)
+
+
 # --- cycles -----------------------------------------------------------------------------------------------------------
 
 
@@ -193,17 +207,16 @@ WORDS: dict[str, Read] = {
     "RND": with_radius, "CHF": leading("length"), "FPOL": plain, "FL": plain, "FLT": plain, "FC": with_radius,
     "FCT": with_radius, "FSELECT": leading("number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
     "CYCL CALL": plain, "LBL": set_label, "CALL LBL": call_label, "TOOL CALL": tool_call, "TOOL DEF": tool_def,
-    "SEL TABLE": sub_blocks.table_name,
     "CALL PGM": call_program, "SEL PGM": select_program, "CALL SELECTED PGM": plain, "DECLARE STRING": declared_text,
+    "SEL PATTERN": file_name, "SEL TABLE": file_name, "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
 
 #: Statements whose rest is not read: keyword -> whether further lines without a number belong to them.
 KEYWORDS_ONLY = {
-    "BLK FORM": False, "SEL PATTERN": False, "SEL CONTOUR": False,
-    "DECLARE CONTOUR": True, "CONTOUR DEF": True, "PATTERN DEF": True, "PLANE": False,
-    "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
+    "BLK FORM": False, "SEL CONTOUR": False, "DECLARE CONTOUR": True, "CONTOUR DEF": True,
+    "PLANE": False, "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
 }  # fmt: skip
 
 _ALL = sorted([*WORDS, *KEYWORDS_ONLY], key=len, reverse=True)
@@ -230,6 +243,9 @@ def recognize(cursor: Cursor) -> Statement | None:
         keyword = " ".join(found.group().upper().split())
         if keyword in KEYWORDS_ONLY:
             return _known_by_name(cursor, keyword, found.start())
+        if keyword == "PATTERN DEF":
+            elements = PatternWords()
+            return Statement(keyword, elements, elements)
         return Statement(keyword, WORDS[keyword])
     if found := cursor.match(_FN):
         number = int(found.group(1))

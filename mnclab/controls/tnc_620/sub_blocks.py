@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from mnclab.controls.tnc_620.words import FLAGS, INCH, TEXT, Cursor, Fault
+from mnclab.controls.tnc_620.words import FLAGS, INCH, Cursor, Fault
 
 Read = Callable[[Cursor], None]
 
@@ -101,20 +101,6 @@ def filters(cursor: Cursor) -> None:
         if value is None:
             raise Fault(f"{address} needs a number", begin, cursor.at - begin)
         cursor.add(address, value, begin)
-
-
-def table_name(cursor: Cursor) -> None:
-    """SEL TABLE: the name of a file, in quotes or up to the end of the line."""
-    begin = cursor.blanks()
-    if found := cursor.match(TEXT):
-        name = found.group(1).strip()
-    else:
-        name, cursor.at = cursor.rest().strip(), cursor.stop
-    if not name:
-        raise Fault("the name of a table is missing", begin, hint='for example SEL TABLE "TNC:\\DATUMS.D"')
-    cursor.add("file", name, begin)
-    if not cursor.done:
-        raise cursor.unexpected()
 
 
 #: By cycle, or by cycle and number of the sub-block.

@@ -38,7 +38,8 @@ _NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=l
 
 #: Addresses of lengths and of feeds along a path: inches in a program that begins with INCH.
 LENGTHS = frozenset(
-    "X Y Z U V W R LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY length DEPTH PITCH".split()
+    "X Y Z U V W R LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
+    "DEPTH PITCH length".split()
 )
 
 _LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))

@@ -35,7 +35,6 @@ REFUSED = [
     ("2 L X+5 FU0.2", 3, 9, "FU is refused: a feed per revolution is not built yet"),
     ("2 L X+5 RL RR", 3, 12, "RL and RR stand in one block: one of R0, RL, RR is allowed"),
     ("2 L X+5 M3 M4", 3, 12, "M4 and M3 are of one group: only one function of a group may stand in a block"),
-    ("2 L X+5 M89", 3, 9, "M89 is refused: modal cycle call, not built yet"),
     ("2 C X+1 Y+0 DR+", 3, 1, "C needs a circle centre: no CC was programmed (write CC X\u2026 Y\u2026 before it)"),
     ("2 CC X+10 Y+0\n3 C X+20 Y+0", 4, 1,
      "C needs the sense of rotation (write DR+ (counter-clockwise) or DR- (clockwise))"),

@@ -48,6 +48,11 @@ def seconds(address: str, meaning: str, **more: Any) -> Any:
     return _declare(address, meaning, "s", {"at_least": 0, "at_most": LONG}, more)
 
 
+def number(address: str, meaning: str, **more: Any) -> Any:
+    """How many, from 1."""
+    return _declare(address, meaning, "count", {"type": "integer", "at_least": 1, "at_most": 99999}, more)
+
+
 def choice(address: str, meaning: str, choices: dict[float, str], **more: Any) -> Any:
     """One of a few numbers."""
     return _declare(address, meaning, "choice", {"choices": choices}, more)

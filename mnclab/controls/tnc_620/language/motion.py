@@ -62,8 +62,8 @@ def named(m: Machine, word: Word) -> float | str:
     """FAUTO in a cycle: bound when the cycle is defined (3.1); FMAX stays a word."""
     if word.value == "FAUTO":
         return auto_feed(m, word)
-    if word.value in ("FMAX", "PREDEF"):
-        return str(word.value)
+    if word.value == "FMAX":
+        return "FMAX"
     m.alarm(f"{word}: a feed per revolution or per tooth is not built yet", word, hint="write the feed in mm/min")
 
 
