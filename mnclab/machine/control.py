@@ -122,8 +122,8 @@ class Control:
     ``codes`` are the addresses whose value makes a code (G and M). ``word_functions``: an address may be a function by
     itself (F, S, T), which a control of keywords does not want, where C is a statement and an axis. ``motion`` is the
     group whose modal function runs when axis words are left over. ``storage`` says where cycle parameters live until
-    the call ("instance" or "variables"). ``together`` raises alarms for words that may not stand in one block; it is
-    asked once for each kind of block.
+    the call ("instance" or "variables"). ``together`` raises alarms for a keyword and words that may
+    not stand in one block; it is asked once for each kind of block.
     ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
@@ -155,7 +155,7 @@ class Control:
     looks_like: Callable[[str], bool] | None = None
     refused: Mapping[str, str] = field(default_factory=dict)
     meanings: Mapping[str, str] = field(default_factory=dict)
-    together: Callable[[Machine, list[Word]], None] | None = None
+    together: Callable[[Machine, str, list[Word]], None] | None = None
     bulk: Any = None
     one_command: bool = False
     named: Callable[[Machine, Word], float | str] | None = None

@@ -25,6 +25,7 @@ from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
 from mnclab.machine.variables import Measured, Variables
 from mnclab.path.compensation import Gouge
+from mnclab.path.feed_rules import FeedRule
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
@@ -90,6 +91,7 @@ class Machine:
         self.altered = False  # whether a pass changed anything
         self.cut: int | None = None  # the step of a fault found in a pass: nothing from there on counts
         self.gouges: list[Gouge] = []  # where the tool does not fit
+        self.feed_rules: list[FeedRule] = []  # how the feed depends on the way
         self._state: int | None = None
         self.log("position", self.programmed)
 

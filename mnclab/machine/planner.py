@@ -58,7 +58,7 @@ class Planner:
 
     def plan(self) -> Plan:
         if self.control.together:
-            self.control.together(self.machine, self.words)
+            self.control.together(self.machine, self.keyword, self.words)
         codes = self.codes()
         cycle = next(((c, i) for c, i in codes if c in self.control.cycles), None)
         if cycle:

@@ -97,6 +97,10 @@ NAMES = {
     "spindle_speed_drilling": "drilling_speed",
     "coolant_on_m_function": "coolant_on",
     "coolant_off_m_function": "coolant_off",
+    # pockets (chapter 6)
+    "center_axis_1": "centre_x",
+    "center_axis_2": "centre_y",
+    "slot_position_reference": "slot_position",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -202,7 +206,8 @@ def tabled(row):
         "limits": limits(row.get("range")),
         "choices": {float(choice) for choice in row.get("choices") or () if re.fullmatch(NUMBER, str(choice))},
         "default": float(adopted[1]) if adopted else default if isinstance(default, int | float) else None,
-        "also": {*re.findall(r"\b(F[A-Z]+|PREDEF)\b", row.get("range", "")), *row.get("alternatives", ())},
+        "also": {*re.findall(r"\b(F[A-Z]+|PREDEF)\b", row.get("range", "")), *row.get("alternatives", ())}
+        | {"PREDEF"}.intersection(row.get("choices") or ()),
         **{key: row.get(key) for key in ("unit", "type", "required", "modal", "incremental")},
     }
 

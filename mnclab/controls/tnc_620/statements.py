@@ -77,10 +77,12 @@ def tool_call(cursor: Cursor) -> None:
 
 
 def tool(cursor: Cursor) -> None:
-    """A tool by number or by name in quotes; nothing if neither is there."""
+    """A tool by number, by name in quotes or in a text parameter; nothing if none of them is there."""
     begin = cursor.blanks()
     if found := cursor.match(TEXT):
         cursor.add("tool", found.group(1).strip(), begin)
+    elif found := cursor.match(_TEXT_PARAMETER):
+        cursor.add("text", f"QS{int(found.group(1))}", begin)
     elif (value := cursor.value()) is not None:
         cursor.add("tool", value, begin)
 
@@ -231,6 +233,7 @@ _WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 _PARAMETER_HEAD = re.compile(r"[ \t]*\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
 _FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
 _DIALOG = re.compile(r"[^\d;~]*")
+_TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 _SLASH = re.compile(r"[ \t]*/")
 _ROW = re.compile(r"#")
 

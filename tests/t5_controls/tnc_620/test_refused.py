@@ -32,7 +32,7 @@ REFUSED = [
     ("2 L X+5\n3 CT X+9 C+5", 4, 10, "C is refused: the axis C is not built yet"),
     ("2 L X+5 F0", 3, 9, "F (feed rate) must be greater than 0, got 0"),
     ("2 L X+5 FAUTO FMAX", 3, 9, "FMAX and FAUTO stand in one block: one feed is allowed"),
-    ("2 L X+5 FU0.2", 3, 9, "FU is refused: a feed per revolution is not built yet"),
+    ("2 L X+5 FU0.2", 3, 1, "a feed per revolution needs a turning spindle (write S and M3 before the move)"),
     ("2 L X+5 RL RR", 3, 12, "RL and RR stand in one block: one of R0, RL, RR is allowed"),
     ("2 L X+5 M3 M4", 3, 12, "M4 and M3 are of one group: only one function of a group may stand in a block"),
     ("2 C X+1 Y+0 DR+", 3, 1, "C needs a circle centre: no CC was programmed (write CC X\u2026 Y\u2026 before it)"),
