@@ -65,7 +65,7 @@ def line(m: Machine, words: Words) -> None:
         m.warn("L with polar coordinates is read as LP", polar[0])
         to["x"], to["y"] = polar_point(m, words)
     turned = rotary_angles(m, words)
-    moves = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))) != m.tip
+    moves = math.dist(m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))), m.tip) > 1e-9  # a frame rounds
     if turned != angles(m) and not moves:
         turn_axes(m, turned, f)
         return
