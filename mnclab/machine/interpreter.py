@@ -237,7 +237,7 @@ class Interpreter:
                     f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word
                 )
             return self.control.named(self.machine, word) if self.control.named else word.value
-        if word.value is None or isinstance(word.value, str):
+        if word.value is None or isinstance(word.value, str) or parameter.type == "text":
             return word.value
         value = self.machine.value(word)
         if in_variables and self.control.storage == "variables" and is_variable(parameter):

@@ -50,7 +50,10 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: tuple[float, fl
 
 @contextmanager
 def locked(m: Machine, pitch: float) -> Iterator[None]:
-    """Inside, moves run at ``pitch`` mm of the program for each revolution, spindle and feed locked; the history does not see it."""
+    """Inside, moves run at ``pitch`` mm of the program for each revolution, spindle and feed locked.
+
+    The history does not see it.
+    """
     kept = m.feed, m.per_rev, m.synchronous
     m.feed, m.per_rev, m.synchronous, m._state = pitch * math.hypot(*m.frames.matrix[:3, 2].tolist()), True, True, None
     try:

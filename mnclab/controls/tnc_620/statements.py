@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from mnclab.controls.tnc_620 import sub_blocks
-from mnclab.controls.tnc_620.formulas import FN, assignment, declared_text, text_assignment
+from mnclab.controls.tnc_620.formulas import FN, assignment, declared_text, text_assignment, text_formula
 from mnclab.controls.tnc_620.labels import (
     JUMPS,
     call_label,
@@ -142,6 +142,8 @@ def cycle_parameters(cursor: Cursor) -> None:
         value: object = None
         if text := cursor.match(TEXT):
             value = text.group(1)
+        elif named := cursor.match(_STRING):
+            value = text_formula(cursor, named.start(), named.end())
         elif word := cursor.match(_FEED_WORD):
             value = re.sub(r"[ \t]", "", word.group()).upper().replace(",", ".")
         else:
@@ -232,6 +234,7 @@ _M = re.compile(r"M[ \t]*\d", FLAGS)
 _WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 _PARAMETER_HEAD = re.compile(r"[ \t]*\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
 _FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
+_STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 _DIALOG = re.compile(r"[^\d;~]*")
 _TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 _SLASH = re.compile(r"[ \t]*/")

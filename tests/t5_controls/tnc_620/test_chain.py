@@ -166,7 +166,8 @@ def test_a_scale_scales_roundings_and_lengths_of_cycles() -> None:
     path = run(scale(0.5) + "L X+0 Y+0 F200\nL X+40\nRND R5\nL Y+40").toolpath
     arc = path[path.kind == mnc.Kind.ARC][0]
     assert np.linalg.norm(arc.end - arc.centre) == pytest.approx(2.5)
-    hole = "CYCL DEF 200 X\nQ200=2\nQ201=-20\nQ206=150\nQ202=20\nQ210=0\nQ203=0\nQ204=50\nQ211=0\nQ395=0\nL X+1 Y+1 FMAX M3\nCYCL CALL"
+    hole = "CYCL DEF 200 X\nQ200=2\nQ201=-20\nQ206=150\nQ202=20\nQ210=0\nQ203=0\nQ204=50\nQ211=0\nQ395=0\n"
+    hole += "L X+1 Y+1 FMAX M3\nCYCL CALL"
     levels = run(scale(0.5) + hole).toolpath
     assert -10 in levels.end[:, 2].round(9).tolist() and 1 in levels.end[:, 2].round(9).tolist()
     thread = "CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH = -20\nCYCL DEF 18.2 PITCH = +2\nCYCL CALL"
@@ -210,7 +211,7 @@ def test_a_rotary_axis_is_shifted_and_mirrored() -> None:
 
 HEAD = "TOOL CALL 1 Z S1000 F100\n"
 REFUSED = [
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 X+1\nCYCL DEF 7.2 #5", 4, 14, "# (row of the datum table) and shifts of axes cannot stand in one"),
+    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 X+1\nCYCL DEF 7.2 #5", 4, 14, "# (row of the datum table) and shifts of axes cannot"),
     ("CYCL DEF 7.0 S\nCYCL DEF 7.1 #5", 3, 14, "# (row of the datum table) needs an active datum table"),
     ("CYCL DEF 7.0 S\nCYCL DEF 7.1 #10000", 3, 14, "# (row of the datum table) must be a whole number and at least 0"),
     ("CYCL DEF 7.0 S\nCYCL DEF 7.1 V+1", 3, 14, "V is refused: the axis V is not built yet"),

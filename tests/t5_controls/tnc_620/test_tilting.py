@@ -139,7 +139,8 @@ def test_what_was_defined_behind_the_tilt_outlives_it() -> None:
 def test_contours_and_cycles_in_the_tilted_plane() -> None:
     """A compensated arc and a hole in the plane B90, whose Z is X and whose X is -Z of the machine."""
     contour = "L X+30 Y+0 R0 FMAX\nL X+40 RL F200\nL Y+30\nCR X+20 Y+50 R+20 DR+\nL X+0\nL Y+0\nL X+60 R0\n"
-    hole = "CYCL DEF 200 X\nQ200=2\nQ201=-20\nQ206=150\nQ202=7\nQ210=0\nQ203=0\nQ204=50\nQ211=0\nQ395=0\nL X+1 Y+1 FMAX M3\nCYCL CALL\n"
+    hole = "CYCL DEF 200 X\nQ200=2\nQ201=-20\nQ206=150\nQ202=7\nQ210=0\nQ203=0\nQ204=50\nQ211=0\nQ395=0\n"
+    hole += "L X+1 Y+1 FMAX M3\nCYCL CALL\n"
     tilted = run("CYCL DEF 19.0 P\nCYCL DEF 19.1 B+90\n" + contour + hole).toolpath.motion
     plain = run(contour + hole).toolpath.motion
     assert tilted.end == pytest.approx(plain.end @ np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]), abs=1e-9)

@@ -15,6 +15,7 @@ from mnclab.machine.performing import perform
 from mnclab.machine.settings import Setting
 from mnclab.machining.engraving import Glyph, cells, engrave, length, on_arc, on_line
 from mnclab.machining.steps import Go
+from mnclab.text.strings import TextFormula
 
 CYCLES = CycleTable()
 SETTINGS = (
@@ -37,7 +38,7 @@ class Engraving(AtSurface):
     The letters are single strokes with the widths of DejaVu Sans. Behind % stand umlauts, time and counter; \\n is a new line.
     """
 
-    text: str = param(("Q500", "QS500"), "text", "text", modal=True, type="text")
+    text: str | TextFormula = param(("Q500", "QS500"), "text", "text", modal=True, type="text")
     character_height: float = addresses.length(
         "Q513", "character height", note="0: as the length Q574 asks", example=10
     )
@@ -79,6 +80,9 @@ class Engraving(AtSurface):
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """A text that can be engraved, in its length; feeds."""
+        if not isinstance(self.text, str | TextFormula):
+            yield "text", "must be a text in quotes or a QS parameter"
+            return
         for name in ("feed", "plunge_feed"):
             if getattr(self, name) == 0:
                 yield name, "must be greater than 0, got 0"
@@ -100,7 +104,8 @@ class Engraving(AtSurface):
             now = datetime.fromtimestamp(clock, UTC) if clock else datetime.now()
         except (ValueError, OverflowError, OSError):
             m.alarm(f"setting clock: {clock:g} seconds from 1970 are no time that can be written")
-        return engraved_text.tokens(str(self.text), now, int(m.settings["counter"]))
+        text = self.text if isinstance(self.text, str) else self.text.evaluate(m.variables)
+        return engraved_text.tokens(text, now, int(m.settings["counter"]))
 
     def height(self, found: list[str]) -> float:
         """The height of a capital; ValueError for a text without width that should have a length."""
