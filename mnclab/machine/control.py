@@ -48,7 +48,8 @@ class Function:
     """A preparatory, auxiliary or word function of a control.
 
     ``moves``: belongs to the motion of the block, and runs for later blocks while it is modal. ``still``: a block with it
-    moves nothing. ``ends_cycle``: an active cycle is over before the motion of the block.
+    moves nothing. ``ends_cycle``: an active cycle is over before the motion of the block. ``collects``: motion that waits for
+    later blocks may go on waiting; before any other function it is made.
     """
 
     code: str
@@ -62,6 +63,7 @@ class Function:
     moves: bool = False
     still: bool = False
     ends_cycle: bool = False
+    collects: bool = False
     source: str = ""
     doc: str = ""
 
@@ -82,6 +84,7 @@ class FunctionTable(dict[str, Function]):
         moves: bool = False,
         still: bool = False,
         ends_cycle: bool = False,
+        collects: bool = False,
         source: str = "",
     ) -> Callable[[AnyObey], AnyObey]:
         """Register one function for several codes; ``title`` may differ by code.
@@ -104,6 +107,7 @@ class FunctionTable(dict[str, Function]):
                     moves=moves,
                     still=still,
                     ends_cycle=ends_cycle,
+                    collects=collects,
                     source=source,
                     doc=(obey.__doc__ or "").strip(),
                 )

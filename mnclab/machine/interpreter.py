@@ -21,6 +21,7 @@ from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
 from mnclab.machine.programs import alarms_of
+from mnclab.machine.waiting import determine
 from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
 from mnclab.text.expression import Expression
@@ -95,6 +96,7 @@ class Interpreter:
             self.control.start(self.machine)
         with progress("running", len(self.program), "blocks") as self.machine.flow.watched:
             self.machine.flow.section(0, len(self.program))
+        determine(self.machine)
         if self.control.finish and not self.machine.ended:
             self.control.finish(self.machine)
 
@@ -116,6 +118,9 @@ class Interpreter:
         for which, sentence, hint in plan.remarks:
             machine.warn(sentence, words[which], hint)
         for (_, what, code, head, _), pick in plan.actions:
+            if machine.pending and not (isinstance(what, Function) and what.collects):
+                determine(machine)
+                before = machine.programmed
             if isinstance(what, Function):
                 if what.group and what.modal and machine.modal.get(what.group) != what.code:
                     machine.set_modal(what.group, what.code)

@@ -29,7 +29,7 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
-    "tnc620-klartext": ["BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN"],
+    "tnc620-klartext": ["BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN", "FK"],
     "tnc620-special": [
         *(f"CYCL DEF {number}" for number in (9, 12, 13, 18, 32, 225, 232, 239)),
         *("engraving layout", "engraving characters", "engraving system variables"),

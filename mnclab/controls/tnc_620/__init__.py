@@ -36,6 +36,7 @@ from mnclab.controls.tnc_620.language import (
     feed_rules,
     feeds,
     flow,
+    free_contours,
     joints,
     machine_datum,
     motion,
@@ -91,7 +92,7 @@ FUNCTIONS = feeds.in_all_forms(
     pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | machine_datum.FUNCTIONS | feed_rules.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
-    | pattern_calls.FUNCTIONS | patterns.FUNCTIONS | datum_tables.FUNCTIONS
+    | pattern_calls.FUNCTIONS | patterns.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in (
