@@ -34,6 +34,7 @@ class State(NamedTuple):
     corner_rule: int = 0
     exact: bool = False
     synchronous: bool = False
+    tolerance: float = NAN
     speed_limit: float = INF
     spindle_x: float = 0.0
 

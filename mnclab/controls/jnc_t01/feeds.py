@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.control import FunctionTable, Words
