@@ -117,8 +117,9 @@ class Planner:
 
     def function(self, code: str, index: int) -> Function:
         found = self.control.functions.get(code)
-        if found is None and code[0] in self.control.functions and code[1:].isdigit() and index >= 0:
-            return replace(self.control.functions[code[0]], code=code)  # one function for all codes that are not told apart
+        every = self.control.functions.get(code[0])  # one function for all codes of an address that have none of their own
+        if found is None and every is not None and code[1:].isdigit() and index >= 0:
+            return replace(every, code=code)
         if found is None:
             if code in self.control.refused:
                 self.alarm(f"{code} is refused: {self.control.refused[code]}", index)
