@@ -50,7 +50,7 @@ class LatheCycle(Cycle):
         return ()
 
 
-@CYCLES("G73", "Deep-hole drilling", runs="definition", source="8.9")
+@CYCLES("G73", "Deep-hole drilling", runs="definition", source="JNC-T01 8.9")
 class DeepHoleDrilling(LatheCycle):
     """Drills along Z at the present X, out to the start after each pass; from the second pass on it returns at rapid to R
     before the depth reached. Each pass makes the hole D deeper, the last one the remainder."""
@@ -84,7 +84,7 @@ class DeepHoleDrilling(LatheCycle):
         yield Go("retract", start)
 
 
-@CYCLES("G74", "Face grooves", runs="definition", source="8.10")
+@CYCLES("G74", "Face grooves", runs="definition", source="JNC-T01 8.10")
 class FaceGrooves(LatheCycle):
     """Plunges along Z at X1 and at places D apart, the last one at X; between them it returns to Z1 at rapid."""
 
@@ -112,7 +112,7 @@ class FaceGrooves(LatheCycle):
         return facing(grooves(m.programmed[2], self.bottom, self.cuts(m), feed))
 
 
-@CYCLES("G75", "Cylindrical grooves", runs="definition", source="8.11")
+@CYCLES("G75", "Cylindrical grooves", runs="definition", source="JNC-T01 8.11")
 class CylindricalGrooves(LatheCycle):
     """Plunges along X at Z1 and at places D apart, the last one at Z; between them it returns to X1 at rapid."""
 
@@ -182,7 +182,7 @@ class StockRemoval(LatheCycle):
         return RAPID if m.settings["wall"] == "rapid" else feed
 
 
-@CYCLES("G77", "Longitudinal turning", runs="definition", source="8.12")
+@CYCLES("G77", "Longitudinal turning", runs="definition", source="JNC-T01 8.12")
 class LongitudinalTurning(StockRemoval):
     """Passes along Z, D deep, each up to the contour (X, Z1), (X, W), (U, Z), (X1, Z); the last one is cut along it.
 
@@ -198,7 +198,7 @@ class LongitudinalTurning(StockRemoval):
         return remove_stock((x1, z1), shoulder, self.depth, retract=retract, feed=feed, wall=wall)
 
 
-@CYCLES("G78", "Facing", runs="definition", source="8.13")
+@CYCLES("G78", "Facing", runs="definition", source="JNC-T01 8.13")
 class Facing(StockRemoval):
     """Passes along X, D deep, each up to the contour (X1, Z), (U, Z), (X, W), (X, Z1); the last one is cut along it.
 
