@@ -34,6 +34,8 @@ def read(source: str | Path, control: str | None = None) -> Program:
     chosen = choose(control, name, text)
     program = chosen.read(text, name)
     object.__setattr__(program, "encoding", encoding)
+    if encoding != "str":  # from a file
+        object.__setattr__(program, "folder", str(Path(name).parent))
     for alarm in program.alarms:
         alarm.source = program
     return program

@@ -76,7 +76,8 @@ class Bulk:
         self.rule: PlainWords | None = control.bulk
         self.machine, self.program, self.group = machine, program, control.motion
         self.enabled = self.rule is not None and machine.settings.get("bulk", True)
-        self.not_before, self.size = 0, SHORTEST
+        self.not_before, self.size, self.last = 0, SHORTEST, 0
+        self.next_break = -1
         if self.rule is None:
             return
         plain = program.plain.copy()
@@ -92,6 +93,9 @@ class Bulk:
 
     def obey(self, first: int, stop: int) -> int:
         """Obey the plain blocks from ``first`` on; how many were, 0 if that one goes to the other tier."""
+        if first < self.last:  # a jump, a call or a repeat has led back: what was found there counts no more
+            self.not_before, self.next_break = 0, -1
+        self.last = first
         if not self.enabled or first < self.not_before:
             return 0
         if first > self.next_break or self.next_break - first < SHORTEST:
@@ -106,7 +110,7 @@ class Bulk:
             done = repeat_hole(self, first, end, SHORTEST)
             self.size = min(8 * self.size, LARGEST) if done == end - first - 1 else SHORTEST
             return done
-        if self.machine.per_rev or not rule.ready(self.machine):
+        if self.machine.per_rev or self.machine.pending or not rule.ready(self.machine):
             return 0
         run = self.work_out(first, end)
         good = int(np.argmax(run.fault)) if run.fault.any() else end - first

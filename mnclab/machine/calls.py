@@ -1,7 +1,8 @@
-"""The course of a program: sections, labels, repeats, subprograms.
+"""The course of a program: sections, labels, jumps, repeats, subprograms, other programs.
 
-A *step* is one execution of a block. A section of blocks is run by a plain loop; a call or a repeat is a section run
-inside another. Functions steer with :meth:`Flow.call`, :meth:`Flow.repeat` and :meth:`Flow.leave`.
+A *step* is one execution of a block. A section of blocks is run by a plain loop; a call of a label or of another program
+is a section run inside another; a jump goes on elsewhere in the same section. Functions steer with :meth:`Flow.call`,
+:meth:`Flow.call_program`, :meth:`Flow.jump`, :meth:`Flow.repeat` and :meth:`Flow.leave`.
 """
 
 from __future__ import annotations
@@ -30,11 +31,17 @@ class Steps(NamedTuple):
 
 
 class Flow:
-    """Where the program is: the running section, the depth of calls, the log of steps."""
+    """Where the program is: the running section, the depth of calls, the log of steps.
 
-    def __init__(self, program: Program, obey: Callable[[int], None], bulk: Callable[[int, int], int]) -> None:
+    ``programs`` are the main program and those it has called, each once; ``switch`` is called with the index of one when
+    its blocks are to be obeyed from now on.
+    """
+
+    def __init__(
+        self, program: Program, obey: Callable[[int], None], bulk: Callable[[int, int], int], switch: Callable[[int], None]
+    ) -> None:
         self.programs = [program]
-        self.obey, self.bulk = obey, bulk
+        self.obey, self.bulk, self.switch = obey, bulk, switch
         self.machine: Machine
         self.depth, self.calls = 0, 0  # calls: subprograms alone, without repeats
         self.limit, self.in_bulk = (
@@ -42,23 +49,26 @@ class Flow:
             0,
         )  # steps obeyed in bulk do not count: they end by themselves
         self.watched: Callable[[int], None] = lambda steps: None  # hears now and then how many steps were begun
-        self.returning = False
+        self.returning = self.over = False  # the subprogram, the called program ends
+        self.target = -1  # block to go on at, after a jump
+        self.found: dict[tuple[str, str], int] = {}  # indices of programs by folder of the caller, and name
+        self.running = [0]  # the main program and those called, the innermost last
         self.current = 0  # block being obeyed
-        self._chunks: list[NDArray[np.int64] | range] = []
+        self._chunks: list[tuple[int, NDArray[np.int64] | range]] = []  # program, blocks
         self._blocks: list[int] = []
         self._counted = 0
 
     @property
     def program(self) -> Program:
         """The running program."""
-        return self.programs[self.machine.program]
+        return self.programs[self.running[-1]]
 
     # --- running -----------------------------------------------------------------------------------------------------
 
-    def section(self, first: int, stop: int) -> None:
-        """Run the blocks [first, stop) of the running program."""
+    def section(self, first: int, stop: int, least: int = 0) -> None:
+        """Run the blocks [first, stop) of the running program; a jump to one outside [least, stop) ends the section."""
         machine, block = self.machine, first
-        while block < stop and not machine.ended:
+        while block < stop and not (machine.ended or self.over):
             done = self.bulk(block, stop)
             if done:
                 block += done
@@ -68,6 +78,10 @@ class Flow:
             if self.returning:
                 return
             block += 1
+            if self.target >= 0:
+                if not least <= self.target < stop:
+                    return
+                block, self.target = self.target, -1
 
     def call(self, label: str, span: Span | None = None) -> None:
         """Run from a label to the end of its subprogram."""
@@ -78,13 +92,56 @@ class Flow:
         self.calls -= 1
         self.depth, self.returning, self.current = self.depth - 1, False, here
 
+    def call_program(self, index: int, span: Span | None = None) -> None:
+        """Run another program, from its first block to its end; its rows have no label of a cycle that called it."""
+        machine = self.machine
+        if index in self.running:
+            name = self.programs[index].name
+            raise Alarm(f"{name} is running already: a program cannot call itself, nor one that calls it", span)
+        self.enter(span)
+        kept = self.current, self.calls, machine.source_line, machine.label
+        self.calls, machine.label = 0, ""
+        self._flush()
+        self.running.append(index)
+        self._change_program()
+        self.section(0, len(self.program))
+        self._flush()
+        self.running.pop()
+        self._change_program()
+        self.current, self.calls, machine.source_line, machine.label = kept
+        self.depth, self.over = self.depth - 1, False
+
+    def _change_program(self) -> None:
+        """Blocks are those of another program from now on."""
+        self.machine.program, self.machine._state = self.running[-1], None  # rows carry it
+        self.switch(self.running[-1])
+
+    def add(self, program: Program) -> int:
+        """Another program that may be called; its index."""
+        self.programs.append(program)
+        self.limit += len(program)
+        return len(self.programs) - 1
+
+    @property
+    def called(self) -> bool:
+        """Whether the running program was called by another."""
+        return len(self.running) > 1
+
+    def end_program(self) -> None:
+        """Go back to the calling program."""
+        self.over = True
+
+    def jump(self, label: str, span: Span | None = None) -> None:
+        """Go on at a label."""
+        self.target = self.index_of(label, span)
+
     def repeat(self, first: int, stop: int, times: int, span: Span | None = None) -> None:
-        """Run the blocks [first, stop) a number of times more."""
+        """Run the blocks [first, stop) a number of times more; a jump out of them ends that."""
         self.enter(span)
         here = self.current
         for _ in range(times):
-            self.section(first, stop)
-            if self.returning or self.machine.ended:
+            self.section(first, stop, least=first)
+            if self.returning or self.over or self.target >= 0 or self.machine.ended:
                 break
         self.depth, self.current = self.depth - 1, here
 
@@ -108,12 +165,16 @@ class Flow:
 
     # --- steps -------------------------------------------------------------------------------------------------------
 
+    def span_of_block(self, block: int) -> Span:
+        """The place of a block of the running program."""
+        return self.program.span_of_block(block)._replace(program=self.running[-1])
+
     def begin(self, block: int) -> int:
         """Note the execution of a block; the number of its step."""
         blocks = self._blocks
         step = self._counted + len(blocks)
         if step - self.in_bulk >= self.limit:
-            raise Alarm(f"repeats and calls ran {LONGEST} blocks without an end", self.program.span_of_block(block))
+            raise Alarm(f"jumps, repeats and calls ran {LONGEST} blocks without an end", self.span_of_block(block))
         if not step & 1023:
             self.watched(step)
         blocks.append(block)
@@ -123,34 +184,37 @@ class Flow:
         """Note the execution of blocks in a row; the number of the first step."""
         self._flush()
         self.watched(self._counted)
-        self._chunks.append(range(first, first + count))
+        self._chunks.append((self.running[-1], range(first, first + count)))
         self._counted += count
         self.in_bulk += count
         return self._counted - count
 
     def _flush(self) -> None:
-        self._chunks.append(np.array(self._blocks, dtype=np.int64))
-        self._counted += len(self._blocks)
-        self._blocks = []
+        if self._blocks:
+            self._chunks.append((self.running[-1], np.array(self._blocks, dtype=np.int64)))
+            self._counted += len(self._blocks)
+            self._blocks = []
 
     def steps(self) -> Steps:
         """All steps so far."""
         self._flush()
-        blocks = np.empty(self._counted, dtype=np.int32)
+        blocks, programs = np.empty(self._counted, dtype=np.int32), np.zeros(self._counted, dtype=np.int16)
         at = 0
-        for chunk in self._chunks:
+        for program, chunk in self._chunks:
             part = np.arange(chunk.start, chunk.stop) if isinstance(chunk, range) else chunk
             blocks[at : at + len(part)] = part
+            programs[at : at + len(part)] = program
             at += len(part)
-        return Steps(blocks, np.broadcast_to(np.int16(0), (len(blocks),)))
+        alone = len(self.programs) == 1  # a constant column costs nothing
+        return Steps(blocks, np.broadcast_to(np.int16(0), (len(blocks),)) if alone else programs)
 
     def span_of_step(self, step: int) -> Span | None:
         """The place of the block that a step executed."""
         if step < 0:
             return None
         self._flush()
-        for chunk in self._chunks:
+        for program, chunk in self._chunks:
             if step < len(chunk):
-                return self.program.span_of_block(int(chunk[step]))
+                return self.programs[program].span_of_block(int(chunk[step]))._replace(program=program)
             step -= len(chunk)
         return None

@@ -19,6 +19,7 @@ from mnclab.path.listing import figure, point, words
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.expression import Expression
 from mnclab.text.program import Word
+from mnclab.text.strings import NumberFromText, TextFormula
 
 if TYPE_CHECKING:
     from mnclab.machine.run import Moment, Run
@@ -53,7 +54,8 @@ class Explanation:
     def __init__(self, run: Run, moment: Moment) -> None:
         self.run, self.moment = run, moment
         span = moment.block.span
-        self.alarms = tuple(alarm for alarm in run.alarms if alarm.span and alarm.span.line == span.line)
+        self.program = run.programs[run.steps.program[moment.step]]
+        self.alarms = tuple(a for a in run.alarms if a.span and a.source is self.program and a.span.line == span.line)
         history = run.history
         self.changed = [
             (name, _plain(history.value(name, moment.step - 1)) if moment.step else "", _plain(value))
@@ -70,8 +72,8 @@ class Explanation:
     @property
     def title(self) -> str:
         """The line, and the block as written."""
-        text = self.run.program.line_text(self.moment.line).strip()
-        times = int((self.run.steps.block[: self.moment.step + 1] == self.run.steps.block[self.moment.step]).sum())
+        text = self.program.line_text(self.moment.line).strip()
+        times = _executions(self.run, self.moment.step)
         again = f" (execution {times})" if times > 1 else ""
         return f"line {self.moment.line}{again}: {text}"
 
@@ -135,6 +137,13 @@ class Explanation:
         return f"<div>{''.join(parts)}</div>"
 
 
+def _executions(run: Run, step: int) -> int:
+    """How often the block of a step was executed up to it."""
+    steps = run.steps
+    same = (steps.block[: step + 1] == steps.block[step]) & (steps.program[: step + 1] == steps.program[step])
+    return int(same.sum())
+
+
 # --- words -----------------------------------------------------------------------------------------------------------
 
 
@@ -162,8 +171,9 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
             else:
                 assert word is not None
                 says, source = _parameter(what, action.code, word), ""
-            shown = str(word) if word is not None else block.keyword or f"({action.code})"
-            if word is None and not block.keyword:
+            kept = word is None and action.code != block.keyword  # modal, not written in this block
+            shown = str(word) if word is not None else f"({action.code})" if kept else block.keyword
+            if kept:
                 says = f"{says}, active from before"
             value = _value(run, moment, word) if word is not None else ""
             if value:
@@ -174,13 +184,15 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
             if word is not None and word.address.startswith("Q") and word.address in changed:
                 before, after = changed[word.address]
                 happened = f"{before or 'none'} -> {after}"
-            found[index] = Meaning(shown, value, action.code, says, source, happened)
+            place = len(block.words) if kept and block.keyword else index
+            found[place] = Meaning(shown, value, action.code, says, source, happened)
     return [found[index] for index in sorted(found)]
 
 
 def _plan(run: Run, moment: Moment) -> Plan | None:
     """How the words were handed out: planned anew in the state before the block; None where that is an alarm."""
-    if any(alarm.severity == ALARM and alarm.span and alarm.span.line == moment.line for alarm in run.program.alarms):
+    program = run.programs[run.steps.program[moment.step]]
+    if any(alarm.severity == ALARM and alarm.span and alarm.span.line == moment.line for alarm in program.alarms):
         return None
     control, history, before = run.control, run.history, moment.step - 1
     machine = Machine(control, run.setup)
@@ -227,17 +239,13 @@ def _changes(what: Function | type[Cycle], word: Word | None) -> str:
 
 
 def _value(run: Run, moment: Moment, word: Word | None) -> str:
-    """The number of a word whose text is an expression."""
-    if word is None or not isinstance(word.value, Expression):
+    """The number or the text that a formula had."""
+    if word is None or not isinstance(word.value, Expression | TextFormula | NumberFromText):
         return ""
-    variables = {
-        token.text: run.history.value(token.text, moment.step - 1)
-        for token in word.value.tokens
-        if token.kind == "variable"
-    }
-    known = {name: value for name, value in variables.items() if value is not None}
+    known = {name: run.history.value(name, moment.step - 1) for name in run.history}
     try:
-        return figure(word.value.evaluate(known), 6)
+        value = word.value.evaluate({name: value for name, value in known.items() if value is not None})
+        return figure(value, 6) if isinstance(value, float) else f'"{value}"'
     except Alarm:  # a variable without a value: the run says so
         return ""
 

@@ -8,6 +8,8 @@ time than obeying them.
 
 from __future__ import annotations
 
+from collections import deque
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +20,8 @@ from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
+from mnclab.machine.programs import alarms_of
+from mnclab.machine.waiting import determine
 from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
 from mnclab.text.expression import Expression
@@ -25,30 +29,21 @@ from mnclab.text.program import NONE, NUMBER, Program, Word, place_of
 from mnclab.text.progress import progress
 
 WINDOW = 256  # blocks whose words are made at once; more would keep the garbage collector busy
+RECENT = 4  # windows that are kept
 
 
 class Stop(Exception):
     """The run stops at an alarm that the reader has already reported."""
 
 
-class Interpreter:
-    """Runs one program on one machine."""
+class Loaded:
+    """A program ready to run: its alarms as a run shows them, the blocks that a fault stands in, its bulk tier."""
 
-    def __init__(self, control: Control, machine: Machine, program: Program) -> None:
-        self.control, self.machine, self.program = control, machine, program
-        self.phases = {name: k for k, name in enumerate(control.phases)}
-        self.plans: dict[Any, Plan] = {}
-        self.window = range(0)
-        self.blocks: list[tuple[int, bool, str, list[Word], tuple[Any, ...]]] = []
-        """Of the blocks in the window: line, skip, keyword, words, and of each word its address, with the value where that
-        makes another function."""
-        self.skips = bool(machine.settings.get("block_skip"))
-        self.alarms = [self._passed_over(alarm) for alarm in program.alarms]
+    def __init__(self, control: Control, machine: Machine, program: Program, index: int) -> None:
+        self.program, self.skips = program, bool(machine.settings.get("block_skip"))
+        self.alarms = [self._passed_over(alarm) for alarm in alarms_of(program, index)]
         self.faulty = {self._block_of(alarm) for alarm in self.alarms if alarm.severity == ALARM and alarm.span}
         self.bulk = Bulk(control, machine, program, self.faulty)
-        machine.recorder.expected = len(program)
-        machine.flow = Flow(program, self.obey, self.bulk.obey)
-        machine.flow.machine = machine
 
     def _block_of(self, alarm: Alarm) -> int:
         """The block in which the reader found a fault: the run stops there."""
@@ -62,14 +57,46 @@ class Interpreter:
             return alarm
         return Alarm(alarm.message, alarm.span, WARNING, alarm.hint, alarm.source)
 
+
+class Interpreter:
+    """Runs a program, and those it calls, on one machine."""
+
+    def __init__(self, control: Control, machine: Machine, program: Program) -> None:
+        self.control, self.machine, self.program = control, machine, program
+        self.phases = {name: k for k, name in enumerate(control.phases)}
+        self.plans: dict[Any, Plan] = {}
+        self.window = range(0)
+        self.blocks: list[tuple[int, bool, str, list[Word], tuple[Any, ...]]] = []
+        """Of the blocks in the window: line, skip, keyword, words, and of each word its address, with the value where that
+        makes another function."""
+        self.recent: deque[tuple[int, range, list[Any]]] = deque(maxlen=RECENT)  # of which program; window, blocks
+        self.skips = bool(machine.settings.get("block_skip"))
+        main = Loaded(control, machine, program, 0)
+        self.loaded, self.alarms, self.faulty = {0: main}, main.alarms, main.faulty
+        machine.recorder.expected = len(program)
+        machine.flow = Flow(program, self.obey, main.bulk.obey, self.switch)
+        machine.flow.machine = machine
+
+    def switch(self, index: int) -> None:
+        """Obey the blocks of another program from now on."""
+        flow = self.machine.flow
+        self.program = flow.programs[index]
+        if index not in self.loaded:
+            self.loaded[index] = Loaded(self.control, self.machine, self.program, index)
+            self.alarms += self.loaded[index].alarms
+        flow.bulk, self.faulty, self.window = self.loaded[index].bulk.obey, self.loaded[index].faulty, range(0)
+
     def run(self) -> None:
         """From the first block to the end, or to the first alarm."""
         for group, code in self.control.power_on().items():
             self.machine.set_modal(group, code)
+        if self.machine.setup.variables and not self.control.preassigned:
+            self.machine.alarm(f"Setup(variables=…): programs of {self.control.name} have no variables")
         if self.control.start:
             self.control.start(self.machine)
         with progress("running", len(self.program), "blocks") as self.machine.flow.watched:
             self.machine.flow.section(0, len(self.program))
+        determine(self.machine)
         if self.control.finish and not self.machine.ended:
             self.control.finish(self.machine)
 
@@ -91,6 +118,9 @@ class Interpreter:
         for which, sentence, hint in plan.remarks:
             machine.warn(sentence, words[which], hint)
         for (_, what, code, head, _), pick in plan.actions:
+            if machine.pending and not (isinstance(what, Function) and what.collects):
+                determine(machine)
+                before = machine.programmed
             if isinstance(what, Function):
                 if what.group and what.modal and machine.modal.get(what.group) != what.code:
                     machine.set_modal(what.group, what.code)
@@ -102,7 +132,12 @@ class Interpreter:
             machine.log("position", machine.programmed)
 
     def open_window(self, index: int) -> range:
-        """Make the next blocks: columns as lists, for plain Python is faster on those."""
+        """Make the next blocks: columns as lists, for plain Python is faster on those. A loop finds them once more."""
+        running = self.machine.program
+        for which, window, blocks in self.recent:
+            if which == running and index in window:
+                self.window, self.blocks = window, blocks
+                return window
         program, new, codes = self.program, tuple.__new__, self.control.codes
         window = range(index, min(index + WINDOW, len(program)))
         here = slice(index, window.stop)
@@ -126,6 +161,7 @@ class Interpreter:
         keys = program.keywords
         self.blocks = [(n, skip, keys[k], words[i:j], tuple(kinds[i:j])) for n, skip, k, i, j in heads]
         self.window = window
+        self.recent.append((running, window, self.blocks))
         return window
 
     # --- planning ----------------------------------------------------------------------------------------------------
@@ -134,7 +170,8 @@ class Interpreter:
         """The plan for this kind of block, made when it is first met."""
         machine = self.machine
         active = machine.position_cycle.cycle if machine.position_cycle else None
-        key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None)
+        calling = machine.modal.get("call")
+        key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None, calling)
         plan = self.plans.get(key)
         if plan is None:
             plan = self.plans[key] = Planner(self.control, machine, self.phases, keyword, words, active).plan()
@@ -156,8 +193,9 @@ class Interpreter:
             definition = Definition(cycle, code, values, words, head, again.extra)
         else:
             definition = Definition(cycle, code, values, words, head)
+        definition.program = machine.program
         definition.values = cycle.prepare(values, words, machine, definition.extra)
-        if self.control.storage == "variables":
+        if self.control.storage == "variables" and cycle.in_variables:
             store(machine, definition)
         if cycle.runs == "definition":
             self.execute(definition)
@@ -171,6 +209,8 @@ class Interpreter:
             else:
                 instance(definition)
             machine.cycle, machine.position_cycle = definition, None
+            if machine.modal.get("call"):
+                machine.set_modal("call", "")  # a new cycle ends the modal call of the old one
         else:
             machine.cycle, machine.position_cycle = None, definition
             self.execute(definition)
@@ -186,13 +226,15 @@ class Interpreter:
         for word in given:
             fitting = (p for p in cycle.parameters() if word.address in (p.address, *p.aliases))
             parameter = next(p for p in fitting if p.several or p.name not in words)
-            value = self.value_of(parameter, code, word)
+            value = self.value_of(parameter, code, word, cycle.in_variables)
             words.setdefault(parameter.name, word)
             values[parameter.name] = (*values.get(parameter.name, ()), value) if parameter.several else value
         return values, words
 
-    def value_of(self, parameter: Parameter, code: str, word: Word) -> Any:
+    def value_of(self, parameter: Parameter, code: str, word: Word, in_variables: bool = True) -> Any:
         """The number of a parameter; a word in place of a number only where it is allowed."""
+        if word.value == "PREDEF" and self.control.predefined:
+            return self.control.predefined(self.machine, code, parameter, word)
         if isinstance(word.value, str) and parameter.type != "text":
             if word.value.rstrip("0123456789.") not in parameter.also:
                 allowed = f"a number{', ' + ', '.join(parameter.also) if parameter.also else ''}"
@@ -200,10 +242,10 @@ class Interpreter:
                     f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word
                 )
             return self.control.named(self.machine, word) if self.control.named else word.value
-        if word.value is None or isinstance(word.value, str):
+        if word.value is None or isinstance(word.value, str) or parameter.type == "text":
             return word.value
         value = self.machine.value(word)
-        if self.control.storage == "variables" and is_variable(parameter):
+        if in_variables and self.control.storage == "variables" and is_variable(parameter):
             self.machine.variables[parameter.address] = value  # exactly as written
         return value * unit_of(self.machine, parameter)
 
@@ -219,7 +261,7 @@ def unit_of(machine: Machine, parameter: Parameter) -> float:
 
 def is_variable(parameter: Parameter) -> bool:
     """Whether a parameter is a variable of the program (Q200), not an address (X)."""
-    return parameter.address[0] == "Q" and parameter.address[1:].isdigit()
+    return parameter.address[0] == "Q" and parameter.address[1:].isdigit() and parameter.type != "text"
 
 
 def store(machine: Machine, definition: Definition) -> None:
@@ -245,23 +287,22 @@ def verify(definition: Definition) -> None:
 
 def run_cycle(machine: Machine, definition: Definition) -> None:
     """Bind a definition with the values as they stand now, check it, and make its moves."""
-    if machine.control.storage == "variables":
-        numbers = {
-            p.name: machine.variables[p.address] * unit_of(machine, p)
-            for p in definition.cycle.parameters()
-            if is_variable(p) and p.address in machine.variables
-        }
-        definition = Definition(
-            definition.cycle,
-            definition.code,
-            definition.values | numbers,
-            definition.words,
-            definition.head,
-            definition.extra,
-        )
+    definition = as_it_stands(machine, definition)
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
     try:
         bind(definition, machine).moves(machine)
     except TooMany as error:
         raise fault(definition, None, str(error)) from None
     machine.label = label
+
+
+def as_it_stands(machine: Machine, definition: Definition) -> Definition:
+    """A definition with the numbers that its variables have now."""
+    if machine.control.storage == "variables" and definition.cycle.in_variables:
+        numbers = {
+            p.name: machine.variables[p.address] * unit_of(machine, p)
+            for p in definition.cycle.parameters()
+            if is_variable(p) and p.address in machine.variables
+        }
+        return replace(definition, values=definition.values | numbers)
+    return definition

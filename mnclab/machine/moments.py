@@ -105,7 +105,7 @@ def when(run: Run, text: str) -> Moments:
 
 def _is_number(run: Run, name: str) -> bool:
     changes = run.history.changed(name)
-    return bool(changes) and all(isinstance(value, int | float) for _, value in changes)
+    return any(value is not None for _, value in changes) and all(isinstance(v, int | float | None) for _, v in changes)
 
 
 class _Search:
@@ -198,7 +198,7 @@ class _Search:
         row = self.standing(looks)
         for name in names & COLUMN.keys():
             if name == "line":
-                found[name] = np.asarray(self.run.program.line_of(self.run.steps.block))[looks.step].astype(np.float64)
+                found[name] = self.run.lines()[looks.step].astype(np.float64)
                 continue
             column = getattr(self.path, name)
             before = column[row] if len(column) else np.zeros(len(row))

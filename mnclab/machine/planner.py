@@ -7,6 +7,7 @@ interpreter makes it once for each kind of block. No word is lost by constructio
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -58,7 +59,7 @@ class Planner:
 
     def plan(self) -> Plan:
         if self.control.together:
-            self.control.together(self.machine, self.words)
+            self.control.together(self.machine, self.keyword, self.words)
         codes = self.codes()
         cycle = next(((c, i) for c, i in codes if c in self.control.cycles), None)
         if cycle:
@@ -82,9 +83,12 @@ class Planner:
         ending = any(f.ends_cycle for f, _ in functions)
         if self.active and not cycle and not ending:
             self.claim_again([f for f, _ in functions if f.moves])
+        owned = any(f.owns for f, _ in functions)
         for function, index in functions:
-            if function.moves:
+            if function.moves and (function.owns or not owned):
                 self.hand_out(function, index)
+            elif function.moves:  # it only becomes active
+                self.actions.append(Action(self.phases[function.phase], function, function.code, index, ()))
         self.refuse_motion([f for f, _ in functions])
         at_once = cycle is not None and self.control.cycles[cycle[0]].runs == "definition"
         if at_once and cycle and not self.control.one_command:
@@ -97,6 +101,7 @@ class Planner:
             prepared or at_once
         ):  # preparing a cycle moves nothing; one that runs at once makes all moves of its block
             self.modal_motion([f for f, _ in functions])
+        self.modal_call([f for f, _ in functions])
         self.refuse_leftovers([f for f, _ in functions])
         self.refuse_repeated()
         order = sorted(self.actions, key=lambda action: action.phase)
@@ -112,6 +117,9 @@ class Planner:
 
     def function(self, code: str, index: int) -> Function:
         found = self.control.functions.get(code)
+        every = self.control.functions.get(code[0])  # one function for all codes of an address that have none of their own
+        if found is None and every is not None and code[1:].isdigit() and index >= 0:
+            return replace(every, code=code)
         if found is None:
             if code in self.control.refused:
                 self.alarm(f"{code} is refused: {self.control.refused[code]}", index)
@@ -223,6 +231,16 @@ class Planner:
             not owner and word.address in function.takes for word, owner in zip(self.words, self.owner, strict=True)
         ):
             self.hand_out(function, -1)
+
+    def modal_call(self, functions: list[Function]) -> None:
+        """A modal call of a cycle runs it in every block that positions and has no call of its own."""
+        again = self.control.calls_again
+        modal = self.control.functions.get(self.machine.modal.get("call", ""))
+        own = next((f for f in functions if f.group == "call"), None)
+        if again is None or not (modal or (own and own.modal)):
+            return
+        if again(self.machine, self.keyword, self.words) and modal and own is None:
+            self.hand_out(modal, -1)
 
     def refuse_motion(self, functions: list[Function]) -> None:
         """A function that moves nothing beside one that moves: words of the motion."""

@@ -14,6 +14,7 @@ import numpy as np
 
 from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain, Matrix
+from mnclab.machine.waiting import determine
 from mnclab.path import corners
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import Recorder
@@ -52,7 +53,9 @@ def record(m: Machine, label: str, span: Span | None = None, after: Recording | 
     m.tip = m.programmed = _NOWHERE
     m.side, m.feed, m.exact_here = 0, m.feed or 1.0, False
     try:
-        m.flow.call(label, span)
+        with m.variables.own_level():
+            m.flow.call(label, span)
+            determine(m)
         path = corners.apply(m.recorder.take())
         chain, memory = m.frames, m.memory
     except PathFault as fault:

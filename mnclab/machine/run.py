@@ -9,10 +9,12 @@ from __future__ import annotations
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mnclab.machine.calls import Steps
 from mnclab.machine.control import Control
@@ -69,7 +71,8 @@ class Run:
     """
 
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
-        self.program, self.programs, self.setup, self.control = program, (program,), setup, control
+        self.program, self.setup, self.control = program, setup, control
+        self.programs = tuple(machine.flow.programs)
         self.steps: Steps = machine.flow.steps()
         self.alarms = by_place(alarms)
         for alarm in self.alarms:
@@ -81,7 +84,7 @@ class Run:
         if machine.cut is not None:
             self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
         self.history = History(machine.logs, len(self.steps.block))
-        self.variables: dict[str, float] = self._as_of_end("", machine.variables)
+        self.variables: dict[str, Any] = self._as_of_end("", machine.variables)
         self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
         self.frames = machine.frames
@@ -108,19 +111,20 @@ class Run:
         """Whether no alarm of severity "alarm" was raised."""
         return not any(alarm.severity == ALARM for alarm in self.alarms)
 
-    def at(self, line: int | None = None, pass_: int = 1, step: int | None = None) -> Moment:
-        """The machine after the ``pass_``-th execution of a line, or after a step."""
+    def at(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Moment:
+        """The machine after the ``pass_``-th execution of a line (of one of ``programs``), or after a step."""
         if step is None:
             if line is None:
                 raise ValueError("at() needs a line or a step")
-            lines = np.asarray(self.program.line_of(self.steps.block))
-            found = np.flatnonzero(lines == line)
+            found = np.flatnonzero((self.lines() == line) & (self.steps.program == program))
             if not 1 <= pass_ <= len(found):
                 raise ValueError(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
             step = int(found[pass_ - 1])
         if not 0 <= step < len(self.steps.block):
             raise ValueError(f"step must be 0 … {len(self.steps.block) - 1}, got {step}")
-        block = self.program[int(self.steps.block[step])]
+        which = int(self.steps.program[step])
+        block = self.programs[which][int(self.steps.block[step])]
+        block = replace(block, span=block.span._replace(program=which))
         position = self.history.value("position", step)
         path = self.toolpath
         a, b = np.searchsorted(path.step, [step, step + 1]).tolist() if len(path) else (0, 0)
@@ -130,6 +134,14 @@ class Run:
         return Moment(
             step, block.span.line, block, position, state, changed, slice(a, b), row, 1.0, tuple(tip.tolist())
         )
+
+    def lines(self) -> NDArray[np.integer[Any]]:
+        """The line of each step (s,), in the program that ``steps.program`` names."""
+        found = np.asarray(self.program.line_of(np.minimum(self.steps.block, len(self.program) - 1)))
+        for index, program in enumerate(self.programs[1:], 1):
+            here = self.steps.program == index
+            found = np.where(here, program.line_of(np.where(here, self.steps.block, 0)), found)
+        return found
 
     def when(self, condition: str) -> Moments:
         """The moments at which a condition becomes true: ``run.when("z < -5")``, ``run.when("Q5 > 3")``.
@@ -290,7 +302,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     setup = setup or Setup()
     machine = Machine(control, setup)
     interpreter = Interpreter(control, machine, program)
-    alarms = list(interpreter.alarms)
+    alarms = interpreter.alarms
     broken = False
     try:
         with collector_paused():

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path import compensation, corners, leads, rapids
+from mnclab.path import compensation, corners, feed_rules, leads, rapids
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import join
 from mnclab.path.toolpath import Toolpath, concatenate
@@ -57,6 +57,7 @@ def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.
     turned, gouge = corners.apply(piece, unfinished), str(m.settings.get("gouge", "refuse"))
     path = compensation.apply(turned, m.control.compensation, unfinished, gouge, report)
     path = leads.apply(path, turned, unfinished)
+    path = feed_rules.apply(path, m.feed_rules)
     return rapids.broken(path, m.setup.limits.rapid) if m.settings.get("rapid_path") == "broken" else path
 
 
@@ -97,6 +98,8 @@ def _shown(m: Machine, path: Toolpath) -> Toolpath:
         vertices = np.concatenate([path.start[:1], path.end]) - origin
         centre = path.centre if path.centre.strides[0] == 0 else path.centre - origin
         path = path.replace(start=vertices[:-1], end=vertices[1:], centre=centre)
+        if not np.isnan(path.surface).all():
+            path = path.replace(spindle_x=path.spindle_x - origin[0])
     recorder = m.recorder
     return path.annotated(
         labels=tuple(recorder.labels), joints=tuple(recorder.joints), origin=tuple(origin), lathe=m.control.lathe

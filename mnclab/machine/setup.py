@@ -55,6 +55,7 @@ class Setup:
     ``files`` maps names to texts or paths of other programs and tables. ``settings`` overrides the declared choices of
     the control (``mnclab.help("settings", control)``). ``correctors`` are offsets along the axes, mm, of the controls whose
     words D or L name them. Tools given without a number get the one they are listed under.
+    ``variables`` have their values before the program begins: what another program left (``run.variables``).
     """
 
     tools: Mapping[int, Tool] = field(default_factory=lambda: MAGAZINE)
@@ -70,6 +71,7 @@ class Setup:
     settings: Mapping[str, Any] = field(default_factory=dict)
     kinematics: Any = None
     true_tools: Mapping[int, Tool] = field(default_factory=dict)
+    variables: Mapping[str, float | str] = field(default_factory=dict)
 
     def with_radius(self, radius: float) -> Setup:
         """The same machine with another radius, mm, in all its tools but the probes."""

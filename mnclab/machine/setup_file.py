@@ -36,12 +36,13 @@ length = 80                    # and in degrees angle (of the point) and plunge_
 [probe]                        # clearance, reach, feed, rapid
 [settings]                     # choices of the control: mnclab help settings --control NAME lists them
 [files]                        # names that programs call -> files, seen from this one
+[variables]                    # values that are there before the program: QR1 = 2.5, QS1 = "text"
 """
 
 ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum}
 RECORDS = {"limits": Limits, "probe": Probe}
 TEXTS = ("name", "kind", "corner_speed", "rapid_motion")  # of a tool; of the limits
-KNOWN = ("start", *ROWS, *RECORDS, "settings", "files")
+KNOWN = ("start", *ROWS, *RECORDS, "settings", "files", "variables")
 
 
 class _File:
@@ -95,6 +96,8 @@ def _setup(table: Mapping[str, Any], folder: Path) -> Setup:
     for name, kind in RECORDS.items():
         if name in table:
             found[name] = record(kind, table[name], name)
+    if "variables" in table:
+        found["variables"] = _table(table["variables"], "variables")
     if "settings" in table:
         found["settings"] = _table(table["settings"], "settings")
     if "files" in table:

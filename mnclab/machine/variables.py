@@ -2,22 +2,57 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 
-class Variables(dict[str, float]):
-    """Q parameters and the like; every change is logged."""
+class Variables(dict[str, Any]):
+    """Q parameters and the like, numbers and texts; every change is logged.
+
+    What the control itself keeps in a variable (``Control.preassigned``: the radius of the tool, …) is worked out when
+    it is asked for.
+    """
 
     def __init__(self, machine: Machine) -> None:
         super().__init__()
         self._machine = machine
 
-    def __setitem__(self, name: str, value: float) -> None:
+    def __setitem__(self, name: str, value: Any) -> None:
         super().__setitem__(name, value)
         self._machine.log(name, value)
+
+    def __missing__(self, name: str) -> Any:
+        preassigned = self._machine.control.preassigned.get(name)
+        value = None if preassigned is None else preassigned(self._machine)
+        if value is None:
+            raise KeyError(name)
+        return value
+
+    def forget(self, name: str) -> None:
+        """A variable has no value any more."""
+        if name in self:
+            self._machine.log(name, None)
+            del self[name]
+
+    @contextmanager
+    def own_level(self) -> Iterator[None]:
+        """Inside, the variables that are local to a program are others; afterwards those of before."""
+        local = self._machine.control.local_variables
+        if not local:
+            yield
+            return
+        kept = {name: value for name, value in self.items() if name.startswith(local)}
+        for name in kept:
+            self.forget(name)
+        yield
+        for name in [name for name in self if name.startswith(local)]:
+            self.forget(name)
+        for name, value in kept.items():
+            self[name] = value
 
 
 class Measured(dict[str, Any]):

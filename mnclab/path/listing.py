@@ -75,7 +75,12 @@ def listing(path: Toolpath) -> str:
 def _row(move: Move) -> str:
     side = {1: " left", -1: " right"}.get(move.side, "") if move.kind in (Kind.LINE, Kind.ARC) else ""
     label = f"  ; {move.label}" if move.label else ""
-    return f"{move.line:4d} {Kind(move.kind).name.lower():7s} {words(move)}{side}{label}"
+    return f"{line(move):>4s} {Kind(move.kind).name.lower():7s} {words(move)}{side}{label}"
+
+
+def line(move: Move) -> str:
+    """The line of a row; of a program that was called, its number before it."""
+    return f"{move.program}:{move.line}" if move.program else str(move.line)
 
 
 def table(path: Toolpath) -> str:
@@ -99,7 +104,7 @@ def table(path: Toolpath) -> str:
         detail = move.label if move.kind <= Kind.PROBE else f"{words(move)} {move.label}".strip()
         cells = (
             i,
-            move.line,
+            line(move),
             Kind(move.kind).name.lower(),
             *map(figure, move.end),
             feed,

@@ -11,7 +11,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from mnclab.text.alarm import Alarm, Span
 
@@ -57,7 +57,7 @@ class Expression:
     def __repr__(self) -> str:
         return f"Expression({self.text})"
 
-    def evaluate(self, variables: Mapping[str, float]) -> float:
+    def evaluate(self, variables: Mapping[str, Any]) -> float:
         """The value with these variables; an Alarm at the part that has none."""
         return self.scale * _Evaluation(self.tokens, variables).whole()
 
@@ -91,7 +91,7 @@ class _Anything(dict[str, float]):
 class _Evaluation:
     """Recursive descent: sum of products of powers of signed parts."""
 
-    def __init__(self, tokens: tuple[Token, ...], variables: Mapping[str, float]) -> None:
+    def __init__(self, tokens: tuple[Token, ...], variables: Mapping[str, Any]) -> None:
         self.tokens, self.variables, self.at, self.reading, self.depth = tokens, variables, 0, False, 0
 
     def whole(self, reading: bool = False) -> float:
@@ -167,9 +167,10 @@ class _Evaluation:
         if token.kind == "number":
             return self.finite(float(token.text), token)
         if token.kind == "variable":
-            if token.text not in self.variables and not isinstance(self.variables, _Anything):
+            try:
+                return float(self.variables[token.text])
+            except KeyError:
                 self.refuse("no value was given to", token)
-            return float(self.variables[token.text])
         if token.text in ("+", "-"):
             return self.power() if token.text == "+" else -self.power()  # -2^2 is -(2^2)
         if token.text == "(":

@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,11 @@ from numpy.typing import NDArray
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.expression import Expression
 
+if TYPE_CHECKING:
+    from mnclab.text.strings import NumberFromText, TextFormula
+
 NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
+FEW = 1000  # stretches of blocks that are copied one after the other
 INCREMENTAL, RAPID_MARK, GROUP_MARK = 1, 2, 4  # bits of column ``flag``
 
 _NUMBER_OF_BLOCK = re.compile(r"[ \t]*/?[ \t]*(N[ \t]*\+?\d+|\d+)", re.IGNORECASE)
@@ -46,7 +50,7 @@ class Word(NamedTuple):
     """An address with its value, and where it stands."""
 
     address: str
-    value: float | str | Expression | None
+    value: float | str | Expression | TextFormula | NumberFromText | None
     place: int
     flag: int = 0
 
@@ -117,6 +121,8 @@ class Program:
     comment_mark: str = "//"
     """What a comment begins with, as a regular expression."""
     encoding: str = "utf-8"
+    folder: str = ""
+    """Where the file lies that the program was read from; empty for a text. Programs that it calls are sought there."""
     labels: Mapping[str, int] = field(default_factory=dict)
     """Block index of each jump target, as the reader of the control found them."""
 
@@ -265,9 +271,7 @@ class ProgramBuilder:
         key = self.keywords.setdefault(keyword, len(self.keywords))
         self.blocks.append((offset, key, skip, plain, len(self.words)))
 
-    def word(
-        self, address: str, value: float | str | Expression | None, offset: int, length: int, flag: int = 0
-    ) -> None:
+    def word(self, address: str, value: Any, offset: int, length: int, flag: int = 0) -> None:
         """Add a word to the block begun last."""
         index = self.addresses.setdefault(address, len(self.addresses))
         if isinstance(value, int | float):
@@ -341,6 +345,15 @@ def first_words(size: NDArray[Any]) -> NDArray[np.int32]:
 
 def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
     """Two sets of columns sorted together by one of them."""
+    places = np.searchsorted(others[by], some[by])
+    steps = np.diff(places, prepend=-1)
+    cuts = np.flatnonzero(steps)  # where `some` goes on at another place of the others
+    if len(cuts) <= FEW and (steps >= 0).all():  # whole stretches are copied faster than single rows
+        some = [np.split(column, cuts) for column in some]
+        others = [np.split(column, places[cuts]) for column in others]
+        return [
+            np.concatenate([part for pair in zip(a, b, strict=True) for part in pair]) for a, b in zip(some, others)
+        ]
     order = np.argsort(np.concatenate([some[by], others[by]]), kind="stable")
     return [np.concatenate(pair)[order] for pair in zip(some, others, strict=True)]
 

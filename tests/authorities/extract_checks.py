@@ -29,7 +29,27 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
-    "tnc620-klartext": ["L", "C", "CT", "CP"],
+    "jnc-t01": [
+        *("program structure", "table 2 notes", "axes and dimensions", "spindle control", "feed programming"),
+        *("linear moves", "arc moves", "G00", "G01", "G02", "G03", "G04", "G12", "G14", "G32", "G73", "G74", "G75"),
+        *("G77", "G78", "G90", "G91", "G92", "G93", "G94", "G95", "G96", "G97", "T+L"),
+    ],
+    "tnc620-klartext": ["BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN", "FK"],
+    "tnc620-special": [
+        *(f"CYCL DEF {number}" for number in (9, 12, 13, 18, 32, 225, 232, 239)),
+        *("engraving layout", "engraving characters", "engraving system variables"),
+    ],
+    "tnc620-transformations": [
+        *("transformation chain", "CYCL DEF 7", "CYCL DEF 7 (datum table)", "datum table", "PGM COTRANS (section 11.10)"),
+        *(f"CYCL DEF {number}" for number in (8, 10, 11, 19, 26, 247)),
+    ],
+    "tnc620-using-cycles": [
+        *("fixed cycles", "CYCL DEF", "CYCL CALL PAT", "CYCL CALL POS", "M89", "PREDEF"),
+        *(f"PATTERN DEF {form}" for form in ("POS", "ROW", "PAT", "FRAME", "CIRC", "PITCHCIRC")),
+        *("point table", "SEL PATTERN"),
+    ],
+    "tnc620-patterns": ["CYCL DEF 220", "CYCL DEF 221"],
+    "tnc620-pockets": ["CYCL DEF 251", "CYCL DEF 252", "CYCL DEF 253", "CYCL DEF 254", "PGM C210 (section 6.10)"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
@@ -44,6 +64,9 @@ EXAMPLES = {
         *("CYCL DEF 204", "CYCL DEF 205", "CYCL DEF 208", "CYCL DEF 241", "PGM C200", "PGM 1 (4.11)"),
     ],
 }
+
+#: Controls all of whose example programs are copied, for tests of their readers, and how their files begin.
+PROGRAMS = {"tnc-620": "tnc620-"}
 
 #: Files whose G and M codes are listed.
 CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
@@ -74,13 +97,24 @@ def examples(folder, name, codes):
             yield {"code": code, **kept, "check": check}
 
 
+def programs(folder, prefix):
+    """Every example program, as printed or as it is to be read."""
+    for file in sorted(folder.glob(f"{prefix}*.yaml")):
+        for entry in yaml.safe_load(file.read_text(encoding="utf-8"))["entries"]:
+            for example in entry.get("examples") or []:
+                text = example.get("program_adopted", example.get("program_english", example["program"]))
+                if text:
+                    yield {"code": str(entry["code"]), "program": text}
+
+
 def parameters(folder):
     """Parameters of every cycle by control, with the codes that mean the same."""
     controls = {}
     for file in sorted(folder.glob("*.yaml")):
         loaded = yaml.safe_load(file.read_text(encoding="utf-8"))
         for entry in loaded.get("entries") or []:
-            if entry.get("kind") == "cycle" and entry.get("parameters"):
+            declared = entry.get("kind") == "cycle" or str(entry["code"]).startswith("GLOBAL DEF ")
+            if declared and entry.get("parameters"):
                 rows = [{key: row[key] for key in KEYS if row.get(key) is not None} for row in entry["parameters"]]
                 record = {"code": str(entry["code"]), "aliases": entry.get("aliases") or [], "parameters": rows}
                 controls.setdefault(loaded["control"], []).append(record)
@@ -122,6 +156,8 @@ def save(name, records):
 def main(folder):
     for name, codes in EXAMPLES.items():
         save(name, examples(folder, name, codes))
+    for control, prefix in PROGRAMS.items():
+        save(f"programs-{control}", programs(folder, prefix))
     for control, records in parameters(folder).items():
         save(f"parameters-{control}", records)
     save("codes", listed(folder, CODES))

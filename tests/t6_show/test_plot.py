@@ -247,3 +247,11 @@ def test_pyplot_is_never_imported():
         "import sys, mnclab; mnclab.run('G0 X1\\n', 'mnc').plot().png(); assert 'matplotlib.pyplot' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_a_pole_named_twice_is_drawn_once():
+    from mnclab.show.plot.datums import places_of
+
+    text = "1 TOOL CALL 1 Z S1000\n2 L X+10 Y+0 Z+0 R0 F100\n3 CC X+0 Y+0\n4 C X+10 DR+\n5 CC X+0 Y+0\n6 C X+10 DR-\n"
+    run = mnclab.run(text, "tnc-620")
+    assert run.ok and [place.name for place in places_of(run)].count("pole") == 1

@@ -51,7 +51,7 @@ PROBING = {
 
 STATEMENTS = {
     "FPOL": "pole of free contours", "FL": "free line", "FLT": "free tangential line", "FC": "free arc",
-    "FCT": "free tangential arc", "FSELECT": "choice of a free contour", "CALL PGM": "program call",
+    "FCT": "free tangential arc", "FSELECT": "choice of a free contour",
     "CYCL CALL PAT": "cycle call at a pattern", "CYCL CALL POS": "cycle call at a position", "PATTERN DEF": "point pattern",
     "SEL PATTERN": "point table", "SEL CONTOUR": "contour definition", "SEL TABLE": "datum table", "SEL PGM": "program choice",
     "CALL SELECTED PGM": "program call", "DECLARE CONTOUR": "contour designator", "CONTOUR DEF": "simple contour formula",
@@ -93,8 +93,6 @@ NOT_THERE = {
 
 WORDS = {
     **{axis: f"the axis {axis} is not built yet" for axis in "UVWABC"},
-    "FU": "a feed per revolution is not built yet", "FZ": "a feed per tooth is not built yet",
-    "#": "datum tables are not built yet",
 }  # fmt: skip
 
 

@@ -10,6 +10,17 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple
 
+from mnclab.controls.tnc_620 import sub_blocks
+from mnclab.controls.tnc_620.formulas import FN, assignment, declared_text, text_assignment, text_formula
+from mnclab.controls.tnc_620.labels import (
+    JUMPS,
+    call_label,
+    call_program,
+    program_of_cycle,
+    select_program,
+    set_label,
+)
+from mnclab.controls.tnc_620.pattern_words import PatternWords
 from mnclab.controls.tnc_620.words import FLAGS, NUMBER, TEXT, Cursor, Fault
 
 Read = Callable[[Cursor], None]
@@ -66,10 +77,12 @@ def tool_call(cursor: Cursor) -> None:
 
 
 def tool(cursor: Cursor) -> None:
-    """A tool by number or by name in quotes; nothing if neither is there."""
+    """A tool by number, by name in quotes or in a text parameter; nothing if none of them is there."""
     begin = cursor.blanks()
     if found := cursor.match(TEXT):
         cursor.add("tool", found.group(1).strip(), begin)
+    elif found := cursor.match(_TEXT_PARAMETER):
+        cursor.add("text", f"QS{int(found.group(1))}", begin)
     elif (value := cursor.value()) is not None:
         cursor.add("tool", value, begin)
 
@@ -78,50 +91,6 @@ def tool_def(cursor: Cursor) -> None:
     """The tool, and its length and radius when no tool table is active."""
     tool(cursor)
     cursor.words(radius=True)
-
-
-def label(cursor: Cursor) -> str:
-    """The number or the name of a label; how a program calls it."""
-    begin = cursor.blanks()
-    if found := cursor.match(TEXT):
-        cursor.add("label", found.group(1), begin)
-        if not found.group(1).strip():
-            raise Fault("the name of a label is empty", begin, cursor.at - begin)
-        return f'"{found.group(1)}"'
-    if found := cursor.match(_WHOLE):
-        value = float(found.group(1))
-        if value > 65535:
-            raise Fault(f"a label must be a number from 0 to 65535, got {value:g}", begin, cursor.at - begin)
-        cursor.add("label", value, begin)
-        return f"{value:g}"
-    raise Fault("a label must be a whole number or a name in quotes", begin, hint='for example LBL 1 or LBL "HOLES"')
-
-
-def set_label(cursor: Cursor) -> None:
-    """LBL: a jump target; LBL 0 is an end and none."""
-    begin = cursor.blanks()
-    name = label(cursor)
-    builder = cursor.builder
-    if name in builder.labels:
-        raise Fault(f"LBL {name} is set twice", begin, cursor.at - begin, "a label stands for one place in the program")
-    if name != "0":
-        builder.labels[name] = builder.blocks[-1][0]
-    refuse_rest(cursor)
-
-
-def call_label(cursor: Cursor) -> None:
-    """CALL LBL: the label, and how often a section is repeated; of n/n the second counts down while it runs."""
-    label(cursor)
-    begin = cursor.blanks()
-    if found := cursor.match(_REPEAT):
-        cursor.add("REP", float(found.group(1)), begin)
-    refuse_rest(cursor)
-
-
-def refuse_rest(cursor: Cursor) -> None:
-    """Nothing may follow."""
-    if not cursor.done:
-        raise cursor.unexpected()
 
 
 def program_name(cursor: Cursor) -> None:
@@ -142,58 +111,17 @@ def program_name(cursor: Cursor) -> None:
     cursor.at = cursor.stop
 
 
-def assignment(target: str, begin: int) -> Read:
-    """The formula of ``Q1 = …``; its target was read already."""
-
-    def read(cursor: Cursor) -> None:
-        formula(cursor, target, begin)
-
-    return read
-
-
-def formula(cursor: Cursor, target: str, begin: int, shape: re.Pattern[str] | None = None, form: str = "") -> None:
-    """A Q parameter takes the value of a formula."""
-    number = int(re.sub(r"\D", "", target))
-    if number > (1999 if target[1].isdigit() else 499):
-        raise Fault(
-            f"{target} does not exist: Q0 to Q1999, QL0 to QL499 and QR0 to QR499 are allowed", begin, len(target)
-        )
-    cursor.builder.word("target", target, begin, len(target))
-    start = cursor.blanks()
-    if cursor.done:
-        raise Fault(f"{target} = needs a value", start)
-    if shape and not shape.fullmatch(cursor.rest().strip()):
-        raise Fault(f"the function must have the form {form}", start, len(cursor.rest().rstrip()))
-    expression = cursor.expression(start, cursor.stop)
-    cursor.at = cursor.stop
-    cursor.add("value", expression, start)
-
-
-_OPERAND = rf"[+-]?\s*(?:{NUMBER}|Q[LR]?\d+)"
-_SHAPES = {
-    0: (rf"{_OPERAND}", "FN 0: Q1 = +2"),
-    1: (rf"{_OPERAND}\s*\+\s*{_OPERAND}", "FN 1: Q1 = +2 + +3"),
-    2: (rf"{_OPERAND}\s*-\s*{_OPERAND}", "FN 2: Q1 = +2 - +3"),
-    3: (rf"{_OPERAND}\s*\*\s*{_OPERAND}", "FN 3: Q1 = +2 * +3"),
-    4: (rf"{_OPERAND}\s*(?:DIV|/)\s*{_OPERAND}", "FN 4: Q1 = +2 DIV +3"),
-    5: (rf"SQRT\s*{_OPERAND}", "FN 5: Q1 = SQRT +2"),
-}
-FN_SHAPES = {number: (re.compile(pattern, FLAGS), form) for number, (pattern, form) in _SHAPES.items()}
-
-
-def fn(number: int) -> Read:
-    """FN 0 to FN 5: one operation each; the others are refused by their name."""
-    if number not in FN_SHAPES:
-        return ignored
-
-    def read(cursor: Cursor) -> None:
-        begin = cursor.blanks()
-        found = cursor.match(_TARGET)
-        if found is None:
-            raise Fault(f"FN {number} needs a Q parameter and =", begin, hint=FN_SHAPES[number][1])
-        formula(cursor, _name(found), begin, *FN_SHAPES[number])
-
-    return read
+def file_name(cursor: Cursor) -> None:
+    """The name of a file, in quotes or up to the end of the line."""
+    begin = cursor.blanks()
+    if found := cursor.match(TEXT):
+        name = found.group(1).strip()
+    else:
+        name = cursor.rest().strip()
+        cursor.at = cursor.stop
+    if not name:
+        raise Fault("the name of a file is missing", begin, hint='for example SEL PATTERN "HOLES"')
+    cursor.add("file", name, begin)
 
 
 # --- cycles -----------------------------------------------------------------------------------------------------------
@@ -214,6 +142,8 @@ def cycle_parameters(cursor: Cursor) -> None:
         value: object = None
         if text := cursor.match(TEXT):
             value = text.group(1)
+        elif named := cursor.match(_STRING):
+            value = text_formula(cursor, named.start(), named.end())
         elif word := cursor.match(_FEED_WORD):
             value = re.sub(r"[ \t]", "", word.group()).upper().replace(",", ".")
         else:
@@ -252,19 +182,14 @@ def datum_shift(cursor: Cursor) -> None:
     cursor.words()
 
 
-def axes(cursor: Cursor) -> None:
-    """8.1: letters of axes."""
-    cursor.words(bare="XYZUVWABC")
-
-
 #: How sub-blocks n.1, n.2 … are read; the others are known by their number alone.
 PARTS: dict[str, Read] = {
     "CYCL DEF 7": datum_shift,
-    "CYCL DEF 8": axes,
+    **sub_blocks.READERS,
     "CYCL DEF 10": plain,
     "CYCL DEF 11": plain,
+    "CYCL DEF 12": program_of_cycle,
     "CYCL DEF 14": contour_labels,
-    "CYCL DEF 19": plain,
 }
 
 
@@ -274,7 +199,7 @@ def definition(keyword: str, part: int) -> Statement:
         return Statement(keyword, cycle_parameters, cycle_parameters)
     if part == 0:
         return Statement(keyword, ignored, None, 0)
-    read = PARTS.get(keyword, ignored)
+    read = PARTS.get(f"{keyword}.{part}", PARTS.get(keyword, ignored))
     return Statement(keyword, read, read, part)
 
 
@@ -286,15 +211,16 @@ WORDS: dict[str, Read] = {
     "RND": with_radius, "CHF": leading("length"), "FPOL": plain, "FL": plain, "FLT": plain, "FC": with_radius,
     "FCT": with_radius, "FSELECT": leading("number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
     "CYCL CALL": plain, "LBL": set_label, "CALL LBL": call_label, "TOOL CALL": tool_call, "TOOL DEF": tool_def,
+    "CALL PGM": call_program, "SEL PGM": select_program, "CALL SELECTED PGM": plain, "DECLARE STRING": declared_text,
+    "SEL PATTERN": file_name, "SEL TABLE": file_name, "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
 
 #: Statements whose rest is not read: keyword -> whether further lines without a number belong to them.
 KEYWORDS_ONLY = {
-    "BLK FORM": False, "CALL PGM": False, "SEL PATTERN": False, "SEL CONTOUR": False, "SEL TABLE": False, "SEL PGM": False,
-    "CALL SELECTED PGM": False, "DECLARE CONTOUR": True, "CONTOUR DEF": True, "PATTERN DEF": True, "PLANE": False,
-    "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
+    "BLK FORM": False, "SEL CONTOUR": False, "DECLARE CONTOUR": True, "CONTOUR DEF": True,
+    "PLANE": False, "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
 }  # fmt: skip
 
 _ALL = sorted([*WORDS, *KEYWORDS_ONLY], key=len, reverse=True)
@@ -306,16 +232,13 @@ _FN = re.compile(r"FN[ \t]*(\d{1,3})[ \t]*:?", FLAGS)
 _TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})[ \t]*=", FLAGS)
 _M = re.compile(r"M[ \t]*\d", FLAGS)
 _WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
-_REPEAT = re.compile(r"REP[ \t]*(\d{1,9})(?:[ \t]*/[ \t]*\d{1,9})?", FLAGS)
 _PARAMETER_HEAD = re.compile(r"[ \t]*\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
 _FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
+_STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 _DIALOG = re.compile(r"[^\d;~]*")
+_TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 _SLASH = re.compile(r"[ \t]*/")
 _ROW = re.compile(r"#")
-
-
-def _name(found: re.Match[str]) -> str:
-    return f"Q{found.group(1).upper()}{int(found.group(2))}"
 
 
 def recognize(cursor: Cursor) -> Statement | None:
@@ -326,16 +249,20 @@ def recognize(cursor: Cursor) -> Statement | None:
         keyword = " ".join(found.group().upper().split())
         if keyword in KEYWORDS_ONLY:
             return _known_by_name(cursor, keyword, found.start())
+        if keyword == "PATTERN DEF":
+            elements = PatternWords()
+            return Statement(keyword, elements, elements)
         return Statement(keyword, WORDS[keyword])
     if found := cursor.match(_FN):
         number = int(found.group(1))
-        return Statement(f"FN {number}", fn(number))
+        return Statement(f"FN {number}", FN.get(number) or JUMPS.get(number) or ignored)
     begin = cursor.at
     if found := cursor.match(_TARGET):
         kind = found.group(1).upper()
-        if kind in ("S", "C"):
-            return Statement(f"Q{kind}", ignored)
-        return Statement("Q", assignment(_name(found), begin))
+        if kind == "C":
+            return Statement("QC", ignored)
+        name = f"Q{kind}{int(found.group(2))}"
+        return Statement("QS", text_assignment(name, begin)) if kind == "S" else Statement("Q", assignment(name, begin))
     if _M.match(cursor.text, cursor.at, cursor.stop):
         return Statement("", plain)
     return None

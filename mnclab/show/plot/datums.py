@@ -49,11 +49,12 @@ def places_of(run: Any) -> list[Place]:
         for step, value in history.changed(name)
     ]
     chain = FrameChain(run.frames.slots)
-    found: dict[tuple[Mark, tuple[float, ...]], list[str]] = {}
+    found: dict[tuple[Mark, tuple[float | None, ...]], list[str]] = {}
     nested = run.settings.get("transformation_order") == "nested"
 
     def add(mark: Mark, name: str, xyz: Array) -> None:
-        names = found.setdefault((mark, tuple(np.round(xyz, 6) + 0.0)), [])
+        place = tuple(None if np.isnan(v) else round(v, 6) + 0.0 for v in xyz.tolist())  # nan is no key: it equals nothing
+        names = found.setdefault((mark, place), [])
         if name not in names:
             names.append(name)
 
@@ -74,7 +75,10 @@ def places_of(run: Any) -> list[Place]:
         for frame, matrix in selected:
             origin = (chain.before(frame) @ matrix)[:3, 3] - path.origin
             add(colours.DATUM, ORIGINS[frame] or _code(history, step), origin)
-    return [Place(mark, ", ".join(names), xyz) for (mark, xyz), names in found.items()]  # type: ignore[arg-type]
+    return [
+        Place(mark, ", ".join(names), tuple(np.nan if v is None else v for v in place))  # type: ignore[arg-type]
+        for (mark, place), names in found.items()
+    ]
 
 
 def _code(history: Any, step: int) -> str:

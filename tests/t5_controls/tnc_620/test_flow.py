@@ -64,7 +64,7 @@ def test_pgm_model(tnc) -> None:
 
 
 def test_pgm_beams(tnc) -> None:
-    """Seed lines 11876 to 11900 with the deviations that cycle 424 would leave."""
+    """The lines that the manual prints, with the deviations that cycle 424 would leave."""
     run = tnc(
         "1 Q164 = 1.02\n2 Q165 = 0.97\n3 FN 0: Q1 = +81\n4 FN 0: Q2 = +61\n9 FN 2: Q1 = +Q1 - +Q164\n10 FN 2: Q2 = +Q2 - +Q165\n"
     )

@@ -1,7 +1,11 @@
-"""Labels: LBL, CALL LBL, REP (catalogue: LBL, CALL LBL)."""
+"""The course of a program: labels, repeats, jumps, other programs (catalogue: LBL, CALL LBL, FN, CALL PGM)."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+from mnclab.controls.tnc_620.language.parameters import PREASSIGNED, text
+from mnclab.machine import programs
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
@@ -11,7 +15,7 @@ FUNCTIONS = FunctionTable()
 
 def label_name(m: Machine, word: Word) -> str:
     """How the reader lists a label: a number as it is, a name in quotes."""
-    return f'"{word.value}"' if isinstance(word.value, str) else f"{m.value(word):g}"
+    return f"{word.value:g}" if isinstance(word.value, float) else f'"{text(m, word)}"'
 
 
 @FUNCTIONS("LBL", "Label", takes="label", source="11.10")
@@ -37,3 +41,69 @@ def call_label(m: Machine, words: Words) -> None:
             f"CALL LBL {name} REP: the section must begin before this block", word, hint="REP repeats what stands above"
         )
     m.flow.repeat(first, here, int(m.value(words["REP"])), m._span(word))
+
+
+CONDITIONS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
+    "FN 9": ("Jump if equal", lambda one, other: one == other),
+    "FN 10": ("Jump if not equal", lambda one, other: one != other),
+    "FN 11": ("Jump if greater", lambda one, other: one > other),
+    "FN 12": ("Jump if less", lambda one, other: one < other),
+}
+
+
+@FUNCTIONS(
+    ", ".join(CONDITIONS), {code: title for code, (title, _) in CONDITIONS.items()},
+    takes="first second parameter state label", source="FN",
+)  # fmt: skip
+def jump(m: Machine, words: Words) -> None:
+    """Goes on at a label if the condition holds; numbers are equal when they are exactly so."""
+    if "state" in words:
+        name = str(words["parameter"].value)
+        holds = (name in m.variables or name in PREASSIGNED) == (words["state"].value == "DEFINED")
+    else:
+        holds = CONDITIONS[words.code][1](m.value(words["first"]), m.value(words["second"]))
+    word = words["label"]
+    name = label_name(m, word)
+    if name == "0":
+        m.alarm(f"{words.code} GOTO LBL 0: LBL 0 is the end of a subprogram and no place to go to", word)
+    m.flow.index_of(name, m._span(word))  # a label that is missing is a fault even when the jump is not made
+    if holds:
+        m.flow.jump(name, m._span(word))
+
+
+_OF_A_PROGRAM: tuple[str, ...] = ("name", "unit")  # what BEGIN PGM says
+
+
+def call_program(m: Machine, name: str, what: str, word: Word | None) -> None:
+    """Run another program here, with its own QL parameters; ``what`` is the statement that calls it."""
+    place = m._span(word)
+    index = programs.called(m, name, what, place)
+    kept = {key: m.memory.pop(key) for key in _OF_A_PROGRAM if key in m.memory}
+    unit = m.variable_unit
+    with m.variables.own_level():
+        m.flow.call_program(index, place)
+    m.variable_unit = unit
+    for key in _OF_A_PROGRAM:
+        m.memory.pop(key, None)
+    m.memory.update(kept)
+
+
+@FUNCTIONS("CALL PGM,", "Program call", takes="name", source="CALL PGM")
+def call_named(m: Machine, words: Words) -> None:
+    """Runs another program up to its END PGM: of Setup(files=…), or beside the calling file."""
+    call_program(m, text(m, words["name"]), "CALL PGM", words["name"])
+
+
+@FUNCTIONS("SEL PGM,", "Choice of a program", takes="name", source="CALL PGM")
+def select(m: Machine, words: Words) -> None:
+    """The program that CALL SELECTED PGM runs; its name may stand in a QS parameter."""
+    m.memory["selected program"] = text(m, words["name"])
+    m.log("selected program", m.memory["selected program"])
+
+
+@FUNCTIONS("CALL SELECTED PGM,", "Call of the chosen program", source="CALL PGM")
+def call_selected(m: Machine, words: Words) -> None:
+    """Runs the program that SEL PGM has chosen."""
+    if "selected program" not in m.memory:
+        m.alarm("CALL SELECTED PGM: no program was chosen", None, hint='write SEL PGM "NAME" before it')
+    call_program(m, m.memory["selected program"], "CALL SELECTED PGM", None)

@@ -1,19 +1,182 @@
-"""Q parameters: formulas and the functions FN 0 to FN 5 (catalogue: Q parameters, FN, Q formula)."""
+"""Q parameters: formulas, texts, and the functions FN that calculate (catalogue: Q parameters, FN, Q formula, QS).
+
+What the control keeps in Q108 to Q114 cannot be assigned; the rest of Q100 to Q199 it overwrites with results.
+"""
 
 from __future__ import annotations
 
+import math
+import re
+from collections.abc import Callable
+
+import numpy as np
+
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
+from mnclab.text.alarm import Alarm
+from mnclab.text.program import Word
+from mnclab.text.strings import TextFormula
 
 FUNCTIONS = FunctionTable()
 
 TITLES = {
     "FN 0": "Assignment", "FN 1": "Addition", "FN 2": "Subtraction", "FN 3": "Multiplication", "FN 4": "Division",
-    "FN 5": "Square root", "Q": "Formula",
+    "FN 5": "Square root", "FN 6": "Sine", "FN 7": "Cosine", "Q": "Formula",
 }  # fmt: skip
 
 
-@FUNCTIONS(", ".join(TITLES), TITLES, takes="target value", source="FN")
+def text(m: Machine, word: Word) -> str:
+    """The text of a word: as it is written, or that of a QS parameter."""
+    if not isinstance(word.value, TextFormula):
+        return str(word.value)
+    try:
+        return word.value.evaluate(m.variables)
+    except Alarm as alarm:
+        alarm.span = alarm.span and alarm.span._replace(program=m.program)
+        raise
+
+
+def give(m: Machine, word: Word, value: float | str) -> None:
+    """A parameter takes a value; what the control itself keeps there cannot be assigned."""
+    name = str(word.value)
+    if name in PREASSIGNED:
+        m.alarm(
+            f"{name} ({MEANINGS[name]}) is kept by the control and cannot be assigned", word, "take another parameter"
+        )
+    m.variables[name] = value
+
+
+@FUNCTIONS(", ".join(TITLES), TITLES, takes="target value undefined", collects=True, source="FN")
 def assign(m: Machine, words: Words) -> None:
-    """A Q parameter takes the value of its formula, with the variables as they stand."""
-    m.variables[str(words["target"].value)] = m.value(words["value"])
+    """A Q parameter takes the value of its formula, with the variables as they stand; SET UNDEFINED takes it away."""
+    if "undefined" in words:
+        m.variables.forget(str(words["target"].value))
+        return
+    give(m, words["target"], m.value(words["value"]))
+
+
+@FUNCTIONS("QS, DECLARE STRING", "Text", takes="target value", source="QS")
+def assign_text(m: Machine, words: Words) -> None:
+    """A QS parameter takes a text: texts in quotes and QS parameters joined with ||, TOCHAR, SUBSTR."""
+    m.variables[str(words["target"].value)] = text(m, words["value"])
+
+
+@FUNCTIONS("FN 8,", "Root of a sum of squares", takes="target first second", source="FN")
+def root_of_squares(m: Machine, words: Words) -> None:
+    """FN 8: Q1 = +5 LEN +4 is the hypotenuse of 5 and 4."""
+    give(m, words["target"], math.hypot(m.value(words["first"]), m.value(words["second"])))
+
+
+@FUNCTIONS("FN 13,", "Angle", takes="target first second", source="FN")
+def angle(m: Machine, words: Words) -> None:
+    """FN 13: Q1 = +25 ANG +50 is the angle, 0 to 360 degrees, of which 25 is the opposite side and 50 the adjacent one."""
+    opposite, adjacent = m.value(words["first"]), m.value(words["second"])
+    if opposite == adjacent == 0:
+        m.alarm("FN 13: two sides of length 0 have no angle", words["first"])
+    give(m, words["target"], math.degrees(math.atan2(opposite, adjacent)) % 360)
+
+
+@FUNCTIONS("FN 14,", "Error", takes="number", source="FN")
+def error(m: Machine, words: Words) -> None:
+    """The program itself finds something wrong and stops."""
+    number = m.value(words["number"])
+    if number != int(number) or not 0 <= number <= 1199:
+        m.alarm(f"FN 14 ERROR must be a whole number from 0 to 1199, got {number:g}", words["number"])
+    m.alarm(f"FN 14: the program stops with error {number:g}", words["number"])
+
+
+# --- what the control keeps -----------------------------------------------------------------------------------------
+
+
+def spindle_status(m: Machine) -> float:
+    """0 M3, 1 M4, 2 M5 after M3, 3 M5 after M4, -1 before the first of them."""
+    if m.turning:
+        return 0.0 if m.turning > 0 else 1.0
+    log = m.logs.by_name.get("turning")
+    senses = [value for value in log.close(m.step)[1] if value] if log else []
+    return -1.0 if not senses else 2.0 if senses[-1] > 0 else 3.0
+
+
+def coolant_status(m: Machine) -> float:
+    """1 while the coolant flows."""
+    return 0.0 if m.modal.get("coolant", "M9") == "M9" else 1.0
+
+
+def tool_axis(m: Machine) -> float:
+    """2 for Z; -1 while no tool was called."""
+    return 2.0 if m.tool.number else -1.0
+
+
+MEANINGS = {
+    "Q108": "radius of the active tool with its deltas", "Q109": "tool axis", "Q110": "spindle status",
+    "Q111": "coolant", "Q112": "overlap factor of pockets", "Q113": "unit of the main program",
+    "Q114": "length of the active tool with its deltas",
+}  # fmt: skip
+PREASSIGNED: dict[str, Callable[[Machine], float | None]] = {
+    "Q108": lambda m: m.tool.effective_radius / m.variable_unit,
+    "Q109": tool_axis,
+    "Q110": spindle_status,
+    "Q111": coolant_status,
+    "Q112": lambda m: float(m.settings["overlap"]),
+    "Q113": lambda m: 1.0 if m.memory.get("main unit") == "INCH" else 0.0,
+    "Q114": lambda m: m.tool.effective_length / m.variable_unit,
+}
+
+NAMES = re.compile(r"(?:Q1?\d{1,3}|Q[LR][1-4]?\d{1,2}|QS1?\d{1,3})")
+
+
+def _is_number(value: object) -> bool:
+    return type(value) in (int, float) and math.isfinite(value)  # type: ignore[arg-type]
+
+
+def start(m: Machine) -> None:
+    """The values that were there before the program; QL parameters belong to a program and have none."""
+    for name, value in m.setup.variables.items():
+        fits = isinstance(value, str) if name.startswith("QS") else _is_number(value)
+        if not NAMES.fullmatch(name) or not fits:
+            m.alarm(f"Setup(variables=…): {name} cannot be {value!r}", hint="numbers in Q and QR, texts in QS")
+        if name not in PREASSIGNED and not name.startswith("QL"):
+            m.variables[name] = value if isinstance(value, str) else float(value)
+
+
+# --- system data ------------------------------------------------------------------------------------------------------
+
+
+def scale(m: Machine, index: float) -> float | None:
+    """How much longer the machine's way is than the program's along an axis (1 X, 2 Y, 3 Z)."""
+    return float(np.linalg.norm(m.frames.matrix[:3, int(index) - 1])) if index in (1, 2, 3) else None
+
+
+SYSTEM: dict[tuple[float, float], Callable[[Machine, float], float | None]] = {
+    (20, 1): lambda m, index: float(m.tool.number),
+    (20, 3): lambda m, index: tool_axis(m),
+    (20, 4): lambda m, index: m.speed,
+    (20, 5): lambda m, index: spindle_status(m),
+    (20, 8): lambda m, index: coolant_status(m),
+    (20, 9): lambda m, index: m.feed,
+    (210, 4): scale,
+}
+
+
+@FUNCTIONS("FN 18,", "Reading system data", takes="target ID NR IDX", source="FN")
+def read_system(m: Machine, words: Words) -> None:
+    """ID20: tool, axis, speed, spindle, coolant, feed (NR 1, 3, 4, 5, 8, 9); ID210 NR4: the scale of axis IDX."""
+    identity, number = m.value(words["ID"]), m.value(words["NR"])
+    index = m.value(words["IDX"]) if "IDX" in words else 1.0
+    read = SYSTEM.get((identity, number))
+    value = read(m, index) if read else None
+    if value is None:
+        m.alarm(
+            f"FN 18: SYSREAD ID{identity:g} NR{number:g} IDX{index:g} is not built yet, or has no value", words["ID"]
+        )
+    give(m, words["target"], value)
+
+
+@FUNCTIONS("FN 17,", "Writing system data", takes="ID NR IDX value", source="FN")
+def write_system(m: Machine, words: Words) -> None:
+    """ID990 NR6: the input of the probe for cycle 3; the probe here answers at either."""
+    identity, number = m.value(words["ID"]), m.value(words["NR"])
+    if (identity, number) != (990, 6) or "IDX" in words:
+        m.alarm(f"FN 17: SYSWRITE ID{identity:g} NR{number:g} is not built yet", words["ID"], "ID990 NR6 is")
+    m.memory["probe input"] = m.value(words["value"])
+    m.log("probe input", m.memory["probe input"])

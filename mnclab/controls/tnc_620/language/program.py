@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.cycles.transformations import cancel
+from mnclab.controls.tnc_620.cycles.chain import cancel
+from mnclab.controls.tnc_620.language import parameters
 from mnclab.controls.tnc_620.words import INCH
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -22,6 +23,10 @@ class Blank(NamedTuple):
     minimum: Corner
     maximum: Corner | None = None
 
+    def __str__(self) -> str:
+        corners = (corner for corner in (self.minimum, self.maximum) if corner)
+        return " to ".join("X{:g} Y{:g} Z{:g}".format(*corner) for corner in corners)
+
 
 def start(m: Machine) -> None:
     """The active preset is the datum of the program (setting "preset")."""
@@ -30,6 +35,7 @@ def start(m: Machine) -> None:
     if any((preset.a, preset.b, preset.c, preset.rotation)):
         m.alarm(f"preset {row} carries a rotation, which is not built yet")
     m.select_datum(preset, "preset")
+    parameters.start(m)
 
 
 @FUNCTIONS("BEGIN PGM,", "Program begin", takes="name unit", source="BEGIN PGM")
@@ -37,22 +43,31 @@ def begin(m: Machine, words: Words) -> None:
     """Names the program and its unit; lengths and feeds of an INCH program become mm where they are read."""
     m.memory["name"], m.memory["unit"] = words["name"].value if "name" in words else "", words["unit"].value
     m.variable_unit = INCH if words["unit"].value == "INCH" else 1.0
+    m.memory.setdefault("main unit", words["unit"].value)  # the first one is that of the main program
 
 
 @FUNCTIONS("END PGM,", "Program end", takes="name unit", phase="last", source="END PGM")
 def end(m: Machine, words: Words) -> None:
-    """The last block of a program."""
+    """The last block of a program; a program that was called goes back to the one that calls."""
     name, unit = words["name"].value if "name" in words else "", words["unit"]
     if "unit" in m.memory and unit.value != m.memory["unit"]:
         m.alarm(f"END PGM says {unit.value}, BEGIN PGM {m.memory['unit']}", unit)
     if "name" in m.memory and name != m.memory["name"]:
         m.warn(f"END PGM names {name}, BEGIN PGM {m.memory['name']}", words.words[0])
-    finish(m)
+    if m.flow.called:
+        m.flow.end_program()
+    else:
+        finish(m)
 
 
 def finish(m: Machine) -> None:
-    """The end of the run: spindle off, transformations cancelled (11.1)."""
+    """The end of the run: spindle and coolant off, transformations cancelled (11.1)."""
+    if (blank := m.memory.get("stock")) is not None and blank.maximum is None:
+        m.warn("the blank has no greatest corner: BLK FORM 0.2 is missing")
     m.spindle(turning=0)
+    if m.modal.get("coolant", "M9") != "M9":
+        m.set_modal("coolant", "M9")
+        m.coolant()
     cancel(m)
     m.ended = True
 
@@ -62,9 +77,11 @@ def least_corner(m: Machine, words: Words) -> None:
     """Tool axis and the corner with the least coordinates; for pictures only, no motion."""
     if "axis" not in words:
         m.alarm("BLK FORM 0.1 needs the tool axis", None, hint="for example BLK FORM 0.1 Z X+0 Y+0 Z-20")
+    if (blank := m.memory.get("stock")) is not None and blank.maximum is None:
+        m.alarm("BLK FORM 0.1 stands twice: BLK FORM 0.2 belongs behind the first", words["axis"])
     axis = str(words["axis"].value)
-    if axis != "Z":
-        m.alarm(f"BLK FORM 0.1: the tool axis {axis} is not built yet, Z is", words["axis"])
+    if axis not in ("X", "Y", "Z"):
+        m.alarm(f"BLK FORM 0.1: the tool axis must be X, Y or Z, got {axis}", words["axis"])
     keep(m, Blank(axis, corner(m, words, None)))
 
 
@@ -116,7 +133,12 @@ def program_stop(m: Machine, words: Words) -> None:
     m.stop()
 
 
-@FUNCTIONS("M2 M30", "Program end", phase="last", modal=False, source="M2")
+@FUNCTIONS("M2 M30", "Program end", group="program end", phase="last", modal=False, source="M2")
 def program_end(m: Machine, words: Words) -> None:
     """The run ends after this block; subprograms may follow it."""
+    if m.flow.called:
+        m.alarm(
+            f"{words.code} ends the run and cannot stand in a program that was called", words.words[0],
+            "a called program ends with END PGM",
+        )  # fmt: skip
     finish(m)

@@ -1,0 +1,31 @@
+"""Another program as a cycle (12.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mnclab.controls.tnc_620.language.flow import call_program
+from mnclab.machine import programs
+from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.machine import Machine
+from mnclab.text.alarm import Alarm
+
+CYCLES = CycleTable()
+
+
+@CYCLES("CYCL DEF 12", "Program call", runs="call", source="12.3")
+class ProgramCall(Cycle):
+    """Makes a program the cycle that CYCL CALL and M99 run; Q parameters count for both programs."""
+
+    program_name: str = param("PGM", "name of the program", "text", type="text", modal=True)
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """There is a program of this name."""
+        try:
+            programs.called(m, self.program_name, self.code)
+        except Alarm as missing:
+            yield "program_name", missing.message.removeprefix(f"{self.code} ")
+
+    def moves(self, m: Machine) -> None:
+        """Those of the program, from where the tool stands."""
+        call_program(m, self.program_name, self.code, None)
