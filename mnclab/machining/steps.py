@@ -8,6 +8,7 @@ active. ``label`` says what is happening, for listings and pictures.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from mnclab.geometry.contours import Contour
@@ -44,11 +45,12 @@ class Along(NamedTuple):
 
 
 class Thread(NamedTuple):
-    """A straight move by one pitch (mm, positive) for each revolution of the spindle."""
+    """A straight move by ``pitch`` (mm of its way, positive) for each revolution of the spindle."""
 
     label: str
-    z: float
+    z: float | None
     pitch: float
+    x: float | None = None
 
 
 class Wait(NamedTuple):
@@ -81,3 +83,9 @@ class Coolant(NamedTuple):
 
 
 Step = Go | Turn | Along | Thread | Wait | Spin | Orient | Coolant
+
+
+def along_x(steps: Iterable[Step]) -> Iterator[Step]:
+    """Steps of a hole whose axis is X and not Z: levels become coordinates in X."""
+    for step in steps:
+        yield step._replace(x=step.z, z=None) if isinstance(step, Go | Thread) else step

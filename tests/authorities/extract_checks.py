@@ -29,6 +29,10 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "nc-31": [
+        *("frame", "discretes", "G70", "G71", "G77", "G78", "contour exercise", "G73", "G72", "G74", "G75"),
+        *("G31", "G32", "G33", "G25", "fragment N90-N111"),
+    ],
     "tnc620-klartext": ["L", "C", "CT", "CP", "CALL LBL", "FN"],
     "tnc620-special": ["CYCL DEF 12"],
     "tnc620-threading": [
