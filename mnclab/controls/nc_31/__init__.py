@@ -7,7 +7,7 @@ radius everywhere else.
 
 from __future__ import annotations
 
-from mnclab.controls.nc_31 import drilling, functions, grooving, threads, turning
+from mnclab.controls.nc_31 import drilling, functions, grooving, notation, threads, turning
 from mnclab.controls.nc_31.reader import looks_like, read
 from mnclab.machine.control import Control
 from mnclab.machine.settings import Setting
@@ -65,6 +65,8 @@ MEANINGS = {
     **{f"G{n} M": "auxiliary function at the end of the move" for n in range(61, 68)},
 }  # fmt: skip
 
+CYCLES = turning.CYCLES | grooving.CYCLES | drilling.CYCLES | threads.CYCLES
+
 CONTROL = Control(
     name="nc-31",
     title="Elektronika NC-31 (lathe)",
@@ -73,7 +75,7 @@ CONTROL = Control(
     codes=("G",),
     read=read,
     functions=functions.FUNCTIONS | threads.FUNCTIONS,
-    cycles=turning.CYCLES | grooving.CYCLES | drilling.CYCLES | threads.CYCLES,
+    cycles=CYCLES,
     phases=("motion",),
     settings=SETTINGS,
     start=functions.power_on,
@@ -82,4 +84,5 @@ CONTROL = Control(
     meanings=MEANINGS,
     one_command=True,
     lathe=True,
+    modern=lambda program: notation.modern(program, CYCLES),
 )

@@ -30,6 +30,14 @@ def too_far(name: str, size: float, room: float) -> Iterator[tuple[str, str]]:
         yield name, f"must be at most {room:g}, the distance to the start, got {size:g}"
 
 
+def back(end: float, size: float, start: float, scale: float) -> float:
+    """The coordinate, mm, that lies ``size`` from ``end`` (both in discretes) towards ``start`` (mm).
+
+    Added as whole numbers: a bevel as long as the way to the start ends exactly there.
+    """
+    return (end + math.copysign(size, start * scale - end)) / scale
+
+
 # --- one pass --------------------------------------------------------------------------------------------------------
 
 
@@ -69,7 +77,7 @@ class LongitudinalPass(FromStart):
         """Once around the contour."""
         x1, _, z1 = m.programmed
         x, z = self.x / discretes.X, self.z / discretes.Z
-        bevel = x + math.copysign(self.p1 / discretes.X, x1 - x), z + math.copysign(self.p2 / discretes.Z, z1 - z)
+        bevel = back(self.x, self.p1, x1, discretes.X), back(self.z, self.p2, z1, discretes.Z)
         if self.facing:
             start, shoulder = (z1, x1), Shoulder(finish=z, corner=bevel[0], rim=bevel[1], far=x)
         else:
@@ -140,8 +148,7 @@ class LongitudinalRoughing(FromStart):
         """Start and contour as (across, along), mm."""
         x1, _, z1 = m.programmed
         x, z = self.x / discretes.X, self.z / discretes.Z
-        corner = z + math.copysign(self.bevel / discretes.Z, z1 - z)
-        return (x1, z1), Shoulder(finish=x, corner=corner, rim=x1, far=z)
+        return (x1, z1), Shoulder(finish=x, corner=back(self.z, self.bevel, z1, discretes.Z), rim=x1, far=z)
 
     def moves(self, m: Machine) -> None:
         """Roughing passes, clean-up, return."""
@@ -190,6 +197,5 @@ class TransverseRoughing(LongitudinalRoughing):
         x1, _, z1 = m.programmed
         x, z = self.x / discretes.X, self.z / discretes.Z
         if m.settings["g78_bevel"] == "along_x":
-            corner = x + math.copysign(self.bevel / discretes.X, x1 - x)
-            return (z1, x1), Shoulder(finish=z, corner=corner, rim=z1, far=x)
-        return (z1, x1), Shoulder(finish=z, corner=x1, rim=z + math.copysign(self.bevel / discretes.Z, z1 - z), far=x)
+            return (z1, x1), Shoulder(finish=z, corner=back(self.x, self.bevel, x1, discretes.X), rim=z1, far=x)
+        return (z1, x1), Shoulder(finish=z, corner=x1, rim=back(self.z, self.bevel, z1, discretes.Z), far=x)
