@@ -251,7 +251,7 @@ def check_value(definition: Definition, parameter: Parameter, value: Any) -> Non
     """An Alarm when a number, or one of several, is outside what its parameter allows."""
     for number in value if isinstance(value, tuple) else (value,):
         if isinstance(number, int | float) and parameter.refuses(number):
-            raise fault(definition, parameter, f"must be {parameter.allowed}, got {number:g}")
+            raise fault(definition, parameter, f"must be {parameter.allowed}, got {number:.10g}")
 
 
 def refuse_marks(cycle: type[Cycle], code: str, head: Word) -> None:

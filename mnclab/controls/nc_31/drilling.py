@@ -22,7 +22,7 @@ AFTER = "left out: it stays on the axis of the hole"
 def faults(m: Machine, feed: float | None, peck: float, depth: float) -> Iterator[tuple[str, str]]:
     """A peck that is not deeper than the hole, not too many of them, and a feed."""
     if peck > depth * (1 + 1e-9):
-        yield "peck", f"must be at most {depth:g}, the depth of the hole, got {peck:g}"
+        yield "peck", f"must be at most {depth:.10g}, the depth of the hole, got {peck:.10g}"
     yield from too_many("peck", lambda: infeeds(0, depth, peck))
     if feed is None and m.feed is None:
         yield "", "needs a feed: F here, or before it"

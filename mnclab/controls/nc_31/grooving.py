@@ -33,7 +33,7 @@ class Grooving(FromStart):
         yield from apart(None, self.z, m) if self.face else apart(self.x, None, m)
         way, axis = (abs(self.x - x1), "X") if self.face else (abs(self.z - z1), "Z")
         if self.pitch > way * (1 + 1e-9):
-            yield "pitch", f"must be at most {way:g}, the way along {axis} to the last groove, got {self.pitch:g}"
+            yield "pitch", f"must be at most {way:.10g}, the way along {axis} to the last groove, got {self.pitch:.10g}"
         yield from too_many("pitch", lambda: places(0, way, self.pitch))
         if self.feed is None and m.feed is None:
             yield "", "needs a feed: F here, or before it"

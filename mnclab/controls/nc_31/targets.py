@@ -40,9 +40,9 @@ def apart(x: float | None, z: float | None, m: Machine) -> Iterator[tuple[str, s
     """Faults of ends that lie at the start."""
     x1, z1 = here(m)
     if x is not None and abs(x - x1) < 1e-6:
-        yield "x", f"must differ from the start diameter, got {x:g}"
+        yield "x", f"must differ from the start diameter, got {x:.10g}"
     if z is not None and abs(z - z1) < 1e-6:
-        yield "z", f"must differ from the Z of the start, got {z:g}"
+        yield "z", f"must differ from the Z of the start, got {z:.10g}"
 
 
 def feed_word(meaning: str, unit: str = "0.0001 mm/rev", default: str = "the modal feed", example: float = 2000) -> Any:

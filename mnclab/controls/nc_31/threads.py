@@ -86,11 +86,11 @@ class ThreadCutting(FromStart):
         yield from too_many("depth_per_pass", self.depths)
         angle, length = m.settings["parameter_6"], abs(self.z - here(m)[1]) / discretes.Z
         if not abs(angle) < 90:
-            yield "", f"needs machine parameter 6 (infeed angle) to be less than 90 degrees, it is {angle:g}"
+            yield "", f"needs machine parameter 6 (infeed angle) to be less than 90 degrees, it is {angle:.10g}"
         shift = self.depths()[-1] * math.tan(math.radians(angle))
         if shift + self.run_out(m) >= length:
             ends = f"the infeed angle takes {max(shift, 0):.3f} mm and the run-out {self.run_out(m):.3f} mm"
-            yield "", f"has no thread left: of {length:g} mm {ends} (machine parameters 6 and 7)"
+            yield "", f"has no thread left: of {length:.10g} mm {ends} (machine parameters 6 and 7)"
 
     def run_out(self, m: Machine) -> float:
         """Machine parameter 7: tenths of the pitch, as mm."""
@@ -152,7 +152,7 @@ def thread_move(m: Machine, words: Words) -> None:
         m.alarm("G32 needs X or Z", head, "tie their frames to it with the mark *")
     feed = m.value(words["F"]) if "F" in words else None
     if feed is not None and not 1 <= feed <= 999_999:
-        m.alarm(f"G32 F (pitch, 0.0001 mm) must be from 1 to 999999, got {feed:g}", words["F"])
+        m.alarm(f"G32 F (pitch, 0.0001 mm) must be from 1 to 999999, got {feed:.10g}", words["F"])
     for _, sentence in needs_pitch(m, feed):
         m.alarm(f"G32 {sentence}", head)
     dx, dz = (ends.get(name, m.programmed[k]) - m.programmed[k] for name, k in (("x", 0), ("z", 2)))

@@ -27,7 +27,7 @@ ORIGIN = (0.0, 0.0)  # steps have coordinates of the program
 def too_far(name: str, size: float, room: float) -> Iterator[tuple[str, str]]:
     """A bevel that is longer than the way to the start."""
     if size > room * (1 + 1e-9):
-        yield name, f"must be at most {room:g}, the distance to the start, got {size:g}"
+        yield name, f"must be at most {room:.10g}, the distance to the start, got {size:.10g}"
 
 
 def back(end: float, size: float, start: float, scale: float) -> float:
@@ -131,7 +131,7 @@ class LongitudinalRoughing(FromStart):
         start, shoulder = self.contour(m)
         passes = count_of_levels(start[0], shoulder.finish, self.depth(m))
         if passes > MOST_PASSES:
-            yield "stock_per_pass", f"{self.stock_per_pass:g} gives {passes} passes, allowed are {MOST_PASSES}"
+            yield "stock_per_pass", f"{self.stock_per_pass:.10g} gives {passes} passes, allowed are {MOST_PASSES}"
         breaks = passes * count_of_breaks(start[1], shoulder.far, m.settings["parameter_10"] / discretes.TRAVEL)
         if breaks > 10 * MOST_PASSES:
             yield "", f"would break the chip {breaks} times: machine parameter 10 is too small"

@@ -117,3 +117,33 @@ def test_the_control_explains_itself():
     assert "stock removed per pass" in str(mnclab.help("G77", "nc-31"))
     with pytest.raises(mnclab.Alarm, match="G2: arcs stand in a chapter that the source does not have"):
         mnclab.help("G2", "nc-31")
+
+
+def test_a_block_is_explained_word_by_word():
+    """Each P by its place in the group; words of functions by their meaning in discretes."""
+    run = run_of(
+        "S300",
+        "F20",
+        "G31*",
+        "X5800*",
+        "Z-2000*",
+        "F15000*",
+        "P92*",
+        "P46*",
+        "P5",
+        "G32*",
+        "Z0*",
+        "F9000",
+        "G61*",
+        "M9",
+    )
+    says = [[meaning.says for meaning in run.explain(step=step).meanings] for step in (2, 3, 4)]
+    assert says[0][3:] == [
+        "pitch, 0.0001 mm (G31)", "depth of the thread, 0.01 mm on radius (G31)",
+        "depth of cut per pass, 0.01 mm on radius (G31)", "taper, 0.01 mm on diameter (G31)",
+    ]  # fmt: skip
+    assert "coordinate along the axis, 0.01 mm" in says[1][1] and "pitch, 0.0001 mm" in says[1][2]
+    assert "auxiliary function at the end of the move" in says[2][1]
+    for code, function in run.control.functions.items():
+        for address in function.takes:
+            assert run.control.meanings.get(f"{code} {address}") or run.control.meanings.get(address.rstrip("*"))

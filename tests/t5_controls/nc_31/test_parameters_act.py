@@ -154,3 +154,18 @@ def test_tapping_turns_the_spindle_back():
     assert path.spindle[path.kind == Kind.SPINDLE].tolist() == [-300, 300, -300]
     cut = path[path.kind == Kind.LINE]
     assert cut.end[:, 2].tolist() == [-20, 5] and cut.per_rev.tolist() == [1.25, 1.25] and cut.synchronous.all()
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        ({"parameter_6": 90}, "machine parameter 6 (infeed angle) to be less than 90 degrees, it is 90"),
+        ({"parameter_6": 89}, "of 32 mm the infeed angle takes 52.707 mm and the run-out 0.000 mm"),
+        ({"parameter_7": 214}, "of 32 mm the infeed angle takes 0.000 mm and the run-out 32.100 mm"),
+    ],
+)
+def test_machine_parameters_that_leave_no_thread(settings, sentence):
+    """0.92 tan 89 degrees is 52.707; 21.4 pitches of 1.5 mm are 32.1; the thread goes from Z2 to Z-30."""
+    program = trial.program("nc-31", CONTROL.cycles["G31"], beginning("G31"))
+    found = mnclab.run(program, "nc-31", Setup(start=(30, 0, 20), settings=settings))
+    assert sentence in found.alarms[0].message and found.alarms[0].span[:2] == (6, 1)
