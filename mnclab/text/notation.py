@@ -34,7 +34,8 @@ class Notation:
         return "\n".join(row.modern for row in self.rows if row.modern)
 
     def __str__(self) -> str:
-        wide = max(len(row.original) for row in (*self.rows, NotationRow(0, self.titles[0], "")))
+        told = [row.original for row in self.rows if row.modern or not row.lines]  # a remark alone may be wider
+        wide = max(map(len, [self.titles[0], *told]))
         lines = [f"{self.titles[0]:{wide}}  {self.titles[1]}", f"{'-' * wide}  {'-' * len(self.titles[1])}"]
         return "\n".join([*lines, *(f"{row.original:{wide}}  {row.modern}".rstrip() for row in self.rows)])
 

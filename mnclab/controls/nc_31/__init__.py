@@ -15,7 +15,12 @@ from mnclab.machine.settings import Setting
 SETTINGS = (
     Setting("parameter_6", 0, "G31: infeed angle of the thread", "group P, adopted 0", unit="deg"),
     Setting(
-        "parameter_7", 0, "G31: run-out at the end of the thread", "group P, adopted 0", unit="0.1 pitch", at_least=0
+        "parameter_7",
+        0,
+        "G31: run-out at the end of the thread",
+        "group P, adopted 0",
+        unit="tenths of the pitch",
+        at_least=0,
     ),
     Setting(
         "parameter_8",

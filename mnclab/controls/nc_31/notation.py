@@ -31,12 +31,11 @@ def modern(program: Program, cycles: CycleTable) -> Notation:
     last = 0  # line of the last frame of the command being told
     for line in range(1, len(program.line_starts) + 1):
         text = program.line_text(line)
-        remark = text.partition(";")[2].strip()
-        said, count = f"({remark})" if remark else "", 0 if line <= last else 1
+        said, count = "", 0 if line <= last else 1  # remarks stand beside already
         if line in commands:
-            words, lines = commands[line]
+            said, lines = commands[line]
             last = max(lines, default=line)
-            said, count = f"{words} {said}".strip(), last - line + 1
+            count = last - line + 1
         if text.strip() or said:
             rows.append(NotationRow(line, text.lstrip("\ufeff").rstrip(), said, count))
     return Notation(tuple(rows), program.name, ("NC-31", "modern notation"))
