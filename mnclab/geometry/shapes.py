@@ -44,18 +44,36 @@ def rectangle(
 def slot(line: Contour, width: float) -> Contour:
     """What lies within width / 2 of one straight line or one arc; it begins beyond the end of the line.
 
-    Raises ValueError where the line has more than one element, or is bent too much for the width.
+    An arc may come in pieces, so that it can go all the way round. Raises ValueError where the line has a corner, or is
+    bent too much for the width.
     """
-    if line.closed or len(line.starts) != 1:
+    if not is_smooth(line):
         raise ValueError("a slot has a centre line of one straight line or one arc")
-    half, bulge = width / 2, float(line.bulge[0])
-    if not 0 < half < line.radii[0]:
+    half, bulge = width / 2, line.bulge[:-1]
+    if not 0 < half < line.radii.min():
         raise ValueError(f"a slot {width:g} wide does not fit its centre line")
-    (start,), (end,) = line.starts, line.ends
-    (ahead,), (away,) = line.tangents()
-    cap = [end + half * away, end + half * left(away), start + half * left(ahead)]
-    cap += [start - half * ahead, start - half * left(ahead), end - half * left(away)]
-    return Contour(cap, [QUARTER, -bulge, QUARTER, QUARTER, bulge, QUARTER])
+    begins, ends = line.tangents()
+    aside = half * left(np.vstack([begins, ends[-1:]]))
+    beyond, before = line.points[-1] + half * ends[-1], line.points[0] - half * begins[0]
+    points = np.vstack([beyond, (line.points + aside)[::-1], before, line.points - aside])
+    return Contour(points, np.concatenate([[QUARTER], -bulge[::-1], [QUARTER, QUARTER], bulge, [QUARTER]]))
+
+
+def is_smooth(line: Contour) -> bool:
+    """Whether an open contour is one straight line or one arc, in any number of pieces."""
+    begins, ends = line.tangents()
+    bends = np.sign(line.bulge[:-1]) / line.radii
+    return not line.closed and bool(
+        np.allclose(begins[1:], ends[:-1], atol=1e-6) and np.allclose(bends, bends[0], rtol=1e-6)
+    )
+
+
+def arc(radius: float, begin: float, sweep: float) -> Contour:
+    """An arc about (0, 0) from the angle `begin` (rad) on, at most a full turn; above half a turn in two pieces."""
+    count = 1 if abs(sweep) <= np.pi else 2
+    way = begin + sweep * np.arange(count + 1) / count
+    bulge = np.append(np.full(count, np.tan(sweep / count / 4)), 0.0)
+    return Contour(radius * np.stack([np.cos(way), np.sin(way)], axis=1), bulge, closed=False)
 
 
 def polygon(corners: int, radius: float, *, centre: ArrayLike = (0, 0), angle: float = 0.0) -> Contour:

@@ -110,7 +110,7 @@ class Bulk:
             done = repeat_hole(self, first, end, SHORTEST)
             self.size = min(8 * self.size, LARGEST) if done == end - first - 1 else SHORTEST
             return done
-        if self.machine.per_rev or not rule.ready(self.machine):
+        if self.machine.per_rev or self.machine.pending or not rule.ready(self.machine):
             return 0
         run = self.work_out(first, end)
         good = int(np.argmax(run.fault)) if run.fault.any() else end - first

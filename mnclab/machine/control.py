@@ -17,7 +17,7 @@ from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
 
 if TYPE_CHECKING:
-    from mnclab.machine.cycle import CycleTable
+    from mnclab.machine.cycle import CycleTable, Parameter
     from mnclab.machine.machine import Machine
     from mnclab.path.compensation import Compensation
 
@@ -49,7 +49,8 @@ class Function:
     """A preparatory, auxiliary or word function of a control.
 
     ``moves``: belongs to the motion of the block, and runs for later blocks while it is modal. ``still``: a block with it
-    moves nothing. ``ends_cycle``: an active cycle is over before the motion of the block.
+    moves nothing. ``ends_cycle``: an active cycle is over before the motion of the block. ``collects``: motion that waits for
+    later blocks may go on waiting; before any other function it is made.
     """
 
     code: str
@@ -63,6 +64,7 @@ class Function:
     moves: bool = False
     still: bool = False
     ends_cycle: bool = False
+    collects: bool = False
     source: str = ""
     doc: str = ""
 
@@ -83,6 +85,7 @@ class FunctionTable(dict[str, Function]):
         moves: bool = False,
         still: bool = False,
         ends_cycle: bool = False,
+        collects: bool = False,
         source: str = "",
     ) -> Callable[[AnyObey], AnyObey]:
         """Register one function for several codes; ``title`` may differ by code.
@@ -105,6 +108,7 @@ class FunctionTable(dict[str, Function]):
                     moves=moves,
                     still=still,
                     ends_cycle=ends_cycle,
+                    collects=collects,
                     source=source,
                     doc=(obey.__doc__ or "").strip(),
                 )
@@ -123,13 +127,15 @@ class Control:
     ``codes`` are the addresses whose value makes a code (G and M). ``word_functions``: an address may be a function by
     itself (F, S, T), which a control of keywords does not want, where C is a statement and an axis. ``motion`` is the
     group whose modal function runs when axis words are left over. ``storage`` says where cycle parameters live until
-    the call ("instance" or "variables"). ``together`` raises alarms for words that may not stand in one block; it is
-    asked once for each kind of block.
+    the call ("instance" or "variables"). ``together`` raises alarms for a keyword and words that may
+    not stand in one block; it is asked once for each kind of block.
     ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
     ("G4 P").
-    ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself.
+    ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; ``predefined``
+    what PREDEF stands for in a parameter of a cycle of a code; ``calls_again`` whether a modal call of a cycle (a modal
+    function of the group "call") calls it in a block with a keyword and words.
     ``preassigned`` are variables that the control keeps itself; names that begin with ``local_variables`` belong to one
     program. ``modern`` writes a program in the notation of today, where the control's own is another.
     """
@@ -154,10 +160,12 @@ class Control:
     looks_like: Callable[[str], bool] | None = None
     refused: Mapping[str, str] = field(default_factory=dict)
     meanings: Mapping[str, str] = field(default_factory=dict)
-    together: Callable[[Machine, list[Word]], None] | None = None
+    together: Callable[[Machine, str, list[Word]], None] | None = None
     bulk: Any = None
     one_command: bool = False
     named: Callable[[Machine, Word], float | str] | None = None
+    predefined: Callable[[Machine, str, Parameter, Word], float | str] | None = None
+    calls_again: Callable[[Machine, str, list[Word]], bool] | None = None
     lathe: bool = False
     preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
     local_variables: str = ""

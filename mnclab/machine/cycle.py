@@ -141,6 +141,8 @@ class Cycle:
     source: ClassVar[str] = ""
     triggers: ClassVar[tuple[str, ...]] = ()
     """Addresses that run a "position" cycle in a later block."""
+    in_variables: ClassVar[bool] = True
+    """Whether its Q parameters are variables of the program, on a control that has them."""
     own_spindle: ClassVar[bool] = False
     """Whether it turns the spindle itself, so that none need turn before it."""
 
@@ -177,6 +179,7 @@ class Cycle:
         """The motion of the cycle, in verbs of the machine."""
 
 
+MOST_PASSES = 100_000  # of one cycle, all its levels together
 AnyCycle = TypeVar("AnyCycle", bound=type[Cycle])
 
 
@@ -268,6 +271,12 @@ def too_many(name: str, levels: Callable[[], object]) -> Iterator[tuple[str, str
         levels()
     except TooMany as error:
         yield name, str(error)
+
+
+def few_passes(name: str, levels: int, passes: int) -> Iterator[tuple[str, str]]:
+    """A fault where nobody would wait for so many passes."""
+    if levels * passes > MOST_PASSES:
+        yield name, f"makes {levels} levels of {passes} passes, more than {MOST_PASSES} together"
 
 
 def fault(definition: Definition, parameter: Parameter | None, sentence: str) -> Alarm:

@@ -172,8 +172,9 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
                 assert word is not None
                 before_it = [block.words[i].address for i in action.takes if i < index]
                 says, source = _parameter(what, action.code, word, before_it.count(word.address)), ""
-            shown = str(word) if word is not None else block.keyword or f"({action.code})"
-            if word is None and not block.keyword:
+            kept = word is None and action.code != block.keyword  # modal, not written in this block
+            shown = str(word) if word is not None else f"({action.code})" if kept else block.keyword
+            if kept:
                 says = f"{says}, active from before"
             value = _value(run, moment, word) if word is not None else ""
             if value:
@@ -184,7 +185,8 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
             if word is not None and word.address.startswith("Q") and word.address in changed:
                 before, after = changed[word.address]
                 happened = f"{before or 'none'} -> {after}"
-            found[index] = Meaning(shown, value, action.code, says, source, happened)
+            place = len(block.words) if kept and block.keyword else index
+            found[place] = Meaning(shown, value, action.code, says, source, happened)
     return [found[index] for index in sorted(found)]
 
 

@@ -9,6 +9,7 @@ time than obeying them.
 from __future__ import annotations
 
 from collections import deque
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
 from mnclab.machine.programs import alarms_of
+from mnclab.machine.waiting import determine
 from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
 from mnclab.text.expression import Expression
@@ -94,6 +96,7 @@ class Interpreter:
             self.control.start(self.machine)
         with progress("running", len(self.program), "blocks") as self.machine.flow.watched:
             self.machine.flow.section(0, len(self.program))
+        determine(self.machine)
         if self.control.finish and not self.machine.ended:
             self.control.finish(self.machine)
 
@@ -115,6 +118,9 @@ class Interpreter:
         for which, sentence, hint in plan.remarks:
             machine.warn(sentence, words[which], hint)
         for (_, what, code, head, _), pick in plan.actions:
+            if machine.pending and not (isinstance(what, Function) and what.collects):
+                determine(machine)
+                before = machine.programmed
             if isinstance(what, Function):
                 if what.group and what.modal and machine.modal.get(what.group) != what.code:
                     machine.set_modal(what.group, what.code)
@@ -164,7 +170,8 @@ class Interpreter:
         """The plan for this kind of block, made when it is first met."""
         machine = self.machine
         active = machine.position_cycle.cycle if machine.position_cycle else None
-        key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None)
+        calling = machine.modal.get("call")
+        key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None, calling)
         plan = self.plans.get(key)
         if plan is None:
             plan = self.plans[key] = Planner(self.control, machine, self.phases, keyword, words, active).plan()
@@ -190,7 +197,7 @@ class Interpreter:
             definition = Definition(cycle, code, values, words, head)
         definition.program = machine.program
         definition.values = cycle.prepare(values, words, machine, definition.extra)
-        if self.control.storage == "variables":
+        if self.control.storage == "variables" and cycle.in_variables:
             store(machine, definition)
         if cycle.runs == "definition":
             self.execute(definition)
@@ -204,6 +211,8 @@ class Interpreter:
             else:
                 instance(definition)
             machine.cycle, machine.position_cycle = definition, None
+            if machine.modal.get("call"):
+                machine.set_modal("call", "")  # a new cycle ends the modal call of the old one
         else:
             machine.cycle, machine.position_cycle = None, definition
             self.execute(definition)
@@ -219,13 +228,15 @@ class Interpreter:
         for word in given:
             fitting = (p for p in cycle.parameters() if word.address in (p.address, *p.aliases))
             parameter = next(p for p in fitting if p.several or p.name not in words)
-            value = self.value_of(parameter, code, word)
+            value = self.value_of(parameter, code, word, cycle.in_variables)
             words.setdefault(parameter.name, word)
             values[parameter.name] = (*values.get(parameter.name, ()), value) if parameter.several else value
         return values, words
 
-    def value_of(self, parameter: Parameter, code: str, word: Word) -> Any:
+    def value_of(self, parameter: Parameter, code: str, word: Word, in_variables: bool = True) -> Any:
         """The number of a parameter; a word in place of a number only where it is allowed."""
+        if word.value == "PREDEF" and self.control.predefined:
+            return self.control.predefined(self.machine, code, parameter, word)
         if isinstance(word.value, str) and parameter.type != "text":
             if word.value.rstrip("0123456789.") not in parameter.also:
                 allowed = f"a number{', ' + ', '.join(parameter.also) if parameter.also else ''}"
@@ -236,7 +247,7 @@ class Interpreter:
         if word.value is None or isinstance(word.value, str):
             return word.value
         value = self.machine.value(word)
-        if self.control.storage == "variables" and is_variable(parameter):
+        if in_variables and self.control.storage == "variables" and is_variable(parameter):
             self.machine.variables[parameter.address] = value  # exactly as written
         return value * unit_of(self.machine, parameter)
 
@@ -278,24 +289,22 @@ def verify(definition: Definition) -> None:
 
 def run_cycle(machine: Machine, definition: Definition) -> None:
     """Bind a definition with the values as they stand now, check it, and make its moves."""
-    if machine.control.storage == "variables":
-        numbers = {
-            p.name: machine.variables[p.address] * unit_of(machine, p)
-            for p in definition.cycle.parameters()
-            if is_variable(p) and p.address in machine.variables
-        }
-        definition = Definition(
-            definition.cycle,
-            definition.code,
-            definition.values | numbers,
-            definition.words,
-            definition.head,
-            definition.extra,
-            definition.program,
-        )
+    definition = as_it_stands(machine, definition)
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
     try:
         bind(definition, machine).moves(machine)
     except TooMany as error:
         raise fault(definition, None, str(error)) from None
     machine.label = label
+
+
+def as_it_stands(machine: Machine, definition: Definition) -> Definition:
+    """A definition with the numbers that its variables have now."""
+    if machine.control.storage == "variables" and definition.cycle.in_variables:
+        numbers = {
+            p.name: machine.variables[p.address] * unit_of(machine, p)
+            for p in definition.cycle.parameters()
+            if is_variable(p) and p.address in machine.variables
+        }
+        return replace(definition, values=definition.values | numbers)
+    return definition

@@ -24,7 +24,9 @@ from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
 from mnclab.machine.touching import Touch, touch
 from mnclab.machine.variables import Measured, Variables
+from mnclab.machine.waiting import Pending
 from mnclab.path.compensation import Gouge
+from mnclab.path.feed_rules import FeedRule
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
@@ -82,6 +84,7 @@ class Machine:
         self.position_cycle: Definition | None = None
         self.pole: tuple[float, float] | None = None
         self.memory: dict[str, Any] = {}  # what a control keeps beside the common state
+        self.pending: Pending | None = None  # motion that waits for later blocks
 
         self.recorder = Recorder(self.tip)
         self.programmed_pieces: list[Toolpath] = []
@@ -89,6 +92,7 @@ class Machine:
         self.altered = False  # whether a pass changed anything
         self.cut: int | None = None  # the step of a fault found in a pass: nothing from there on counts
         self.gouges: list[Gouge] = []  # where the tool does not fit
+        self.feed_rules: list[FeedRule] = []  # how the feed depends on the way
         self._state: int | None = None
         self.log("position", self.programmed)
 
@@ -362,7 +366,7 @@ class Machine:
 
     def mark_joint(self, joint: Any) -> bool:
         """Put a joint on the last motion not settled yet; False if there is none, or if it has one already."""
-        return self.recorder.mark(joint)
+        return self.pending.mark(joint) if self.pending else self.recorder.mark(joint)
 
     def heading(self) -> tuple[float, float, float] | None:
         """The unit tangent at the end of the last motion not settled yet, in machine axes; None if there is none."""

@@ -1,19 +1,23 @@
-"""Holes under a modal cycle, repeated as columns.
+"""Holes at many places, repeated as columns.
 
 A program of a hundred thousand holes says the same hole a hundred thousand times: blocks of X and Y under a cycle that
 runs at each position. The first hole of such a run is made one by one, by the cycle itself. If it leaves the machine as
 it found it but for its place, every other hole is the same rows elsewhere, and only places are worked out here: rows,
 steps and history of all holes are the first one's, moved. The last hole goes one by one again, so that what the machine
 remembers of its last block is right without any bookkeeping here.
+
+:func:`at_each` does the same for the points of a pattern in one block.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry import frames
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import ROW
 
@@ -22,6 +26,7 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 Array = NDArray[np.float64]
+FEWEST = 8  # points worth repeating as columns
 
 
 def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
@@ -64,6 +69,46 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
     machine.step = step + count - 1
     machine.programmed, machine.tip = (x, y, z), machine.to_machine((x, y, z))
     return count + 1
+
+
+def at_each(m: Machine, points: Array, visit: Callable[[float, float], None]) -> None:
+    """Call ``visit`` with x and y at each of the points (n, 2), in their order; what it does must depend on them alone.
+
+    The first two and the last point are visited one by one. If the second visit leaves the machine as it found it but for
+    its place, the rows of those between are its rows, moved.
+    """
+    places = points.tolist()
+    several = len(points) >= FEWEST and not (np.diff(points, axis=0) == 0).all(axis=1).any()
+    for x, y in places[: 1 if several else len(places)]:
+        visit(x, y)
+    if not several:
+        return
+    before = _state(m)
+    m.recorder.room(0)  # the rows of the second visit will stand alone
+    waiting = m.recorder._count
+    visit(*places[1])
+    rows = np.array(m.recorder.rows).reshape(-1, len(ROW))
+    done = 2
+    if _state(m) == before and m.recorder._count == waiting and len(rows) and (rows[:, ROW.index("joint")] < 0).all():
+        level = m.programmed[2]
+        hole = m.to_machine((*places[1], level))
+        tips = frames.apply(m.frames.matrix, np.column_stack([points[2:-1], np.full(len(points) - 3, level)]))
+        n = len(tips)
+        m.recorder.expect(n * len(rows))
+        _moved(m, rows, hole, tips, np.full(n, m.step, dtype=np.int32), np.full(n, m.source_line))
+        (x, y), m.tip = places[-2], tuple(tips[-1].tolist())
+        m.programmed = (x, y, level)
+        done = len(places) - 1
+    for x, y in places[done:]:
+        visit(x, y)
+
+
+def _state(m: Machine) -> tuple[Any, ...]:
+    """What a visit must leave as it found it, so that the next one is the same."""
+    return (
+        m.programmed[2], m.cycle, dict(m.modal), dict(m.variables), m.feed, m.per_rev, m.speed, m.turning, m.tool, m.side,
+        m.plane, m.synchronous, len(m.alarms), m.ended, len(m.settled),
+    )  # fmt: skip
 
 
 def _places(bulk: Bulk, first: int, end: int) -> tuple[Array, NDArray[np.bool_]]:

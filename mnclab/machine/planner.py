@@ -58,7 +58,7 @@ class Planner:
 
     def plan(self) -> Plan:
         if self.control.together:
-            self.control.together(self.machine, self.words)
+            self.control.together(self.machine, self.keyword, self.words)
         codes = self.codes()
         cycle = next(((c, i) for c, i in codes if c in self.control.cycles), None)
         if cycle:
@@ -97,6 +97,7 @@ class Planner:
             prepared or at_once
         ):  # preparing a cycle moves nothing; one that runs at once makes all moves of its block
             self.modal_motion([f for f, _ in functions])
+        self.modal_call([f for f, _ in functions])
         self.refuse_leftovers([f for f, _ in functions])
         self.refuse_repeated()
         order = sorted(self.actions, key=lambda action: action.phase)
@@ -223,6 +224,16 @@ class Planner:
             not owner and word.address in function.takes for word, owner in zip(self.words, self.owner, strict=True)
         ):
             self.hand_out(function, -1)
+
+    def modal_call(self, functions: list[Function]) -> None:
+        """A modal call of a cycle runs it in every block that positions and has no call of its own."""
+        again = self.control.calls_again
+        modal = self.control.functions.get(self.machine.modal.get("call", ""))
+        own = next((f for f in functions if f.group == "call"), None)
+        if again is None or not (modal or (own and own.modal)):
+            return
+        if again(self.machine, self.keyword, self.words) and modal and own is None:
+            self.hand_out(modal, -1)
 
     def refuse_motion(self, functions: list[Function]) -> None:
         """A function that moves nothing beside one that moves: words of the motion."""

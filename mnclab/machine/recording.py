@@ -14,6 +14,7 @@ import numpy as np
 
 from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain, Matrix
+from mnclab.machine.waiting import determine
 from mnclab.path import corners
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import Recorder
@@ -54,6 +55,7 @@ def record(m: Machine, label: str, span: Span | None = None, after: Recording | 
     try:
         with m.variables.own_level():
             m.flow.call(label, span)
+            determine(m)
         path = corners.apply(m.recorder.take())
         chain, memory = m.frames, m.memory
     except PathFault as fault:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.path import compensation, corners, leads, rapids
+from mnclab.path import compensation, corners, feed_rules, leads, rapids
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import join
 from mnclab.path.toolpath import Toolpath, concatenate
@@ -57,6 +57,7 @@ def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.
     turned, gouge = corners.apply(piece, unfinished), str(m.settings.get("gouge", "refuse"))
     path = compensation.apply(turned, m.control.compensation, unfinished, gouge, report)
     path = leads.apply(path, turned, unfinished)
+    path = feed_rules.apply(path, m.feed_rules)
     return rapids.broken(path, m.setup.limits.rapid) if m.settings.get("rapid_path") == "broken" else path
 
 

@@ -135,7 +135,7 @@ def slot(
     exact = abs(width - 2 * radius) <= DRIFT
     reach = 0.0 if exact else width / 2 - radius - allowance
     _must_fit(reach, radius, allowance, f"a slot {width:g} wide")
-    if line.closed or len(line.starts) != 1:
+    if not shapes.is_smooth(line):
         raise ValueError("a slot has a centre line of one straight line or one arc")
     n = steps(reach, stepover or radius)
     rounds = [shapes.slot(line, 2 * reach * i / n) for i in range(1, n + 1)]

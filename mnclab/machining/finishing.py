@@ -14,6 +14,8 @@ from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import QUARTER
 from mnclab.machining.clearing import Clearing, Piece, numbered, room_for
 
+LEAST = 1e-6  # mm, of an arc up to a wall or off it
+
 
 def tangential(contour: Contour, radius: float, side: int, *, approach: bool = True, departure: bool = True) -> Contour:
     """A closed pass with quarter circles of a radius before and after it, on its left (`side` 1) or right (-1)."""
@@ -43,6 +45,24 @@ def leaving(contour: Contour, radius: float, side: int) -> Contour:
     (*_, away) = contour.tangents()[1]
     end = contour.points[0]
     return Contour([end, end + radius * (side * left(away) + away)], [side * QUARTER, 0.0], closed=False)
+
+
+def quarter_circles(contour: Contour, radius: float, side: int) -> tuple[Contour, ...]:
+    """The ways up to a wall and off it on quarter circles of a radius; none for a radius of 0."""
+    return (approaching(contour, radius, side), leaving(contour, radius, side)) if radius > LEAST else ()
+
+
+def half_circles(contour: Contour, diameter: float, side: int) -> tuple[Contour, ...]:
+    """The ways up to a wall and off it on half circles: both from and to the place that is a `diameter` away from it."""
+    if not diameter > LEAST:
+        return ()
+    (ahead, *_), (*_, away) = contour.tangents()
+    wall = contour.points[0]
+    before, after = wall + diameter * side * left(ahead), wall + diameter * side * left(away)
+    return (
+        Contour([before, wall], [float(side), 0.0], closed=False),
+        Contour([wall, after], [float(side), 0.0], closed=False),
+    )
 
 
 def walls(

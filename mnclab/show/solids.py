@@ -125,8 +125,12 @@ def size_of(path: Toolpath) -> float:
 
 
 def stock_of(run: Any) -> Body | None:
-    """The blank of the setup as a box in the coordinates of the path: two corners in machine coordinates."""
+    """The blank as a box in the coordinates of the path: two corners of the setup, in machine coordinates, or, where it has
+    none, those that the program gives last, which count from the origin of the path."""
     stock = run.setup.stock
+    if stock is None and (blanks := run.history.changed("stock")):
+        blank = blanks[-1][1]
+        return None if blank.maximum is None else box(blank.minimum, blank.maximum)
     if not isinstance(stock, tuple | list) or np.asarray(stock).shape != (2, 3):
         return None
     return box(*(np.asarray(corner, dtype=np.float64) - run.toolpath.origin for corner in stock))

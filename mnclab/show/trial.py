@@ -87,7 +87,11 @@ def _tnc_620(cycle: Any, words: Sequence[tuple[str, float]]) -> str | None:
         return None  # the old cycles stand in blocks of their own kind
     lines = [f"{cycle.code} {cycle.title.upper()}", *(f"  {address}={value:+.6g}" for address, value in words)]
     call = ["L X+20 Y+10 R0 FMAX M99"] if cycle.runs == "call" else []
-    start = ["BEGIN PGM TRIAL MM", "TOOL CALL 2 Z S1000", "L X+0 Y+0 Z+50 R0 FMAX M3"]
+    written = [address for address, _ in words]
+    tool = 1 if "Q207" in written and "Q239" not in written else 2  # an end mill; for holes and their threads the drill
+    start = ["BEGIN PGM TRIAL MM", f"TOOL CALL {tool} Z S1000", "L X+0 Y+0 Z+50 R0 FMAX M3"]
+    if cycle.code in ("CYCL DEF 220", "CYCL DEF 221"):  # which run the cycle before them
+        start += ["CYCL DEF 200 DRILLING", *"Q200=2 Q201=-15 Q206=120 Q202=5 Q210=0 Q203=0 Q204=20 Q211=0".split()]
     return "\n".join([*start, " ~\n".join(lines), *call, "END PGM TRIAL MM", ""])
 
 
@@ -97,8 +101,14 @@ def _nc_31(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
     return "\n".join(["S800", "M3", "F20", "X4000 ~ *", "Z200 ~", " *\n".join(frames), ""])
 
 
+def _g43(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+    block = " ".join([cycle.code, *(address + number(value) for address, value in words)])
+    return f"T2 M6\nG43 G0 X0 Y0 Z20 S1000 M3\n{block}\nG80\n"
+
+
 PROGRAMS: dict[str, Callable[[Any, Sequence[tuple[str, float]]], str | None]] = {
     "mnc": _mnc,
     "tnc-620": _tnc_620,
     "nc-31": _nc_31,
+    "g43": _g43,
 }

@@ -39,7 +39,7 @@ class Scan:
 
     ``letter`` (w,) upper-case ASCII, ``value`` (w,), ``offset`` (w,) of the letter in the text, ``length`` (w,) in
     characters; ``count`` (l,) words of each line, 0 where it is not clean; ``clean`` (l,); ``starts`` (l,) offsets of the
-    lines.
+    lines; ``indented`` whether any of them begins with a blank.
     """
 
     letter: NDArray[np.uint8]
@@ -49,6 +49,7 @@ class Scan:
     count: NDArray[np.int32]
     clean: NDArray[np.bool_]
     starts: NDArray[np.int32]
+    indented: bool
 
     @property
     def line(self) -> NDArray[np.int64]:
@@ -75,7 +76,7 @@ def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
     """Find the words of all clean lines.
 
     ``leading_number``: digits may stand before the first letter. ``bare``: letters that may begin a line without a
-    number of their own (``L X+1``); such a word has the value 0.
+    number of their own, alone (``L X+1``); such a word has the value 0.
     """
     # room for as many words as fit: memory that is never touched costs nothing, what is touched costs more than the work
     most = len(text) // 2 + 1
@@ -84,6 +85,7 @@ def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
     counts: list[NDArray[np.int32]] = []
     cleans: list[NDArray[np.bool_]] = []
     begin = found = 0
+    indented = False
     while begin < len(text) or not starts:
         end = _end_of_piece(text, begin)
         piece = _Piece(characters(text[begin:end]), leading_number, bare)
@@ -93,6 +95,7 @@ def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
         for column, part in zip(columns, words, strict=True):
             column[found:stop] = part
         columns[2][found:stop] += begin
+        indented |= bool((_KIND[piece.padded[piece.starts + 8]] == BLANK).any())
         starts.append((piece.starts[:lines] + begin).astype(np.int32))
         counts.append((piece.count * piece.clean)[:lines].astype(np.int32))
         cleans.append(piece.clean[:lines])
@@ -101,7 +104,7 @@ def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
         column.resize(found, refcheck=False)  # gives back what was not needed
     letter, value, offset, length = columns
     return Scan(
-        letter, value, offset, length, np.concatenate(counts), np.concatenate(cleans), np.concatenate(starts)
+        letter, value, offset, length, np.concatenate(counts), np.concatenate(cleans), np.concatenate(starts), indented
     )  # fmt: skip
 
 
@@ -143,18 +146,23 @@ class _Piece:
         self.filled = np.flatnonzero(self.count)  # lines with words
         after = np.append(self.at, len(data))[1:]
         after[self.words_before[self.filled + 1] - 1] = np.append(marks[newline], len(data))[self.filled]
-        self.value, self.end = self.read(after)
+        self.value, self.end = self.read(after, bare)
         self.clean = self.clean_lines(leading_number, bare)
 
-    def read(self, after: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    def read(self, after: NDArray[np.int64], bare: str) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Values and ends of the words, the text of each before ``after``; nan where there is no number, end 0 where there is
         nothing."""
-        padded = _padded(self.data)
+        self.padded = padded = _padded(self.data)
         first, last = padded[self.at + 9], padded[after + 7]
         negative = first == 45
         begin = self.at + 1 + (negative | (first == 43))
         end = after - ((last == 32) | (last == 9) | (last == 13))
         value, good = numbers(self.data, begin, end, padded)
+        if bare:  # mostly the letter and one blank
+            heads = self.words_before[self.filled]
+            alone = (end[heads] == self.at[heads] + 1) & (end[heads] < after[heads])
+            heads = heads[alone & np.isin(self.letter[heads], [ord(letter) for letter in bare])]
+            value[heads], good[heads] = 0.0, True
         if not good.all():
             odd = np.flatnonzero(~good)
             begin = _skip_blanks(self.data, self.at[odd] + 1, after[odd])
@@ -173,6 +181,7 @@ class _Piece:
         odd = np.flatnonzero(np.isnan(self.value))
         if bare and len(odd):
             first = self.words_before[np.searchsorted(self.words_before, odd, "right") - 1] == odd
+            first &= np.isin(_KIND[self.padded[self.at[odd] + 9]], (BLANK, END))
             alone = odd[first & (self.end[odd] == 0) & np.isin(self.letter[odd], [ord(letter) for letter in bare])]
             self.value[alone], self.end[alone] = 0.0, self.at[alone] + 1
             odd = np.flatnonzero(np.isnan(self.value))
@@ -180,7 +189,8 @@ class _Piece:
         clean[np.searchsorted(self.words_before, odd, "right") - 1] = False
         head = np.append(self.starts[1:], len(self.data))
         head[self.filled] = self.at[self.words_before[self.filled]]
-        return clean & _clean_heads(self.data, self.starts, head, leading_number)
+        clean[~_clean_heads(self.data, self.padded, self.starts, head, leading_number)] = False
+        return clean
 
     def words(self) -> tuple[NDArray[Any], ...]:
         """Letter, value, offset and length of the words of the clean lines."""
@@ -202,11 +212,28 @@ def _padded(data: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _clean_heads(
-    data: NDArray[np.uint8], starts: NDArray[np.int32], head: NDArray[np.int32], leading_number: bool
-) -> NDArray[np.bool_] | bool:
+    data: NDArray[np.uint8], padded: NDArray[np.uint8], starts: NDArray[np.int64], head: NDArray[np.int64],
+    leading_number: bool,
+) -> NDArray[np.bool_]:  # fmt: skip
     """Which lines have only blanks, or with ``leading_number`` one whole number, before ``head``, their first letter."""
-    if (head - starts <= 1).all() and not leading_number and not (data[starts[head > starts]] > 32).any():
-        return True  # nothing, or an empty line's end
+    first = _KIND[padded[starts + 8]]
+    good = (head == starts) | ((head == starts + 1) & ((first == BLANK) | (first == END)))
+    if leading_number:  # mostly the number and one blank
+        end = head - (padded[head + 7] == 32)
+        size = end - starts
+        digits = np.ndarray((len(data) + 1,), dtype="<u8", buffer=padded, strides=(1,))[end] ^ _ZEROS
+        digits &= _KEEP.take(size, mode="clip")
+        good |= (size <= 8) & (((digits + _u8(0x7676767676767676) | digits) & _HIGH) == 0)
+    if not good.all():
+        odd = np.flatnonzero(~good)
+        good[odd] = _clean_odd_heads(data, starts[odd], head[odd], leading_number)
+    return good
+
+
+def _clean_odd_heads(
+    data: NDArray[np.uint8], starts: NDArray[np.int64], head: NDArray[np.int64], leading_number: bool
+) -> NDArray[np.bool_]:
+    """The same for any blanks before and after the number."""
     kind = _KIND[data]
     filled = np.concatenate([[0], np.cumsum((kind != BLANK) & (kind != END), dtype=np.int32)])
     before = filled[head] - filled[starts]

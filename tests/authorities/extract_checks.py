@@ -33,8 +33,15 @@ EXAMPLES = {
         *("frame", "discretes", "G70", "G71", "G77", "G78", "contour exercise", "G73", "G72", "G74", "G75"),
         *("G31", "G32", "G33", "G25", "fragment N90-N111"),
     ],
-    "tnc620-klartext": ["L", "C", "CT", "CP", "CALL LBL", "FN"],
+    "tnc620-klartext": ["BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN", "FK"],
     "tnc620-special": ["CYCL DEF 12"],
+    "tnc620-using-cycles": [
+        *("fixed cycles", "CYCL DEF", "CYCL CALL PAT", "CYCL CALL POS", "M89", "PREDEF"),
+        *(f"PATTERN DEF {form}" for form in ("POS", "ROW", "PAT", "FRAME", "CIRC", "PITCHCIRC")),
+        *("point table", "SEL PATTERN"),
+    ],
+    "tnc620-patterns": ["CYCL DEF 220", "CYCL DEF 221"],
+    "tnc620-pockets": ["CYCL DEF 251", "CYCL DEF 252", "CYCL DEF 253", "CYCL DEF 254", "PGM C210 (section 6.10)"],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
@@ -44,6 +51,9 @@ EXAMPLES = {
         *("CYCL DEF 204", "CYCL DEF 205", "CYCL DEF 208", "CYCL DEF 241", "PGM C200", "PGM 1 (4.11)"),
     ],
 }
+
+#: Controls all of whose example programs are copied, for tests of their readers, and how their files begin.
+PROGRAMS = {"tnc-620": "tnc620-"}
 
 #: Files whose G and M codes are listed.
 CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
@@ -74,13 +84,24 @@ def examples(folder, name, codes):
             yield {"code": code, **kept, "check": check}
 
 
+def programs(folder, prefix):
+    """Every example program, as printed or as it is to be read."""
+    for file in sorted(folder.glob(f"{prefix}*.yaml")):
+        for entry in yaml.safe_load(file.read_text(encoding="utf-8"))["entries"]:
+            for example in entry.get("examples") or []:
+                text = example.get("program_adopted", example.get("program_english", example["program"]))
+                if text:
+                    yield {"code": str(entry["code"]), "program": text}
+
+
 def parameters(folder):
     """Parameters of every cycle by control, with the codes that mean the same."""
     controls = {}
     for file in sorted(folder.glob("*.yaml")):
         loaded = yaml.safe_load(file.read_text(encoding="utf-8"))
         for entry in loaded.get("entries") or []:
-            if entry.get("kind") == "cycle" and entry.get("parameters"):
+            declared = entry.get("kind") == "cycle" or str(entry["code"]).startswith("GLOBAL DEF ")
+            if declared and entry.get("parameters"):
                 rows = [{key: row[key] for key in KEYS if row.get(key) is not None} for row in entry["parameters"]]
                 record = {"code": str(entry["code"]), "aliases": entry.get("aliases") or [], "parameters": rows}
                 controls.setdefault(loaded["control"], []).append(record)
@@ -122,6 +143,8 @@ def save(name, records):
 def main(folder):
     for name, codes in EXAMPLES.items():
         save(name, examples(folder, name, codes))
+    for control, prefix in PROGRAMS.items():
+        save(f"programs-{control}", programs(folder, prefix))
     for control, records in parameters(folder).items():
         save(f"parameters-{control}", records)
     save("codes", listed(folder, CODES))

@@ -76,3 +76,17 @@ def test_cycles(kind, tmp_path):
     print(f"{'':32s}{'cpu s':>8s}{'wall s':>8s}{'holes/s':>12s}{'pattern is':>12s}")
     for name, (cpu, wall) in middle.items():
         print(f"{name:32s}{cpu:8.2f}{wall:8.2f}{HOLES / cpu:12.0f}{cpu / middle['pattern'][0]:11.1f}x")
+
+
+def test_pattern_of_points(monkeypatch):
+    """CYCL CALL PAT of the TNC 620 over a grid of holes: rows repeated as columns, and each hole one by one."""
+    cycle = "CYCL DEF 200 D\nQ200=2\nQ201=-15\nQ206=250\nQ202=5\nQ210=0\nQ203=0\nQ204=20\nQ211=0.1\n"
+    grid = "PATTERN DEF PAT1 (X+0 Y+0 DX+1 DY+1 NUMX{} NUMY100 ROT+0 ROTX+0 ROTY+0 Z+0)\nCYCL CALL PAT FMAX M3\n"
+    text = f"BEGIN PGM P MM\nTOOL CALL 2 Z S1000\n{cycle}{grid.format(HOLES // 100)}END PGM P MM\n"
+    tenth = text.replace(f"NUMX{HOLES // 100}", f"NUMX{HOLES // 1000}")
+    columns, _, run = seconds(lambda: mnclab.run(text, "tnc-620"))
+    assert run.ok and (run.toolpath.kind == Kind.LINE).sum() == 3 * HOLES
+    monkeypatch.setattr("mnclab.machine.pattern.FEWEST", HOLES)
+    single, _, run = seconds(lambda: mnclab.run(tenth, "tnc-620"))
+    assert (run.toolpath.kind == Kind.LINE).sum() == 3 * HOLES // 10
+    print(f"\n{HOLES} holes of a pattern: {columns:.2f} s; one by one {10 * single / columns:.0f} times as long")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.shapes import polygon, rectangle, slot
+from mnclab.geometry.shapes import arc, polygon, rectangle, slot
 
 
 def test_rectangle():
@@ -20,6 +20,21 @@ def test_rectangle():
 def test_corners_may_use_up_the_sides():
     assert rectangle(20, 20, 10).area == pytest.approx(np.pi * 100)
     assert rectangle(40, 20, 10).length == pytest.approx(40 + 20 * np.pi)
+
+
+def test_a_slot_may_go_all_the_way_round():
+    """Radii 17 and 23 and two half circles of 3 where it begins and ends, about one place."""
+    whole = slot(arc(20, 0.7, 2 * np.pi), 6)
+    assert whole.length == pytest.approx(2 * np.pi * (17 + 23 + 3))
+    away = np.hypot(*whole.points_within(1e-4).T)
+    assert (away.min(), away.max()) == pytest.approx((17, 23), abs=1e-3)
+
+
+@pytest.mark.parametrize("sweep", [0.3, -2.0, np.pi, 4.0, -2 * np.pi])
+def test_an_arc_by_its_angles(sweep):
+    line = arc(20, 0.7, sweep)
+    assert line.sweeps.sum() == pytest.approx(sweep) and line.radii == pytest.approx(20)
+    assert line.points[-1] == pytest.approx([20 * np.cos(0.7 + sweep), 20 * np.sin(0.7 + sweep)])
 
 
 def test_straight_and_bent_slots():

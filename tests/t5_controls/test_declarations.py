@@ -87,6 +87,10 @@ NAMES = {
     "spindle_speed_drilling": "drilling_speed",
     "coolant_on_m_function": "coolant_on",
     "coolant_off_m_function": "coolant_off",
+    # pockets (chapter 6)
+    "center_axis_1": "centre_x",
+    "center_axis_2": "centre_y",
+    "slot_position_reference": "slot_position",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -94,6 +98,14 @@ FEED = "the range of the word F (4.1)"
 MILLING = ("G320", "G321", "G343", "G344")
 TIME = "the table has no range; a time is not negative"
 LATHE = ("G70", "G71", "G77", "G78", "G72", "G73", "G74", "G75", "G31", "G33")
+AS_IN_CYCLES = "the table has none: that of the parameter in the cycles"
+LENGTH, SIGNED, TIMES = {">=": 0, "<=": 99999.9999}, {">=": -99999.9999, "<=": 99999.9999}, {">=": 0, "<=": 3600}
+FEEDS, OVERLAP = {">=": 0, "<=": 99999.999}, {">=": 0.0001, "<=": 1.9999}
+GLOBAL_LIMITS = [
+    *((100, q, LENGTH) for q in ("Q200", "Q204")), *((100, q, FEEDS) for q in ("Q253", "Q208")), (105, "Q256", LENGTH),
+    *((105, q, TIMES) for q in ("Q210", "Q211")), (110, "Q370", OVERLAP), (111, "Q2", OVERLAP), (111, "Q6", LENGTH),
+    (111, "Q7", SIGNED), (120, "Q320", LENGTH), (120, "Q260", SIGNED),
+]  # fmt: skip
 #: (control, code, address, key) -> what the declaration has, and why.
 EXPLAINED = {
     **{("mnc", code, "P", "limits"): ({">=": 0}, TIME) for code in ("G83", "G84", "G85")},
@@ -109,6 +121,8 @@ EXPLAINED = {
     ("tnc-620", "CYCL DEF 22", "Q208", "default"): (math.inf, "FMAX"),
     ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
     ("tnc-620", "CYCL DEF 14", "LBL", "limits"): ({">=": 1, "<=": 65535}, "of each; twelve at most are a check"),
+    **{("tnc-620", f"GLOBAL DEF {n}", q, "limits"): (limits, AS_IN_CYCLES) for n, q, limits in GLOBAL_LIMITS},
+    **{("tnc-620", "GLOBAL DEF 100", q, "also"): ({"FMAX", "FAUTO"}, AS_IN_CYCLES) for q in ("Q253", "Q208")},
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "choices"): (set(), "2, 3, … too: any whole number") for n in (262, 267)},
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "type"): ("integer", "of a pitch per step") for n in (262, 267)},
     ("tnc-620", "CYCL DEF 201", "Q203", "limits"): ({">=": -99999.9999, "<=": 99999.9999}, "a misprint: as everywhere"),
@@ -178,7 +192,8 @@ def tabled(row):
         "limits": limits(row.get("range")),
         "choices": {float(choice) for choice in row.get("choices") or () if re.fullmatch(NUMBER, str(choice))},
         "default": float(adopted[1]) if adopted else default if isinstance(default, int | float) else None,
-        "also": {*re.findall(r"\b(F[A-Z]+|PREDEF)\b", row.get("range", "")), *row.get("alternatives", ())},
+        "also": {*re.findall(r"\b(F[A-Z]+|PREDEF)\b", row.get("range", "")), *row.get("alternatives", ())}
+        | {"PREDEF"}.intersection(row.get("choices") or ()),
         **{key: row.get(key) for key in ("unit", "type", "required", "modal", "incremental")},
     }
 

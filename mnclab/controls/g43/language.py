@@ -23,7 +23,7 @@ ARCS = {"G2": "Circular interpolation clockwise", "G3": "Circular interpolation 
 LENGTHS = ("G43", "G44", "G49")
 
 
-def together(m: Machine, words: list[Word]) -> None:
+def together(m: Machine, keyword: str, words: list[Word]) -> None:
     """The length compensation needs a straight motion."""
     codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
     axes = any(word.address in AXES for word in words)

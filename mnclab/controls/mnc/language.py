@@ -15,7 +15,7 @@ FUNCTIONS = FunctionTable()
 PLANES = {"G17": "XY", "G19": "YZ"}  # G18: setting g18_axes
 
 
-def together(m: Machine, words: list[Word]) -> None:
+def together(m: Machine, keyword: str, words: list[Word]) -> None:
     """Alarms for G functions that may not stand in one block (1.6, 2.6, 2.8.5)."""
     codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
     if m.pole is not None and len(codes) > 1:

@@ -12,27 +12,38 @@ from mnclab.controls.tnc_620 import later, reader
 from mnclab.controls.tnc_620.cycles import (
     boring,
     contours,
+    defaults,
     drilling,
     pecking,
+    pockets,
     program_call,
+    slots,
     tapping,
     thread_drilling,
     threads,
     transformations,
 )
+from mnclab.controls.tnc_620.cycles import patterns as point_patterns
 from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
     calls,
+    feed_rules,
+    feeds,
     flow,
+    free_contours,
     joints,
+    machine_datum,
     motion,
     parameters,
+    pattern_calls,
+    patterns,
     polar,
     pole,
     program,
     tools,
 )
+from mnclab.controls.tnc_620.later_parameters import strange_parameters
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -49,9 +60,20 @@ SETTINGS = (
     Setting("overlap", 1.0, "path overlap factor of pockets (pocketOverlap), which Q112 shows", ""),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
     Setting("controlled_spindle", True, "the spindle's angle is controlled, as 202, 204, 207, 209 need it", "4.5, 5.3"),
+    Setting("plunge_error", True, "a helix narrower than twice the tool is an alarm (suppressPlungeErr, no. 201006)", "6.2"),
     Setting(
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
+    ),
+    Setting("m6_stop", False, "M6 stops the program for a change of the tool by hand", "M6"),
+    Setting("spindle_angle", 0, "where M19 and M20 stop the spindle without Cycle 13", "12.5", unit="deg"),
+    *(
+        Setting(f"m92_{axis}", 0, f"{axis.upper()} of the position that M92 counts from", "M92", unit="mm")
+        for axis in "xyz"
+    ),
+    Setting(
+        "pattern_cycles", "refuse", "cycles 220 and 221 with a cycle that the manual does not name for them", "7.1",
+        {"refuse": "an alarm", "warn": "a warning, and they run"},
     ),
     Setting(
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
@@ -60,15 +82,19 @@ SETTINGS = (
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
-FUNCTIONS = (
+FUNCTIONS = feeds.in_all_forms(
     pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
-    | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | machine_datum.FUNCTIONS | feed_rules.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | pattern_calls.FUNCTIONS | patterns.FUNCTIONS | free_contours.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in (
+    defaults,
     drilling, boring, pecking,
     tapping, threads, thread_drilling,
+    point_patterns,
+    pockets, slots,
     contours,
     transformations,
     presets,
@@ -78,16 +104,20 @@ for chapter in (
 
 #: What the words of statements are.
 MEANINGS = {
-    "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "S": "spindle speed",
+    "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL",
+    "M103:F": "share downwards in percent",
+    "FU": "feed per revolution", "FZ": "feed per tooth", "S": "spindle speed",
     "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
     "RR": "compensation to the right", "LEN": "length", "PR": "polar radius", "PA": "polar angle",
     "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
-    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
+     "text": "name of the tool in a text parameter",
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
+    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length", "file": "name of a file",
+    **{f"PATTERN DEF {address}": meaning for address, meaning in patterns.MEANINGS.items()},
 }  # fmt: skip
 
 _KLARTEXT = re.compile(
@@ -111,9 +141,12 @@ CONTROL = Control(
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
     refused=later.refused(FUNCTIONS, CYCLES),
+    together=strange_parameters(CYCLES),
     meanings=MEANINGS,
-    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0),
-    named=motion.named,
+    bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
+    named=feeds.named,
     preassigned=parameters.PREASSIGNED,
     local_variables="QL",
+    predefined=defaults.predefined,
+    calls_again=calls.calls_again,
 )

@@ -93,7 +93,6 @@ NOT_THERE = {
 
 WORDS = {
     **{axis: f"the axis {axis} is not built yet" for axis in "UVWABC"},
-    "FU": "a feed per revolution is not built yet", "FZ": "a feed per tooth is not built yet",
     "#": "datum tables are not built yet",
 }  # fmt: skip
 

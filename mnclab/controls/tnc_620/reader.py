@@ -3,7 +3,8 @@
 A block is a number, a statement and its words; ``/`` before or after the number marks a block that may be passed over,
 ``;`` begins a comment, ``*`` a structure block. A block goes on over several lines when a line ends in ``~``, in a
 definition whose further lines carry no number, and in the sub-blocks n.0, n.1, … of older cycles, which become one block.
-So ``Q200=5`` without a number below a definition is a parameter of it; with a number it is an assignment.
+So ``Q200=5`` without a number below a definition is a parameter of it; with a number it is an assignment, and so it is
+where the lines of the definition were joined by ~ and the last one has none.
 
 Plain straight lines (``12 L X+1.5 Y-2 F500 R0``) are found for the whole text at once; every other line is read one by
 one, and a fault ends the reading of its block alone.
@@ -13,6 +14,7 @@ from __future__ import annotations
 
 import re
 from difflib import get_close_matches
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +28,17 @@ from mnclab.text.words import Scan, characters, scan
 _UNIT = re.compile(r"(?:^|[\r\n])[ \t\ufeff]*/?[ \t]*\d*[ \t]*BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
-_PLAIN = "XYZFR"
+_PLAIN = "FRXYZ"  # letters of plain lines
+PIECE = 1 << 14  # lines whose words are looked at together
+
+# A hexadecimal digit for each letter: added over a line of so few words that none overflows, 1 says that a letter stands once.
+_STRANGE = 1 << 4 * len(_PLAIN)
+_ONCE = int("1" * len(_PLAIN), 16)
+_DIGIT_OF_LETTER = np.full(256, _STRANGE, np.int32)
+_PLACE_OF_LETTER, _FORM_OF_LETTER = np.zeros(256, np.int16), np.zeros(256, np.uint8)
+for _place, _letter in enumerate(_PLAIN):
+    _DIGIT_OF_LETTER[ord(_letter)], _PLACE_OF_LETTER[ord(_letter)] = 1 << 4 * _place, _place
+_FORM_OF_LETTER[ord("R")] = NONE
 
 
 def read(text: str, name: str = "program") -> Program:
@@ -61,13 +73,14 @@ class _Lines:
         self.last = -1  # the line read last
         self.statement: Statement | None = None  # of the block that may go on
         self.tilde = False  # the line before ended in ~
+        self.over = False  # the last line of a block was joined by a ~ and has none itself
         self.skip = self.faulty = self.begun = False
         self.end: int | None = None  # place of END PGM
 
     def read(self, line: int) -> None:
         """One line: a block, a part of the block before it, a comment, or nothing."""
         if line != self.last + 1:
-            self.statement, self.tilde = None, False  # plain lines stand between
+            self.statement, self.tilde, self.over = None, False, False  # plain lines stand between
         self.last = line
         begin, stop, comment, tilde = self.bounds(line)
         joined, self.tilde = self.tilde, tilde
@@ -81,8 +94,10 @@ class _Lines:
         at = begin if joined else head.end()
         try:
             if joined or (not head.group(2) and self.goes_on(at, stop)):
+                self.over = joined and not tilde
                 self.go_on(Cursor(self.builder, at, stop, self.inch))
             else:
+                self.over = False
                 start = begin + len(head.group()) - len(head.group().lstrip(" \t"))
                 self.block(start, bool(head.group(1) or head.group(3)), Cursor(self.builder, at, stop, self.inch))
         except Fault as fault:
@@ -114,7 +129,7 @@ class _Lines:
 
     def goes_on(self, at: int, stop: int) -> bool:
         """Whether a line without a number belongs to the block before it."""
-        if self.statement is None or self.statement.more is None or self.text[at] == "*":
+        if self.statement is None or self.statement.more is None or self.over or self.text[at] == "*":
             return False
         try:
             begins = recognize(Cursor(self.builder, at, stop, self.inch))
@@ -200,46 +215,68 @@ class _Lines:
 
 
 def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_], BulkBlocks]:
-    """Which lines (l,) are plain straight lines, and their blocks."""
-    with_words = np.flatnonzero(found.count)  # lines
-    heads = np.cumsum(found.count[with_words]) - found.count[with_words]
-    first = np.zeros(len(found.letter), dtype=bool)
-    first[heads] = True
-    count = found.count[with_words] - 1
-    data = np.append(characters(text), np.uint8(10))
+    """Which lines (l,) are plain straight lines, and their blocks.
 
-    after = data[found.offset[heads] + 1]
-    good = (found.letter[heads] == ord("L")) & (found.length[heads] == 1) & (count > 0) & ((after == 32) | (after == 9))
-    bits = np.zeros(256, dtype=np.int32)
-    bits[[ord(c) for c in _PLAIN]] = 1 << np.arange(len(_PLAIN))
-    strange = (bits[found.letter] == 0) & ~first
-    strange |= (np.abs(found.value) >= LARGEST) | (
-        (found.letter == ord("R")) & ((found.value != 0) | (found.length != 2))
-    )
-    if len(heads):
-        word = np.where(first, 0, bits[found.letter])
-        good &= np.bitwise_or.reduceat(word, heads) == np.add.reduceat(word, heads)  # each address once
-        good &= ~np.logical_or.reduceat(strange, heads)
+    The columns of ``found`` are used up: the words that stay are moved to their beginning, in pieces that stay in the
+    cache, because new columns would cost more than the work on them.
+    """
+    with_words = np.flatnonzero(found.count)  # lines
+    count = found.count[with_words]
+    first = first_words(count)
+    good = (count > 1) & (count <= 1 + len(_PLAIN))
     if "~" in text:  # the line after it goes on with a block
-        good &= ~np.isin(with_words, np.searchsorted(found.starts, np.flatnonzero(data == ord("~")), "right"))
+        good &= ~np.isin(
+            with_words, np.searchsorted(found.starts, np.flatnonzero(characters(text) == ord("~")), "right")
+        )
+
+    address, form = np.empty(len(found.letter), np.int16), np.empty(len(found.letter), np.uint8)
+    columns: list[NDArray[Any]] = [found.value, found.offset, found.length]
+    kept = 0
+    for i in range(0, len(count), PIECE):
+        here = slice(int(first[i]), int(first[min(i + PIECE, len(count))]))
+        letter, heads = found.letter[here], first[i : i + PIECE][: len(count) - i] - first[i]
+        good[i : i + PIECE] &= _plain(letter, found.value[here], found.length[here], heads)
+        keep = np.repeat(good[i : i + PIECE], count[i : i + PIECE])
+        keep[heads] = False
+        letter = letter[keep]
+        to = slice(kept, kept + len(letter))
+        address[to], form[to] = _PLACE_OF_LETTER[letter], _FORM_OF_LETTER[letter]
+        for column in columns:
+            column[to] = column[here][keep]
+        kept = to.stop
+    for column in (*columns, address, form):
+        column.resize(kept, refcheck=False)
 
     plain = np.zeros(len(found.starts), dtype=bool)
     plain[with_words[good]] = True
-    keep = np.repeat(good, found.count[with_words]) & ~first
-    letter, value = found.letter[keep], found.value[keep]
-    address = np.searchsorted(np.array(sorted(ord(c) for c in _PLAIN)), letter)
     starts = found.starts[with_words[good]]
-    while (indented := (data[starts] == 32) | (data[starts] == 9)).any():
-        starts = starts + indented
+    if found.indented:
+        data = characters(text)
+        while (indented := (data[starts] == 32) | (data[starts] == 9)).any():
+            starts = starts + indented
     return plain, BulkBlocks(
-        addresses=tuple("R0" if c == "R" else c for c in sorted(_PLAIN)),
+        addresses=tuple("R0" if c == "R" else c for c in _PLAIN),
         address=address,
-        value=value * INCH if inch else value,
-        offset=found.offset[keep],
-        length=found.length[keep],
+        value=found.value * INCH if inch else found.value,
+        offset=found.offset,
+        length=found.length,
         keyword="L",
         start=starts,
-        first=first_words(count[good]),
+        first=first_words(count[good] - 1),
         plain=np.ones(int(good.sum()), dtype=bool),
-        form=np.where(letter == ord("R"), NONE, 0).astype(np.uint8),
+        form=form,
     )
+
+
+def _plain(
+    letter: NDArray[np.uint8], value: NDArray[np.float64], length: NDArray[np.int16], heads: NDArray[np.int32]
+) -> NDArray[np.bool_]:
+    """Which lines are an L alone and plain words, each once; of their words (w,), ``heads`` are the first ones."""
+    digits = _DIGIT_OF_LETTER[letter]
+    digits[heads] = 0
+    radius = np.flatnonzero(letter == ord("R"))
+    digits[radius[(value[radius] != 0) | (length[radius] != 2)]] = _STRANGE  # an R that is not R0
+    if max(value.max(), -value.min()) >= LARGEST:
+        digits[np.abs(value) >= LARGEST] = _STRANGE
+    good = (letter[heads] == ord("L")) & (length[heads] == 1)
+    return good & ((np.add.reduceat(digits, heads) & ~_ONCE) == 0)

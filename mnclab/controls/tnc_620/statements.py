@@ -19,6 +19,7 @@ from mnclab.controls.tnc_620.labels import (
     select_program,
     set_label,
 )
+from mnclab.controls.tnc_620.pattern_words import PatternWords
 from mnclab.controls.tnc_620.words import FLAGS, NUMBER, TEXT, Cursor, Fault
 
 Read = Callable[[Cursor], None]
@@ -75,10 +76,12 @@ def tool_call(cursor: Cursor) -> None:
 
 
 def tool(cursor: Cursor) -> None:
-    """A tool by number or by name in quotes; nothing if neither is there."""
+    """A tool by number, by name in quotes or in a text parameter; nothing if none of them is there."""
     begin = cursor.blanks()
     if found := cursor.match(TEXT):
         cursor.add("tool", found.group(1).strip(), begin)
+    elif found := cursor.match(_TEXT_PARAMETER):
+        cursor.add("text", f"QS{int(found.group(1))}", begin)
     elif (value := cursor.value()) is not None:
         cursor.add("tool", value, begin)
 
@@ -105,6 +108,19 @@ def program_name(cursor: Cursor) -> None:
     cursor.at = unit_at + len(parts[-1])
     cursor.add("unit", parts[-1].upper(), unit_at)
     cursor.at = cursor.stop
+
+
+def file_name(cursor: Cursor) -> None:
+    """The name of a file, in quotes or up to the end of the line."""
+    begin = cursor.blanks()
+    if found := cursor.match(TEXT):
+        name = found.group(1).strip()
+    else:
+        name = cursor.rest().strip()
+        cursor.at = cursor.stop
+    if not name:
+        raise Fault("the name of a file is missing", begin, hint='for example SEL PATTERN "HOLES"')
+    cursor.add("file", name, begin)
 
 
 # --- cycles -----------------------------------------------------------------------------------------------------------
@@ -199,15 +215,15 @@ WORDS: dict[str, Read] = {
     "FCT": with_radius, "FSELECT": leading("number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
     "CYCL CALL": plain, "LBL": set_label, "CALL LBL": call_label, "TOOL CALL": tool_call, "TOOL DEF": tool_def,
     "CALL PGM": call_program, "SEL PGM": select_program, "CALL SELECTED PGM": plain, "DECLARE STRING": declared_text,
+    "SEL PATTERN": file_name, "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
 
 #: Statements whose rest is not read: keyword -> whether further lines without a number belong to them.
 KEYWORDS_ONLY = {
-    "BLK FORM": False, "SEL PATTERN": False, "SEL CONTOUR": False, "SEL TABLE": False,
-    "DECLARE CONTOUR": True, "CONTOUR DEF": True, "PATTERN DEF": True, "PLANE": False,
-    "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
+    "BLK FORM": False, "SEL CONTOUR": False, "SEL TABLE": False, "DECLARE CONTOUR": True, "CONTOUR DEF": True,
+    "PLANE": False, "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
 }  # fmt: skip
 
 _ALL = sorted([*WORDS, *KEYWORDS_ONLY], key=len, reverse=True)
@@ -222,6 +238,7 @@ _WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 _PARAMETER_HEAD = re.compile(r"[ \t]*\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
 _FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
 _DIALOG = re.compile(r"[^\d;~]*")
+_TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 _SLASH = re.compile(r"[ \t]*/")
 _ROW = re.compile(r"#")
 
@@ -234,6 +251,9 @@ def recognize(cursor: Cursor) -> Statement | None:
         keyword = " ".join(found.group().upper().split())
         if keyword in KEYWORDS_ONLY:
             return _known_by_name(cursor, keyword, found.start())
+        if keyword == "PATTERN DEF":
+            elements = PatternWords()
+            return Statement(keyword, elements, elements)
         return Statement(keyword, WORDS[keyword])
     if found := cursor.match(_FN):
         number = int(found.group(1))

@@ -32,14 +32,21 @@ _SENSE = re.compile(r"DR[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
 
 _ADDRESSES = (
     "X Y Z U V W A B C R LEN CCA PR PA F FU FZ S M T DL DR L REP ROT SCL CCX CCY CCZ CCPR CCPA ABST AN D CLSD "
-    "P1X P1Y P2X P2Y P3X P3Y PDX PDY RX RY RPR RPA RAN PAR DP"
+    "P1X P1Y P2X P2Y P3X P3Y PDX PDY RX RY RPR RPA RAN PAR DP RCCX RCCY RCCPR RCCPA"
 ).split()
 _NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=len, reverse=True))})", FLAGS)
 
 #: Addresses of lengths and of feeds along a path: inches in a program that begins with INCH.
 LENGTHS = frozenset(
-    "X Y Z U V W R LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY length".split()
+    "X Y Z U V W R LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY DP length".split()
 )
+
+#: Addresses that belong to an M function when they stand directly behind it: ``M103 F20`` beside a feed F of the block.
+OWN = {
+    103: re.compile(r"F(?![A-Z])", FLAGS), 118: re.compile(r"[XYZABC](?![A-Z])", FLAGS), 120: re.compile(r"LA", FLAGS),
+    128: re.compile(r"F(?![A-Z])", FLAGS), 140: re.compile(r"MB[ \t]*(?:MAX)?|F[ \t]*(?:MAX|(?![A-Z]))", FLAGS),
+    94: re.compile(r"[ABC](?![A-Z])", FLAGS), 138: re.compile(r"[ABC](?![A-Z])", FLAGS),
+}  # fmt: skip
 
 _LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
 
@@ -143,6 +150,8 @@ class Cursor:
             value = self.value()
             if value is not None:
                 self.add(address, value, begin, INCREMENTAL if found.group(1) else 0)
+                if address == "M" and value in OWN:
+                    self.own_words(int(value))
             elif address in bare and not found.group(1):
                 self.add("axis", address, begin)
             else:
@@ -150,6 +159,15 @@ class Cursor:
                 raise self.unexpected()
         else:
             raise self.unexpected()
+
+    def own_words(self, code: int) -> None:
+        """Words directly behind an M function that belong to it: ``M103:F`` with or without a number."""
+        while not self.done:
+            begin = self.at
+            found = self.match(OWN[code])
+            if found is None:
+                return
+            self.add(f"M{code}:{''.join(found.group().upper().split())}", self.value(), begin)
 
     def unexpected(self, message: str = "") -> Fault:
         """The fault at a character that is no part of a good word, with the repair where the mistake is known."""

@@ -4,9 +4,6 @@ The outline of a pocket is built from its own numbers, by shapely alone. A pocke
 is never left by more than a micrometre, and the allowances are what stays.
 """
 
-import math
-
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -26,22 +23,6 @@ def run(text, radius, start=(12.0, -7.0, 30.0)):
     return [(row, path.labels[k]) for row, k in zip(path, path.label)]
 
 
-def line_of(row):
-    """The tool centre in the plane: arcs in steps of which the sagitta is less than half a micrometre."""
-    if row.kind != Kind.ARC:
-        return LineString([row.start[:2], row.end[:2]])
-    arm = row.start[:2] - row.centre[:2]
-    count = max(8, math.ceil(abs(row.sweep) / (2 * math.acos(1 - 4e-4 / max(math.hypot(*arm), 1e-3)))))
-    turn = row.sweep * np.arange(count + 1) / count
-    c, s = np.cos(turn), np.sin(turn)
-    return LineString(row.centre[:2] + np.stack([c * arm[0] - s * arm[1], s * arm[0] + c * arm[1]], axis=1))
-
-
-def disc(line, radius):
-    """What a tool takes along a line; a hair less than a true disc."""
-    return line.buffer(radius, quad_segs=48)
-
-
 def outline(code, v, radius, place):
     """The pocket as the drawing shows it."""
     if code == "G344":
@@ -51,16 +32,6 @@ def outline(code, v, radius, place):
     inner = box(-a, -b, a, b) if min(a, b) > 0 else LineString([(-a, -b), (a, b)])
     pocket = affinity.rotate(inner.buffer(corner, quad_segs=500), v["E"], origin=(0, 0))
     return affinity.translate(pocket, *place)
-
-
-def swept_by_level(rows, radius):
-    """What is taken at each level by moves that stay in it or come down to it."""
-    found = {}
-    for row, _ in rows:
-        if row.kind != Kind.RAPID:
-            way = line_of(row) if row.start[2] == row.end[2] else Point(row.end[:2])
-            found.setdefault(round(row.end[2], 6), []).append(disc(way, radius))
-    return {level: union_all(areas) for level, areas in found.items()}
 
 
 SHAPES = {
@@ -82,7 +53,7 @@ COMMON = {
 @pytest.mark.parametrize("code", ["G343", "G344"])
 @settings(max_examples=6)
 @given(data=st.data(), radius=st.floats(2, 5))
-def test_a_pocket_is_cleared_and_nothing_beyond_it(code, data, radius):
+def test_a_pocket_is_cleared_and_nothing_beyond_it(code, data, radius, sweeps):
     v = data.draw(st.fixed_dictionaries(SHAPES[code] | COMMON))
     text = " ".join([code, *(f"{address}{value:.9f}" for address, value in v.items())])
     rows, place = run(text, radius), (12.0, -7.0)
@@ -92,7 +63,7 @@ def test_a_pocket_is_cleared_and_nothing_beyond_it(code, data, radius):
     def part(*names):
         return [(row, label) for row, label in rows if any(name in label for name in names)]
 
-    roughing = swept_by_level(part("layer"), radius)
+    roughing = sweeps.by_level(part("layer"), radius)
     kept = wall.buffer(-v["U"], quad_segs=100)
     reach = kept.buffer(-radius, quad_segs=100).buffer(radius, quad_segs=100)
     for level, area in roughing.items():
@@ -101,52 +72,37 @@ def test_a_pocket_is_cleared_and_nothing_beyond_it(code, data, radius):
             assert area.difference(kept.buffer(MICRON)).area < 1e-6
     deepest = min(roughing)
     assert deepest == pytest.approx(rest, abs=MICRON)
-    centres = union_all([line_of(row) for row, _ in part("layer") if row.kind != Kind.RAPID])
+    centres = union_all([sweeps.line_of(row) for row, _ in part("layer") if row.kind != Kind.RAPID])
     assert wall.exterior.distance(centres) - radius == pytest.approx(v["U"], abs=MICRON)
 
-    walls = swept_by_level(part("side finishing"), radius)
+    walls = sweeps.by_level(part("side finishing"), radius)
     assert min(walls) == pytest.approx(rest, abs=MICRON)
     for area in walls.values():
         assert area.difference(wall.buffer(MICRON)).area < 1e-6
         sides = wall.buffer(-radius, quad_segs=100).exterior
         assert sides.difference(area.buffer(MICRON)).length < 1e-6  # the centre goes once round
-    bottom = swept_by_level(part("floor finishing"), radius)
+    bottom = sweeps.by_level(part("floor finishing"), radius)
     assert min(bottom) == pytest.approx(floor, abs=MICRON)
     reach = wall.buffer(-radius, quad_segs=100).buffer(radius, quad_segs=100)
     area = bottom[round(floor, 6)]
     assert area.intersection(reach).area >= 0.999 * reach.area
     assert area.difference(wall.buffer(MICRON)).area < 1e-6
-    no_rapid_cuts(rows, radius)
+    sweeps.no_rapid_cuts(rows, radius)
 
 
-def no_rapid_cuts(rows, radius):
-    """Below the surface a rapid stays in what has been taken at its level or deeper, and never goes down into more."""
-    taken, news = {}, {}
-    for row, label in rows:
-        if row.kind != Kind.RAPID:
-            if row.start[2] == row.end[2]:
-                news.setdefault(row.end[2], []).append(disc(line_of(row), radius))
-            continue
-        taken |= {level: union_all([*areas, taken.get(level, Point())]) for level, areas in news.items()}
-        news, low = {}, min(row.start[2], row.end[2])
-        if low < 0:
-            free = union_all([area for level, area in taken.items() if level <= low + 1e-9])
-            assert disc(line_of(row), radius - MICRON).difference(free).area < 1e-6, label
-
-
-def test_a_ramp_clears_its_slope():
+def test_a_ramp_clears_its_slope(sweeps):
     """After a reciprocating plunge nothing of the slope stands at the level: level moves alone cover the pocket."""
     for block in ("G343 A60 B30", "G343 A30 B60 E20", "G343 A50 B50 R12"):
         rows = run(f"{block} Z0 H-6 P3 Q2 K1.2 J2 F400 V90", 4.0)
-        no_rapid_cuts(rows, 4.0)
+        sweeps.no_rapid_cuts(rows, 4.0)
         sloping = [
             row for row, _ in rows if row.kind == Kind.LINE and row.start[2] > row.end[2] and row.end[0] != row.start[0]
         ]
         assert sloping
-        for level, area in swept_by_level(rows, 4.0).items():
+        for level, area in sweeps.by_level(rows, 4.0).items():
             for row in sloping:
                 if level in (-3, -6) and level + 3 >= row.start[2]:
-                    assert disc(line_of(row), 4.0 - MICRON).difference(area).area < 1e-6
+                    assert sweeps.disc(sweeps.line_of(row), 4.0 - MICRON).difference(area).area < 1e-6
 
 
 @settings(max_examples=25)
@@ -154,14 +110,14 @@ def test_a_ramp_clears_its_slope():
     strategy=st.sampled_from([0, 1, 2]), a=st.floats(5, 90), b=st.floats(5, 60), overlap=st.floats(0.5, 1.999),
     radius=st.floats(3, 10), allowance=st.sampled_from([0, 0.4]),
 )  # fmt: skip
-def test_face_milling_covers_the_surface(strategy, a, b, overlap, radius, allowance):
+def test_face_milling_covers_the_surface(strategy, a, b, overlap, radius, allowance, sweeps):
     """All of it on every level; with L1 all between the places where it turns, beyond which it leaves scallops."""
     rows = run(
         f"G321 L{strategy} X3 Y4 Z0 W-3 A{a:.6f} B{b:.6f} Q2 P2 K{overlap:.6f} F400 V900 I1 U{allowance}", radius
     )
     surface = box(3, 4, 3 + a, 4 + b)
     cutting = [(row, label) for row, label in rows if "over" not in label and "lift" not in label]
-    levels = swept_by_level(cutting, radius)
+    levels = sweeps.by_level(cutting, radius)
     assert min(levels) == pytest.approx(-3) and len(levels) == 2 + (allowance > 0)
     turn = min(radius, a / 2)
     reach = surface if strategy != 1 else box(3 + turn, 4, 3 + a - turn, 4 + b)
@@ -176,10 +132,10 @@ def test_face_milling_covers_the_surface(strategy, a, b, overlap, radius, allowa
 
 @settings(max_examples=20)
 @given(a=st.floats(0, 90), b=st.floats(5, 60), radius=st.floats(3, 10), count=st.integers(1, 30))
-def test_lines_cover_the_surface_or_the_notice_says_that_they_do_not(a, b, radius, count):
+def test_lines_cover_the_surface_or_the_notice_says_that_they_do_not(a, b, radius, count, sweeps):
     tool = Setup(tools={1: Tool(radius=radius)}, start=(0, 0, 30))
     found = mnclab.run(f"T1\nG320 X3 Y4 Z0 A{a:.6f} B{b:.6f} K{count} V90 F400 Q2\n", "mnc", tool)
     rows = [(row, "") for row in found.toolpath[found.toolpath.is_motion]]
-    area = swept_by_level(rows, radius)[0]
+    area = sweeps.by_level(rows, radius)[0]
     left = box(3, 4, 3 + a, 4 + b).difference(area.buffer(MICRON)).area
     assert (left > 1e-3 * a) == (any("strips uncut" in alarm.message for alarm in found.alarms) and a > 0) or a < 1

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import random
+from pathlib import Path
+
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -65,6 +69,12 @@ SCRAPS = st.sampled_from([
     "RL", "R0", "FMAX", "DR-", "LBL 0\n", "CALL LBL 2\n", "CYCL DEF 7.1 ", "Q201=", "99999999", "\ufeff", "\0", "\u0425",
     "\u0661", "\u017f", "DEP LT LEN5\n", "RND R1\n", "TOOL CALL ", "END PGM A MM\n", "1e9", "INCH", "M2\n", "L ", "C ", "CC ",
 ])  # fmt: skip
+PIECES = [
+    "X", "+", "-", ".", ",", "9", "0", " ", "\n", "\r", ";", "~", "/", '"', "=", "(", "#", "Q1", "Q201=", "RL", "RR", "R0",
+    "FMAX", "FU0.1", "FZ.1 ", "FAUTO", "M91 ", "M103 F20", "M118 X1", "M99", "M110", "M6", "M13 ", "LBL 1\n", "TOOL DEF 5 L+1",
+    "\ufeff", "CYCL DEF 200", "CYCL CALL\n", "BLK FORM 0.2 ", "1e9", "999999", "INCH", " DR2+1", "-Q5", "QS1", "CC X+1 Y+1\n",
+    "DR-", "C X+1 ",
+]  # fmt: skip
 
 
 @pytest.fixture(autouse=True)
@@ -83,6 +93,54 @@ def test_mutated_programs(edits: list[tuple[int, int, str]]) -> None:
     run = mnc.run(text, "tnc-620", mnc.Setup(files={"OTHER": "\n".join(text.splitlines()[:9])}))
     assert all(alarm.span is None or alarm.span.column >= 1 for alarm in run.alarms)
     str(run.toolpath), repr(run), list(run.program)
+
+
+FOLDER = Path(__file__).parents[3]
+PROGRAMS = [
+    *(file.read_text(encoding="utf-8") for file in sorted(FOLDER.glob("data/programs/tnc-620/*.h"))),
+    *(
+        entry["program"] + "\n"
+        for entry in json.loads((FOLDER / "tests/authorities/catalogue/programs-tnc-620.json").read_text("utf-8"))
+    ),
+]
+
+
+def mutated(programs: list[str], seed: int) -> str:
+    """One of the programs with some characters, words or lines changed, doubled, swapped or cut."""
+    rng = random.Random(seed)
+    text = rng.choice(["", "TOOL CALL 1 Z S1000 F100 M3\nL Z+20 FMAX M3\n"]) + rng.choice(programs)
+    for _ in range(rng.randint(1, 6)):
+        at = rng.randrange(len(text) + 1)
+        way = rng.randrange(6)
+        if way == 0:
+            text = text[:at] + rng.choice(PIECES) + text[at + rng.randint(0, 3) :]
+        elif way == 1:
+            text = text[:at] + chr(rng.choice([rng.randrange(128), rng.randrange(0xD800)])) + text[at + 1 :]
+        elif way == 2:
+            text = text[:at] + text[at + rng.randint(1, 12) :]
+        elif way == 3:
+            lines = text.split("\n")
+            lines.insert(rng.randrange(len(lines)), rng.choice(lines))
+            text = "\n".join(lines)
+        elif way == 4:
+            other = rng.choice(programs).split("\n")
+            begin = rng.randrange(len(other))
+            text = text[:at] + "\n" + "\n".join(other[begin : begin + rng.randint(1, 9)]) + "\n" + text[at:]
+        else:
+            words = text.split(" ")
+            i, j = rng.randrange(len(words)), rng.randrange(len(words))
+            words[i], words[j] = words[j], words[i]
+            text = " ".join(words)
+    return text + "\n"
+
+
+@pytest.mark.parametrize("hundreds", range(4))
+def test_mutated_samples_and_examples_of_the_manual(hundreds: int) -> None:
+    """A sample; 50,000 seeds were run once."""
+    for seed in range(100 * hundreds, 100 * hundreds + 100):
+        run = mnc.run(mutated(PROGRAMS, seed), "tnc-620")
+        assert all(alarm.span is None or alarm.span.column >= 1 for alarm in run.alarms)
+        str(run.toolpath), repr(run)
 
 
 @settings(max_examples=200, deadline=None)

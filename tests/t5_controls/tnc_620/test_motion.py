@@ -88,9 +88,10 @@ def test_rounding_after_a_long_run_of_plain_lines(inside) -> None:
 def test_m_functions_act_before_or_after_the_motion(inside) -> None:
     run = inside("2 L X+1 M3 M8\n3 L X+2 M5 M9\n4 L X+3 M13\n5 L X+4 M14\n6 L X+5 M6\n7 L X+6 M0\n8 STOP")
     kinds = "".join(move.kind.name[0] for move in run.toolpath)
-    # tool; spindle coolant line; line spindle coolant; spindle coolant line (M13 and M14); line; line stop; stop; end
-    assert kinds == "TSCLLSCSCLSCLLLSSS"
-    assert run.toolpath.motion.spindle.tolist() == [1000, 1000, 1000, -1000, -1000, -1000]
+    # tool; spindle coolant line; line spindle coolant; spindle coolant line (M13 and M14);
+    # line, M6 spindle; line stop; stop; end: coolant
+    assert kinds == "TSCLLSCSCLSCLLSLSSC"
+    assert run.toolpath.motion.spindle.tolist() == [1000, 1000, 1000, -1000, -1000, 0]
 
 
 def test_end_of_program_stops_the_spindle_and_the_run(inside) -> None:

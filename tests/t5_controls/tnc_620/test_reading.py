@@ -150,6 +150,20 @@ def test_the_lines_of_a_definition() -> None:
     assert [w.address for w in program[1].words] == ["target", "value"]
 
 
+def test_a_definition_is_over_at_the_first_line_without_a_tilde() -> None:
+    """Where its lines are joined by ~; the assignment below it is one, though no block has a number."""
+    program = block("CYCL DEF 200 D ~\nQ200=2 ~\nQ201=-5\nQ5=3\nL X+1")
+    assert [b.keyword for b in program] == ["CYCL DEF 200", "Q", "L"]
+
+
+@pytest.mark.parametrize("name", ["GĂURIRE ADÂNCĂ", "Bohren – schnell", "穴あけ", "СВЕРЛЕНИЕ", "7 STRAT 3,5", ""])
+def test_the_name_of_a_cycle_is_a_comment_in_any_language(name: str) -> None:
+    program = block(
+        f"5 CYCL DEF 200 {name}\nQ200=+2 ;DISTANŢA DE SIGURANŢĂ\n6 CYCL DEF 10.0 {name}\n7 CYCL DEF 10.1 ROT+35"
+    )
+    assert [[str(w) for w in b.words] for b in program] == [["Q200=2"], ["ROT35"]]
+
+
 def test_a_long_name_may_be_broken() -> None:
     """CYCL DEF 239 DETERMINARE / INCARCAR in the manual: the next line is still the name."""
     assert [str(w) for w in block("5 CYCL DEF 239 DETERMINARE\nINCARCAR\nQ570=0")[0].words] == ["Q570=0"]

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machining.clearing import Clearing, numbered
@@ -25,7 +25,6 @@ STRATEGY: dict[float, str] = {
     1: "meander, stepover within the surface",
     2: "one way, back above the surface",
 }
-MOST_PASSES = 100_000  # of one cycle, all its levels together
 
 
 def clearance(meaning: str) -> Any:
@@ -59,12 +58,6 @@ class MillingCycle(Cycle):
             yield "", f"needs a tool with a radius, got {m.radius:g}"
         if getattr(self, "feed", None) is None and m.feed is None:
             yield "feed", "is missing, and no feed rate was programmed before"
-
-
-def few_passes(name: str, levels: int, passes: int) -> Iterator[tuple[str, str]]:
-    """A fault where nobody would wait for so many passes."""
-    if levels * passes > MOST_PASSES:
-        yield name, f"makes {levels} levels of {passes} passes, more than {MOST_PASSES} together"
 
 
 @dataclass(frozen=True)

@@ -11,14 +11,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 
-from mnclab.controls.mnc.cycles.milling import MillingCycle, clearance, feed, few_passes, second_feed
-from mnclab.machine.cycle import CycleTable, param, too_many
+from mnclab.controls.mnc.cycles.milling import MillingCycle, clearance, feed, second_feed
+from mnclab.machine.cycle import CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machining import concentric
 from mnclab.machining.clearing import Clearing
 from mnclab.machining.depths import infeeds
 from mnclab.machining.entries import Entry
+from mnclab.machining.finishing import quarter_circles
 from mnclab.machining.pocket_milling import Down, Feeds, Room, finish_floor, finish_walls, rough, way_down
 from mnclab.machining.steps import Go, Step
 
@@ -158,7 +159,7 @@ class Pocket(MillingCycle):
         if self.side_allowance and clearing.passes and clearing.passes[-1].closed:  # there is a way round
             yield finish_walls(
                 clearing.passes[-1], self.wall_levels(), above=above, clearance=self.clearance, feeds=feeds,
-                approach=arc, side=side,
+                arcs=quarter_circles(clearing.passes[-1], arc, side), side=side,
             )  # fmt: skip
         if self.floor_allowance:
             yield finish_floor(

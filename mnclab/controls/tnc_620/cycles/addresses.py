@@ -17,6 +17,12 @@ CLIMB: dict[float, str] = {1: "climb", -1: "conventional", 0: "climb"}
 TIP: dict[float, str] = {0: "depth refers to the tool tip", 1: "depth refers to the cylindrical part of the tool"}
 DISENGAGE: dict[float, str] = {0: "not at all", 1: "in -X", 2: "in -Y", 3: "in +X", 4: "in +Y"}
 OPERATION: dict[float, str] = {0: "roughing and finishing", 1: "only roughing", 2: "only finishing"}
+EDGE: dict[float, str] = {
+    0: "at the tool centre",
+    1: "at the cutting edge when finishing the side",
+    2: "at the cutting edge when finishing side and floor",
+    3: "always at the cutting edge",
+}
 
 
 def _declare(address: str, meaning: str, unit: str, usual: dict[str, Any], more: dict[str, Any]) -> Any:
@@ -46,6 +52,11 @@ def feed(address: str, meaning: str, also: tuple[str, ...] = (), **more: Any) ->
 def seconds(address: str, meaning: str, **more: Any) -> Any:
     """A dwell."""
     return _declare(address, meaning, "s", {"at_least": 0, "at_most": LONG}, more)
+
+
+def number(address: str, meaning: str, **more: Any) -> Any:
+    """How many, from 1."""
+    return _declare(address, meaning, "count", {"type": "integer", "at_least": 1, "at_most": 99999}, more)
 
 
 def choice(address: str, meaning: str, choices: dict[float, str], **more: Any) -> Any:
@@ -153,6 +164,46 @@ def spindle_angle(**more: Any) -> Any:
 def climb(**more: Any) -> Any:
     """Q351: which way the tool goes round with the spindle at M3."""
     return choice("Q351", "climb or conventional milling", CLIMB, **more)
+
+
+def operation(**more: Any) -> Any:
+    """Q215: what of a cycle is done."""
+    return choice("Q215", "machining operation", OPERATION, **more)
+
+
+def finishing_infeed(**more: Any) -> Any:
+    """Q338: how deep the tool goes at once along a wall."""
+    return length("Q338", "infeed for finishing", **{"incremental": True, "note": "0: in one infeed"} | more)
+
+
+def side_allowance(**more: Any) -> Any:
+    """Q368: what roughing leaves at the walls."""
+    return length("Q368", "finishing allowance for side", **{"incremental": True} | more)
+
+
+def floor_allowance(**more: Any) -> Any:
+    """Q369: what roughing leaves on the floor."""
+    return length("Q369", "finishing allowance for floor", **{"incremental": True} | more)
+
+
+def overlap(least: float, **more: Any) -> Any:
+    """Q370: the stepover as a share of the tool radius."""
+    return param(
+        "Q370",
+        "path overlap factor",
+        "ratio",
+        **{"at_least": least, "at_most": 1.9999, "modal": True, "predef": True} | more,
+    )
+
+
+def finishing_feed(also: tuple[str, ...] = ("FAUTO", "FU", "FZ"), **more: Any) -> Any:
+    """Q385: along walls and floor."""
+    return feed("Q385", "finishing feed rate", also, **more)
+
+
+def feed_reference(**more: Any) -> Any:
+    """Q439: what a feed refers to."""
+    return choice("Q439", "feed rate reference", EDGE, **{"default": 0} | more)
 
 
 def reference(**more: Any) -> Any:

@@ -13,6 +13,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.following import follow
+from mnclab.machine.interpreter import unit_of
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.recording import Recording
 from mnclab.machining.depths import infeeds
@@ -79,7 +80,9 @@ def contour_data(m: Machine) -> ContourData:
     """The data of cycle 20 with the Q parameters as they stand now."""
     data = m.memory["contour data"]
     assert isinstance(data, ContourData)
-    now: dict[str, Any] = {p.name: m.variables[p.address] for p in data.parameters() if p.address in m.variables}
+    now: dict[str, Any] = {
+        p.name: m.variables[p.address] * unit_of(m, p) for p in data.parameters() if p.address in m.variables
+    }
     return replace(data, **now)
 
 

@@ -1,4 +1,4 @@
-"""M functions of spindle, coolant and tool change (catalogue: M3 to M14)."""
+"""M functions of spindle, coolant and tool change (catalogue: M3 to M20, M118)."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 
 FUNCTIONS = FunctionTable()
+ORIENTATION = "spindle angle"  # what Cycle 13 remembers, degrees
+HANDWHEEL = " ".join(f"M118:{axis}" for axis in "XYZABC")
 
 TURNING = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise"}
 BOTH = {"M13": "Spindle on clockwise, coolant on", "M14": "Spindle on counter-clockwise, coolant on"}
@@ -23,9 +25,11 @@ def spindle_off(m: Machine, words: Words) -> None:
     m.spindle(turning=0)
 
 
-@FUNCTIONS("M8", "Coolant on", group="coolant", phase="start", source="M8")
+@FUNCTIONS(
+    "M7 M8", {"M7": "Second coolant on", "M8": "Coolant on"}, group="coolant", phase="start", source="M7, M8"
+)  # fmt: skip
 def coolant_on(m: Machine, words: Words) -> None:
-    """Before the motion of the block."""
+    """Before the motion of the block; what M7 switches is up to the machine."""
     m.coolant()
 
 
@@ -45,4 +49,21 @@ def spindle_and_coolant(m: Machine, words: Words) -> None:
 
 @FUNCTIONS("M6", "Tool change", phase="end", modal=False, source="M6")
 def tool_change(m: Machine, words: Words) -> None:
-    """Nothing here: TOOL CALL changes the tool."""
+    """After the motion of the block the spindle stops, and with the setting "m6_stop" the program; TOOL CALL names the tool."""
+    m.spindle(turning=0)
+    m.set_modal("spindle", "M5")
+    if m.settings["m6_stop"]:
+        m.stop()
+
+
+@FUNCTIONS("M19 M20", "Oriented spindle stop", group="spindle", phase="start", modal=False, source="M19, 12.5")
+def orient(m: Machine, words: Words) -> None:
+    """Before the motion of the block the spindle turns to the angle of Cycle 13, without it to that of the machine."""
+    m.orient(m.memory.get(ORIENTATION, m.settings["spindle_angle"]))
+    m.set_modal("spindle", "M5")
+
+
+@FUNCTIONS("M118", "Handwheel superimposition", takes=HANDWHEEL, modal=False, source="M118")
+def handwheel(m: Machine, words: Words) -> None:
+    """Nothing moves: there is no handwheel whose steps could be added."""
+    m.warn("M118 changes nothing here: there is no handwheel", words.words[0])

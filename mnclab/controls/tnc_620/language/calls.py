@@ -1,31 +1,68 @@
-"""Calls of a defined cycle: CYCL CALL and M99 (3.1; catalogue: cycle call, CYCL CALL, M99)."""
+"""Calls of a defined cycle: CYCL CALL, CYCL CALL POS, M99, M89 (3.1; catalogue: cycle call).
+
+CYCL CALL PAT is in :mod:`~mnclab.controls.tnc_620.language.pattern_calls`.
+"""
 
 from __future__ import annotations
 
-from mnclab.controls.tnc_620.language.motion import feed
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+from mnclab.controls.tnc_620.language.motion import coordinates, feed
+from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.interpreter import run_cycle
+from mnclab.machine.cycle import Definition, instance
+from mnclab.machine.interpreter import as_it_stands, run_cycle
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
+
+#: Statements that position the tool, and the free contours that M89 does not go with.
+POSITIONING = ("L", "LP", "C", "CR", "CT", "CP", "CTP")
+FREE = ("FPOL", "FL", "FLT", "FC", "FCT")
+PLACES = frozenset("X Y Z U V W A B C PR PA".split())
+#: Cycles whose contours stand in the program: a point shifts their datum (SL cycles and the program call).
+PLACED_BY_DATUM = frozenset(f"CYCL DEF {n}" for n in (12, *range(21, 26), 27, 28, 29, 39, 275, 276))
 
 
 @FUNCTIONS("CYCL CALL,", "Cycle call", group="call", modal=False, phase="call", takes="F FMAX FAUTO", source="3.1")
 def cycle_call(m: Machine, words: Words) -> None:
     """Runs the cycle defined last where the tool stands; F sets the feed of the following blocks, not that of the cycle."""
     feed(m, words)
-    call(m, "CYCL CALL", None)
+    run_cycle(m, ready(m, "CYCL CALL", None))
 
 
 @FUNCTIONS("M99", "Cycle call in its block", group="call", modal=False, phase="call", source="3.1")
 def call_here(m: Machine, words: Words) -> None:
-    """Runs the cycle defined last at the end of the block."""
-    call(m, "M99", words.words[0])
+    """Runs the cycle defined last at the end of the block; ends M89."""
+    run_cycle(m, ready(m, "M99", words.words[0]))
+    end_modal_call(m)
 
 
-def call(m: Machine, code: str, word: Word | None) -> None:
-    """Run the defined cycle; warn about what the manual requires before a call."""
+@FUNCTIONS("M89", "Cycle call in every positioning block", group="call", phase="call", source="3.1")
+def call_everywhere(m: Machine, words: Words) -> None:
+    """Runs the cycle defined last at the end of this and of each positioning block, until M99 or a new cycle."""
+    run_cycle(m, ready(m, "M89", words.words[0] if words.words else None))
+
+
+def end_modal_call(m: Machine) -> None:
+    """M89 is over."""
+    if m.modal.get("call"):
+        m.set_modal("call", "")
+
+
+def calls_again(m: Machine, keyword: str, words: Sequence[Word]) -> bool:
+    """Whether M89 of a block before calls its cycle in a block of this kind; it does not go with free contours."""
+    if keyword in FREE:
+        m.alarm(f"M89 and {keyword}: a modal cycle call does not go with free contours", None, hint="end it with M99")
+    if keyword.startswith(("APPR", "DEP")):
+        m.alarm(f"M89 and {keyword}: a cycle is called without radius compensation", None, hint="end it with M99")
+    return keyword in POSITIONING and (keyword[0] == "C" or any(word.address in PLACES for word in words))
+
+
+def ready(m: Machine, code: str, word: Word | None) -> Definition:
+    """The defined cycle; an alarm or a warning about what the manual requires before a call."""
     if m.cycle is None:
         m.alarm(f"{code} has no cycle to call", word, hint="define one before, for example CYCL DEF 200")
     if m.side:
@@ -38,4 +75,67 @@ def call(m: Machine, code: str, word: Word | None) -> None:
         m.warn(f"{code}: no tool was called", word)
     if not m.turning and not m.cycle.cycle.own_spindle:
         m.warn(f"{code}: the spindle does not turn", word, hint="write M3 or M4 before the call")
-    run_cycle(m, m.cycle)
+    return m.cycle
+
+
+# --- at a place -------------------------------------------------------------------------------------------------------
+
+
+@FUNCTIONS(
+    "CYCL CALL POS,", "Cycle call at a position", group="call", modal=False, phase="call", takes="X Y Z F FMAX FAUTO",
+    source="3.1",
+)  # fmt: skip
+def cycle_call_at(m: Machine, words: Words) -> None:
+    """Runs the cycle defined last at X Y, its surface shifted by Z; F is the feed of the approach alone."""
+    definition = ready(m, "CYCL CALL POS", None)
+    for axis in "XYZ":
+        if axis not in words:
+            m.alarm(f"CYCL CALL POS {axis} is missing: all three coordinates are programmed", None)
+    to = coordinates(m, words)
+    x, y, z = to["x"], to["y"], to["z"]
+    kept = m.feed, m.per_rev
+    f = feed(m, words)
+    surface, first, second = planes(m, definition)
+    m.label = "CYCL CALL POS to the position"
+    if m.programmed[2] > surface + z:
+        m.line(x=x, y=y, f=f)
+        m.line(z=surface + z + first, f=f)
+    else:
+        m.line(z=surface + z + max(first, second), f=f)
+        m.line(x=x, y=y, f=f)
+    m.label = ""
+    m.change("feed", kept[0])
+    m.change("per_rev", kept[1])
+    run_at(m, definition, x, y, z)
+
+
+def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:
+    """Surface, set-up clearance and second set-up clearance of a cycle, mm: Q203, Q200, Q204.
+
+    A contour cycle has the surface Q5, the clearance Q6 and the absolute height Q7 instead; what a cycle lacks is 0.
+    """
+    cycle = instance(as_it_stands(m, definition))
+    found = {p.address: getattr(cycle, p.name) for p in cycle.parameters()}
+    if definition.cycle.code in PLACED_BY_DATUM:
+        surface, first, height = (m.variables.get(q, 0.0) * m.variable_unit for q in ("Q5", "Q6", "Q7"))
+        return surface, first, height - surface
+    surface, first, second = (float(found.get(q) or 0.0) for q in ("Q203", "Q200", "Q204"))
+    return surface, first, second
+
+
+def run_at(m: Machine, definition: Definition, x: float, y: float, z: float) -> None:
+    """Run a cycle where the tool stands, x y, its surface shifted by z; a contour cycle with its datum there."""
+    shift = (x, y, z) if definition.cycle.code in PLACED_BY_DATUM else (0.0, 0.0, z)
+    with shifted(m, shift):
+        run_cycle(m, definition)
+
+
+@contextmanager
+def shifted(m: Machine, shift: tuple[float, float, float]) -> Iterator[None]:
+    """Inside, programs count from a datum shifted further."""
+    if shift == (0.0, 0.0, 0.0):
+        yield
+        return
+    m.set_frame("point", frames.shift(*shift))
+    yield
+    m.set_frame("point", None)

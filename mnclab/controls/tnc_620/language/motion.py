@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from mnclab.controls.tnc_620.language.feeds import feed
+from mnclab.controls.tnc_620.language.machine_datum import DATUM, machine_target
 from mnclab.controls.tnc_620.language.pole import polar_point, pole
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.machine import INF, PLANES, Machine
+from mnclab.machine.machine import PLANES, Machine
 from mnclab.machine.rotary import AXES as AXES_OF_ROTATION
 from mnclab.machine.rotary import Angles, angles, set_angles, turn_axes
 from mnclab.path.corners import Corner
-from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 AXES = "XYZ"
-FEEDS = ("F", "FMAX", "FAUTO")
 SIDES = {"R0": 0, "RL": 1, "RR": -1}
 NAMES = {0: "R0", 1: "RL", -1: "RR"}
 TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue: C)
@@ -24,46 +24,15 @@ TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue:
 
 def coordinates(m: Machine, words: Words, axes: str = AXES) -> dict[str, Any]:
     """Targets of the axes that are written, as arguments of a verb (``x=``, …); IX counts from the register."""
+    if DATUM in m.memory:
+        written = {k: words[axis] for k, axis in enumerate(AXES) if axis in axes and axis in words}
+        return machine_target(m, {k: (m.value(word), word.incremental) for k, word in written.items()})
     found: dict[str, Any] = {}
     for k, axis in enumerate(AXES):
         if axis in axes and axis in words:
             value = m.value(words[axis])
             found[axis.lower()] = m.programmed[k] + value if words[axis].incremental else value
     return found
-
-
-def feed(m: Machine, words: Words) -> float | None:
-    """Set the feed of this and the following blocks; inf for FMAX, which counts in its block alone."""
-    given = [words[name] for name in FEEDS if name in words]
-    if len(given) > 1:
-        m.alarm(f"{given[0]} and {given[1]} stand in one block: one feed is allowed", given[1])
-    if "FMAX" in words:
-        return INF
-    if "FAUTO" in words:
-        m.change("feed", auto_feed(m, words["FAUTO"]))
-    if "F" in words:
-        value = m.value(words["F"])
-        if value <= 0:
-            m.alarm(f"F (feed rate) must be greater than 0, got {value:g}", words["F"])
-        m.change("feed", value)
-    return None
-
-
-def auto_feed(m: Machine, word: Word) -> float:
-    """The feed of the TOOL CALL block, mm/min."""
-    value: float | None = m.memory.get("auto feed")
-    if value is None:
-        m.alarm("FAUTO needs a feed in the TOOL CALL block", word, hint="write TOOL CALL … F500")
-    return value
-
-
-def named(m: Machine, word: Word) -> float | str:
-    """FAUTO in a cycle: bound when the cycle is defined (3.1); FMAX stays a word."""
-    if word.value == "FAUTO":
-        return auto_feed(m, word)
-    if word.value in ("FMAX", "PREDEF"):
-        return str(word.value)
-    m.alarm(f"{word}: a feed per revolution or per tooth is not built yet", word, hint="write the feed in mm/min")
 
 
 def side(m: Machine, words: Words, begins: bool) -> None:

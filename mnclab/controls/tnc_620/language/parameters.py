@@ -46,7 +46,7 @@ def give(m: Machine, word: Word, value: float | str) -> None:
     m.variables[name] = value
 
 
-@FUNCTIONS(", ".join(TITLES), TITLES, takes="target value undefined", source="FN")
+@FUNCTIONS(", ".join(TITLES), TITLES, takes="target value undefined", collects=True, source="FN")
 def assign(m: Machine, words: Words) -> None:
     """A Q parameter takes the value of its formula, with the variables as they stand; SET UNDEFINED takes it away."""
     if "undefined" in words:

@@ -23,6 +23,10 @@ class Blank(NamedTuple):
     minimum: Corner
     maximum: Corner | None = None
 
+    def __str__(self) -> str:
+        corners = (corner for corner in (self.minimum, self.maximum) if corner)
+        return " to ".join("X{:g} Y{:g} Z{:g}".format(*corner) for corner in corners)
+
 
 def start(m: Machine) -> None:
     """The active preset is the datum of the program (setting "preset")."""
@@ -57,8 +61,13 @@ def end(m: Machine, words: Words) -> None:
 
 
 def finish(m: Machine) -> None:
-    """The end of the run: spindle off, transformations cancelled (11.1)."""
+    """The end of the run: spindle and coolant off, transformations cancelled (11.1)."""
+    if (blank := m.memory.get("stock")) is not None and blank.maximum is None:
+        m.warn("the blank has no greatest corner: BLK FORM 0.2 is missing")
     m.spindle(turning=0)
+    if m.modal.get("coolant", "M9") != "M9":
+        m.set_modal("coolant", "M9")
+        m.coolant()
     cancel(m)
     m.ended = True
 
@@ -68,9 +77,11 @@ def least_corner(m: Machine, words: Words) -> None:
     """Tool axis and the corner with the least coordinates; for pictures only, no motion."""
     if "axis" not in words:
         m.alarm("BLK FORM 0.1 needs the tool axis", None, hint="for example BLK FORM 0.1 Z X+0 Y+0 Z-20")
+    if (blank := m.memory.get("stock")) is not None and blank.maximum is None:
+        m.alarm("BLK FORM 0.1 stands twice: BLK FORM 0.2 belongs behind the first", words["axis"])
     axis = str(words["axis"].value)
-    if axis != "Z":
-        m.alarm(f"BLK FORM 0.1: the tool axis {axis} is not built yet, Z is", words["axis"])
+    if axis not in ("X", "Y", "Z"):
+        m.alarm(f"BLK FORM 0.1: the tool axis must be X, Y or Z, got {axis}", words["axis"])
     keep(m, Blank(axis, corner(m, words, None)))
 
 
@@ -122,7 +133,7 @@ def program_stop(m: Machine, words: Words) -> None:
     m.stop()
 
 
-@FUNCTIONS("M2 M30", "Program end", phase="last", modal=False, source="M2")
+@FUNCTIONS("M2 M30", "Program end", group="program end", phase="last", modal=False, source="M2")
 def program_end(m: Machine, words: Words) -> None:
     """The run ends after this block; subprograms may follow it."""
     if m.flow.called:

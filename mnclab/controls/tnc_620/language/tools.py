@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from mnclab.controls.tnc_620.language.feeds import PER_TOOTH, set_feed, with_another_tool
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
+LAST = 32767  # number of a tool
+DELTAS = {"DL": "dl", "DR": "dr", "DR2": "corner"}  # words and the dimensions that they are added to
 
 
-@FUNCTIONS("TOOL CALL,", "Tool call", takes="tool axis S F DL DR DR2", source="TOOL CALL")
+@FUNCTIONS("TOOL CALL,", "Tool call", takes="tool text axis S F DL DR DR2", source="TOOL CALL")
 def tool_call(m: Machine, words: Words) -> None:
     """Puts the tool into the spindle with its deltas; without a tool only speed, feed and deltas change."""
     if m.side:
@@ -23,20 +26,29 @@ def tool_call(m: Machine, words: Words) -> None:
         )
     if "axis" in words and words["axis"].value != "Z":
         m.alarm(f"TOOL CALL: the tool axis {words['axis'].value} is not built yet, Z is", words["axis"])
-    if "DR2" in words:
-        m.alarm("TOOL CALL DR2 (delta of the corner radius) is not built yet", words["DR2"])
     speed, feed = numbers(m, words, "S", "spindle speed", 0), numbers(m, words, "F", "feed rate", None)
-    deltas = {name.lower(): m.value(words[name]) for name in ("DL", "DR") if name in words}
-    if "tool" in words or deltas:
-        base = find(m, words["tool"]) if "tool" in words else m.tables.tools.get(m.tool.number, m.tool)
-        kept = {} if "tool" in words else {"dl": m.tool.dl - base.dl, "dr": m.tool.dr - base.dr}
-        delta = {"dl": 0.0, "dr": 0.0} | kept | deltas
-        m.change_tool(replace(base, dl=base.dl + delta["dl"], dr=base.dr + delta["dr"]))
+    deltas = {DELTAS[name]: m.value(words[name]) for name in DELTAS if name in words}
+    word = words.get("tool", words.get("text"))
+    if word or deltas:
+        put_in(m, find(m, word, "TOOL CALL") if word else None, deltas, words)
     if speed is not None:
         m.spindle(speed=speed)
     if feed is not None:
         m.memory["auto feed"] = feed
-        m.change("feed", feed)
+        m.memory.pop(PER_TOOTH, None)
+        set_feed(m, feed)
+
+
+def put_in(m: Machine, tool: Tool | None, deltas: dict[str, float], words: Words) -> None:
+    """Change to a tool with its deltas, or give the present one other deltas; those not written are 0, or stay."""
+    base = m.tables.tools.get(m.tool.number, m.tool) if tool is None else tool
+    kept = {} if tool else {name: getattr(m.tool, name) - getattr(base, name) for name in DELTAS.values()}
+    changed = {name: getattr(base, name) + value for name, value in (kept | deltas).items()}
+    if changed.get("corner", 0) < 0:
+        least = f"{0 - base.corner:g}, got {m.value(words['DR2']):g}: the corner radius is {base.corner:g}"
+        m.alarm(f"TOOL CALL DR2 (delta corner radius) must be at least {least}", words["DR2"])
+    m.change_tool(replace(base, **changed))
+    with_another_tool(m)
 
 
 def numbers(m: Machine, words: Words, address: str, meaning: str, least: float | None) -> float | None:
@@ -50,32 +62,47 @@ def numbers(m: Machine, words: Words, address: str, meaning: str, least: float |
     return value
 
 
-def find(m: Machine, word: Word) -> Tool:
-    """The tool of a number or a name."""
-    tools = m.tables.tools
-    if isinstance(word.value, str):
+def find(m: Machine, word: Word, code: str) -> Tool:
+    """The tool of a number, of a name, or of the name in a text parameter."""
+    tools, name = m.tables.tools, word.value
+    if word.address == "text":
+        name = dict(m.variables).get(str(word.value))
+        if not isinstance(name, str):
+            m.alarm(f"{code}: no text was given to {word.value}", word)
+    if isinstance(name, str):
         for tool in tools.values():
-            if tool.name.upper() == word.value.upper():
+            if tool.name.upper() == name.strip().upper():
                 return tool
         known = ", ".join(f'"{tool.name}"' for tool in tools.values() if tool.name)
-        m.alarm(f'TOOL CALL "{word.value}" has no row in the tool table', word, hint=f"names: {known}")
+        m.alarm(f'{code} "{name}" has no row in the tool table', word, hint=f"names: {known}")
     number = m.value(word)
     if number not in tools:
         m.alarm(
-            f"TOOL CALL {number:g} has no row in the tool table",
+            f"{code} {number:g} has no row in the tool table",
             word,
             hint=f"tools: {', '.join(map(str, sorted(tools)))}",
         )
-    return tools[int(number)]
+    return tools[number]  # type: ignore[index]  # an index such as 5.2 is a row of its own
 
 
-@FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool L R", source="TOOL DEF")
+@FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool text L R", source="TOOL DEF")
 def tool_def(m: Machine, words: Words) -> None:
-    """With a tool table it only names the next tool; nothing moves."""
+    """With a tool table it only names the next tool; without one it defines length and radius. Nothing moves."""
+    word = words.get("tool", words.get("text"))
+    if word is None:
+        m.alarm("TOOL DEF needs the number of the tool", None, hint="for example TOOL DEF 5 L+100 R+4")
     for address in ("L", "R"):
-        if address in words:
+        if address in words and m.setup.tools:
             m.alarm(
                 f"TOOL DEF {address}: the tool table is active, it holds the dimensions of the tools", words[address]
             )
-    if "tool" in words:
-        find(m, words["tool"])
+    if m.setup.tools:
+        find(m, word, "TOOL DEF")
+        return
+    number = word.value if isinstance(word.value, str) else m.value(word)
+    if isinstance(number, str) or number != int(number) or not 0 < number <= LAST:
+        m.alarm(f"TOOL DEF: the tool must be a whole number from 1 to {LAST}", word)
+    length, radius = (m.value(words[address]) if address in words else 0.0 for address in ("L", "R"))
+    if radius < 0:
+        m.alarm(f"TOOL DEF R (radius) must be at least 0, got {radius:g}", words["R"])
+    m.write_table("tools", int(number), Tool(radius=radius, length=length, number=int(number)))

@@ -1,0 +1,130 @@
+"""GLOBAL DEF and PREDEF (3.2): values that many cycles share, said once at the beginning of a program.
+
+A cycle takes such a value where its parameter says PREDEF, when it is defined; a number in the cycle is its own. The
+values are no Q parameters of the program: GLOBAL DEF 100 with Q200=3 leaves Q200 as it is.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.machine.cycle import Cycle, CycleTable, Parameter, param
+from mnclab.machine.machine import Machine
+from mnclab.text.program import Word
+
+CYCLES = CycleTable()
+CLIMB: dict[float, str] = {1: "climb", -1: "conventional"}
+
+DRILLING = frozenset(f"CYCL DEF {n}" for n in (*range(200, 210), 240, 241, *range(262, 268)))
+FIXED = frozenset(f"CYCL DEF {n}" for n in range(200, 300))
+MILLING = frozenset(f"CYCL DEF {n}" for n in range(251, 259))
+CONTOURS = frozenset(f"CYCL DEF {n}" for n in range(20, 26))
+PROBING = frozenset(f"TCH PROBE {n}" for n in range(400, 500))
+
+
+class Defaults(Cycle):
+    """Values for the cycles that ``serves`` names; they hold until they are defined again or the program ends."""
+
+    serves: ClassVar[frozenset[str]] = frozenset()
+    in_variables: ClassVar[bool] = False
+
+    def moves(self, m: Machine) -> None:
+        """No motion."""
+        for parameter in self.parameters():
+            value = getattr(self, parameter.name)
+            defaults(m)[parameter.address] = value
+            m.log(f"default {parameter.address}", value)
+
+
+def defaults(m: Machine) -> dict[str, Any]:
+    """The values of all GLOBAL DEF so far by Q parameter; mm, mm/min, s, or a word such as FMAX."""
+    found: dict[str, Any] = m.memory.setdefault("defaults", {})
+    return found
+
+
+@CYCLES("GLOBAL DEF 100", "Defaults of all fixed cycles", runs="definition", source="3.2")
+class General(Defaults):
+    """Clearances and feeds for the cycles 2xx."""
+
+    serves = FIXED
+
+    clearance: float = addresses.clearance()
+    second_clearance: float = addresses.second_clearance()
+    positioning_feed: float | str = addresses.feed("Q253", "feed rate for positioning", ("FMAX", "FAUTO"))
+    retraction_feed: float | str = addresses.feed("Q208", "feed rate for retraction", ("FMAX", "FAUTO"))
+
+
+@CYCLES("GLOBAL DEF 105", "Defaults of drilling cycles", runs="definition", source="3.2")
+class Drilling(Defaults):
+    """Chip breaking and dwells for drilling, tapping and thread milling."""
+
+    serves = DRILLING
+
+    break_retract: float = addresses.length("Q256", "retraction for chip breaking", incremental=True)
+    dwell_top: float = addresses.seconds("Q210", "dwell at the set-up clearance")
+    dwell_bottom: float = addresses.dwell_bottom()
+
+
+@CYCLES("GLOBAL DEF 110", "Defaults of pocket cycles", runs="definition", source="3.2")
+class PocketMilling(Defaults):
+    """How pockets, slots and studs are milled."""
+
+    serves = MILLING
+
+    overlap: float = param("Q370", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True)
+    climb: float = addresses.choice("Q351", "sense of milling", CLIMB)
+    plunging_type: float = addresses.choice(
+        "Q366", "plunging strategy", {0: "vertical", 1: "helical", 2: "reciprocating"}
+    )
+
+
+@CYCLES("GLOBAL DEF 111", "Defaults of contour cycles", runs="definition", source="3.2")
+class ContourMilling(Defaults):
+    """How the contours of the SL cycles are milled."""
+
+    serves = CONTOURS
+
+    overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True)
+    clearance: float = addresses.length("Q6", "set-up clearance", incremental=True)
+    height: float = addresses.coordinate("Q7", "clearance height")
+    climb: float = addresses.choice("Q9", "sense of milling", CLIMB)
+
+
+@CYCLES("GLOBAL DEF 120", "Defaults of probing cycles", runs="definition", source="3.2")
+class Probing(Defaults):
+    """Clearances of the touch probe for the cycles 4xx."""
+
+    serves = PROBING
+
+    clearance: float = addresses.length("Q320", "set-up clearance", incremental=True)
+    height: float = addresses.coordinate("Q260", "clearance height")
+    move_to_clearance_height: float = addresses.choice(
+        "Q301", "height between measuring points", {0: "at the measuring height", 1: "at the clearance height"}
+    )
+
+
+@CYCLES("GLOBAL DEF 125", "Positioning for CYCL CALL PAT", runs="definition", source="3.2")
+class Positioning(Defaults):
+    """The height between the points of a pattern; CYCL CALL PAT reads it."""
+
+    select_positioning_height: float = param(
+        ("Q345", "Q352"), "positioning height between points", "choice", modal=True,
+        choices={0: "where the tool stood at the call", 1: "the second set-up clearance"},
+        note="without this definition: the greater of the two",
+    )  # fmt: skip
+
+
+def predefined(m: Machine, code: str, parameter: Parameter, word: Word) -> float | str:
+    """What PREDEF stands for in a cycle: the value of the GLOBAL DEF executed last."""
+    named = f"{code} {parameter.address} ({parameter.meaning})"
+    source = next((c for c in CYCLES.values() if parameter.address in {p.address for p in c.parameters()}), None)
+    offered = source is not None and issubclass(source, Defaults) and code in source.serves
+    if source is None or not (parameter.predef or offered):
+        m.alarm(f"{named} has no default: PREDEF is not allowed", word, hint="write its value")
+    if parameter.address not in defaults(m):
+        m.alarm(f"{named} needs {source.code} before it for PREDEF", word)
+    value: float | str = defaults(m)[parameter.address]
+    if isinstance(value, str) and value not in parameter.also:
+        m.alarm(f"{named} cannot be {value}, which {source.code} gives", word, hint="write its value")
+    return value

@@ -1,0 +1,97 @@
+"""The feed of a block in all its forms: F, FMAX, FAUTO, FU, FZ (3.1; catalogue: F, TOOL CALL).
+
+FU is a feed per revolution and FZ one per tooth; both follow the speed of the spindle. Where a cycle is defined they
+become mm/min with the speed and the tool of that moment, as FAUTO does; FMAX stays a word.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.machine import INF, Machine
+from mnclab.text.program import Word
+
+FORMS = ("F", "FMAX", "FAUTO", "FU", "FZ")
+PER_TOOTH = "feed per tooth"  # mm, kept beside the feed per revolution that it makes with the tool in the spindle
+MEANINGS = {"F": "feed rate", "FU": "feed per revolution", "FZ": "feed per tooth"}
+
+
+def feed(m: Machine, words: Words) -> float | None:
+    """Set the feed of this and the following blocks; inf for FMAX, which counts in its block alone."""
+    given = [words[name] for name in FORMS if name in words]
+    if not given:
+        return None
+    if len(given) > 1:
+        m.alarm(f"{given[0]} and {given[1]} stand in one block: one feed is allowed", given[1])
+    word = given[0]
+    if word.address == "FMAX":
+        return INF
+    m.memory.pop(PER_TOOTH, None)
+    if word.address == "FAUTO":
+        set_feed(m, auto_feed(m, word))
+        return None
+    value = positive(m, word)
+    if word.address == "FZ":
+        m.memory[PER_TOOTH] = value
+        value *= teeth(m, word)
+    set_feed(m, value, per_rev=word.address != "F")
+    return None
+
+
+def set_feed(m: Machine, value: float | None, per_rev: bool = False) -> None:
+    """The feed from now on, mm/min or mm/rev."""
+    m.change("per_rev", per_rev)
+    m.change("feed", value)
+
+
+def positive(m: Machine, word: Word) -> float:
+    """The number of a feed."""
+    value = m.value(word)
+    if value <= 0:
+        m.alarm(f"{word.address} ({MEANINGS[word.address]}) must be greater than 0, got {value:g}", word)
+    return value
+
+
+def teeth(m: Machine, word: Word) -> int:
+    """Of the tool in the spindle."""
+    if m.tool.teeth <= 0:
+        m.alarm(f"{word} needs the number of teeth of tool {m.tool.number} (column CUT of the tool table)", word)
+    return m.tool.teeth
+
+
+def with_another_tool(m: Machine) -> None:
+    """A feed per tooth goes on with the teeth of the new tool; with none there is no feed until one is written."""
+    if PER_TOOTH in m.memory:
+        set_feed(m, m.memory[PER_TOOTH] * m.tool.teeth if m.tool.teeth > 0 else None, per_rev=True)
+
+
+def auto_feed(m: Machine, word: Word) -> float:
+    """The feed of the TOOL CALL block, mm/min."""
+    value: float | None = m.memory.get("auto feed")
+    if value is None:
+        m.alarm("FAUTO needs a feed in the TOOL CALL block", word, hint="write TOOL CALL … F500")
+    return value
+
+
+def named(m: Machine, word: Word) -> float | str:
+    """A feed written in place of the number of a cycle: mm/min where it is defined (3.1); FMAX stays a word."""
+    text = str(word.value)
+    if text == "FAUTO":
+        return auto_feed(m, word)
+    if not text.startswith(("FU", "FZ")):
+        return text
+    per, value = text[:2], float(text[2:]) * m.variable_unit
+    if value <= 0:
+        m.alarm(f"{word.address}={per} ({MEANINGS[per]}) must be greater than 0, got {value:g}", word)
+    if m.speed <= 0:
+        m.alarm(f"{word} needs a spindle speed", word, hint="write S in the TOOL CALL block before the definition")
+    return value * m.speed * (teeth(m, word) if per == "FZ" else 1)
+
+
+def in_all_forms(functions: FunctionTable) -> FunctionTable:
+    """Functions that take FAUTO take FU and FZ as well."""
+    return FunctionTable({
+        code: replace(found, takes=(*found.takes, "FU", "FZ")) if "FAUTO" in found.takes else found
+        for code, found in functions.items()
+    })  # fmt: skip

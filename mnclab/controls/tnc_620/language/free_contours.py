@@ -1,0 +1,301 @@
+"""Free contour programming: FPOL, FL, FLT, FC, FCT, FSELECT (catalogue: FK).
+
+Each block tells what is known of an element; :mod:`mnclab.geometry.free_contour` finds the contours that fit. The blocks
+wait in ``machine.pending`` until something follows that is no free element: then everything must be settled. RND, CHF,
+FPOL, FSELECT and assignments may stand between.
+
+FSELECT counts the readings in the order of that module. The manual does not document its order; with this one the numbers
+of its example give its contour. Without FSELECT later data may decide; what is left in the end is decided by the contour
+that closes, stays inside the blank and does not cross itself, if there is one alone, with a warning.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple, NoReturn
+
+import numpy as np
+
+from mnclab.controls.tnc_620.language.free_words import describe
+from mnclab.controls.tnc_620.language.motion import TOLERANCE, feed, refuse_rapid, side
+from mnclab.geometry import free_choice
+from mnclab.geometry.free_contour import FreeContour, Pair, Piece, known
+from mnclab.geometry.quadratics import Form
+from mnclab.geometry.readings import Contradiction, Reading, TooManyReadings
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.machine import Machine
+from mnclab.machine.waiting import Moment, as_of, moment
+from mnclab.text.program import Word
+
+FUNCTIONS = FunctionTable()
+
+BOTH = "X Y PR PA LEN AN P1X P1Y P2X P2Y PDX PDY D CLSD RX RY RPR RPA RAN R0 RL RR F FMAX FAUTO"
+LINE = f"{BOTH} PAR DP"
+ARC = f"{BOTH} P3X P3Y R DR CCA CCX CCY CCPR CCPA RCCX RCCY RCCPR RCCPA"
+START = "free start"  # in the machine's memory: where a contour began with CLSD+
+POLE = "free pole"
+EARLIER = "free elements"
+
+
+class Earlier(NamedTuple):
+    """What later blocks may refer to: the end of an element, the normal where it begins, and n·p of that line."""
+
+    end: Pair
+    normal: Pair
+    level: Form
+
+
+class Block(NamedTuple):
+    """A block that waits: its number and code, when it was read, its feed, and the joint after it."""
+
+    number: str
+    code: str
+    moment: Moment
+    feed: float
+    joints: list[Any]
+
+
+class Chain:
+    """Free elements in a row, told and not yet moved."""
+
+    def __init__(self, m: Machine) -> None:
+        x, y, self.z = m.programmed
+        if math.isnan(x) or math.isnan(y):
+            m.alarm("a free contour needs a point to begin from", None, hint="write L X… Y… before it")
+        self.start = (x, y)
+        self.contour = FreeContour(self.start, _heading(m))
+        self.blocks: list[Block] = []
+        self.chosen = False
+        self.closed = False
+
+    # --- while it waits -------------------------------------------------------------------------------------------------
+
+    def mark(self, joint: Any) -> bool:
+        """A rounding or chamfer after the last element."""
+        if self.blocks[-1].joints:
+            return False
+        self.blocks[-1].joints.append(joint)
+        return True
+
+    def add(self, m: Machine, words: Words, f: float) -> None:
+        """One more element."""
+        tangent, arc = words.code in ("FLT", "FCT"), words.code in ("FC", "FCT")
+        if tangent and not self.blocks and self.contour.arriving is None:
+            m.alarm(f"{words.code} needs a path element in the working plane directly before it", None)
+        number = str(m.flow.program[m.flow.current].number)
+        k = self.contour.arc(tangent, words.code) if arc else self.contour.line(tangent, words.code)
+        self.blocks.append(Block(number, words.code, moment(m), f, []))
+        describe(self, m, words, k)
+        self.follow(m)
+
+    def follow(self, m: Machine, thoroughly: bool = False) -> None:
+        """See what fits; an alarm at the datum that does not."""
+        try:
+            self.contour.follow(thoroughly)
+        except Contradiction as error:
+            self.refuse(m, error)
+        except TooManyReadings:
+            m.alarm(
+                "the free contour has too many solutions to follow", None, hint="write FSELECT after earlier blocks"
+            )
+
+    def refuse(self, m: Machine, error: Contradiction) -> NoReturn:
+        """The alarm of a datum that no contour fulfils."""
+        label, block = error.label, self.blocks[-1]
+        if isinstance(label, Word):
+            missed = "" if math.isnan(error.gap) else f", it is missed by {error.gap:.4f} mm"
+            m.alarm(f"{block.code} {label} contradicts what is known of the contour{missed}", label)
+        m.alarm(f"{block.code} has no solution: the element cannot be joined to what is known of the contour", None)
+
+    def earlier(self, m: Machine, word: Word) -> Earlier:
+        """The element of a block number, told in this contour or an earlier one."""
+        number = f"{m.value(word):g}"
+        for k in reversed(range(len(self.blocks) - 1)):
+            if self.blocks[k].number == number:
+                return Earlier(self.contour.end(k), self.contour.normal(k), self.contour.level(k))
+        found: dict[str, Earlier] = m.memory.get(EARLIER, {})
+        if number not in found:
+            m.alarm(f"{word} must name an earlier block of a free contour, block {number} is none", word)
+        return found[number]
+
+    def close(self, m: Machine, word: Word, k: int) -> None:
+        """CLSD+ at the first element of a closed contour, CLSD- at its last."""
+        if word.value == "+":
+            if START in m.memory:
+                m.alarm("CLSD+ begins a closed contour inside another one", word, hint="end that with CLSD- first")
+            m.memory = {**m.memory, START: self.contour.elements[k].start}
+        elif word.value != "-":
+            m.alarm(f"CLSD must be CLSD+ or CLSD-, got {word}", word)
+        elif START not in m.memory:
+            m.alarm("CLSD- ends a closed contour that no CLSD+ began", word)
+        else:
+            memory = dict(m.memory)
+            self.contour.same(self.contour.end(k), memory.pop(START), word)
+            m.memory, self.closed = memory, True
+
+    # --- when it is over ------------------------------------------------------------------------------------------------
+
+    def make(self, m: Machine) -> None:
+        """Settle everything and move."""
+        self.follow(m, thoroughly=True)
+        contour = self.contour
+        for reading in contour.readings:
+            if contour.open_unknowns(reading):
+                self.refuse_open(m, reading)
+        solutions = [contour.pieces(reading) for reading in contour.readings]
+        which = 0 if len(solutions) == 1 else self.likely(m, solutions)
+        values = contour.readings[which].values
+        self.keep(m, values)
+        for block, piece in zip(self.blocks, solutions[which], strict=True):
+            with as_of(m, block.moment):
+                x, y = (round(v, 10) for v in piece.end)  # what was programmed comes out as programmed
+                if piece.centre is None:
+                    m.line(x, y, f=block.feed)
+                else:
+                    centre = {0: round(piece.centre[0], 10), 1: round(piece.centre[1], 10)}
+                    m.arc(x, y, sense=piece.sense, centre=centre, f=block.feed, tolerance=TOLERANCE)
+                for joint in block.joints:
+                    m.mark_joint(joint)
+
+    def keep(self, m: Machine, values: np.ndarray[Any, Any]) -> None:
+        """What later contours may refer to, in numbers."""
+        found: dict[str, Earlier] = dict(m.memory.get(EARLIER, {}))
+        for k, block in enumerate(self.blocks):
+            element = self.contour.elements[k]
+            if element.normal is not None:
+                normal = element.normal
+            else:
+                assert element.centre is not None
+                spoke, radius = element.centre - element.start, element.radius.at(values)
+                normal = spoke.times(1 / radius)
+            n, end, start = (_fixed(pair, values) for pair in (normal, element.end, element.start))
+            found[block.number] = Earlier(end, n, n.dot(start))
+        m.memory = {**m.memory, EARLIER: found}
+        if START in m.memory:
+            m.memory[START] = _fixed(m.memory[START], values)
+
+    def refuse_open(self, m: Machine, reading: Reading) -> NoReturn:
+        """The alarm of a contour of which too little is known."""
+        contour = self.contour
+        open_ = set(contour.open_unknowns(reading))
+        first, parts = len(contour.elements) - 1, ["end point"]
+        for k, element in enumerate(contour.elements):
+            named = {
+                "direction": element.normal and element.normal.x, "place": element.offset,
+                "centre": element.centre and element.centre.x, "radius": element.radius, "end point": element.end.x,
+            }  # fmt: skip
+            known_not = [name for name, form in named.items() if form is not None and form.variables & open_]
+            if element.end.y.variables & open_ and "end point" not in known_not:
+                known_not.append("end point")
+            if known_not:
+                first, parts = k, known_not
+                break
+        missing, block = max(contour.missing(reading), 0), self.blocks[first]
+        what = f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else parts[0]
+        need = (
+            f"{missing} more {'datum is' if missing == 1 else 'data are'} needed"
+            if missing
+            else "no solution was found"
+        )
+        m.alarm(
+            f"{block.code}: the free contour is not determined, {need}; not known here: {what}",
+            m.flow.span_of_step(block.moment.step),
+        )
+
+    def likely(self, m: Machine, solutions: list[list[Piece]]) -> int:
+        """The one solution that closes, stays inside the blank and does not cross itself; an alarm if it is not alone."""
+        left = list(range(len(solutions)))
+        blank = m.memory.get("stock")
+
+        def inside(pieces: list[Piece]) -> bool:
+            return (
+                blank is None
+                or not blank.maximum
+                or free_choice.is_within(pieces, blank.minimum[:2], blank.maximum[:2])
+            )
+
+        for test in (
+            lambda pieces: free_choice.is_closed(pieces, self.start), inside,
+            lambda pieces: not free_choice.crosses_itself(pieces),
+        ):  # fmt: skip
+            left = [k for k in left if test(solutions[k])] or left
+        block, count = self.blocks[-1], len(solutions)
+        span = m.flow.span_of_step(block.moment.step)
+        if len(left) > 1:
+            m.alarm(
+                f"{block.code}: the free contour has {count} solutions here", span,
+                hint=f"choose one with FSELECT 1 to FSELECT {count}",
+            )  # fmt: skip
+        m.warn(
+            f"{block.code}: of {count} solutions the one is taken that fits the blank and closes best", span,
+            hint=f"FSELECT {left[0] + 1} says so",
+        )  # fmt: skip
+        return left[0]
+
+
+def _fixed(pair: Pair, values: np.ndarray[Any, Any]) -> Pair:
+    """A point whose unknowns are settled, as numbers."""
+    return known(pair.x.at(values), pair.y.at(values))
+
+
+def _heading(m: Machine) -> float | None:
+    """The direction (rad, in program coordinates) in which the last move arrived; None where there is none in the plane."""
+    travel = m.heading()
+    if travel is None:
+        return None
+    ahead = m.to_program(t + d for t, d in zip(m.tip, travel, strict=True))
+    x, y, z = (a - b for a, b in zip(ahead, m.to_program(m.tip), strict=True))
+    return math.atan2(y, x) if abs(z) < 1e-9 and math.hypot(x, y) > 1e-9 else None
+
+
+def element(m: Machine, words: Words) -> None:
+    """Add a block to the chain that waits, or begin one."""
+    own = feed(m, words)
+    if words.code in ("FC", "FCT"):
+        refuse_rapid(m, words)
+    side(m, words, begins=words.code in ("FL", "FLT"))
+    f = m.feed_of(own)
+    if not isinstance(m.pending, Chain):
+        m.pending = Chain(m)
+    m.pending.add(m, words, f)
+
+
+@FUNCTIONS("FL FLT", {"FL": "Free line", "FLT": "Free tangential line"}, takes=LINE, collects=True, source="FK")
+def free_line(m: Machine, words: Words) -> None:
+    """A line told by what is known of it; FLT joins the element before tangentially."""
+    element(m, words)
+
+
+@FUNCTIONS("FC FCT", {"FC": "Free arc", "FCT": "Free tangential arc"}, takes=ARC, collects=True, source="FK")
+def free_arc(m: Machine, words: Words) -> None:
+    """An arc told by what is known of it; FCT joins the element before tangentially."""
+    element(m, words)
+
+
+@FUNCTIONS("FPOL", "Pole of free contours", takes="X Y", collects=True, source="FK")
+def free_pole(m: Machine, words: Words) -> None:
+    """The pole of polar data of free elements, until the next one; no motion."""
+    for axis in "XY":
+        if axis not in words:
+            m.alarm(f"FPOL needs {axis}, the coordinate of the pole", words.words[0] if len(words) else None)
+        if words[axis].incremental and m.pending:
+            m.alarm(f"FPOL {axis} (pole) must be absolute inside a free contour", words[axis])
+    pole = tuple(
+        m.value(words[axis]) + (m.programmed[k] if words[axis].incremental else 0.0) for k, axis in enumerate("XY")
+    )
+    m.memory = {**m.memory, POLE: pole}
+    m.log(POLE, pole)
+
+
+@FUNCTIONS("FSELECT", "Choice of a free contour", takes="number", collects=True, source="FK")
+def select(m: Machine, words: Words) -> None:
+    """Go on with one of the solutions of the free elements so far."""
+    if not isinstance(m.pending, Chain):
+        m.alarm("FSELECT must follow a block of a free contour", words.words[0] if len(words) else None)
+    if "number" not in words:
+        m.alarm("FSELECT needs the number of a solution", None)
+    word, contour = words["number"], m.pending.contour
+    number, count = m.value(word), len(contour.readings)
+    if number != int(number) or not 1 <= number <= count:
+        m.alarm(f"FSELECT must be the number of a solution, 1 to {count} here, got {number:g}", word)
+    contour.readings = [contour.readings[int(number) - 1]]

@@ -1,0 +1,49 @@
+"""Positions that count from the machine (M91, M92), and rotary axes within one turn (M94)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.machine import Machine
+
+FUNCTIONS = FunctionTable()
+TITLES = {"M91": "Machine coordinates", "M92": "Coordinates from a position of the machine tool builder"}
+DATUM = "machine datum"  # in the memory while its block runs: the word, and the machine coordinates to count from
+
+
+@FUNCTIONS("M91 M92", TITLES, group="machine datum", phase="start", modal=False, source="M91, M92")
+def machine_datum(m: Machine, words: Words) -> None:
+    """Positions of the block count from the machine datum or from the position of the settings, without tool length."""
+    word, program = words.words[0], m.flow.program
+    if program.keywords[program.keyword[m.flow.current]] != "L":
+        m.alarm(f"{words.code} stands in a straight line L alone", word)
+    if m.side:
+        m.alarm(f"{words.code} cannot stand under radius compensation", word, "write R0 in the block before")
+    built = words.code == "M92"
+    m.memory[DATUM] = word, [m.settings[f"m92_{axis}"] if built else 0.0 for axis in "xyz"]
+    m.at_block_end(lambda: m.memory.pop(DATUM))
+
+
+def machine_target(m: Machine, written: dict[int, tuple[float, bool]]) -> dict[str, Any]:
+    """The point of the program that these values (axis -> value, whether incremental) mean while M91 or M92 is active."""
+    (word, datum), target = m.memory[DATUM], list(m.tip)
+    for axis, (value, incremental) in written.items():
+        length = m.tool.effective_length if axis == 2 else 0.0  # Z is the spindle reference, above the tip
+        target[axis] = target[axis] + value if incremental else datum[axis] + value - length
+    if m.side:
+        m.alarm(f"{word} cannot begin radius compensation", word, "write RL or RR in the block after")
+    point = m.to_program(target)
+    return {"xyz"[axis]: point[axis] for axis in (written if m._shift is not None else range(3))}
+
+
+@FUNCTIONS("M94", "Rotary axes within one turn", takes="M94:A M94:B M94:C", phase="start", modal=False, source="M94")
+def within_one_turn(m: Machine, words: Words) -> None:
+    """The named rotary axes, or all, show an angle from 0 to less than 360 degrees; nothing moves."""
+    named = [word for word in words.words if word.address.startswith("M94:")]
+    for word in named:
+        if word.value is not None:
+            m.alarm(f"M94 names an axis without a number, got {word.address[4:]}{m.value(word):g}", word)
+    axes = "".join(word.address[4:] for word in named) or "ABC"
+    m.change("rotary", tuple(a % math.tau if axis in axes else a for axis, a in zip("ABC", m.rotary, strict=True)))

@@ -1,0 +1,86 @@
+"""CYCL CALL PAT: the defined cycle at every point of a pattern (3.1, 3.3, 3.4).
+
+At a point with surface Z the cycle works from S = Q203 + Z. Between the points the tool is at its clearance height H:
+where it stood at the call, or the second set-up clearance, whichever is greater; from a lower point to a higher one it
+goes up first, and from a higher one to a lower one it goes down last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.controls.tnc_620.cycles.defaults import defaults
+from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM, planes, ready, run_at
+from mnclab.controls.tnc_620.language.motion import feed
+from mnclab.controls.tnc_620.language.patterns import Pattern
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.cycle import Definition
+from mnclab.machine.machine import Machine
+from mnclab.machine.pattern import at_each
+
+FUNCTIONS = FunctionTable()
+CODE = "CYCL CALL PAT"
+Floats = NDArray[np.float64]
+
+
+@FUNCTIONS(
+    f"{CODE},", "Cycle call at a pattern", group="call", modal=False, phase="call", takes="F FMAX FAUTO", source="3.1"
+)
+def cycle_call_pattern(m: Machine, words: Words) -> None:
+    """Runs the cycle defined last at every point of the pattern; F is the feed from point to point."""
+    definition = ready(m, CODE, None)
+    pattern: Pattern | None = m.memory.get("pattern")
+    if pattern is None:
+        m.alarm(f"{CODE} has no pattern", None, hint="write PATTERN DEF or SEL PATTERN before it")
+    if m.plane != "XY":
+        m.alarm(f"{CODE}: the points of a pattern lie in X and Y, the tool axis must be Z", None)
+    f = feed(m, words)
+    heights = clearance_heights(m, definition, pattern)
+    surface = pattern.points[:, 2]
+    last = np.flatnonzero((np.diff(surface) != 0) | (np.diff(heights) != 0)) + 1
+    for run in np.split(np.arange(len(surface)), last):  # of points that differ in their place alone
+        if len(run):
+            at_each(m, pattern.points[run, :2], visit(m, definition, f, float(surface[run[0]]), float(heights[run[0]])))
+
+
+def visit(
+    m: Machine, definition: Definition, f: float | None, z: float, height: float
+) -> Callable[[float, float], None]:
+    """What happens at a point: up if need be, over it, the cycle, up."""
+
+    def go(x: float, y: float) -> None:
+        m.label = f"{CODE} to the point"
+        if m.programmed[2] < height:
+            m.rapid(z=height)
+        m.line(x=x, y=y, f=f)
+        m.label = ""
+        run_at(m, definition, x, y, z)
+        m.label = f"{CODE} to the clearance height"
+        m.rapid(z=height)
+        m.label = ""
+
+    return go
+
+
+def clearance_heights(m: Machine, definition: Definition, pattern: Pattern) -> Floats:
+    """The clearance height of each point (n,), never below its set-up clearance.
+
+    In a PATTERN DEF above the surface of the cycle, Q204 counts from the surface of the pattern alone. Where a point
+    table holds clearance heights, Q204 does not count, unless GLOBAL DEF 125 asks for it.
+    """
+    own, first, second = planes(m, definition)
+    at_call, choice = m.programmed[2], defaults(m).get("Q345")
+    z = pattern.points[:, 2]
+    surface = own + z
+    whole = pattern.table or definition.cycle.code in PLACED_BY_DATUM
+    above = second + (surface if whole else np.where(z > own, z, surface))
+    if choice == 1:
+        heights = np.fmax(above, pattern.clearance)
+    elif not np.isnan(pattern.clearance).all():
+        heights = np.where(np.isnan(pattern.clearance), at_call, pattern.clearance)
+    else:
+        heights = np.full(len(z), at_call) if choice == 0 else np.maximum(at_call, above)
+    return np.maximum(heights, surface + first)

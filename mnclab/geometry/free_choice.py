@@ -1,0 +1,76 @@
+"""Which of several readings of a free contour is meant: closed, inside the blank, not crossing itself."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry.arcs import sweep_of_one
+from mnclab.geometry.curves import Curves, distance
+from mnclab.geometry.free_contour import Piece
+
+Array = NDArray[np.float64]
+CLOSED = 1e-3  # mm between the end and the start of a closed contour
+STEPS = 48  # chords of an element
+ALONG = 1e-6  # mm: a point inside one element as near to another lies on it
+
+
+def outline(pieces: Sequence[Piece]) -> Array:
+    """Points (n, STEPS + 1, 2) along n elements, from start to end."""
+    shares = np.linspace(0, 1, STEPS + 1)[:, None]
+    found = []
+    for piece in pieces:
+        start, end = np.array(piece.start), np.array(piece.end)
+        if piece.centre is None:
+            found.append(start + shares * (end - start))
+            continue
+        angle = sweep_of_one(piece.start, piece.end, piece.centre, piece.sense) * shares
+        x, y = start - piece.centre
+        found.append(
+            piece.centre + np.hstack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)])
+        )
+    return np.array(found)
+
+
+def is_closed(pieces: Sequence[Piece], start: tuple[float, float]) -> bool:
+    """Whether the last element ends at a point."""
+    return bool(np.hypot(*np.subtract(pieces[-1].end, start)) < CLOSED)
+
+
+def is_within(pieces: Sequence[Piece], low: Sequence[float], high: Sequence[float]) -> bool:
+    """Whether the elements stay in a rectangle."""
+    points = outline(pieces).reshape(-1, 2)
+    return bool((points >= np.array(low) - CLOSED).all() and (points <= np.array(high) + CLOSED).all())
+
+
+def crosses_itself(pieces: Sequence[Piece]) -> bool:
+    """Whether the path runs through itself or along itself; touching at a point is neither."""
+    points = outline(pieces)
+    a, b = points[:, :-1].reshape(-1, 1, 2), points[:, 1:].reshape(-1, 1, 2)
+    c, d = a.reshape(1, -1, 2), b.reshape(1, -1, 2)
+    apart = (1e-9 * max(1.0, float(np.ptp(points))) ** 2) ** 2
+    if ((_side(a, b, c) * _side(a, b, d) < -apart) & (_side(c, d, a) * _side(c, d, b) < -apart)).any():
+        return True
+    curves = _curves(pieces)
+    inner = points[:, 1:-1]
+    for k in range(len(pieces)):
+        for other in range(len(pieces)):
+            same = curves.take(np.full(STEPS - 1, other))
+            if k != other and (distance(inner[k], same) < ALONG).any():
+                return True
+    return False
+
+
+def _side(p: Array, q: Array, r: Array) -> Array:
+    """Positive where r lies to the left of p -> q."""
+    u, v = q - p, r - p
+    return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+
+
+def _curves(pieces: Sequence[Piece]) -> Curves:
+    start, end = (np.array([getattr(piece, name) for piece in pieces]) for name in ("start", "end"))
+    centre = np.array([piece.centre or (np.nan, np.nan) for piece in pieces])
+    sweep = [sweep_of_one(p.start, p.end, p.centre, p.sense) if p.centre else 0.0 for p in pieces]
+    return Curves(start, end, centre, np.hypot(*(start - centre).T), np.array(sweep))

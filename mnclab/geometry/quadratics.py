@@ -1,0 +1,349 @@
+"""Small systems of quadratic equations, with all their real solutions.
+
+Incidence, tangency, distance and angle between points, oriented lines and oriented circles are equations of the second
+degree at most, when a line is (n, c) with n·p = c and |n| = 1, and a circle is its centre and its signed radius. So a
+system of them is solved in four steps: linear equations are eliminated; quadratic ones with proportional quadratic parts
+are subtracted, which leaves linear ones (the circles of Apollonius become a line and one quadric that way); what is left
+in one unknown is a quadratic equation, in two unknowns two conics, whose resultant has degree four. Three unknowns and
+more are found by Newton's method from many starts.
+
+Unknowns are numbered; the dimension of each is 1 (mm) or 0 (a component of a unit vector).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+NEAR = 1e-3  # mm: data that are rounded as drawings are may contradict each other by as much
+SAME = 1e-7  # solutions closer than this, in units of the size of the contour, are one
+STARTS = 300  # starts of Newton's method in one round
+MOST_UNKNOWNS = 16
+MOST_SOLUTIONS = 64
+
+
+class Form:
+    """A polynomial of degree two at most: ``const``, ``linear`` {i: a}, ``square`` {(i, j): a} with i <= j."""
+
+    __slots__ = ("const", "linear", "square")
+
+    def __init__(self, const: float = 0.0, linear: dict[int, float] | None = None,
+                 square: dict[tuple[int, int], float] | None = None) -> None:  # fmt: skip
+        self.const = float(const)
+        self.linear = {i: a for i, a in (linear or {}).items() if a}
+        self.square = {ij: a for ij, a in (square or {}).items() if a}
+
+    def __add__(self, other: Form | float) -> Form:
+        if not isinstance(other, Form):
+            return Form(self.const + other, self.linear, self.square)
+        linear, square = dict(self.linear), dict(self.square)
+        for i, a in other.linear.items():
+            linear[i] = linear.get(i, 0.0) + a
+        for ij, a in other.square.items():
+            square[ij] = square.get(ij, 0.0) + a
+        return Form(self.const + other.const, linear, square)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Form:
+        return self * -1.0
+
+    def __sub__(self, other: Form | float) -> Form:
+        return self + (-other)
+
+    def __rsub__(self, other: float) -> Form:
+        return -self + other
+
+    def __mul__(self, other: Form | float) -> Form:
+        """The product; both factors must be linear unless one is a number."""
+        if not isinstance(other, Form):
+            return Form(
+                self.const * other,
+                {i: a * other for i, a in self.linear.items()},
+                {ij: a * other for ij, a in self.square.items()},
+            )
+        assert not (self.square or other.square), "a product of degree three"
+        linear: dict[int, float] = {i: a * other.const for i, a in self.linear.items()}
+        for i, a in other.linear.items():
+            linear[i] = linear.get(i, 0.0) + a * self.const
+        square: dict[tuple[int, int], float] = {}
+        for i, a in self.linear.items():
+            for j, b in other.linear.items():
+                ij = (min(i, j), max(i, j))
+                square[ij] = square.get(ij, 0.0) + a * b
+        return Form(self.const * other.const, linear, square)
+
+    __rmul__ = __mul__
+
+    @property
+    def variables(self) -> set[int]:
+        """The unknowns that occur."""
+        return set(self.linear) | {i for ij in self.square for i in ij}
+
+    def at(self, values: Array) -> float:
+        """Its value."""
+        total = self.const
+        for i, a in self.linear.items():
+            total += a * values[i]
+        for (i, j), a in self.square.items():
+            total += a * values[i] * values[j]
+        return float(total)
+
+    def power(self, dims: Sequence[int]) -> int:
+        """The dimension of its value: mm to this power."""
+        return max([dims[i] for i in self.linear] + [dims[i] + dims[j] for i, j in self.square], default=1)
+
+    def gap(self, values: Array, dims: Sequence[int]) -> float:
+        """By how much the equation form = 0 is missed, mm; an angle counts as on an arm of 10 mm."""
+        value, power = abs(self.at(values)), self.power(dims)
+        if power == 0:
+            return 10 * value
+        if power == 1:
+            return value
+        slope: dict[int, float] = dict(self.linear)
+        for (i, j), a in self.square.items():
+            slope[i] = slope.get(i, 0.0) + a * values[j]
+            slope[j] = slope.get(j, 0.0) + a * values[i]
+        steep = np.sqrt(sum(a * a for i, a in slope.items() if dims[i]))
+        return float(value / max(steep, 1e-3))
+
+
+class System:
+    """Equations in some unknowns as arrays, lengths in units of ``size`` mm, the other unknowns taken from ``values``."""
+
+    def __init__(
+        self, forms: Sequence[Form], unknowns: Sequence[int], values: Array, dims: Sequence[int], size: float
+    ) -> None:
+        self.forms, self.unknowns, self.values, self.dims = forms, list(unknowns), values, dims
+        k, v = len(forms), len(self.unknowns)
+        index = {variable: column for column, variable in enumerate(self.unknowns)}
+        self.unit = np.array([size if dims[i] else 1.0 for i in self.unknowns])
+        self.near, self.size = NEAR / size, size
+        a, b, c = np.zeros((k, v, v)), np.zeros((k, v)), np.zeros(k)
+        for row, form in enumerate(forms):
+            c[row] = form.const
+            for i, factor in form.linear.items():
+                self._term(b, c, row, index, i, factor)
+            for (i, j), factor in form.square.items():
+                if i in index and j in index:
+                    a[row, index[i], index[j]] += factor / 2
+                    a[row, index[j], index[i]] += factor / 2
+                elif i in index:
+                    b[row, index[i]] += factor * values[j]
+                else:
+                    self._term(b, c, row, index, j, factor * values[i])
+            scale = size ** form.power(dims)
+            a[row] *= self.unit[:, None] * self.unit / scale
+            b[row] *= self.unit / scale
+            c[row] /= scale
+        self.a, self.b, self.c = a, b, c
+
+    def _term(self, b: Array, c: Array, row: int, index: dict[int, int], i: int, factor: float) -> None:
+        if i in index:
+            b[row, index[i]] += factor
+        else:
+            c[row] += factor * self.values[i]
+
+    def solve(self, newton: bool = False) -> list[Array] | None:
+        """All real solutions (v,), in mm; None if there are infinitely many, or without ``newton`` if they would need it."""
+        a, b, c = self.a, self.b, self.c
+        begin, basis = np.zeros(len(self.unknowns)), np.eye(len(self.unknowns))
+        while True:
+            flat = np.abs(a).max(axis=(1, 2), initial=0) < 1e-10
+            rows, rest = _linear_rows(a, b, c, flat)
+            if not len(rows):
+                break
+            steep = np.linalg.norm(rows, axis=1)
+            rows, rest = rows / steep[:, None], rest / steep
+            u, s, vt = np.linalg.svd(rows, full_matrices=True)
+            rank = int((s > 1e-8 * s[0]).sum())
+            step = -(vt[:rank].T / s[:rank]) @ (u.T[:rank] @ rest)
+            if np.abs(rows @ step + rest).max() > self.near:
+                return []
+            null = vt[rank:].T
+            c = c + b @ step + np.einsum("kij,i,j->k", a, step, step)
+            b = (b + 2 * a @ step) @ null
+            a = np.einsum("ip,kij,jq->kpq", null, a, null)
+            begin, basis = begin + basis @ step, basis @ null
+            if not basis.shape[1]:
+                break
+        found = self._nonlinear(a, b, c, begin, basis, newton)
+        return None if found is None else self._distinct(begin + basis @ t for t in found)
+
+    def _nonlinear(self, a: Array, b: Array, c: Array, begin: Array, basis: Array, newton: bool) -> list[Array] | None:
+        """What is left after all linear equations, in coordinates of the basis; None if too little is left."""
+        count = basis.shape[1]
+        if count == 0:
+            return [np.zeros(0)]
+        curved = [k for k in range(len(c)) if np.abs(a[k]).max() > 1e-10]
+        if count == 1 and curved:
+            k = curved[0]
+            return self._roots(k, a[k, 0, 0], b[k, 0], c[k], begin, basis)
+        if len(curved) < count:
+            return None
+        if count == 2:
+            parts = a[curved].reshape(len(curved), -1)
+            parts = parts / np.linalg.norm(parts, axis=1)[:, None]
+            other = next((k for k, part in zip(curved, parts, strict=True) if 1 - abs(part @ parts[0]) > 1e-9), None)
+            if other is None:
+                return None
+            return conics((a[curved[0]], b[curved[0]], c[curved[0]]), (a[other], b[other], c[other]))
+        if not newton or count > MOST_UNKNOWNS:
+            return None
+        return self._from_starts(a[curved], b[curved], c[curved], begin, basis)
+
+    def _roots(self, k: int, a: float, b: float, c: float, begin: Array, basis: Array) -> list[Array]:
+        """A quadratic equation; where it is missed by less than drawings are exact, or hardly met, it has one root."""
+        middle = -b / (2 * a)
+        bottom = c - b * b / (4 * a)
+        gap = self.gap(k, begin + basis @ np.array([middle]))
+        if gap < 1e-10 * self.size or (bottom * a > 0 and gap < NEAR):
+            return [np.array([middle])]
+        if bottom * a > 0:
+            return []
+        width = np.sqrt(-bottom / a)
+        return [np.array([middle - width]), np.array([middle + width])]
+
+    def _from_starts(self, a: Array, b: Array, c: Array, begin: Array, basis: Array) -> list[Array] | None:
+        """Newton's method from random starts, until rounds find nothing new; None where solutions are not single.
+
+        Half of the starts lie near solutions found before: solutions often come in close pairs.
+        """
+        random = np.random.default_rng(len(self.unknowns))
+        found: list[Array] = []
+        idle = 0
+        while idle < 3 and len(found) < MOST_SOLUTIONS:
+            starts = (random.normal(0, 1.0, (STARTS, len(begin))) - begin) @ basis
+            if found:
+                near = np.array(found)[random.integers(len(found), size=STARTS // 2)]
+                starts[: len(near)] = near + random.normal(0, 1, near.shape) * 10 ** random.uniform(
+                    -3, 0, (len(near), 1)
+                )
+            ends, single = newton_from(a, b, c, starts)
+            if len(ends) and not single.any():
+                return None
+            before = len(found)
+            for end in ends[single]:
+                if all(np.abs(end - other).max() > SAME for other in found):
+                    found.append(end)
+            idle = 0 if len(found) > before else idle + 1
+        return found
+
+    def gap(self, k: int, scaled: Array) -> float:
+        """By how much equation k is missed, mm."""
+        values = self.values.copy()
+        values[self.unknowns] = scaled * self.unit
+        return self.forms[k].gap(values, self.dims)
+
+    def _distinct(self, found: Iterable[Array]) -> list[Array]:
+        """Those that fulfil every equation, each once."""
+        kept: list[Array] = []
+        for scaled in found:
+            if all(self.gap(k, scaled) <= NEAR for k in range(len(self.forms))):
+                if all(np.abs(scaled - other).max() > SAME for other in kept):
+                    kept.append(scaled)
+        return [scaled * self.unit for scaled in kept]
+
+    def freedom(self) -> int:
+        """How many data more would settle the unknowns: those less the rank of the equations at one of the solutions.
+
+        At any other place equations that follow from each other would look independent. 0 where no solution is found.
+        """
+        random = np.random.default_rng(len(self.unknowns))
+        starts = random.normal(0, 1.0, (20, len(self.unknowns)))
+        if not len(self.c):
+            return len(self.unknowns)
+        ends, _ = newton_from(self.a, self.b, self.c, starts, rounds=40)
+        ranks = [np.linalg.matrix_rank(2 * self.a @ end + self.b, 1e-7) for end in ends]
+        return len(self.unknowns) - int(max(ranks, default=len(self.unknowns)))
+
+
+def _linear_rows(a: Array, b: Array, c: Array, flat: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """Equations without a quadratic part, and those that appear where quadratic parts are proportional: (m, v), (m,)."""
+    linear = flat & (np.abs(b).max(axis=1, initial=0) > 1e-9)
+    if linear.any() or a.shape[1] < 2:
+        return b[linear], c[linear]
+    curved = np.flatnonzero(~flat)
+    if len(curved) < 2:
+        return b[:0], c[:0]
+    parts = a[curved].reshape(len(curved), -1)
+    norm = np.linalg.norm(parts, axis=1)
+    u, s, _ = np.linalg.svd(parts / norm[:, None], full_matrices=True)
+    mix = u.T[int((s > 1e-9 * s[0]).sum()) :] / norm
+    rows, rest = mix @ b[curved], mix @ c[curved]
+    real = np.linalg.norm(rows, axis=1) > 1e-7
+    return rows[real], rest[real]
+
+
+Conic = tuple[Array, Array, float]
+_TURN = np.array([[np.cos(0.7), -np.sin(0.7)], [np.sin(0.7), np.cos(0.7)]])
+
+
+def conics(first: Conic, second: Conic) -> list[Array] | None:
+    """Where two conics xᵀAx + bx + c = 0 meet, points (2,): roots of the resultant of degree four, polished.
+
+    A point may come more than once. None when they have a curve in common.
+
+    The axes are turned so that two of the points hardly ever lie above each other.
+    """
+    (a1, b1, c1), (a2, b2, c2) = ((_TURN.T @ a @ _TURN, b @ _TURN, c) for a, b, c in (first, second))
+    p1, p2 = (np.array([a[1, 1]]) for a in (a1, a2))  # p y² + q(x) y + r(x), highest powers of x first
+    q1, q2 = (np.array([2 * a[0, 1], b[1]]) for a, b in ((a1, b1), (a2, b2)))
+    r1, r2 = (np.array([a[0, 0], b[0], c]) for a, b, c in ((a1, b1, c1), (a2, b2, c2)))
+    pr, pq, qr = _cross(p1, r1, p2, r2), _cross(p1, q1, p2, q2), _cross(q1, r1, q2, r2)
+    resultant = np.convolve(pr, pr) - np.convolve(pq, qr)
+    resultant[np.abs(resultant) < 1e-14 * np.abs(resultant).max()] = 0
+    if not resultant.any():
+        return None
+    found = []
+    for x in np.roots(resultant):
+        if abs(x.imag) > 1e-3 * (1 + abs(x)):
+            continue
+        for p, q, r in ((p1, q1, r1), (p2, q2, r2)):
+            for y in np.roots([p[0], np.polyval(q, x.real), np.polyval(r, x.real)]):
+                found.append([x.real, y.real])
+    if not found:
+        return []
+    a, b, c = np.array([a1, a2]), np.array([b1, b2]), np.array([c1, c2])
+    ends, _ = newton_from(a, b, c, np.array(found), rounds=60)
+    return [_TURN @ end for end in ends]
+
+
+def _cross(s: Array, t: Array, u: Array, v: Array) -> Array:
+    """The polynomial s v - u t."""
+    return np.asarray(np.convolve(s, v) - np.convolve(u, t))
+
+
+def newton_from(a: Array, b: Array, c: Array, starts: Array, rounds: int = 80) -> tuple[Array, NDArray[np.bool_]]:
+    """Solutions (m, v) of xᵀAx + bx + c = 0 (k equations) reached from starts (n, v), and which of them are single (m,).
+
+    Levenberg's damping fades with the residual, so that the last steps are Newton's.
+    """
+    x, (k, v) = starts.copy(), b.shape
+    eye = np.eye(v)
+    scale = np.maximum(np.sqrt((a**2).sum(axis=(1, 2)) + (b**2).sum(axis=1)), 1e-300)
+    a, b, c = a / scale[:, None, None], b / scale[:, None], c / scale
+    flat = a.reshape(k * v, v).T
+
+    def value_and_slope() -> tuple[Array, Array]:
+        ax = (x @ flat).reshape(len(x), k, v)
+        return (ax * x[:, None]).sum(axis=2) + x @ b.T + c, 2 * ax + b
+
+    for _ in range(rounds):
+        f, slope = value_and_slope()
+        error = np.abs(f).max(axis=1, initial=0)
+        if (error < 1e-14).all():
+            break
+        damping = np.minimum((f**2).sum(axis=1), 1.0)[:, None, None] * 0.1 + 1e-13
+        matrix = slope.transpose(0, 2, 1) @ slope + damping * eye
+        step = np.linalg.solve(matrix, (f[:, None] @ slope)[:, 0, :, None])[:, :, 0]
+        length = np.linalg.norm(step, axis=1, keepdims=True)
+        x = x - step * np.minimum(1.0, 3.0 / np.maximum(length, 1e-300))
+    f, slope = value_and_slope()
+    good = (np.abs(f).max(axis=1) < 1e-11) & (np.abs(x).max(axis=1) < 1e4)
+    steepness = np.linalg.svd(slope[good], compute_uv=False)[:, -1] if good.any() else np.empty(0)
+    return x[good], steepness > 1e-7

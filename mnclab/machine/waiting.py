@@ -1,0 +1,62 @@
+"""Motion that waits: blocks whose moves can be made only when later blocks have told more.
+
+They stand in ``machine.pending``. The interpreter has them made before it obeys anything that does not belong to them,
+and at the end of a program or of a recorded label.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+
+
+class Pending(Protocol):
+    """Blocks that wait."""
+
+    def mark(self, joint: Any) -> bool:
+        """Put a joint on the last of their elements; False if it has one already."""
+
+    def make(self, m: Machine) -> None:
+        """Make their moves; an Alarm when not enough is known."""
+
+
+def determine(m: Machine) -> None:
+    """Make the moves that wait, if any."""
+    pending, m.pending = m.pending, None
+    if pending:
+        pending.make(m)
+
+
+class Moment(NamedTuple):
+    """What a block that waits was read under."""
+
+    step: int
+    line: int
+    side: int
+    label: str
+
+
+def moment(m: Machine) -> Moment:
+    """Now."""
+    return Moment(m.step, m.source_line, m.side, m.label)
+
+
+@contextmanager
+def as_of(m: Machine, then: Moment) -> Iterator[None]:
+    """Rows made within belong to the block of an earlier moment, and the history notes their ends there."""
+    now = moment(m)
+    try:
+        _set(m, then)
+        yield
+        m.log("position", m.programmed)
+    finally:
+        _set(m, now)
+
+
+def _set(m: Machine, at: Moment) -> None:
+    m.step, m.source_line, m.side, m.label = at
+    m._state = None

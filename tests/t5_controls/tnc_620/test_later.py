@@ -1,0 +1,46 @@
+"""What the manual knows and nobody has built: read, its parameters looked at, refused by name."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+import mnclab as mnc
+from mnclab.controls.tnc_620 import CONTROL, later
+from mnclab.controls.tnc_620.later_parameters import PARAMETERS
+
+TABLE = Path(__file__).parents[2] / "authorities" / "catalogue" / "parameters-tnc-620.json"
+ENTRIES = {entry["code"]: entry["parameters"] for entry in json.loads(TABLE.read_text(encoding="utf-8"))}
+
+
+@pytest.mark.parametrize("code", PARAMETERS)
+def test_the_parameters_are_those_of_the_manual(code: str) -> None:
+    assert PARAMETERS[code] == {part for row in ENTRIES[code] for part in row["address"].split("/")}
+
+
+CODES = [f"CYCL DEF {n}" for n in later.CYCLES] + [f"TCH PROBE {n}" for n in later.PROBING]
+
+
+@pytest.mark.parametrize("code", [code for code in CODES if code not in CONTROL.cycles])
+def test_a_cycle_that_is_not_built_is_refused_by_its_name(code: str) -> None:
+    """With the parameters of the table, in both formats, and with a parameter that it does not have."""
+    rows = [row["address"] for row in ENTRIES.get(code, []) if re.fullmatch(r"Q\d+", row["address"])]
+    lines = "".join(f"Q{row[1:]}=+1 ;X\n" for row in rows)
+    refusal = f"{code} is refused: {CONTROL.refused[code]}"
+    for text in (f"1 {code} NUME\n{lines}", f"1 {code}.0 NUME\n2 {code}.1 X+1 ABST 5\n"):
+        assert [(a.span.line, a.span.column, a.message) for a in mnc.run(text, "tnc-620").alarms] == [(1, 1, refusal)]
+    if code in PARAMETERS:
+        strange = mnc.run(f"1 {code} NUME\n{lines}Q1999=1 ;Y\n", "tnc-620").alarms
+        assert [(a.span.line, a.severity, a.message) for a in strange] == [
+            (1, "alarm", refusal), (2 + len(rows), "warning", f"{code} has no parameter Q1999"),
+        ]  # fmt: skip
+
+
+def test_every_cycle_of_the_manual_is_built_or_waits() -> None:
+    """The 108 cycles of chapter 20 and the 14 obsolete ones."""
+    known = set(CONTROL.cycles) | set(CONTROL.refused)
+    assert {code for code in CODES if code not in known} == set() and len(CODES) == 108 + 14
+    assert not {code for code in ENTRIES if code not in known and "(" not in code}
