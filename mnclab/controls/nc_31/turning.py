@@ -124,6 +124,8 @@ class LongitudinalRoughing(FromStart):
         "@", "ends at point B (X, Z1) instead of the start", "mark", default=0, choices=SWITCH, mark=INCREMENTAL
     )
 
+    facing = False
+
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Something to remove, a bevel that fits, a machine parameter that can be used, a feed for the clean-up."""
         yield from apart(self.x, self.z, m)
@@ -137,8 +139,6 @@ class LongitudinalRoughing(FromStart):
             yield "", f"would break the chip {breaks} times: machine parameter 10 is too small"
         if m.feed is None:
             yield "", "needs a feed F before it, for the clean-up pass"
-
-    facing = False
 
     def depth(self, m: Machine) -> float:
         """P1 in mm of tool travel."""
