@@ -1,12 +1,6 @@
-"""Grooves side by side, or one wide groove, cut in straight plunges: the same for a cylinder and for a face. ::
+"""Grooves cut by plunging at places side by side: several grooves, or a wide one.
 
-      last                 start
-        |  step  |  step   |      top
-        v        v         v      ---
-        |        |         |
-       _|________|_________|_     bottom
-
-Coordinates are (depth, side), mm: radius and Z on a cylinder, Z and radius on a face.
+Coordinates are (across, along) as in :mod:`~mnclab.machining.turning`, mm: the tool plunges across, the places lie along.
 """
 
 from __future__ import annotations
@@ -14,30 +8,36 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mnclab.machining.depths import infeeds
-from mnclab.machining.steps import RAPID, Step
-from mnclab.machining.turning import go
+from mnclab.machining.steps import RAPID, Go
 
 
-def places(start: float, last: float, step: float | None) -> tuple[float, ...]:
-    """Where the cuts are made: at ``start``, then one ``step`` apart, the last exactly at ``last``; no step: at both.
+def places(first: float, last: float, step: float | None) -> tuple[float, ...]:
+    """Where to plunge: ``step`` apart from the first on, and at the last; without a step at these two.
 
-    >>> places(40, 64, 10)
-    (40, 50.0, 60.0, 64.0)
+    >>> places(20, 35, 6)
+    (20.0, 26.0, 32.0, 35.0)
+    >>> places(20, 20, 6)
+    (20.0,)
     """
-    return (start,) if start == last else (start, *infeeds(start, last, step))
+    return (float(first), *(infeeds(first, last, step) if last != first else ()))
 
 
 def grooves(
-    top: float, bottom: float, start: float, last: float, step: float | None, *, shift: float | None = RAPID, face: bool
-) -> Iterator[Step]:
-    """Plunge from ``top`` to ``bottom`` at feed and back at rapid at each place; then back to the start at rapid.
+    across: float,
+    bottom: float,
+    along: tuple[float, ...],
+    feed: float | None = None,
+    home: bool = True,
+    shift: float | None = RAPID,
+) -> Iterator[Go]:
+    """From the level ``across`` plunge to the bottom at each of the places, and return to the first at the end.
 
-    ``shift`` is the feed from one place to the next. ``face``: the grooves are concentric, in a face.
+    ``shift`` is the feed from one place to the next.
     """
-    found = places(start, last, step)
-    for number, side in enumerate(found, 1):
-        label = f"cut {number} of {len(found)}"
-        yield go(label, along=side, feed=shift, facing=face)
-        yield go(label, bottom, feed=None, facing=face)
-        yield go(label, top, facing=face)
-    yield go("back to the start", along=start, facing=face)
+    for number, place in enumerate(along, 1):
+        label = f"groove {number} of {len(along)}" if len(along) > 1 else "groove"
+        yield Go(f"to {label}", place, shift)
+        yield Go(label, x=bottom, feed=feed)
+        yield Go(f"out of {label}", x=across)
+    if home:
+        yield Go("return", along[0])

@@ -8,7 +8,6 @@ active. ``label`` says what is happening, for listings and pictures.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from mnclab.geometry.contours import Contour
@@ -83,9 +82,3 @@ class Coolant(NamedTuple):
 
 
 Step = Go | Turn | Along | Thread | Wait | Spin | Orient | Coolant
-
-
-def along_x(steps: Iterable[Step]) -> Iterator[Step]:
-    """Steps of a hole whose axis is X and not Z: levels become coordinates in X."""
-    for step in steps:
-        yield step._replace(x=step.z, z=None) if isinstance(step, Go | Thread) else step

@@ -14,10 +14,10 @@ other way round. Nothing here knows which side is outside or which way Z points:
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from mnclab.machining.steps import RAPID, Go, Step
+from mnclab.machining.steps import RAPID, Go, Step, Thread
 
 GRAIN = 1e-9  # relative: a stock of 0.3 holds three depths of 0.1
 LOOP = 0.5  # mm in both axes at the end of a roughing pass, as the textbook has it (NC-31, 3.20.2)
@@ -81,19 +81,35 @@ def chip_breaks(begin: float, end: float, length: float) -> tuple[float, ...]:
     return tuple(begin + step * i for i in range(1, count_of_breaks(begin, end, length) + 1))
 
 
-# --- as steps of a tool ----------------------------------------------------------------------------------------------
+# --- as steps of a tool: x across, z along; :func:`facing` makes them the other way round ------------------------------
 
 
-def go(
-    label: str,
-    across: float | None = None,
-    along: float | None = None,
-    feed: float | None = RAPID,
-    facing: bool = False,
-) -> Go:
-    """A move in (across, along): radius and Z, or for a facing cut Z and radius."""
-    x, z = (along, across) if facing else (across, along)
-    return Go(label, z=z, feed=feed, x=x)
+def loops(
+    start: tuple[float, float],
+    passes: Sequence[Pass],
+    *,
+    retract: float = LOOP,
+    feed: float | None = None,
+    infeed: float | None = RAPID,
+    chip: float = 0.0,
+    chip_retract: float = 0.0,
+    total: int = 0,
+) -> Iterator[Go]:
+    """Roughing passes from ``start`` (across, along), each a loop: in, cut, off by ``retract`` both ways, back.
+
+    After every ``chip`` mm (0: never) the tool goes back by ``chip_retract`` at rapid and cuts on. No retract goes beyond
+    the start, where a tailstock or the far wall of a bore may be. ``total`` is how many passes the labels tell of.
+    """
+    x1, z1 = start
+    for number, (level, stop) in enumerate(passes, 1):
+        label = f"pass {number} of {total or len(passes)}"
+        yield Go(f"{label}, infeed", x=level, feed=infeed)
+        for place in chip_breaks(z1, stop, chip):
+            yield Go(label, place, feed)
+            yield Go(f"{label}, chip break", towards(place, z1, chip_retract))
+        yield Go(label, stop, feed)
+        yield Go(f"{label}, retract", towards(stop, z1, retract), x=towards(level, x1, retract))
+        yield Go(f"{label}, return", z1)
 
 
 def around(
@@ -101,53 +117,43 @@ def around(
     shoulder: Shoulder,
     *,
     label: str,
+    feed: float | None = None,
     infeed: float | None = RAPID,
-    out: float | None = None,
-    facing: bool = False,
-) -> Iterator[Step]:
+    wall: float | None = None,
+) -> Iterator[Go]:
     """From ``start`` (across, along) once along the contour and back: in, to the corner, up the bevel, out, return.
 
-    ``infeed`` and ``out`` are the feeds of the first and of the last way across; the return is at rapid.
+    ``wall`` is the feed from the rim to the start level; the return is at rapid.
     """
-    across, along = start
-    yield go(label, shoulder.finish, feed=infeed, facing=facing)
-    yield go(label, along=shoulder.corner, feed=None, facing=facing)
-    yield go(label, shoulder.rim, shoulder.far, None, facing)
-    yield go(label, across, feed=out, facing=facing)
-    yield go(label, along=along, facing=facing)
+    x1, z1 = start
+    yield Go(f"{label}, infeed", x=shoulder.finish, feed=infeed)
+    yield Go(label, shoulder.corner, feed)
+    yield Go(label, shoulder.far, feed, x=shoulder.rim)
+    yield Go(f"{label}, wall", feed=wall, x=x1)
+    yield Go(f"{label}, return", z1)
 
 
-def loops(
-    start: tuple[float, float],
-    passes: Sequence[Pass],
-    *,
-    infeed: float | None = RAPID,
-    chip: float = 0.0,
-    chip_retract: float = 0.0,
-    retract: float = LOOP,
-    facing: bool = False,
-) -> Iterator[Step]:
-    """Roughing passes from ``start`` (across, along), each a loop: in, cut, off by ``retract`` in both axes, back.
+def remove_stock(
+    start: tuple[float, float], shoulder: Shoulder, depth: float | None, *, retract: float, feed: float | None = None,
+    wall: float | None = RAPID,
+) -> Iterator[Go]:  # fmt: skip
+    """From a start (across, along) remove the stock in passes one ``depth`` apart, the last one along the contour.
 
-    After every ``chip`` mm (0: never) the tool goes back by ``chip_retract`` at rapid and cuts on. No retract goes beyond
-    the start, where a tailstock or the far wall of a bore may be.
+    The last one also cuts what the others have left on the bevel; ``wall`` is its feed from the rim to the start level.
+    Without a depth there is this one alone.
     """
-    across, along = start
-    for number, cut in enumerate(passes, 1):
-        label = f"pass {number} of {len(passes)}"
-        yield go(label, cut.level, feed=infeed, facing=facing)
-        for place in chip_breaks(along, cut.stop, chip):
-            yield go(label, along=place, feed=None, facing=facing)
-            yield go(label, along=toward(place, along, chip_retract), facing=facing)
-        yield go(label, along=cut.stop, feed=None, facing=facing)
-        yield go(label, toward(cut.level, across, retract), toward(cut.stop, along, retract), facing=facing)
-        yield go(label, along=along, facing=facing)
+    passes = roughing(start[0], shoulder, depth, with_finish=False) if depth else ()
+    count = len(passes) + 1
+    yield from loops(start, passes, retract=retract, feed=feed, total=count)
+    label = f"pass {count} of {count}, contour" if passes else "contour"
+    yield from around(start, shoulder, label=label, feed=feed, wall=wall)
 
 
-def toward(here: float, there: float, length: float) -> float:
-    """``length`` from one coordinate towards another, at most up to it.
+def towards(place: float, goal: float, distance: float) -> float:
+    """A place moved by a distance towards a goal, but not beyond it."""
+    return goal if abs(goal - place) <= distance else place + math.copysign(distance, goal - place)
 
-    >>> toward(3, 5, 0.5), toward(3, 2.8, 0.5)
-    (3.5, 2.8)
-    """
-    return there if abs(there - here) <= length else here + math.copysign(length, there - here)
+
+def facing(steps: Iterable[Step]) -> Iterator[Step]:
+    """The same steps for a cut along X, or a hole along it: across and along change places."""
+    return (s._replace(x=s.z, z=s.x) if isinstance(s, Go | Thread) else s for s in steps)

@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mnclab.machining.grooving import grooves, places
-from mnclab.machining.steps import RAPID, Go, Thread, along_x
-from mnclab.machining.thread_turning import lead_along_way, thread_passes
-from mnclab.machining.turning import Shoulder, around, loops, roughing, toward
+from mnclab.machining.steps import RAPID, Go, Thread, Wait
+from mnclab.machining.threading import lead_along, thread_passes
+from mnclab.machining.turning import Shoulder, around, facing, loops, roughing, towards
 
 
 def ways(steps):
@@ -32,17 +32,17 @@ def test_places_cover_the_way(start, last, step):
 
 def test_grooves_in_a_face():
     """Depth is Z there, the side step X; it may be made at feed."""
-    steps = list(grooves(2, -5, 20, 25, 5, shift=None, face=True))
+    steps = list(facing(grooves(2, -5, places(20, 25, 5), shift=None)))
     assert ways(steps) == [
         (20, None, None), (None, -5, None), (None, 2, RAPID), (25, None, None), (None, -5, None), (None, 2, RAPID),
         (20, None, RAPID),
     ]  # fmt: skip
-    assert steps[3].label == "cut 2 of 2"
+    assert steps[3].label == "to groove 2 of 2"
 
 
 def test_a_lead_is_that_of_the_longer_travel():
-    assert lead_along_way(2, 0, -7) == 2 and lead_along_way(1.5, 8, 0) == 1.5
-    assert lead_along_way(2, 5, 5) == pytest.approx(2 * math.sqrt(2))
+    assert lead_along(0, -7, 2) == 2 and lead_along(8, 0, 1.5) == 1.5
+    assert lead_along(5, 5, 2) == pytest.approx(2 * math.sqrt(2))
 
 
 def test_an_internal_taper_thread_with_run_out():
@@ -60,9 +60,10 @@ def test_an_internal_taper_thread_with_run_out():
 def test_around_a_shoulder():
     """NC-31 G70 and its mirror: in, along, bevel, out, back."""
     shoulder = Shoulder(finish=20, corner=-45, rim=25, far=-50)
-    for facing in (False, True):
-        steps = list(around((30, 2), shoulder, label="contour", out=RAPID, facing=facing))
-        across, along = ("z", "x") if facing else ("x", "z")
+    for turned in (False, True):
+        steps = list(around((30, 2), shoulder, label="contour", wall=RAPID))
+        steps = list(facing(steps)) if turned else steps
+        across, along = ("z", "x") if turned else ("x", "z")
         assert getattr(steps[0], across) == 20 and getattr(steps[1], along) == -45
         assert (getattr(steps[2], across), getattr(steps[2], along)) == (25, -50)
         assert getattr(steps[3], across) == 30 and getattr(steps[4], along) == 2
@@ -74,9 +75,10 @@ def test_loops_stay_on_this_side_of_the_start():
     passes = roughing(10, Shoulder(9.6, -5, 10, -5), 0.2)
     steps = list(loops((10, 0), passes))
     assert [step.x for step in steps if step.x is not None] == [9.8, 10, 9.6, 10]
-    assert toward(0, -3, 0.5) == -0.5 and toward(1, 1, 0.5) == 1
+    assert towards(0, -3, 0.5) == -0.5 and towards(1, 1, 0.5) == 1
 
 
 def test_a_hole_along_x():
-    steps = list(along_x([Go("drill", 5, None), Thread("cut", -3, 1.25)]))
-    assert [(step.x, step.z) for step in steps] == [(5, None), (-3, None)] and steps[1].pitch == 1.25
+    steps = list(facing([Go("drill", 5, None), Thread("cut", -3, 1.25), Wait("dwell", 2)]))
+    assert [(step.x, step.z) for step in steps[:2]] == [(5, None), (-3, None)] and steps[1].pitch == 1.25
+    assert steps[2] == Wait("dwell", 2)

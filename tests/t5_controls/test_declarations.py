@@ -108,6 +108,7 @@ FEED = "the range of the word F (4.1)"
 MILLING = ("G320", "G321", "G343", "G344")
 TIME = "the table has no range; a time is not negative"
 LATHE = ("G70", "G71", "G77", "G78", "G72", "G73", "G74", "G75", "G31", "G33")
+JNC = [("G73", "Z"), *((c, a) for c in ("G74", "G75") for a in "XZ"), *((c, a) for c in ("G77", "G78") for a in "XZUW")]
 AS_IN_CYCLES = "the table has none: that of the parameter in the cycles"
 LENGTH, SIGNED, TIMES = {">=": 0, "<=": 99999.9999}, {">=": -99999.9999, "<=": 99999.9999}, {">=": 0, "<=": 3600}
 FEEDS, OVERLAP = {">=": 0, "<=": 99999.999}, {">=": 0.0001, "<=": 1.9999}
@@ -149,6 +150,7 @@ EXPLAINED = {
     **{("nc-31", code, axis, "type"): ("number", "the reader refuses what is not whole") for code in LATHE for axis in "XZ"},
     ("nc-31", "G31", "P", "default"): (0, "the taper of a cylinder"),
     **{("nc-31", f"G{n}", "P", "limits"): ({">": 0}, "its upper limit is a check") for n in (72, 73, 74, 75)},
+    **{("jnc-t01", code, axis, "limits"): ({}, "any number; between which is a check") for code, axis in JNC},
 }
 
 #: Parameters without a row: marks of the word that calls the cycle.

@@ -12,7 +12,8 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes import drill
-from mnclab.machining.steps import Go, Step, along_x
+from mnclab.machining.steps import Go, Step
+from mnclab.machining.turning import facing
 
 CYCLES = CycleTable()
 
@@ -95,6 +96,6 @@ class RadialDrilling(FromStart):
         gap = m.settings["parameter_8"] / discretes.TRAVEL
         hole = deep_hole(x1, self.x / discretes.X, self.depth(m) / discretes.X, gap)
         with own_feed(m, in_mm(self.feed)):
-            perform(m, "G72", along_x(hole), (0.0, 0.0))
+            perform(m, "G72", facing(hole), (0.0, 0.0))
         if self.z is not None:
             perform(m, "G72", [Go("aside", z=self.z / discretes.Z)], (0.0, 0.0))

@@ -10,7 +10,8 @@ from mnclab.machine.cycle import CycleTable, own_feed, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machining.grooving import grooves, places
-from mnclab.machining.steps import RAPID
+from mnclab.machining.steps import RAPID, Step
+from mnclab.machining.turning import facing
 
 CYCLES = CycleTable()
 
@@ -42,9 +43,12 @@ class Grooving(FromStart):
         """The grooves, then back to the start."""
         x1, _, z1 = m.programmed
         x, z = self.x / discretes.X, self.z / discretes.Z
-        way = (z1, z, x1, x, self.pitch / discretes.X) if self.face else (x1, x, z1, z, self.pitch / discretes.Z)
+        shift = RAPID if self.rapid_step else None
         with own_feed(m, in_mm(self.feed)):
-            cuts = grooves(*way, shift=RAPID if self.rapid_step else None, face=self.face)
+            if self.face:
+                cuts: Iterator[Step] = facing(grooves(z1, z, places(x1, x, self.pitch / discretes.X), shift=shift))
+            else:
+                cuts = grooves(x1, x, places(z1, z, self.pitch / discretes.Z), shift=shift)
             perform(m, self.code, cuts, (0.0, 0.0))
 
 

@@ -19,7 +19,7 @@ from mnclab.machine.performing import locked, perform
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Go, Step, Thread
 from mnclab.machining.tapping import tap
-from mnclab.machining.thread_turning import lead_along_way, thread_passes
+from mnclab.machining.threading import lead_along, thread_passes
 from mnclab.text.program import INCREMENTAL, RAPID_MARK
 
 CYCLES = CycleTable()
@@ -159,6 +159,6 @@ def thread_move(m: Machine, words: Words) -> None:
     if not (dx or dz):
         m.alarm("G32 has no way to go: its end is where the tool stands", head)
     m.label = "G32 synchronised start" if head.flag & INCREMENTAL else "G32"
-    with locked(m, lead_along_way(pitch_of(m, feed), dx, dz)):
+    with locked(m, lead_along(dx, dz, pitch_of(m, feed))):
         m.line(**ends, word=head)
     m.label = ""

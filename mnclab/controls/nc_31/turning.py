@@ -7,21 +7,20 @@ readings (a closed cycle from its start point, with the shoulder faced on the wa
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.targets import FROM_START, SWITCH, FromStart, apart, feed_word, here, in_mm, rapid_mark
 from mnclab.machine.cycle import CycleTable, own_feed, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
-from mnclab.machining.steps import RAPID
-from mnclab.machining.turning import Shoulder, around, count_of_breaks, count_of_levels, go, loops, roughing
+from mnclab.machining.steps import RAPID, Go, Step
+from mnclab.machining.turning import Shoulder, around, count_of_breaks, count_of_levels, facing, loops, roughing
 from mnclab.text.program import INCREMENTAL
 
 CYCLES = CycleTable()
 
 MOST_PASSES = 10_000  # beyond any blank: a P1 that is so small is a slip
-ORIGIN = (0.0, 0.0)  # steps have coordinates of the program
 
 
 def too_far(name: str, size: float, room: float) -> Iterator[tuple[str, str]]:
@@ -36,6 +35,11 @@ def back(end: float, size: float, start: float, scale: float) -> float:
     Added as whole numbers: a bevel as long as the way to the start ends exactly there.
     """
     return (end + math.copysign(size, start * scale - end)) / scale
+
+
+def cut(m: Machine, cycle: LongitudinalPass | LongitudinalRoughing, steps: Iterable[Step]) -> None:
+    """Carry out steps with x across and z along, in coordinates of the program; those of a transverse cycle turned over."""
+    perform(m, cycle.code, facing(steps) if cycle.facing else steps, (0.0, 0.0))
 
 
 # --- one pass --------------------------------------------------------------------------------------------------------
@@ -84,7 +88,7 @@ class LongitudinalPass(FromStart):
             start, shoulder = (x1, z1), Shoulder(finish=x, corner=bevel[1], rim=bevel[0], far=z)
         infeed = RAPID if self.rapid_infeed else None
         with own_feed(m, in_mm(self.feed)):
-            perform(m, self.code, around(start, shoulder, label="contour", infeed=infeed, facing=self.facing), ORIGIN)
+            cut(m, self, around(start, shoulder, label="contour", infeed=infeed))
 
 
 @CYCLES("G71", "Single transverse pass", runs="definition", source="NC-31 3.20.4")
@@ -156,12 +160,11 @@ class LongitudinalRoughing(FromStart):
         passes = roughing(start[0], shoulder, self.depth(m))
         chip, retract = (m.settings[f"parameter_{n}"] / discretes.TRAVEL for n in (10, 11))
         infeed = RAPID if self.rapid_infeed else None
-        cuts = loops(start, passes, infeed=infeed, chip=chip, chip_retract=retract, facing=self.facing)
         with own_feed(m, in_mm(self.feed)):
-            perform(m, self.code, cuts, ORIGIN)
-        perform(m, self.code, around(start, shoulder, label="clean-up", infeed=infeed, facing=self.facing), ORIGIN)
+            cut(m, self, loops(start, passes, infeed=infeed, chip=chip, chip_retract=retract))
+        cut(m, self, around(start, shoulder, label="clean-up", infeed=infeed))
         if self.to_contour:
-            perform(m, self.code, [go("to point B", shoulder.finish, facing=self.facing)], ORIGIN)
+            cut(m, self, [Go("to point B", x=shoulder.finish)])
 
 
 @CYCLES("G78", "Transverse roughing in passes", runs="definition", source="NC-31 3.20.6")

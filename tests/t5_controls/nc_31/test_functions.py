@@ -90,7 +90,7 @@ def test_p1_may_count_on_the_radius():
     frames = ("S300", "F20", "G77*~", "X4000*", "Z-5000*", "P1000")
     for on_radius, passes in ((False, 2), (True, 1)):
         run = run_of(*frames, setup=Setup(start=(30, 0, 2), settings={"p1_on_radius": on_radius}))
-        assert sum("pass" in label for label in run.toolpath.labels) == passes
+        assert len({label.split(",")[0] for label in run.toolpath.labels if "pass" in label}) == passes
 
 
 @pytest.mark.parametrize(("parameter", "value"), [("parameter_10", -1), ("parameter_11", "much")])

@@ -17,13 +17,15 @@ from collections.abc import Iterator, Sequence
 from mnclab.machining.steps import Go, Step, Thread
 
 
-def lead_along_way(pitch: float, dx: float, dz: float) -> float:
-    """The way (dx, dz) for each revolution, when the axis of the longer travel advances by ``pitch``.
+def lead_along(across: float, along: float, pitch: float) -> float:
+    """The way of the tool in one turn when the axis with the longer way advances ``pitch``.
 
-    >>> lead_along_way(2, 3, 4), lead_along_way(2, 4, -3)
-    (2.5, 2.5)
+    >>> lead_along(0, -43, 1.5)
+    1.5
+    >>> lead_along(3, 4, 2)
+    2.5
     """
-    return pitch * math.hypot(dx, dz) / max(abs(dx), abs(dz))
+    return pitch * math.hypot(across, along) / max(abs(across), abs(along))
 
 
 def thread_passes(
