@@ -21,7 +21,7 @@ This module is the front door, and nothing else: it imports numpy only.
 from typing import TYPE_CHECKING
 
 from mnclab.controls import CONTROLS as controls
-from mnclab.controls.choice import Help, help, read, run
+from mnclab.controls.choice import Help, help, modern, read, run
 from mnclab.machine.run import Run
 from mnclab.machine.setup import Datum, Probe, Setup
 from mnclab.path.kinds import Kind
@@ -55,6 +55,7 @@ __all__ = [
     "editor",
     "form",
     "help",
+    "modern",
     "panel",
     "read",
     "run",

@@ -29,6 +29,10 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "nc-31": [
+        *("frame", "discretes", "G70", "G71", "G77", "G78", "contour exercise", "G73", "G72", "G74", "G75"),
+        *("G31", "G32", "G33", "G25", "fragment N90-N111"),
+    ],
     "jnc-t01": [
         *("program structure", "table 2 notes", "axes and dimensions", "spindle control", "feed programming"),
         *("linear moves", "arc moves", "G00", "G01", "G02", "G03", "G04", "G12", "G14", "G32", "G73", "G74", "G75"),
