@@ -32,7 +32,7 @@ import numpy as np
 from mnclab.comparison.table import Table
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.sweeps import left_over, outlined, swept, under
+from mnclab.geometry.sweeps import CHORD_ERROR, left_over, opened, outlined, swept, under
 from mnclab.machining.strokes import PLUNGE, RAPID, ROLES, Plan
 from mnclab.machining.turning_passes import FRONT, LIFT
 from mnclab.machining.turning_profiles import checked, edges_of, reachable
@@ -149,7 +149,7 @@ class TurningTrial:
     def gouged(self) -> float:
         """The area below the profile that the strokes cut, with the tip or a flank, mm²: 0 unless something is wrong."""
         part = self._box(-1.0, self.blank).difference(under(self.profile, self.blank + 1.0))
-        return float(part.intersection(self._areas[2]).area)
+        return float(opened(part.intersection(self._areas[2]), 2 * CHORD_ERROR).area)
 
     @cached_property
     def struck(self) -> float:
@@ -157,7 +157,7 @@ class TurningTrial:
         left, struck = self._box(0.0, self.blank), 0.0
         for rapid, cover in self._cover:
             if rapid:
-                struck += float(left.intersection(cover).area)
+                struck += float(opened(left.intersection(cover), 2 * CHORD_ERROR).area)
             else:
                 left = left.difference(cover)
         return struck

@@ -70,9 +70,17 @@ def left_over(area: Any, cover: Any, least: float) -> Region:
     """What of a shapely area is not covered, without what is narrower than `least`."""
     import shapely
 
-    rest = shapely.difference(area, cover)
-    kept = shapely.buffer(shapely.buffer(rest, -least / 2, join_style="mitre"), least / 2, join_style="mitre")
-    return outlined(shapely.intersection(rest, kept))
+    return outlined(opened(shapely.difference(area, cover), least))
+
+
+def opened(area: Any, least: float) -> Any:
+    """A shapely area without what is narrower than `least`."""
+    import shapely
+
+    core = shapely.buffer(area, -least / 2, join_style="mitre")
+    if core.is_empty:
+        return core
+    return shapely.intersection(area, shapely.buffer(core, least / 2, join_style="mitre"))
 
 
 def outlined(area: Any) -> Region:

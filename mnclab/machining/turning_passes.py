@@ -14,10 +14,11 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.machining.strokes import PLUNGE, ROUGH, Pen, Plan
+from mnclab.machining.turning_clearance import OUT
 from mnclab.machining.turning_profiles import SAME, angles_of, between, entry_way, exit_way, over, reachable
 from mnclab.path.tool import Tool
 
-LIFT, FRONT, OUT = 0.5, 2.0, 1.0  # mm: retract after a stroke, in front of the face, outside the blank
+LIFT, FRONT = 0.5, 2.0  # mm: retract after a stroke, in front of the face
 POINT = Tool(kind="turning")
 MOST = 10_000  # passes
 

@@ -251,8 +251,22 @@ def _slope(line: Stretch) -> float:
 
 
 def angles_of(tool: Tool) -> tuple[float, float]:
-    """Main and auxiliary cutting-edge angle, rad; what the tool table does not give does not restrict: 90 degrees."""
-    return math.radians(tool.main_angle or 90.0), math.radians(tool.auxiliary_angle or 90.0)
+    """Main and auxiliary cutting-edge angle, rad; one that the tool table does not give restricts nothing.
+
+    It is 90 degrees, or what the other one leaves of 180. A ValueError says what is wrong with a tool.
+    """
+    main, auxiliary = tool.main_angle, tool.auxiliary_angle
+    for name, angle in (("main", main), ("auxiliary", auxiliary)):
+        if not 0 <= angle < 180:
+            raise ValueError(f"the {name} angle of a tool must be less than 180 degrees (0: not given), got {angle:g}")
+    if not 0 <= tool.width < math.inf:
+        raise ValueError(f"the width of a tool must not be negative, got {tool.width:g}")
+    main, auxiliary = main or min(90.0, 180 - auxiliary), auxiliary or min(90.0, 180 - main)
+    if main + auxiliary > 180 + 1e-9:
+        raise ValueError(
+            f"main and auxiliary angle of a tool are 180 degrees at most, the insert lies between: got {main:g} and {auxiliary:g}"
+        )
+    return math.radians(main), math.radians(auxiliary)
 
 
 def reachable(profile: Contour, tool: Tool) -> Contour:
@@ -328,6 +342,8 @@ def over(profile: Contour, left: float, right: float) -> Contour | None:
 
 def _behind(turned: Contour, z: float) -> float:
     """The way to the last point at or in front of a z."""
+    if z > turned.points[0, 1] + SAME:
+        return 0.0
     found = entry_way(Contour(-turned.points[::-1], turned.reversed().bulge, closed=False), -z)
     return turned.length - (0.0 if found is None else found)
 

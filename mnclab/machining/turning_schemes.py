@@ -15,18 +15,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.machining.strokes import CLEANUP, PICK_UP, PLUNGE, ROUGH, Pen, Plan
+from mnclab.machining.turning_clearance import OUT, cleared
 from mnclab.machining.turning_offsets import offset
 from mnclab.machining.turning_passes import (
     FRONT,
     LIFT,
     MOST,
-    OUT,
     POINT,
     Level,
     Task,
@@ -49,7 +50,7 @@ def loop(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **dis
 
     In a closed zone the tool goes back to where the pass began and plunges along the contour.
     """
-    return _loop(task(profile, blank, depth, tool, **distances))
+    return cleared(_loop(task(profile, blank, depth, tool, **distances)), profile, blank, tool)
 
 
 def _loop(t: Task) -> Plan:
@@ -79,7 +80,7 @@ def pick_up(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **
             height = min(pen.r + t.lift, t.blank)
             lift_off(pen, t, level, None if level.first is None else wall(t, above, level, height))
         above = level.r
-    return out(pen, t, "pick-up")
+    return cleared(out(pen, t, "pick-up"), profile, blank, tool)
 
 
 def semi_finish(
@@ -91,7 +92,10 @@ def semi_finish(
     """
     if after not in ("last", "penultimate"):
         raise ValueError(f'the clean-up follows the "last" or the "penultimate" pass, got {after!r}')
-    t = task(profile, blank, depth, tool, **distances)
+    return cleared(_semi_finish(task(profile, blank, depth, tool, **distances), after), profile, blank, tool)
+
+
+def _semi_finish(t: Task, after: str = "last") -> Plan:
     roughing = len(t.levels) - (after == "penultimate")
     pen = Pen(*t.start)
     for number, level in enumerate(t.levels[:roughing], 1):
@@ -144,7 +148,7 @@ def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **d
         lift_off(pen, t, last)
     elif len(t.levels) % 2:
         off(pen, t, last)
-    return out(pen, t, "zigzag")
+    return cleared(out(pen, t, "zigzag"), profile, blank, tool)
 
 
 def descent(
@@ -175,7 +179,7 @@ def descent(
         pen.rapid(z, t.outside)
         pen.feed(z, r, PLUNGE)
         pen.rapid(z, t.outside)
-    return pen.plan("descent")
+    return cleared(pen.plan("descent"), profile, blank, tool)
 
 
 def equidistant(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
@@ -204,7 +208,7 @@ def equidistant(profile: Contour, blank: float, depth: float, tool: Tool = POINT
         pen.rapid(pen.z, t.outside)
         if free:
             pen.rapid(t.front, t.outside)
-    return pen.plan("equidistant")
+    return cleared(pen.plan("equidistant"), profile, blank, tool)
 
 
 def contour(
@@ -236,7 +240,7 @@ def contour(
             away(pen, t._replace(profile=copy), t.blank)
         pen.rapid(pen.z, rs)
         pen.rapid(zs, rs)
-    return pen.plan("contour")
+    return cleared(pen.plan("contour"), profile, blank, tool)
 
 
 def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
@@ -253,17 +257,19 @@ def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, *
     wet = [zone.profile for zone in found if zone.kind == CLOSED]
     dry = [zone for zone in found if zone.kind != CLOSED]
     lift, front = distances.get("lift", LIFT), distances.get("front", FRONT)
+    edges = replace(tool, width=0.0)  # what is reached already minds the width
     plans = []
     t = None
     if wet and dry:  # passes at the rims too, so that every closed zone is free from above
-        t = task(filled(reached), blank, depth, tool, lift, front, [float(pool.points[0, 1]) for pool in wet])
+        t = task(filled(reached), blank, depth, edges, lift, front, [float(pool.points[0, 1]) for pool in wet])
         plans.append(_loop(t))
     else:
         for zone in dry:
-            plans.append((loop if zone.kind == OPEN else semi_finish)(zone.profile, blank, depth, tool, **distances))
+            simple = task(zone.profile, blank, depth, edges, **distances)
+            plans.append(_loop(simple) if zone.kind == OPEN else _semi_finish(simple))
     for pool in wet:
-        top = min(blank, float(pool.points[0, 1]))
-        plans.append((loop if t else semi_finish)(pool, top, depth, tool, **distances))
+        simple = task(pool, min(blank, float(pool.points[0, 1])), depth, edges, **distances)
+        plans.append(_loop(simple) if t else _semi_finish(simple))
     pen = Pen(plans[0].start[0], blank)
     for plan in plans:
         pen.append(plan, blank + OUT)
@@ -276,7 +282,7 @@ def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, *
         if pen.r < blank - SAME:
             away(pen, t._replace(profile=reached), blank)
         pen.rapid(pen.z, t.outside)
-    return pen.plan("combined")
+    return cleared(pen.plan("combined"), profile, blank, tool)
 
 
 #: The schemes by name; `descent` takes its step where the others take the depth.
