@@ -2,8 +2,8 @@
 
 Coordinates (z, r) and areas of the half section above the axis, mm and mm²; feeds mm/rev, rapids mm/min, times s.
 
-    material = between profile and blank       unreachable = of it, what the tool's angles leave behind corners
-    removed  = material under the strokes      rest        = material less unreachable less removed
+    material = between profile and blank       rest        = what the tool covers on its way along the profile, and no stroke
+    removed  = material under the strokes      unreachable = what is left of the material besides
 
 The source ranks: loop, then semi-finish, then pick-up, whose idle strokes are longer. On the three zones of the
 catalogue (10 mm deep, a = 4, 0.3 mm/rev, 800 rev/min, plunges at half, rapids 10 m/min; tool of 95 and 50 degrees) ::
@@ -32,7 +32,7 @@ import numpy as np
 from mnclab.comparison.table import Table
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
-from mnclab.geometry.sweeps import CHORD_ERROR, left_over, opened, outlined, swept, under
+from mnclab.geometry.sweeps import CHORD_ERROR, broad, outlined, swept, under
 from mnclab.machining.strokes import PLUNGE, RAPID, ROLES, Plan
 from mnclab.machining.turning_passes import FRONT, LIFT
 from mnclab.machining.turning_profiles import checked, edges_of, reachable
@@ -131,13 +131,15 @@ class TurningTrial:
     def rest(self) -> Region:
         """What the tool could have cut and has left standing."""
         _, reach, cut = self._areas
-        return left_over(reach, cut, 1e-3)
+        return outlined(broad(reach.difference(cut), 2 * CHORD_ERROR))
 
     @cached_property
     def unreachable(self) -> Region:
-        """What the angles of the tool leave behind corners."""
-        material, reach, _ = self._areas
-        return outlined(material.difference(reach)) if material.area - reach.area > LEAST else Region(())
+        """What the edges of the tool leave behind corners and above open ends, where no stroke has cut it."""
+        material, reach, cut = self._areas
+        if material.area - reach.area <= LEAST:
+            return Region(())
+        return outlined(broad(material.difference(reach).difference(cut), 2 * CHORD_ERROR))
 
     @cached_property
     def ridge(self) -> float:
@@ -149,7 +151,7 @@ class TurningTrial:
     def gouged(self) -> float:
         """The area below the profile that the strokes cut, with the tip or a flank, mm²: 0 unless something is wrong."""
         part = self._box(-1.0, self.blank).difference(under(self.profile, self.blank + 1.0))
-        return float(opened(part.intersection(self._areas[2]), 2 * CHORD_ERROR).area)
+        return float(broad(part.intersection(self._areas[2]), 2 * CHORD_ERROR).area)
 
     @cached_property
     def struck(self) -> float:
@@ -157,7 +159,7 @@ class TurningTrial:
         left, struck = self._box(0.0, self.blank), 0.0
         for rapid, cover in self._cover:
             if rapid:
-                struck += float(opened(left.intersection(cover), 2 * CHORD_ERROR).area)
+                struck += float(broad(left.intersection(cover), 2 * CHORD_ERROR).area)
             else:
                 left = left.difference(cover)
         return struck

@@ -70,17 +70,18 @@ def left_over(area: Any, cover: Any, least: float) -> Region:
     """What of a shapely area is not covered, without what is narrower than `least`."""
     import shapely
 
-    return outlined(opened(shapely.difference(area, cover), least))
+    rest = shapely.difference(area, cover)
+    kept = shapely.buffer(shapely.buffer(rest, -least / 2, join_style="mitre"), least / 2, join_style="mitre")
+    return outlined(shapely.intersection(rest, kept))
 
 
-def opened(area: Any, least: float) -> Any:
-    """A shapely area without what is narrower than `least`."""
+def broad(area: Any, least: float) -> Any:
+    """The pieces of a shapely area that are somewhere wider than `least`, whole."""
     import shapely
 
-    core = shapely.buffer(area, -least / 2, join_style="mitre")
-    if core.is_empty:
-        return core
-    return shapely.intersection(area, shapely.buffer(core, least / 2, join_style="mitre"))
+    pieces = shapely.get_parts(area)
+    pieces = pieces[shapely.area(pieces) > 0]
+    return shapely.union_all(pieces[~shapely.is_empty(shapely.buffer(pieces, -least / 2, join_style="mitre"))])
 
 
 def outlined(area: Any) -> Region:

@@ -181,7 +181,8 @@ class Run:
     def plot(self, **options: Any) -> Figure:
         """Views of the path: from above and the side for a mill, X and Z for a lathe.
 
-        ``colour`` "kind", "feed" (mm/min), "tool", "line" or "z" (mm) says what the colour of the cuts shows;
+        ``colour`` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
+        colour of the cuts shows;
         ``arrows=False`` and ``marks=False`` leave out arrowheads, and crosses at zero points and poles; ``view`` "XY",
         "XZ", "YZ" or "ZX"; ``frame`` "all" or "cuts"; ``size`` in inches; ``ax`` axes of one's own. All of them are
         explained in ``mnclab.show.plot.path.plot_path``.
@@ -189,6 +190,12 @@ class Run:
         from mnclab.show.plot.path import plot_run
 
         return plot_run(self, **options)
+
+    def plot_speed(self, **options: Any) -> Figure:
+        """Spindle speed and diameter over the way of a lathe's tool; ``most`` is the greatest speed, rev/min."""
+        from mnclab.show.plot.lathe import plot_speed_of
+
+        return plot_speed_of(self, **options)
 
     def player(self, limits: Limits | str | None = None, **options: Any) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.

@@ -23,7 +23,8 @@ start = [0, 0, 300]            # machine position of the spindle before the prog
 
 [tools.1]                      # the row of the tool table; every key may be left out
 radius = 5                     # mm; also length, name, corner, dl, dr, teeth, kind, cutting_length, pitch,
-length = 80                    # and in degrees angle (of the point) and plunge_angle
+length = 80                    # and in degrees angle (of the point) and plunge_angle; of a lathe tool main_angle and
+                               # auxiliary_angle, from the axis to the edges, and width of a blade in mm
 
 [datums]                       # work offsets: machine coordinates of the zero points, mm
 1 = [100, 50, -200]

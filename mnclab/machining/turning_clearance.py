@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.sweeps import CHORD_ERROR, opened, swept, under
+from mnclab.geometry.sweeps import CHORD_ERROR, broad, swept, under
 from mnclab.machining.strokes import PLUNGE, RAPID, ROUGH, Plan, Stroke
 from mnclab.machining.turning_profiles import edges_of
 from mnclab.path.tool import Tool
@@ -56,7 +56,7 @@ class _Section:
     def meets(self, area: Any, start: Place, end: Place, bulge: float = 0.0) -> float:
         """How much of an area, mm², the tool covers on its way."""
         way = Contour([start, end], [bulge, 0.0], closed=False)
-        return float(opened(area.intersection(swept(self.outline, way)), 2 * CHORD_ERROR).area)
+        return float(broad(area.intersection(swept(self.outline, way)), 2 * CHORD_ERROR).area)
 
     def free(self, *places: Place) -> bool:
         """Whether nothing stands in the way from place to place."""

@@ -64,18 +64,17 @@ def task(
         raise ValueError(f"the depth of a pass must be greater than 0, got {depth:g}")
     if not lift > 0:
         raise ValueError(f"the retract must be greater than 0, got {lift:g}")
-    contour = reachable(profile, tool)
+    contour = without_drop(reachable(profile, tool))
     r = contour.points[:, 1]
-    grown = np.maximum.accumulate(np.append(0.0, np.diff(r)) > SAME)
-    if (np.diff(r, prepend=r[0])[grown] < -SAME).any():
+    if falls_again(contour):
         raise ValueError("the profile falls again after it has grown: part it into zones, or use `combined`")
     bottom = float(r.min())
     if not blank > bottom + SAME:
-        raise ValueError(f"a blank of radius {blank:g} leaves nothing to cut above the profile")
+        raise ValueError(f"a blank of radius {blank:g} leaves nothing to cut above the profile where the tool reaches")
     first, last = entry_way(contour, blank), exit_way(contour, blank)
     inside = between(contour, first or 0.0, last)  # what lies above the blank is no affair of the tool
     if inside is None:
-        raise ValueError(f"a blank of radius {blank:g} leaves nothing to cut above the profile")
+        raise ValueError(f"a blank of radius {blank:g} leaves nothing to cut above the profile where the tool reaches")
     contour = inside
     count = math.ceil((blank - bottom) / depth * (1 - 1e-9))
     if count > MOST:
@@ -92,6 +91,20 @@ def task(
         right = ahead if first is None else float(contour.point_at(first)[0][0])
         levels.append(Level(height, right, float(contour.point_at(last)[0][0]), first, last))
     return Task(contour, blank, tuple(levels), lift, ahead, blank + OUT)
+
+
+def falls_again(profile: Contour) -> bool:
+    """Whether a profile grows and falls behind that: no single zone."""
+    steps = np.diff(profile.points[:, 1])
+    return bool((steps[np.maximum.accumulate(steps > SAME)] < -SAME).any())
+
+
+def without_drop(profile: Contour) -> Contour:
+    """A profile that ends where it falls straight down at its end: there is nothing to cut."""
+    z, r = profile.points.T
+    last = int(np.flatnonzero(z <= z[-1] + SAME)[0])
+    top = last + int(r[last:].argmax())
+    return between(profile, 0.0, float(profile.lengths[:top].sum())) or profile
 
 
 # ---- from pass to pass ----

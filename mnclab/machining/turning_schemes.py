@@ -33,12 +33,14 @@ from mnclab.machining.turning_passes import (
     Task,
     away,
     down,
+    falls_again,
     lift_off,
     off,
     out,
     plunge,
     task,
     wall,
+    without_drop,
 )  # fmt: skip
 from mnclab.machining.turning_profiles import SAME, between, entry_way, exit_way, lowest, reachable
 from mnclab.machining.zones import CLOSED, OPEN, filled, zones
@@ -248,11 +250,8 @@ def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, *
 
     Open and semi-open: the loop, the semi-open section with a clean-up. With a closed zone: the dry sections together by
     the loop, every closed one by passes, and one clean-up along the whole contour at the end.
-
-    Proven on a shaft with a step and a groove only: where several closed zones meet, look at `gouged` and `struck` of
-    `comparison.turning` before use.
     """
-    reached = reachable(profile, tool)
+    reached = without_drop(reachable(profile, tool))
     found = zones(reached, blank)
     wet = [zone.profile for zone in found if zone.kind == CLOSED]
     dry = [zone for zone in found if zone.kind != CLOSED]
@@ -261,8 +260,12 @@ def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, *
     plans = []
     t = None
     if wet and dry:  # passes at the rims too, so that every closed zone is free from above
-        t = task(filled(reached), blank, depth, edges, lift, front, [float(pool.points[0, 1]) for pool in wet])
-        plans.append(_loop(t))
+        above = filled(reached)
+        sections = [zone.profile for zone in dry] if falls_again(above) else [above]
+        rims = [float(pool.points[0, 1]) for pool in wet]
+        tasks = [task(section, blank, depth, edges, lift, front, rims) for section in sections]
+        plans += [_loop(each) for each in tasks]
+        t = tasks[0]
     else:
         for zone in dry:
             simple = task(zone.profile, blank, depth, edges, **distances)

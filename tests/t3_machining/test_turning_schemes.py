@@ -8,17 +8,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mnclab import Tool
-from mnclab.comparison.turning import SUITED, compare
+from mnclab.comparison.turning import TURNER, compare
 from mnclab.geometry.contours import Contour
 from mnclab.machining import turning_schemes as schemes
 from mnclab.machining.groove_schemes import Groove, plunges, scheme_5, side_steps
 from mnclab.machining.strokes import CLEANUP, PICK_UP, PLUNGE, RAPID
 from mnclab.machining.thread_schemes import added, shifts
-from mnclab.machining.turning_profiles import reachable
+from mnclab.machining.turning_passes import without_drop
+from mnclab.machining.turning_profiles import angles_of, reachable
 from mnclab.machining.zones import zone_of, zones
 
 CATALOGUE = Path(__file__).parent.parent / "authorities" / "catalogue" / "turning-technology.json"
@@ -171,40 +172,85 @@ def test_time_at_the_feeds():
 
 
 @st.composite
-def profiles(draw):
-    """Steps and cones up and down under a blank of 30, with the highest wall at the chuck."""
-    z, r = 0.0, draw(st.integers(6, 28))
+def profiles(draw, arcs):
+    """Steps, cones and arcs up and down under a blank of 30; some end with a wall, some are closed by one at the face."""
+    z, r = 0.0, draw(st.sampled_from([30, 6, 12, 17, 23, 28]))
     points, bulges = [(z, r)], []
-    for _ in range(draw(st.integers(1, 5))):
-        dz, to = draw(st.integers(0 if bulges else 2, 8)), draw(st.integers(3, 28))
-        dz = 2 if dz == 0 and to == r else dz
+    for k in range(draw(st.integers(1, 5))):
+        to = draw(st.integers(3, 28))
+        dz = draw(st.integers(0 if k and to != r else 2, 8))
         bulge = 0.0
+        if arcs and dz and to != r:  # up to the sweep where one end is level or upright
+            chord = math.atan2(abs(to - r), dz)
+            bulge = math.tan(min(chord, math.pi / 2 - chord) / 2) * draw(st.sampled_from([-1, -0.5, 0, 0.5, 1]))
+        elif arcs and dz and r > dz:
+            bulge = draw(st.sampled_from([-1, -0.3, 0, 0.3, 1]))
         z, r = z - dz, to
         points.append((z, r))
         bulges.append(bulge)
-    points.append((z - 3, max(31, *(r for _, r in points))))
-    bulges.append(0.0)
-    assume(min(r for _, r in points) < 29)
+    if draw(st.booleans()):
+        points.append((z - 3, 31))
+        bulges.append(0.0)
     return Contour(points, [*bulges, 0.0], closed=False)
 
 
-TOOLS = st.builds(
-    lambda main, auxiliary, width: Tool(main_angle=main, auxiliary_angle=auxiliary, width=width),
-    st.sampled_from([0, 90, 95]), st.sampled_from([0, 15, 30, 60]), st.just(0),
+#: Angles of tools, 0 where the table gives none; blades lean to no side.
+TOOLS = st.one_of(
+    st.builds(lambda main, other: Tool(main_angle=main, auxiliary_angle=other),
+              st.sampled_from([0, 45, 75, 90, 93, 95]), st.sampled_from([0, 15, 30, 52, 60, 85])),
+    st.builds(lambda width: Tool(width=width), st.sampled_from([2, 3, 5, 40])),
 )  # fmt: skip
-FINE = 2e-3  # mm²: arcs are chords here
+WHOLE = ("pick-up", "semi-finish", "equidistant", "contour", "combined")  # schemes that leave nothing
 
 
-@settings(max_examples=12, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
-@given(profiles(), TOOLS, st.sampled_from([2.7, 4.0, 6.0]))
+def kept(profile, tool, depth):
+    """The trials of a profile, all of which keep the promises of a scheme; none where the tool cannot come in."""
+    if without_drop(reachable(profile, tool)).points[:, 1].min() >= 30:
+        with pytest.raises(ValueError, match="leaves nothing to cut"):
+            compare(profile, 30, tool, depth=depth)
+        return ()
+    trials = compare(profile, 30, tool, depth=depth, step=min(tool.width or depth, depth)).trials
+    for trial in trials:
+        assert trial.gouged <= 1e-6 and trial.struck <= 1e-6, trial.name
+        assert trial.name not in WHOLE or trial.rest.area <= 1e-6, trial.name
+    return trials
+
+
+@settings(max_examples=40, deadline=None, derandomize=True)
+@given(profiles(arcs=False), TOOLS, st.sampled_from([2.7, 4.0, 6.0]))
 def test_no_stroke_goes_below_and_no_rapid_through_material(profile, tool, depth):
-    kind = zone_of(profile, 30)
-    assume(kind != "combined")
-    names = set(SUITED[kind])
-    for trial in compare(profile, 30, tool, sorted(names), depth=depth).trials:
-        assert trial.gouged < FINE and trial.struck < FINE, trial.name
-        if trial.name in ("pick-up", "semi-finish", "equidistant", "contour"):
-            assert trial.rest.area < FINE, trial.name
+    """And what is cut, left and out of reach is together what lies between blank and profile: trapezia."""
+    material = 0.0
+    for (z0, r0), (z1, r1) in zip(profile.points, profile.points[1:], strict=False):
+        share = 1.0 if r1 <= 30 else (30 - r0) / (r1 - r0)
+        material += (z0 - z1) * share * (30 - r0 + 30 - min(r1, 30)) / 2
+    for trial in kept(profile, tool, depth):
+        assert trial.removed + trial.rest.area + trial.unreachable.area == pytest.approx(material, abs=1e-6)
+
+
+@settings(max_examples=40, deadline=None, derandomize=True)
+@given(profiles(arcs=True), TOOLS, st.sampled_from([2.7, 4.0, 6.0]))
+def test_the_same_with_arcs(profile, tool, depth):
+    kept(profile, tool, depth)
+
+
+def test_an_angle_that_is_not_given_restricts_nothing_but_leaves_an_insert():
+    """A main angle of 95 leaves 85 for the other one."""
+    assert np.degrees(angles_of(Tool(main_angle=95))) == pytest.approx((95, 85))
+    assert np.degrees(angles_of(Tool(auxiliary_angle=120))) == pytest.approx((60, 120))
+    assert np.degrees(angles_of(Tool(main_angle=45))) == pytest.approx((45, 90))
+    kept(SEMI_OPEN, Tool(main_angle=95), 4)
+
+
+def test_two_walls_of_one_groove_and_a_tool_that_cannot_reach_it():
+    """(0, 6) (-2, 3) (-5, 31): behind the corner the edge of 30 degrees leaves a triangle, all else is cut."""
+    profile = Contour([(0, 6), (-2, 3), (-5, 31)], closed=False)
+    (trial,) = kept(profile, TURNER, 4)
+    run, fall, rise = math.tan(math.radians(30)), 6.0, 28 / 3  # the line 6 + run z meets 3 - rise (z + 2)
+    z = (3 - 2 * rise - fall) / (run + rise)
+    # triangle between the corners (0, 6), (-2, 3) and the meeting point
+    meeting = (z, fall + run * z)
+    assert trial.unreachable.area == pytest.approx(abs(Contour([(0, 6), (-2, 3), meeting]).area), abs=1e-6)
 
 
 def test_a_shaft_with_a_step_and_a_groove():
@@ -224,6 +270,10 @@ def test_a_shaft_with_a_step_and_a_groove():
         (lambda: schemes.semi_finish(SEMI_OPEN, 30, 4, after="first"), "penultimate"),
         (lambda: compare(SEMI_OPEN, 30, schemes=["spiral"]), "known: loop"),
         (lambda: compare(SEMI_OPEN, 30, feeds={"cut": 1}), "no role 'cut'"),
+        (lambda: compare(SEMI_OPEN, 30, Tool(main_angle=95, auxiliary_angle=90)), "180 degrees at most"),
+        (lambda: schemes.loop(SEMI_OPEN, 30, 4, Tool(main_angle=-5)), "main angle of a tool .* got -5"),
+        (lambda: schemes.loop(SEMI_OPEN, 30, 4, Tool(auxiliary_angle=180)), "auxiliary angle of a tool .* got 180"),
+        (lambda: schemes.loop(SEMI_OPEN, 30, 4, Tool(width=-1)), "width of a tool"),
     ],
 )
 def test_refused(call, message):
