@@ -91,6 +91,7 @@ NAMES = {
     "center_axis_1": "centre_x",
     "center_axis_2": "centre_y",
     "slot_position_reference": "slot_position",
+    "start_tool_axis": "surface",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -105,7 +106,7 @@ GLOBAL_LIMITS = [
     *((105, q, TIMES) for q in ("Q210", "Q211")), (110, "Q370", OVERLAP), (111, "Q2", OVERLAP), (111, "Q6", LENGTH),
     (111, "Q7", SIGNED), (120, "Q320", LENGTH), (120, "Q260", SIGNED),
 ]  # fmt: skip
-DEFAULTED = [("CYCL DEF 256", "Q437"), ("CYCL DEF 257", "Q376")]
+DEFAULTED = [("CYCL DEF 256", "Q437"), ("CYCL DEF 257", "Q376"), ("CYCL DEF 233", "Q348"), ("CYCL DEF 233", "Q349")]
 #: (control, code, address, key) -> what the declaration has, and why.
 EXPLAINED = {
     **{("mnc", code, "P", "limits"): ({">=": 0}, TIME) for code in ("G83", "G84", "G85")},
