@@ -13,6 +13,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from mnclab.machine.settings import Setting, settings_html
+from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
 
 if TYPE_CHECKING:
@@ -48,8 +49,9 @@ class Function:
     """A preparatory, auxiliary or word function of a control.
 
     ``moves``: belongs to the motion of the block, and runs for later blocks while it is modal. ``still``: a block with it
-    moves nothing. ``ends_cycle``: an active cycle is over before the motion of the block. ``collects``: motion that waits for
-    later blocks may go on waiting; before any other function it is made.
+    moves nothing. ``ends_cycle``: an active cycle is over before the motion of the block. ``owns``: the words of the block
+    are its own, and a motion function beside it only becomes active. ``collects``: motion that waits for later blocks may
+    go on waiting; before any other function it is made.
     """
 
     code: str
@@ -63,6 +65,7 @@ class Function:
     moves: bool = False
     still: bool = False
     ends_cycle: bool = False
+    owns: bool = False
     collects: bool = False
     source: str = ""
     doc: str = ""
@@ -84,6 +87,7 @@ class FunctionTable(dict[str, Function]):
         moves: bool = False,
         still: bool = False,
         ends_cycle: bool = False,
+        owns: bool = False,
         collects: bool = False,
         source: str = "",
     ) -> Callable[[AnyObey], AnyObey]:
@@ -107,6 +111,7 @@ class FunctionTable(dict[str, Function]):
                     moves=moves,
                     still=still,
                     ends_cycle=ends_cycle,
+                    owns=owns,
                     collects=collects,
                     source=source,
                     doc=(obey.__doc__ or "").strip(),
@@ -136,7 +141,7 @@ class Control:
     what PREDEF stands for in a parameter of a cycle of a code; ``calls_again`` whether a modal call of a cycle (a modal
     function of the group "call") calls it in a block with a keyword and words.
     ``preassigned`` are variables that the control keeps itself; names that begin with ``local_variables`` belong to one
-    program.
+    program. ``modern`` writes a program in the notation of today, where the control's own is another.
     """
 
     name: str
@@ -168,6 +173,7 @@ class Control:
     lathe: bool = False
     preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
     local_variables: str = ""
+    modern: Callable[[Program], Notation] | None = None
 
     def power_on(self) -> dict[str, str]:
         """The modal state at the start: group -> code."""

@@ -17,7 +17,7 @@ import numpy as np
 from mnclab.machine.bulk import Bulk
 from mnclab.machine.calls import Flow
 from mnclab.machine.control import Control, Function, Words
-from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance
+from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance, refuse_marks
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
 from mnclab.machine.programs import alarms_of
@@ -184,6 +184,8 @@ class Interpreter:
         machine = self.machine
         values, words = self.assign(cycle, code, given)
         head = head or Word(code, None, int(place_of(*self.span_here()[:3])))
+        if head.flag:
+            refuse_marks(cycle, code, head)
         marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
         values, words = values | dict.fromkeys(marks, 1.0), words | marks
         again = machine.position_cycle
@@ -242,7 +244,7 @@ class Interpreter:
                     f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word
                 )
             return self.control.named(self.machine, word) if self.control.named else word.value
-        if word.value is None or isinstance(word.value, str):
+        if word.value is None or isinstance(word.value, str) or parameter.type == "text":
             return word.value
         value = self.machine.value(word)
         if in_variables and self.control.storage == "variables" and is_variable(parameter):
@@ -261,7 +263,7 @@ def unit_of(machine: Machine, parameter: Parameter) -> float:
 
 def is_variable(parameter: Parameter) -> bool:
     """Whether a parameter is a variable of the program (Q200), not an address (X)."""
-    return parameter.address[0] == "Q" and parameter.address[1:].isdigit()
+    return parameter.address[0] == "Q" and parameter.address[1:].isdigit() and parameter.type != "text"
 
 
 def store(machine: Machine, definition: Definition) -> None:

@@ -5,6 +5,7 @@ The axis of the hole is where the tool stands in the plane XY, and the holes of 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -35,7 +36,7 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: tuple[float, fl
                 m.dwell(step.seconds)
             case Thread():
                 with locked(m, step.pitch):
-                    m.line(z=step.z)
+                    m.line(x=None if step.x is None else x + step.x, z=step.z)
             case Turn():
                 with in_plane(m, "XY"):
                     m.turn((x + step.centre[0], y + step.centre[1]), step.angle, step.z, step.feed)
@@ -49,9 +50,12 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: tuple[float, fl
 
 @contextmanager
 def locked(m: Machine, pitch: float) -> Iterator[None]:
-    """Inside, moves run at ``pitch`` mm for each revolution, spindle and feed locked; the history does not see it."""
+    """Inside, moves run at ``pitch`` mm of the program for each revolution, spindle and feed locked.
+
+    The history does not see it.
+    """
     kept = m.feed, m.per_rev, m.synchronous
-    m.feed, m.per_rev, m.synchronous, m._state = pitch, True, True, None
+    m.feed, m.per_rev, m.synchronous, m._state = pitch * math.hypot(*m.frames.matrix[:3, 2].tolist()), True, True, None
     try:
         yield
     finally:

@@ -8,21 +8,26 @@ from __future__ import annotations
 
 import re
 
-from mnclab.controls.tnc_620 import later, reader
+from mnclab.controls.tnc_620 import datum_tables, later, reader
 from mnclab.controls.tnc_620.cycles import (
     boring,
     contours,
+    datums,
     defaults,
     drilling,
+    engraving,
+    face_milling,
     facing,
     pecking,
     pockets,
     program_call,
     slots,
+    special,
     studs,
     tapping,
     thread_drilling,
     threads,
+    tilting,
     transformations,
 )
 from mnclab.controls.tnc_620.cycles import patterns as point_patterns
@@ -67,6 +72,7 @@ SETTINGS = (
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
     ),
+    Setting("feed_needed", True, "a move before any feed rate is an alarm; without, it is at rapid with a warning", "6.10"),
     Setting("m6_stop", False, "M6 stops the program for a change of the tool by hand", "M6"),
     Setting("spindle_angle", 0, "where M19 and M20 stop the spindle without Cycle 13", "12.5", unit="deg"),
     *(
@@ -81,6 +87,7 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
+    *tilting.SETTINGS, *engraving.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -88,7 +95,7 @@ FUNCTIONS = feeds.in_all_forms(
     pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | machine_datum.FUNCTIONS | feed_rules.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
-    | pattern_calls.FUNCTIONS | patterns.FUNCTIONS | free_contours.FUNCTIONS
+    | pattern_calls.FUNCTIONS | patterns.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in (
@@ -98,7 +105,8 @@ for chapter in (
     point_patterns,
     pockets, slots, studs, facing,
     contours,
-    transformations,
+    transformations, datums, tilting,
+    special, engraving, face_milling,
     presets,
     program_call,
 ):  # fmt: skip

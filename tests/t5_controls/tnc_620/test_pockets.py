@@ -194,10 +194,14 @@ def test_repetitions_turn_the_slot_about_the_pitch_circle():
 
 
 def test_pgm_c210():
-    """The program of 6.10 with R = 10 and R = 3, ANGLE 3: stud, pocket and slots."""
+    """The program of 6.10 with R = 10 and R = 3, ANGLE 3: stud, pocket and slots.
+
+    Block 6 moves before any feed was programmed; the setting takes it as FMAX, with a warning.
+    """
     tools = {1: Tool(radius=10, plunge_angle=3), 2: Tool(radius=3, plunge_angle=3)}
-    found = mnclab.run(C210, "tnc-620", Setup(tools=tools))
-    assert found.ok and found.alarms == (), found.alarms
+    found = mnclab.run(C210, "tnc-620", Setup(tools=tools, settings={"feed_needed": False}))
+    (warning,) = found.alarms
+    assert found.ok and "no feed rate" in warning.message and warning.span[:2] == (25, 1)
     path = found.toolpath[found.toolpath.is_motion]
     stud = said(path, "CYCL DEF 256")
     assert levels(stud) == [-5, -10, -15, -20, -25, -30]
