@@ -108,7 +108,7 @@ def no_rapid_cuts(rows, radius, material, sweeps):
 
 
 @pytest.mark.parametrize("number", FIGURES)
-@settings(max_examples=8)
+@settings(max_examples=5)
 @given(data=st.data(), radius=st.floats(2, 6), edges=st.sampled_from([0, 1.5]))
 def test_a_stud_stands_and_its_blank_is_cleared(number, data, radius, edges, sweeps):
     draw, shape = FIGURES[number]
@@ -161,7 +161,7 @@ def between(v, walls, inset, radius):
     return area.buffer(-corner).buffer(corner, quad_segs=200)
 
 
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(v=st.fixed_dictionaries(SURFACES), limits=LIMITS, signs=st.tuples(*[st.sampled_from([-1, 1])] * 2),
        radius=st.floats(2, 6), place=st.integers(-1, 4), edges=st.sampled_from([0, 1.5]))  # fmt: skip
 def test_a_surface_is_cleared_and_its_walls_are_kept(v, limits, signs, radius, place, edges, sweeps):
@@ -195,7 +195,7 @@ def test_a_surface_is_cleared_and_its_walls_are_kept(v, limits, signs, radius, p
     assert min(row.end[2] for row, _ in rows) == pytest.approx(v["Q386"])
 
 
-@settings(max_examples=10)
+@settings(max_examples=6)
 @given(v=st.fixed_dictionaries(SURFACES), signs=st.tuples(*[st.sampled_from([-1, 1])] * 2), radius=st.floats(2, 6))
 def test_a_spiral_clears_the_surface(v, signs, radius, sweeps):
     a, b = signs[0] * v["Q218"], signs[1] * v["Q219"]
