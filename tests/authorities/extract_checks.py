@@ -53,7 +53,10 @@ EXAMPLES = {
         *("point table", "SEL PATTERN"),
     ],
     "tnc620-patterns": ["CYCL DEF 220", "CYCL DEF 221"],
-    "tnc620-pockets": ["CYCL DEF 251", "CYCL DEF 252", "CYCL DEF 253", "CYCL DEF 254", "PGM C210 (section 6.10)"],
+    "tnc620-pockets": [
+        *(f"CYCL DEF {number}" for number in (251, 252, 253, 254, 256, 257, 258, 233)),
+        "PGM C210 (section 6.10)",
+    ],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",

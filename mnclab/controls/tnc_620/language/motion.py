@@ -72,6 +72,9 @@ def line(m: Machine, words: Words) -> None:
     if turned != angles(m):
         set_angles(m, turned)
     if to:
+        if f is None and m.feed is None and not m.settings["feed_needed"]:
+            m.warn("no feed rate was programmed before this move: it is at rapid")
+            f = math.inf
         m.line(**to, f=f)
 
 
