@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -24,6 +24,14 @@ CYCLES = CycleTable()
 FEEDS = ("FAUTO", "FU", "FZ")
 WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
 MOST_LABELS = 12
+
+
+class Labels(NamedTuple):
+    """Names of labels, the program that they stand in, and what a length of 1 in its parameters is, mm."""
+
+    names: tuple[str, ...]
+    program: int
+    unit: float
 
 
 @CYCLES("CYCL DEF 14", "Contour geometry", runs="definition", source="TNC 8.2")
@@ -45,7 +53,8 @@ class ContourGeometry(Cycle):
 
     def moves(self, m: Machine) -> None:
         """Keep the list until the next one."""
-        m.memory["contour labels"] = tuple(f"{number:g}" for number in self.labels)
+        names = tuple(f"{number:g}" for number in self.labels)
+        m.memory["contour labels"] = Labels(names, m.flow.running[-1], m.variable_unit)
 
 
 @CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="TNC 8.4")
@@ -95,8 +104,13 @@ def contour_region(m: Machine) -> Region:
     pockets: list[tuple[Contour, tuple[float, float]]] = []
     islands: list[Contour] = []
     recording: Recording | None = None
-    for label in m.memory["contour labels"]:
-        recording = m.record(label, after=recording)
+    labels: Labels = m.memory["contour labels"]
+    unit = m.variable_unit
+    for label in labels.names:
+        with m.flow.inside(labels.program):
+            m.variable_unit = labels.unit
+            recording = m.record(label, after=recording)
+        m.variable_unit = unit
         if not len(recording.path):
             m.alarm(f"label {label} describes no contour")
         if (abs(recording.path.end[:, 2] - recording.start[2]) > 1e-9).any():
