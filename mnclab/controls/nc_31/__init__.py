@@ -50,6 +50,9 @@ REFUSED = (
     | {"T": "the source does not describe a tool word"}
 )
 
+#: What the words of functions are, beside the axes.
+MEANINGS = {"M": "auxiliary function at the end of the move", "P": "range of frames, then the number of times"}
+
 CONTROL = Control(
     name="nc-31",
     title="Elektronika NC-31 (lathe)",
@@ -66,4 +69,5 @@ CONTROL = Control(
     refused=REFUSED,
     one_command=True,
     lathe=True,
+    meanings=MEANINGS,
 )

@@ -34,7 +34,7 @@ class Labels(NamedTuple):
     unit: float
 
 
-@CYCLES("CYCL DEF 14", "Contour geometry", runs="definition", source="TNC 8.2")
+@CYCLES("CYCL DEF 14", "Contour geometry", runs="definition", source="8.2")
 class ContourGeometry(Cycle):
     """The labels whose contours together are the pocket; no motion."""
 
@@ -57,7 +57,7 @@ class ContourGeometry(Cycle):
         m.memory["contour labels"] = Labels(names, m.flow.running[-1], m.variable_unit)
 
 
-@CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="TNC 8.4")
+@CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="8.4")
 class ContourData(Cycle):
     """Depths, allowances and the sense of milling for the cycles that follow; no motion."""
 
@@ -137,7 +137,7 @@ def contour_region(m: Machine) -> Region:
     return region
 
 
-@CYCLES("CYCL DEF 22", "Rough-out", runs="call", source="TNC 8.6")
+@CYCLES("CYCL DEF 22", "Rough-out", runs="call", source="8.6")
 class RoughOut(Cycle):
     """Clears the contour level by level, each from the inside outward, islands first."""
 

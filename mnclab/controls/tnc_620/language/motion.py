@@ -52,7 +52,7 @@ def side(m: Machine, words: Words, begins: bool) -> None:
         m.change("side", wanted)
 
 
-@FUNCTIONS("L", "Straight line", takes="X Y Z A B C PR PA R0 RL RR F FMAX FAUTO", source="2 L")
+@FUNCTIONS("L", "Straight line", takes="X Y Z A B C PR PA R0 RL RR F FMAX FAUTO", source="4.11, example")
 def line(m: Machine, words: Words) -> None:
     """From the present position to the programmed point at feed, or with FMAX at rapid; axes not written keep their value."""
     f = feed(m, words)
@@ -96,7 +96,7 @@ def sense(m: Machine, words: Words) -> int:
     return 1 if word.value == "+" else -1
 
 
-@FUNCTIONS("C", "Circular path around CC", takes="X Y DR R0 RL RR F FMAX FAUTO", source="C")
+@FUNCTIONS("C", "Circular path around CC", takes="X Y DR R0 RL RR F FMAX FAUTO", source="8.3, example")
 def circle(m: Machine, words: Words) -> None:
     """An arc around the centre CC; an end equal to the start is a full circle."""
     f = feed(m, words)
@@ -106,7 +106,7 @@ def circle(m: Machine, words: Words) -> None:
     m.arc(**coordinates(m, words, "XY"), sense=turning, centre=dict(enumerate(about)), f=f, tolerance=TOLERANCE)
 
 
-@FUNCTIONS("CR", "Circular path with radius", takes="X Y R DR R0 RL RR F FMAX FAUTO", source="CR")
+@FUNCTIONS("CR", "Circular path with radius", takes="X Y R DR R0 RL RR F FMAX FAUTO", source="9.2")
 def circle_by_radius(m: Machine, words: Words) -> None:
     """An arc of a radius: up to half a turn, with a negative radius more."""
     f = feed(m, words)
@@ -124,7 +124,7 @@ def circle_by_radius(m: Machine, words: Words) -> None:
     m.arc(**to, sense=turning, radius=radius, f=f, word=words["R"])
 
 
-@FUNCTIONS("CT", "Circular path with tangential connection", takes="X Y R0 RL RR F FMAX FAUTO", source="CT")
+@FUNCTIONS("CT", "Circular path with tangential connection", takes="X Y R0 RL RR F FMAX FAUTO", source="8.13, example")
 def tangential_circle(m: Machine, words: Words) -> None:
     """An arc that goes on where the element before it points; straight ahead it is a line."""
     f = feed(m, words)
