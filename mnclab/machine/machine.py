@@ -16,7 +16,7 @@ import numpy as np
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import sweep_of_one
 from mnclab.geometry.frames import FrameChain, Matrix
-from mnclab.machine.circles import centre_by_radius, check_radii, check_start, turn
+from mnclab.machine.circles import centre_by_radius, check_radii, check_start, normal, turn
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
 from mnclab.machine.settings import chosen
@@ -78,6 +78,7 @@ class Machine:
         self.tool: Tool = self.tables.tools[0]
         self.side, self.corner_rule = 0, 0
         self.exact, self.exact_here, self.synchronous = False, False, False
+        self.tolerance = NAN  # how far corners may be cut, mm; nan: as the limits of the machine have it
         self.rotary = (0.0, 0.0, 0.0)
         self.label = ""
         self.cycle: Definition | None = None
@@ -159,30 +160,29 @@ class Machine:
 
     @property
     def radius(self) -> float:
-        """The effective tool radius, signed."""
-        return self.tool.effective_radius
+        """The effective tool radius, signed, in lengths of the program: a scale does not change the tool."""
+        return self.tool.effective_radius / self.scale
+
+    @property
+    def scale(self) -> float:
+        """How long 1 mm of the program in the plane is on the machine, along its first axis."""
+        return 1.0 if self._shift is not None else math.hypot(*self._matrix[:3, PLANES[self.plane][0]].tolist())
 
     def state(self) -> int:
         """The state that rows made now share."""
         if self._state is None:
             axis = _AXES[self.plane]
             if self._shift is None:
-                axis = self._turned_axis()
+                axis = normal(self._matrix, *PLANES[self.plane][:2])
             per_rev = self.feed if self.per_rev and self.feed is not None else NAN
             self._state = self.recorder.state(
                 State(
-                    self.program, axis, self.rotary, per_rev, NAN, self.spindle_speed, self.tool.number, self.radius,
-                    self.side * self.orientation, self.corner_rule, self.exact, self.synchronous,
+                    self.program, axis, self.rotary, per_rev, NAN, self.spindle_speed, self.tool.number,
+                    self.tool.effective_radius, self.side * self.orientation, self.corner_rule, self.exact,
+                    self.synchronous, self.tolerance,
                 )
             )  # fmt: skip
         return self._state
-
-    def _turned_axis(self) -> tuple[float, float, float]:
-        first, second, _ = PLANES[self.plane]
-        u, v = self._matrix[:3, first], self._matrix[:3, second]
-        normal = np.cross(u, v) * (1 if np.linalg.det(self._matrix[:3, :3]) > 0 else -1)
-        x, y, z = (normal / np.linalg.norm(normal)).tolist()
-        return x, y, z
 
     # --- frames ------------------------------------------------------------------------------------------------------
 
@@ -336,7 +336,8 @@ class Machine:
         if self._shift is not None:
             return 1
         first, second, _ = PLANES[self.plane]
-        return 1 if np.dot(np.cross(self._matrix[:3, first], self._matrix[:3, second]), self._turned_axis()) > 0 else -1
+        across = np.cross(self._matrix[:3, first], self._matrix[:3, second])
+        return 1 if np.dot(across, normal(self._matrix, first, second)) > 0 else -1
 
     def at_block_end(self, undo: Callable[[], None]) -> None:
         """Do something when the running block is over."""
@@ -391,8 +392,9 @@ class Machine:
             self._row(Kind.SPINDLE, self.tip)
 
     def orient(self, angle: float) -> None:
-        """Stop the spindle at an angle, degrees."""
+        """Stop the spindle at an angle, degrees; the memory keeps it as "spindle angle"."""
         self.change("turning", 0)
+        self.memory["spindle angle"] = float(angle)
         self.log("spindle angle", float(angle))
         self._row(Kind.SPINDLE, self.tip)
 

@@ -1,4 +1,4 @@
-"""Other programs and tables, found by their name: in ``Setup.files``, then in the folder of the calling file, never elsewhere.
+"""Other programs and tables, found by their name: in ``Setup.files``, then beside the calling file, never elsewhere.
 
 Names are compared without regard to case. A type that is not written is that of the control; a directory counts only for
 ``Setup.files``, where a name may be a whole path of the control, since the folders of the control are not those here.
@@ -58,7 +58,7 @@ def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "prog
             if isinstance(source, str):
                 return Found(known, source, caller.folder)
             return Found(str(source), _text(source, what, span), str(source.parent))
-    file = beside(caller, _last(wanted))
+    file = _beside(caller, _last(wanted))
     if file is None:
         where = f"the folder of {caller.name}" if caller.folder else "a program without a file has no folder"
         names = ", ".join(sorted(m.setup.files)[:8])
@@ -67,7 +67,7 @@ def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "prog
     return Found(str(file), _text(file, what, span), caller.folder)
 
 
-def beside(caller: Program, wanted: str) -> Path | None:
+def _beside(caller: Program, wanted: str) -> Path | None:
     """A file in the folder of the calling program."""
     if not caller.folder:
         return None

@@ -34,6 +34,7 @@ class State(NamedTuple):
     corner_rule: int = 0
     exact: bool = False
     synchronous: bool = False
+    tolerance: float = NAN
 
 
 #: What a column is where a chunk of rows does not say.

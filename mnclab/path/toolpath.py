@@ -48,6 +48,7 @@ COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
     "gouge": (np.bool_, (), False, "the tool cuts into the contour on this row (setting gouge = mark)"),
     "exact": (np.bool_, (), False, "stop exactly at the end"),
     "synchronous": (np.bool_, (), False, "spindle and feed locked"),
+    "tolerance": (np.float64, (), np.nan, "how far the program lets corners be cut, mm; nan: as the limits have it"),
     "joint": (np.int16, (), -1, "index into joints"),
 }
 
@@ -79,6 +80,7 @@ class Move(NamedTuple):
     gouge: bool
     exact: bool
     synchronous: bool
+    tolerance: float
     joint: Any
 
 
@@ -113,6 +115,7 @@ class Toolpath:
     gouge: NDArray[np.bool_]
     exact: NDArray[np.bool_]
     synchronous: NDArray[np.bool_]
+    tolerance: NDArray[np.float64]
     joint: NDArray[np.int16]
 
     def __init__(

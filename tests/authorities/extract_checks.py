@@ -30,7 +30,14 @@ EXAMPLES = {
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
     "tnc620-klartext": ["BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN", "FK"],
-    "tnc620-special": ["CYCL DEF 12"],
+    "tnc620-special": [
+        *(f"CYCL DEF {number}" for number in (9, 12, 13, 18, 32, 225, 232, 239)),
+        *("engraving layout", "engraving characters", "engraving system variables"),
+    ],
+    "tnc620-transformations": [
+        *("transformation chain", "CYCL DEF 7", "CYCL DEF 7 (datum table)", "datum table", "PGM COTRANS (section 11.10)"),
+        *(f"CYCL DEF {number}" for number in (8, 10, 11, 19, 26, 247)),
+    ],
     "tnc620-using-cycles": [
         *("fixed cycles", "CYCL DEF", "CYCL CALL PAT", "CYCL CALL POS", "M89", "PREDEF"),
         *(f"PATTERN DEF {form}" for form in ("POS", "ROW", "PAT", "FRAME", "CIRC", "PITCHCIRC")),
