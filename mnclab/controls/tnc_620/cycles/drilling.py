@@ -39,8 +39,9 @@ class Centering(Hole):
 
     def reach(self, m: Machine) -> float:
         """The depth, or that of a cone of the diameter."""
-        cone = point_length(abs(self.diameter) / 2, m.tool.angle)
-        return math.copysign(cone, self.diameter) if self.mode else self.depth
+        if not self.mode:
+            return self.depth
+        return math.copysign(point_length(abs(self.diameter) / 2, m.tool.angle), self.diameter)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """The sign of what Q343 chooses, the point angle for a diameter, a feed."""
