@@ -63,7 +63,7 @@ def orient(m: Machine, words: Words) -> None:
     m.set_modal("spindle", "M5")
 
 
-@FUNCTIONS("M118", "Handwheel superimposition", takes=HANDWHEEL, modal=False, source="1.2")
+@FUNCTIONS("M118", "Handwheel superimposition", takes=HANDWHEEL, source="1.2")
 def handwheel(m: Machine, words: Words) -> None:
     """Nothing moves: there is no handwheel whose steps could be added."""
     m.warn("M118 changes nothing here: there is no handwheel", words.words[0])
