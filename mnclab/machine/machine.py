@@ -19,6 +19,7 @@ from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.machine.circles import centre_by_radius, check_radii, check_start, normal, turn
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
+from mnclab.machine.rows import add_row, spindle_axis
 from mnclab.machine.settings import chosen
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
@@ -74,7 +75,10 @@ class Machine:
         self.plane = "XY"
         self.feed: float | None = None
         self.per_rev = False
+        self.per_time = False  # the feed is the time of each move, s
         self.speed, self.turning = 0.0, 0  # S, and +1, -1, 0 for M3, M4, M5
+        self.surface: float | None = None  # the constant cutting speed, m/min, …
+        self.speed_limit = INF  # … and how fast it may turn the spindle
         self.tool: Tool = self.tables.tools[0]
         self.side, self.corner_rule = 0, 0
         self.exact, self.exact_here, self.synchronous = False, False, False
@@ -175,11 +179,14 @@ class Machine:
             if self._shift is None:
                 axis = normal(self._matrix, *PLANES[self.plane][:2])
             per_rev = self.feed if self.per_rev and self.feed is not None else NAN
+            surface = NAN, INF, 0.0
+            if self.surface is not None:
+                surface = self.surface, self.speed_limit, spindle_axis(self)
             self._state = self.recorder.state(
                 State(
-                    self.program, axis, self.rotary, per_rev, NAN, self.spindle_speed, self.tool.number,
+                    self.program, axis, self.rotary, per_rev, surface[0], self.spindle_speed, self.tool.number,
                     self.tool.effective_radius, self.side * self.orientation, self.corner_rule, self.exact,
-                    self.synchronous, self.tolerance,
+                    self.synchronous, self.tolerance, *surface[1:],
                 )
             )  # fmt: skip
         return self._state
@@ -261,7 +268,7 @@ class Machine:
         self._go(Kind.LINE, self.target(x, y, z), self.feed_of(f, word), joint)
 
     def feed_of(self, f: float | None, word: Word | None = None) -> float:
-        """The feed of a move, mm/min; an alarm if none was programmed."""
+        """The feed of a move, mm/min, or its time, s, with a minus; an alarm if none was programmed."""
         if f is not None:
             return f
         if self.feed is None:
@@ -270,7 +277,7 @@ class Machine:
             if not self.spindle_speed:
                 self.alarm("a feed per revolution needs a turning spindle", word, hint="write S and M3 before the move")
             return self.feed * abs(self.speed)
-        return self.feed
+        return -self.feed if self.per_time else self.feed
 
     def _go(self, kind: Kind, point: tuple[float, float, float], feed: float, joint: Any = None) -> None:
         tip = self.to_machine(point)
@@ -349,21 +356,7 @@ class Machine:
         while self.block_end:
             self.block_end.pop()()
 
-    def _row(
-        self, kind: Kind, tip: tuple[float, float, float], centre: tuple[float, float, float] = (NAN, NAN, NAN),
-        angle: float = 0.0, feed: float = NAN, time: float = NAN, joint: Any = None,
-    ) -> None:  # fmt: skip
-        recorder, number = self.recorder, -1
-        if joint is not None:
-            number = len(recorder.joints)
-            recorder.joints.append(joint)
-        state = self.state() if self._state is None else self._state
-        if self.exact_here and not self.exact:
-            state = recorder.state(recorder.states[state]._replace(exact=True))
-        if self.per_rev and feed != (self.feed or 0.0) * abs(self.speed):  # a rapid, or a feed in mm/min of a cycle
-            state = recorder.state(recorder.states[state]._replace(per_rev=NAN))
-        label = recorder.label(self.label) if self.label else 0
-        recorder.add((kind, self.source_line, self.step, label, *tip, *centre, angle, feed, time, number, state))
+    _row = add_row
 
     def mark_joint(self, joint: Any) -> bool:
         """Put a joint on the last motion not settled yet; False if there is none, or if it has one already."""

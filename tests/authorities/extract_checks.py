@@ -29,6 +29,11 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "jnc-t01": [
+        *("program structure", "table 2 notes", "axes and dimensions", "spindle control", "feed programming"),
+        *("linear moves", "arc moves", "G00", "G01", "G02", "G03", "G04", "G12", "G14", "G32", "G73", "G74", "G75"),
+        *("G77", "G78", "G90", "G91", "G92", "G93", "G94", "G95", "G96", "G97", "T+L"),
+    ],
     "tnc620-klartext": ["BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN", "FK"],
     "tnc620-special": [
         *(f"CYCL DEF {number}" for number in (9, 12, 13, 18, 32, 225, 232, 239)),

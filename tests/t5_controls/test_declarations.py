@@ -107,6 +107,7 @@ ONCE = "only what L chooses is used: the example writes H0 beside L1, so the lim
 FEED = "the range of the word F (4.1)"
 MILLING = ("G320", "G321", "G343", "G344")
 TIME = "the table has no range; a time is not negative"
+JNC = [("G73", "Z"), *((c, a) for c in ("G74", "G75") for a in "XZ"), *((c, a) for c in ("G77", "G78") for a in "XZUW")]
 AS_IN_CYCLES = "the table has none: that of the parameter in the cycles"
 LENGTH, SIGNED, TIMES = {">=": 0, "<=": 99999.9999}, {">=": -99999.9999, "<=": 99999.9999}, {">=": 0, "<=": 3600}
 FEEDS, OVERLAP = {">=": 0, "<=": 99999.999}, {">=": 0.0001, "<=": 1.9999}
@@ -148,6 +149,7 @@ EXPLAINED = {
     **{("nc-31", "G77", axis, "type"): ("number", "the reader refuses what is not whole") for axis in "XZ"},
     ("nc-31", "G77", "X", "unit"): ("0.01 mm", "that X is a diameter is in its meaning"),
     ("nc-31", "G77", "P", "unit"): ("0.01 mm", "that P1 is on the diameter is in its meaning"),
+    **{("jnc-t01", code, axis, "limits"): ({}, "any number; between which is a check") for code, axis in JNC},
 }
 
 #: Parameters without a row: marks of the word that calls the cycle.

@@ -78,7 +78,7 @@ class Data:
 
 
 def control_of(path):
-    names = {"mnc": "mnc", "nc-31": "nc-31", "nc_31": "nc-31", "tnc-620": "tnc-620", "tnc_620": "tnc-620"}
+    names = {name: name for name in mnclab.controls} | {"nc_31": "nc-31", "tnc_620": "tnc-620"}
     return next(names[part] for part in reversed(path.parts) if part in names)
 
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import corners
@@ -48,7 +49,7 @@ def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, o
     """The programmed feed of some rows, mm/s; inf where the axes alone decide.
 
     Per minute, per revolution (with the speed that the spindle has: the programmed one, not above its limit), in a given
-    time (inverse time feed), or at constant cutting speed S = 1000 v / (2 π x) with x in the middle of the row.
+    time (inverse time feed), or at constant cutting speed, with the spindle speed of the middle of the row.
     """
     part = slice(begin, end)
     feed = path.feed[part] * (override / 60)
@@ -57,9 +58,8 @@ def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, o
         turning = np.abs(path.spindle[part])
         surface = path.surface[part]
         if not np.isnan(surface).all():
-            middle = np.abs(path.start[part, 0] + path.end[part, 0]) / 2
-            with np.errstate(divide="ignore"):
-                turning = np.where(np.isnan(surface), turning, 1000 * surface / (2 * np.pi * middle))
+            middle = (path.start[part, 0] + path.end[part, 0]) / 2 - path.spindle_x[part]
+            turning = np.where(np.isnan(surface), turning, spindle_speed(surface, middle, path.speed_limit[part]))
         turning = np.minimum(turning, limits.spindle)
         feed = np.where(np.isfinite(per_rev), per_rev * turning * (override / 60), feed)
     time = path.time[part]
