@@ -242,7 +242,9 @@ class Interpreter:
                     f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word
                 )
             return self.control.named(self.machine, word) if self.control.named else word.value
-        if word.value is None or isinstance(word.value, str) or parameter.type == "text":
+        if parameter.type == "text":  # a number in the place of a text may be computed
+            return self.machine.value(word) if isinstance(word.value, Expression) else word.value
+        if word.value is None or isinstance(word.value, str):
             return word.value
         value = self.machine.value(word)
         if in_variables and self.control.storage == "variables" and is_variable(parameter):

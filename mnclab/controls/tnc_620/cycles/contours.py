@@ -149,7 +149,7 @@ class RoughOut(Cycle):
         "Q12", "feed rate for roughing", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True
     )
     coarse_tool: float = param(
-        "Q18", "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
+        ("Q18", "QS18"), "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
     )
     swing_feed: float = param(
         "Q19", "feed rate for reciprocation", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True
