@@ -6,7 +6,6 @@ depth works upwards from A = S - Q200, where the setting "depth_error" allows it
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from mnclab.machine.cycle import Cycle
@@ -28,8 +27,10 @@ class AtSurface(Cycle):
     @property
     def down(self) -> float:
         """+1 where the cycle works downwards, -1 upwards, 0 where it has nothing to do."""
-        depth = next((depth for depth in self.depths().values() if depth), 0.0)
-        return -math.copysign(1.0, depth) if depth else 0.0
+        for depth in self.depths().values():
+            if depth:
+                return -1.0 if depth > 0 else 1.0
+        return 0.0
 
     @property
     def above(self) -> float:

@@ -64,12 +64,11 @@ def line(m: Machine, words: Words) -> None:
             m.alarm(f"{polar[0].address} and coordinates of axes stand in one block", polar[0], hint="write LP PR… PA…")
         m.warn("L with polar coordinates is read as LP", polar[0])
         to["x"], to["y"] = polar_point(m, words)
-    turned = rotary_angles(m, words)
-    moves = math.dist(m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))), m.tip) > 1e-9  # a frame rounds
-    if turned != angles(m) and not moves:
-        turn_axes(m, turned, f)
-        return
-    if turned != angles(m):
+    if any(axis in words for axis in AXES_OF_ROTATION) and (turned := rotary_angles(m, words)) != angles(m):
+        target = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z")))
+        if math.dist(target, m.tip) <= 1e-9:  # a frame rounds
+            turn_axes(m, turned, f)
+            return
         set_angles(m, turned)
     if to:
         m.line(**to, f=f)
