@@ -108,3 +108,17 @@ def test_the_coarse_tool_of_fine_roughing(tool: str) -> None:
             "Q18 (coarse roughing tool) other than 0" in alarm.message
             and found.program.line_text(alarm.span.line) == tool
         )
+
+
+@pytest.mark.parametrize(
+    ("block", "words"),
+    [
+        ("CYCL DEF 200 DRILLING M99 F100 ~", {23: "M99", 27: "F100"}), ("CYCL DEF 9.0 DWELL X+5", {20: "X+5"}),
+        ("CYCL DEF 247 PRESET 3-D A1, part 2 ~", {25: "A1"}), ("CYCL DEF 200 ROUGH-OUT 2 OF 3 ~", {}),
+        ("GLOBAL DEF 100 GENERAL R0", {24: "R0"}),
+    ],
+)  # fmt: skip
+def test_what_looks_like_a_word_in_the_name_of_a_cycle_is_told(block: str, words: dict[int, str]) -> None:
+    warnings = [a for a in mnc.read(f"{block}\n  Q200=2\n", "tnc-620").alarms if a.severity == "warning"]
+    assert {a.span.column: a.message.split()[0] for a in warnings} == words
+    assert all(a.span.line == 1 and a.span.length == len(words[a.span.column]) for a in warnings)
