@@ -6,7 +6,8 @@ line of a million points costs. Arcs are cut finely enough for the size of the p
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
+from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import arrows as heads
 from mnclab.show.plot import colours
@@ -23,12 +25,14 @@ from mnclab.show.plot.classes import Classes, classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
+from mnclab.show.plot.lathe import Turned, draw_insert, draw_part, turned, with_blank
 from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, Picture, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Strokes, corners, parted, strokes
 from mnclab.text.alarm import ALARM, Alarm
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
+INSERT = 0.09  # edges of an insert, of the greatest side of the picture
 FAR = 5  # a box of all moves this many times that of the cuts is not shown whole
 
 Array = NDArray[np.float64]
@@ -46,6 +50,7 @@ class Drawing(NamedTuple):
     plunges: dict[View, Array]
     plunge: Mark
     arrows: bool
+    turned: Turned | None = None
 
 
 def plot_path(
@@ -61,6 +66,9 @@ def plot_path(
     programmed: Toolpath | None = None,
     alarms: Sequence[Alarm] = (),
     places: Sequence[Place] = (),
+    stock: Any = None,
+    tools: Mapping[int, Tool] = MappingProxyType({}),
+    insert: bool | int = True,
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -78,6 +86,8 @@ def plot_path(
     - ``programmed``: the contour before compensation, drawn thin and grey where it differs.
     - ``alarms``: the first that stopped the program is marked where the tool stands and named below.
     - ``places``: the crosses (see :func:`mnclab.show.plot.datums.places_of`).
+    - ``stock``, ``tools``, ``insert``: on a lathe the blank (two corners in machine coordinates) with what the cuts leave
+      of it, the tool table, and after which row the insert is drawn: True for the last one, False for none.
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path)
@@ -86,11 +96,16 @@ def plot_path(
     low, high, beyond = _box(path, lines, frame)
     shown = near(places, low, high) if marks else []
     low, high = _with(shown, low, high)
+    low, high = with_blank(path, stock, low, high)
+    if path.lathe and len(path) and insert is not False and not beyond:
+        room = 1.6 * INSERT * float((high - low).max())
+        high = np.fmax(high, path.end[-1] + (room, 0.0, room))
     views = _views(view, path, low, high, single=ax is not None)
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
     plunges = {each: _plunges(path, each) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
-    drawing = Drawing(path, drawn, found, lines, _marks(path, stop is not None), shown, plunges, plunge, arrows)
+    lathe = turned(path, stock, tools, insert) if path.lathe and views == [VIEWS["ZX"]] else None
+    drawing = Drawing(path, drawn, found, lines, _marks(path, stop is not None), shown, plunges, plunge, arrows, lathe)
     if ax is not None:
         _draw(ax, views[0], drawing)
         dress(ax, views[0])
@@ -131,6 +146,8 @@ def plot_run(run: Any, ax: Axes | None = None, view: str = "auto", *, marks: boo
     The options are those of :func:`plot_path`.
     """
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
+    if run.toolpath.lathe:
+        given |= {"stock": run.setup.stock, "tools": run.tables.tools}
     if marks:
         given["places"] = places_of(run)
     return plot_path(run.toolpath, ax, view, **{**given, **options}, marks=marks)
@@ -236,6 +253,8 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     artists += crosses(drawing.places, view)
     for artist in artists:
         ax.add_line(artist)
+    if drawing.turned is not None:
+        draw_part(ax, drawing.turned)
     if view.diameter:
         ax.axhline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre line"})
     return artists
@@ -244,6 +263,8 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
 def _write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> None:
     """Add what depends on the scale: arrowheads and names."""
     occupied = [xyz[:, [view.right, view.up]] for _, xyz in drawing.marks]
+    if drawing.turned is not None:
+        draw_insert(ax, drawing.turned, INSERT * float((high - low).max()))
     if drawing.arrows:
         occupied.append(heads.draw(ax, view, drawing.strokes, drawing.classes, low, high))
     if drawing.places:
