@@ -94,7 +94,9 @@ def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) 
     paths = [each.toolpath if isinstance(each, Run) else each for each in (one, other)]
     names = [each.program.name if isinstance(each, Run) else "path" for each in (one, other)]
     if names[0] == names[1]:
-        names = [f"the first {names[0]}", f"the second {names[1]}"]
+        controls = [each.control.name if isinstance(each, Run) else "" for each in (one, other)]
+        marks = ["first", "second"] if controls[0] == controls[1] else controls
+        names = [f"the {mark} {name}" for mark, name in zip(marks, names)]
     return deviation(paths[0], paths[1], (names[0], names[1]), step, times=times)
 
 

@@ -66,8 +66,9 @@ class Explanation:
         self.meanings = tuple(_meanings(run, moment, dict((name, (a, b)) for name, a, b in self.changed)))
         self.stages = tuple(_stages(run, moment))
         path = run.toolpath[moment.rows]
-        self.moves = tuple(f"{move.kind.name.lower()} {words(move)}".strip() for move in path[:SHOWN])
-        self.more_moves = max(0, len(path) - SHOWN)
+        shown = len(path) if len(path) <= SHOWN + 1 else SHOWN  # a line that says "1 more" is no shorter
+        self.moves = tuple(f"{move.kind.name.lower()} {words(move)}".strip() for move in path[:shown])
+        self.more_moves = len(path) - shown
 
     @property
     def title(self) -> str:
