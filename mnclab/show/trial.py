@@ -90,7 +90,7 @@ def _mnc(cycle: Any, words: Sequence[tuple[str, Any]]) -> str:
     return f"G17 G90 G54\nT2 S1000 M3\nG0 X0 Y0 Z20 F100\n{block}\n{call}\n"
 
 
-def _klartext(value: float | str) -> str:
+def klartext(value: float | str) -> str:
     """A number with its sign, a text in quotes."""
     return f'"{value}"' if isinstance(value, str) else ("" if value < 0 else "+") + number(value)
 
@@ -98,7 +98,7 @@ def _klartext(value: float | str) -> str:
 def _tnc_620(cycle: Any, words: Sequence[tuple[str, Any]]) -> str | None:
     if not words or not all(address.startswith("Q") for address, _ in words):
         return None  # the old cycles stand in blocks of their own kind
-    lines = [f"{cycle.code} {cycle.title.upper()}", *(f"  {address}={_klartext(value)}" for address, value in words)]
+    lines = [f"{cycle.code} {cycle.title.upper()}", *(f"  {address}={klartext(value)}" for address, value in words)]
     call = ["L X+20 Y+10 R0 FMAX M99"] if cycle.runs == "call" else []
     written = [address for address, _ in words]
     tool = 1 if "Q207" in written and "Q239" not in written else 2  # an end mill; for holes and their threads the drill
