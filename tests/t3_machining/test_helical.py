@@ -145,7 +145,8 @@ def test_tapping_reverses_at_both_ends():
     first = kinds(tap([-15], above=5, pitch=1.25, sense=1, end=1, dwell=0.5))
     then = kinds(tap([-15], above=5, pitch=1.25, sense=1, end=1, dwell=0.5, dwell_first=False))
     assert first == [
-        ("Spin", 1, None), ("Thread", -15, 1.25, None), ("Wait", 0.5), ("Spin", -1, None), ("Thread", 5, 1.25, None), ("Spin", 1, None),
+        ("Spin", 1, None), ("Thread", -15, 1.25, None), ("Wait", 0.5),
+        ("Spin", -1, None), ("Thread", 5, 1.25, None), ("Spin", 1, None),
     ]  # fmt: skip
     assert then == [first[k] for k in (0, 1, 3, 2, 4, 5)]
 

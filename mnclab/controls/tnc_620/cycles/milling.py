@@ -85,11 +85,6 @@ class FigureMilling(AtSurface):
         return self.down * self.clearance
 
     @property
-    def end(self) -> float:
-        """Where the tool is in nobody's way: the second set-up plane, if it is not below the first."""
-        return self.surface + max(self.second_clearance, self.clearance)
-
-    @property
     def floor(self) -> float:
         """The bottom of the figure."""
         return self.surface + self.depth
