@@ -35,3 +35,8 @@ def test_notebook_runs(path):
     environment.pop("MPLBACKEND", None)  # the kernel chooses its own, as it does for people
     place = {"metadata": {"path": path.parent}}
     NotebookClient(notebook, timeout=120, kernel_name="python3", resources=place).execute(env=environment)
+
+
+def test_the_map_of_the_course_has_every_lesson():
+    text = (ROOT / "notebooks" / "README.md").read_text("utf-8")
+    assert sorted(re.findall(r"\]\((\w+\.ipynb)\)", text)) == [path.name for path in NOTEBOOKS]

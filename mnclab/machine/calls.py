@@ -7,7 +7,8 @@ is a section run inside another; a jump goes on elsewhere in the same section. F
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -101,15 +102,24 @@ class Flow:
         self.enter(span)
         kept = self.current, self.calls, machine.source_line, machine.label
         self.calls, machine.label = 0, ""
+        with self.inside(index):
+            self.section(0, len(self.program))
+        self.current, self.calls, machine.source_line, machine.label = kept
+        self.depth, self.over = self.depth - 1, False
+
+    @contextmanager
+    def inside(self, index: int) -> Iterator[None]:
+        """Blocks and labels are those of another program."""
+        if index == self.running[-1]:
+            yield
+            return
         self._flush()
         self.running.append(index)
         self._change_program()
-        self.section(0, len(self.program))
+        yield  # after an alarm the place stays where it happened: the run is over
         self._flush()
         self.running.pop()
         self._change_program()
-        self.current, self.calls, machine.source_line, machine.label = kept
-        self.depth, self.over = self.depth - 1, False
 
     def _change_program(self) -> None:
         """Blocks are those of another program from now on."""

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cache
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
@@ -57,6 +57,15 @@ class Parameter:
     mark: int = 0
     several: bool = False
     example: float | None = None
+    is_variable: bool = field(init=False)
+    """Whether it is a variable of the program (Q200), not an address (X)."""
+    in_units: bool = field(init=False)
+    """Whether it is such a variable, of a length or feed in the unit of the program."""
+
+    def __post_init__(self) -> None:
+        variable = self.address[0] == "Q" and self.address[1:].isdigit() and self.type != "text"
+        object.__setattr__(self, "is_variable", variable)
+        object.__setattr__(self, "in_units", variable and self.unit in ("mm", "mm/min", "mm/rev"))
 
     @property
     def allowed(self) -> str:
@@ -154,7 +163,7 @@ class Cycle:
         for item in fields(cls):
             if "parameter" in item.metadata:
                 parameter: Parameter = item.metadata["parameter"]
-                declared.append(Parameter(**{**parameter.__dict__, "name": item.name}))
+                declared.append(replace(parameter, name=item.name))
         return tuple(declared)
 
     @classmethod

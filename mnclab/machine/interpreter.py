@@ -244,10 +244,12 @@ class Interpreter:
                     f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word
                 )
             return self.control.named(self.machine, word) if self.control.named else word.value
-        if word.value is None or isinstance(word.value, str) or parameter.type == "text":
+        if parameter.type == "text":  # a number in the place of a text may be computed
+            return self.machine.value(word) if isinstance(word.value, Expression) else word.value
+        if word.value is None or isinstance(word.value, str):
             return word.value
         value = self.machine.value(word)
-        if in_variables and self.control.storage == "variables" and is_variable(parameter):
+        if in_variables and self.control.storage == "variables" and parameter.is_variable:
             self.machine.variables[parameter.address] = value  # exactly as written
         return value * unit_of(self.machine, parameter)
 
@@ -258,17 +260,14 @@ class Interpreter:
 
 def unit_of(machine: Machine, parameter: Parameter) -> float:
     """What a number of a parameter that lives in a variable is multiplied with: 25.4 for lengths and feeds in inches."""
-    return machine.variable_unit if is_variable(parameter) and parameter.unit in ("mm", "mm/min", "mm/rev") else 1.0
-
-
-def is_variable(parameter: Parameter) -> bool:
-    """Whether a parameter is a variable of the program (Q200), not an address (X)."""
-    return parameter.address[0] == "Q" and parameter.address[1:].isdigit() and parameter.type != "text"
+    return machine.variable_unit if parameter.in_units else 1.0
 
 
 def store(machine: Machine, definition: Definition) -> None:
     """Write what was not given as a number (defaults, FAUTO) into its variable; FMAX and texts have none."""
-    for parameter in filter(is_variable, definition.cycle.parameters()):
+    for parameter in definition.cycle.parameters():
+        if not parameter.is_variable:
+            continue
         word, value = definition.words.get(parameter.name), definition.values.get(parameter.name, parameter.default)
         if word is not None and isinstance(word.value, float | Expression):
             continue
@@ -304,7 +303,7 @@ def as_it_stands(machine: Machine, definition: Definition) -> Definition:
         numbers = {
             p.name: machine.variables[p.address] * unit_of(machine, p)
             for p in definition.cycle.parameters()
-            if is_variable(p) and p.address in machine.variables
+            if p.is_variable and p.address in machine.variables
         }
         return replace(definition, values=definition.values | numbers)
     return definition

@@ -4,7 +4,7 @@ A run is a row of places: the moves of each step, and for a step that moves noth
 move a condition can change only where one of its comparisons changes sign; such a place is found by halving, to the last
 digit, and between two of them one look is enough. Coordinates alone (``z < -5``) are exact on lines and arcs, since the
 arcs are divided where a coordinate turns back; what mixes them (``x^2 + y^2 > 900``) is looked at in :data:`LOOKS` places
-of each line and quarter of a turn.
+of each line and quarter of a turn. So are spindle and feed at constant cutting speed, which follow the radius.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.listing import point
 from mnclab.path.places import points_at, turning_points
@@ -44,6 +45,9 @@ COLUMN = {
     "side": "+1 compensated to the left, -1 to the right, 0 not",
     "line": "line of the program",
 }
+
+
+FOLLOW_RADIUS = {"spindle", "feed"}
 
 
 class Moments(tuple["Moment", ...]):
@@ -114,6 +118,8 @@ class _Search:
     def __init__(self, run: Run, condition: Condition) -> None:
         self.run, self.path, self.condition = run, run.toolpath, condition
         self.step = np.maximum.accumulate(self.path.step.astype(np.int64)) if len(self.path) else np.empty(0, np.int64)
+        follows = bool(np.isfinite(self.path.surface).any())
+        self.along = PLACE.keys() | (FOLLOW_RADIUS if follows else set())  # the names that change on a move
         self.state = {name: self._state(name) for name in condition.names - PLACE.keys() - COLUMN.keys()}
 
     def _state(self, name: str) -> Array:
@@ -145,7 +151,7 @@ class _Search:
         """Rows and shares (k,), in order, between which no comparison changes."""
         count = len(self.path)
         every = np.arange(count)
-        spatial = [node for node in self.condition.comparisons if _names(node) & PLACE.keys()]
+        spatial = [node for node in self.condition.comparisons if _names(node) & self.along]
         if not spatial or not count:
             return every, np.zeros(count)
         mixed = any(not _single(node) for node in spatial)
@@ -175,8 +181,12 @@ class _Search:
     def roots(self, node: Node, row: Rows, share: Array) -> tuple[Rows, Array]:
         """Where the two sides of a comparison become equal between neighbouring shares of a row, by halving."""
         gap = self.gap(node, row, share)
-        change = np.flatnonzero((row[1:] == row[:-1]) & (np.sign(gap[1:]) * np.sign(gap[:-1]) < 0))
-        which, low, high, sign = row[change], share[change], share[change + 1], np.sign(gap[change])
+        signs = np.sign(gap)
+        crosses = signs[1:] * signs[:-1] < 0
+        if _names(node) & (self.along - PLACE.keys()):  # it may arrive at a limit and stay there
+            crosses |= signs[1:] != signs[:-1]
+        change = np.flatnonzero((row[1:] == row[:-1]) & crosses)
+        which, low, high, sign = row[change], share[change], share[change + 1], signs[change]
         for _ in range(HALVINGS if len(change) else 0):
             middle = (low + high) / 2
             same = np.sign(self.gap(node, which, middle)) == sign
@@ -202,10 +212,20 @@ class _Search:
                 continue
             column = getattr(self.path, name)
             before = column[row] if len(column) else np.zeros(len(row))
+            if name in self.along:
+                before = np.where(np.isfinite(self.path.surface[row]), self.turning(looks, row)[name], before)
             found[name] = np.where(row >= 0, before, np.nan if name == "feed" else 0.0).astype(np.float64)
             if name == "feed":
                 found[name][looks.row < 0] = np.nan
         return found
+
+    def turning(self, looks: Looks, row: Rows) -> dict[str, Array]:
+        """Spindle speed and feed at some places of moves at constant cutting speed."""
+        path = self.path
+        radius = self.points(looks)[:, 0] - path.spindle_x[row]
+        speed = spindle_speed(path.surface[row], radius, path.speed_limit[row])
+        feed = np.where(np.isfinite(path.per_rev[row]), path.per_rev[row] * speed, path.feed[row])
+        return {"spindle": np.where(path.spindle[row] < 0, -speed, speed), "feed": feed}
 
     def standing(self, looks: Looks) -> Rows:
         """The row of each place, or the last one before it; -1 before the first."""

@@ -1,4 +1,4 @@
-"""Other programs, found by their name: in ``Setup.files``, then in the folder of the calling file, never elsewhere.
+"""Other programs and tables, found by their name: in ``Setup.files``, then beside the calling file, never elsewhere.
 
 Names are compared without regard to case. A type that is not written is that of the control; a directory counts only for
 ``Setup.files``, where a name may be a whole path of the control, since the folders of the control are not those here.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.program import Program, decode
@@ -26,7 +26,9 @@ def called(m: Machine, name: str, what: str, span: Span | None = None) -> int:
     flow = m.flow
     index = flow.found.get((flow.program.folder, name))
     if index is None:
-        key, text, folder = _found(m, name, what, span)
+        if name.lower().endswith(".i"):
+            raise Alarm(f"{what} {name}: DIN/ISO programs (.I) are not built yet", span)
+        key, text, folder = found(m, name, what, span)
         same = (k for k, known in enumerate(flow.programs) if known.name == key and (k or known.folder))
         index = next(same, None)
         if index is None:
@@ -37,10 +39,16 @@ def called(m: Machine, name: str, what: str, span: Span | None = None) -> int:
     return index
 
 
-def _found(m: Machine, name: str, what: str, span: Span | None) -> tuple[str, str, str]:
-    """Name, text and folder of a program."""
-    if name.lower().endswith(".i"):
-        raise Alarm(f"{what} {name}: DIN/ISO programs (.I) are not built yet", span)
+class Found(NamedTuple):
+    """A file: its name, its text, its folder, "" for none."""
+
+    name: str
+    text: str
+    folder: str
+
+
+def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "program") -> Found:
+    """The file that a statement (``what``) names; an Alarm if there is none. A ``kind`` other than programs names its type."""
     caller, suffixes = m.flow.program, m.control.suffixes
     wanted = _spelt(name, suffixes)
     files = {_spelt(known, suffixes): (known, source) for known, source in m.setup.files.items()}
@@ -48,18 +56,18 @@ def _found(m: Machine, name: str, what: str, span: Span | None) -> tuple[str, st
         if key in files:
             known, source = files[key]
             if isinstance(source, str):
-                return known, source, caller.folder
-            return str(source), _text(source, what, span), str(source.parent)
-    found = beside(caller, _last(wanted))
-    if found is None:
+                return Found(known, source, caller.folder)
+            return Found(str(source), _text(source, what, span), str(source.parent))
+    file = _beside(caller, _last(wanted))
+    if file is None:
         where = f"the folder of {caller.name}" if caller.folder else "a program without a file has no folder"
         names = ", ".join(sorted(m.setup.files)[:8])
-        hint = f"Setup(files=…) has {names or 'no programs'}; {where}{' has none' if caller.folder else ''}"
-        raise Alarm(f"{what} {name}: there is no program of this name", span, hint=hint)
-    return str(found), _text(found, what, span), caller.folder
+        hint = f"Setup(files=…) has {names or 'no files'}; {where}{' has none' if caller.folder else ''}"
+        raise Alarm(f"{what} {name}: there is no {kind} of this name", span, hint=hint)
+    return Found(str(file), _text(file, what, span), caller.folder)
 
 
-def beside(caller: Program, wanted: str) -> Path | None:
+def _beside(caller: Program, wanted: str) -> Path | None:
     """A file in the folder of the calling program."""
     if not caller.folder:
         return None

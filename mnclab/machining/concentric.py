@@ -1,9 +1,9 @@
-"""Pockets and studs of simple shape, cleared on passes of the same shape. Lengths in mm, angles in rad.
+"""Pockets of simple shape, cleared on passes of the same shape. Lengths in mm, angles in rad.
 
     t = way from the first to the last pass, k = greatest stepover:  n = ceil(t / k) steps of t / n each
 
-All steps are equal and none is above k. A pocket is cleared from its centre outwards, a stud from the stock inwards.
-In climb milling, the spindle turning clockwise, walls of pockets are followed counter-clockwise and studs clockwise.
+All steps are equal and none is above k. A pocket is cleared from its centre outwards; in climb milling, the spindle
+turning clockwise, its wall is followed counter-clockwise. What stands in the middle is cut free by `studs`.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.machining.clearing import Clearing, Piece, numbered
 from mnclab.machining.depths import MOST, TooMany
-from mnclab.machining.pockets import rounded
 from mnclab.machining.spirals import half_circles
 
 DRIFT = 1e-9  # a number of steps this little above a whole one is that whole one
@@ -86,7 +85,7 @@ def circular_spiral(
         return Clearing(Region(), (Piece(Region(), (), (), (), middle),), radius)
     spiral = half_circles(middle, 0.0, reach, halves, angle, clockwise=not climb)
     last = Contour.circle(middle, reach, angle + np.pi * halves, clockwise=not climb)
-    return _joined([spiral, last], ("spiral", "last circle"), radius, Region((_turned_left(last),)), middle)
+    return joined([spiral, last], ("spiral", "last circle"), radius, Region((_turned_left(last),)), middle)
 
 
 def rectangular_spiral(
@@ -121,7 +120,7 @@ def rectangular_spiral(
         Contour(shapes.placed(p.points * flip, centre, angle), p.bulge * flip[1], closed=p.closed) for p in passes
     ]
     outer = Region((_turned_left(turned[-1]),)) if last is not None else Region()
-    return _joined(turned, ("spiral", "last ring")[: len(turned)], radius, outer, turned[0].points[0])
+    return joined(turned, ("spiral", "last ring")[: len(turned)], radius, outer, turned[0].points[0])
 
 
 def slot(
@@ -141,72 +140,7 @@ def slot(
     rounds = [shapes.slot(line, 2 * reach * i / n) for i in range(1, n + 1)]
     outer = Region(tuple(rounds[-1:]))
     passes = [line, *(ring if climb else ring.reversed() for ring in rounds)]
-    return _joined(passes, ("centre line", *numbered("ring", n)), radius, outer, line.points[0])
-
-
-def stud_rectangle(
-    length: float, width: float, stock: tuple[float, float], radius: float, stepover: float, *, corner: float = 0.0,
-    allowance: float = 0.0, climb: bool = True, centre: ArrayLike = (0, 0), angle: float = 0.0,
-) -> Clearing:  # fmt: skip
-    """A rectangular stud out of a stock of length and width, from the outside in.
-
-    `corner` rounds the corners of the stud, or with a minus sign bevels them; every pass has the same corner element.
-    """
-    spare = [(whole - part) / 2 - allowance for whole, part in zip(stock, (length, width), strict=True)]
-    if min(spare) < -DRIFT:
-        raise ValueError(f"a stock of {stock[0]:g} by {stock[1]:g} does not hold the stud and its allowance")
-    if 2 * abs(corner) > min(length, width):
-        raise ValueError(f"a corner of {abs(corner):g} does not fit on a stud of {length:g} by {width:g}")
-    n = max(1, steps(max(spare), stepover))
-    passes = []
-    for i in range(1, n + 1):
-        more = np.array(spare) * (n - i) / n + radius + allowance
-        whole = 2 * (length / 2 + more[0]), 2 * (width / 2 + more[1])
-        if corner < 0:
-            cut = -corner + (radius + allowance) * (2 - math.sqrt(2))
-            ring = _bevelled(*whole, cut, centre, angle)
-        else:
-            ring = shapes.rectangle(*whole, corner + allowance + radius, centre=centre, angle=angle)
-        passes.append(ring.reversed() if climb else ring)
-    return _from_outside(passes, radius)
-
-
-def stud_circle(
-    diameter: float, stock: float, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
-    centre: ArrayLike = (0, 0), angle: float = 0.0,
-) -> Clearing:  # fmt: skip
-    """A circular stud out of a round stock: a spiral inwards, whole turns, then a full circle."""
-    last = diameter / 2 + allowance + radius
-    spare = (stock - diameter) / 2 - allowance
-    if spare < -DRIFT:
-        raise ValueError(f"a stock of diameter {stock:g} does not hold the stud and its allowance")
-    n = steps(spare, stepover)
-    ring = Contour.circle(centre, last, angle, clockwise=climb)
-    if not n:
-        return _from_outside([ring], radius)
-    spiral = half_circles(centre, last + spare, last, 2 * n, angle, clockwise=climb)
-    return _joined([spiral, ring], ("spiral", "last circle"), radius, Region(), spiral.points[0])
-
-
-def stud_polygon(
-    corners: int, inscribed: float, stock: float, radius: float, stepover: float, *, corner: float = 0.0,
-    allowance: float = 0.0, climb: bool = True, centre: ArrayLike = (0, 0), angle: float = 0.0,
-) -> Clearing:  # fmt: skip
-    """A regular polygon, given by its inscribed radius, out of a round stock, from the outside in.
-
-    `corner` rounds its corners, or with a minus sign bevels them; a sharp one is gone round on an arc.
-    """
-    spare = stock / 2 - inscribed - allowance
-    if spare < -DRIFT:
-        raise ValueError(f"a stock of diameter {stock:g} does not hold the stud and its allowance")
-    stud = shapes.polygon(corners, inscribed / math.cos(math.pi / corners), centre=centre, angle=angle)
-    figure = _corners_cut(stud, -corner) if corner < 0 else _corners_rounded(stud, corner)
-    n, passes = max(1, steps(spare, stepover)), []
-    for i in range(1, n + 1):
-        (ring,) = Region.of(figure).offset(radius + allowance + max(spare, 0.0) * (n - i) / n).loops
-        start = ring.nearest(shapes.placed(np.array([[stock, 0.0]]), centre, angle)[0])
-        passes.append(ring.started_at(start).reversed() if climb else ring.started_at(start))
-    return _from_outside(passes, radius)
+    return joined(passes, ("centre line", *numbered("ring", n)), radius, outer, line.points[0])
 
 
 # ---- beneath ----
@@ -238,33 +172,10 @@ def _turned_left(ring: Contour) -> Contour:
 
 def _from_the_centre(passes: list[Contour], name: str, radius: float, centre: Floats) -> Clearing:
     outer = Region((_turned_left(passes[-1]),)) if passes and passes[-1].closed else Region()
-    return _joined(passes, numbered(name, len(passes)), radius, outer, centre)
+    return joined(passes, numbered(name, len(passes)), radius, outer, centre)
 
 
-def _from_outside(passes: list[Contour], radius: float) -> Clearing:
-    return _joined(passes, numbered("ring", len(passes)), radius, Region(), passes[0].points[0])
-
-
-def _joined(passes: list[Contour], labels: tuple[str, ...], radius: float, centres: Region, place: Floats) -> Clearing:
+def joined(passes: list[Contour], labels: tuple[str, ...], radius: float, centres: Region, place: Floats) -> Clearing:
+    """Passes that lead on to one another, the tool coming in at a place."""
     piece = Piece(centres, tuple(passes), (True,) * max(0, len(passes) - 1), labels, np.asarray(place))
     return Clearing(centres, (piece,), radius)
-
-
-def _bevelled(length: float, width: float, cut: float, centre: ArrayLike, angle: float) -> Contour:
-    """A rectangle with bevels that take `cut` off each side, begun in the middle of its right side."""
-    sharp = shapes.rectangle(length, width)
-    bevelled = _corners_cut(Contour(sharp.points[1:]), cut)
-    at = bevelled.nearest((length / 2, 0.0))
-    ring = bevelled.started_at(at)
-    return Contour(shapes.placed(ring.points, centre, angle), ring.bulge)
-
-
-def _corners_cut(figure: Contour, cut: float) -> Contour:
-    """A convex figure of lines with bevels in place of its corners."""
-    before, after = figure.tangents()[1], figure.tangents()[0]
-    points = np.stack([figure.points - cut * np.roll(before, 1, axis=0), figure.points + cut * after], axis=1)
-    return Contour(points.reshape(-1, 2))
-
-
-def _corners_rounded(figure: Contour, radius: float) -> Contour:
-    return rounded(figure, radius) if radius else figure

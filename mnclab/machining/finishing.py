@@ -7,9 +7,12 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
-from mnclab.geometry.contours import Contour, left
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mnclab.geometry.contours import Contour, cross, left
 from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import QUARTER
 from mnclab.machining.clearing import Clearing, Piece, numbered, room_for
@@ -63,6 +66,26 @@ def half_circles(contour: Contour, diameter: float, side: int) -> tuple[Contour,
         Contour([before, wall], [float(side), 0.0], closed=False),
         Contour([wall, after], [float(side), 0.0], closed=False),
     )
+
+
+def onto(place: ArrayLike, contour: Contour) -> Contour | None:
+    """The arc from a place to the begin of a pass that touches it there; None where the place lies on the pass.
+
+    The larger part of a circle where the place lies ahead.
+    """
+    (ahead, *_), _ = contour.tangents()
+    chord = contour.points[0] - np.asarray(place, dtype=float)
+    if np.hypot(*chord) <= LEAST:
+        return None
+    turn = math.atan2(float(cross(chord, ahead)), float(chord @ ahead))
+    return Contour([place, contour.points[0]], [math.tan(turn / 2), 0.0], closed=False)
+
+
+def outwards(contour: Contour, diameter: float, side: int) -> Contour:
+    """The half circle that touches the end of a pass and leads as far to its left (`side` 1) or right (-1)."""
+    (*_, away) = contour.tangents()[1]
+    end = contour.points[0 if contour.closed else -1]
+    return Contour([end, end + diameter * side * left(away)], [float(side), 0.0], closed=False)
 
 
 def walls(

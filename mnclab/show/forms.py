@@ -13,6 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from difflib import get_close_matches
 from html import escape
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -104,7 +105,7 @@ def form(code: str, control: str) -> Any:
     longest = max((len(_name(p)) for p in chosen.parameters()), default=0)
     for parameter in sorted(chosen.parameters(), key=lambda p: not p.required):
         box = boxes[parameter.name] = _parameter_box(parameter, min(32.0, 0.58 * longest))
-        if not parameter.required and parameter.default is None:
+        if not parameter.required and parameter.default in (None, inf):
             ticks[parameter.name] = tick = _tick(parameter, box)
             rows.append(_row(box, tick))
         else:
@@ -185,7 +186,9 @@ def _parameter_box(p: Parameter, width: float) -> Any:
     import ipywidgets
 
     value = trial.first_value(p)
-    otherwise = p.default_means or ("" if p.default is None else f"{p.default:g}")
+    otherwise = p.default_means or (
+        "" if p.default is None else str(p.default) if trial.is_text(p) else f"{p.default:g}"
+    )
     facts = [p.meaning, p.allowed, p.note, f"left out: {otherwise}" if otherwise else ""]
     looks: dict[str, Any] = {
         "description": _name(p),
@@ -193,6 +196,8 @@ def _parameter_box(p: Parameter, width: float) -> Any:
         "style": {"description_width": f"{width:.1f}em"},
         "layout": {"width": f"{width + 8:.1f}em"},
     }
+    if trial.is_text(p):
+        return ipywidgets.Text(value=value, **looks)
     if p.choices:
         options = [(f"{choice:g} {meaning}", choice) for choice, meaning in p.choices.items()]
         return ipywidgets.Dropdown(options=options, value=value, **looks)

@@ -7,6 +7,7 @@ play from, not advice.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -47,11 +48,18 @@ def number(value: float) -> str:
     return figure(value, 6)
 
 
-def first_value(parameter: Any) -> float:
+def is_text(parameter: Any) -> bool:
+    """Whether a parameter holds a text; a tool that may be named, too, is a number to begin with."""
+    return parameter.type == "text" and not isinstance(parameter.default, int | float)
+
+
+def first_value(parameter: Any) -> float | str:
     """A value to begin with: the example, the default, or a likely one that the limits of the parameter allow."""
+    if is_text(parameter):
+        return str(parameter.default or "ABC")
     if parameter.example is not None:
         return float(parameter.example)
-    if parameter.default is not None:
+    if parameter.default is not None and parameter.default != math.inf:  # rapid: no number that a box could show
         return float(parameter.default)
     if parameter.choices:
         return float(next(iter(parameter.choices)))
@@ -68,13 +76,13 @@ def written_first(parameter: Any) -> bool:
     return any(piece in parameter.meaning.lower() for piece in WRITTEN)
 
 
-def program(control: str, cycle: Any, values: Mapping[str, float]) -> str | None:
+def program(control: str, cycle: Any, values: Mapping[str, float | str]) -> str | None:
     """The text of a program that runs a cycle with some ``values`` (by parameter name); None if nobody knows how."""
     words = [(p.address, values[p.name]) for p in cycle.parameters() if p.name in values]
     return PROGRAMS[control](cycle, words) if control in PROGRAMS else None
 
 
-def _mnc(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+def _mnc(cycle: Any, words: Sequence[tuple[str, Any]]) -> str:
     block = " ".join([cycle.code, *(address + number(value) for address, value in words)])
     if cycle.runs == "definition":  # milling
         return f"G17 G90 G54\nT1 S1000 M3\nG0 X20 Y10 Z20 F100\n{block}\n"
@@ -82,10 +90,15 @@ def _mnc(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
     return f"G17 G90 G54\nT2 S1000 M3\nG0 X0 Y0 Z20 F100\n{block}\n{call}\n"
 
 
-def _tnc_620(cycle: Any, words: Sequence[tuple[str, float]]) -> str | None:
+def klartext(value: float | str) -> str:
+    """A number with its sign, a text in quotes."""
+    return f'"{value}"' if isinstance(value, str) else ("" if value < 0 else "+") + number(value)
+
+
+def _tnc_620(cycle: Any, words: Sequence[tuple[str, Any]]) -> str | None:
     if not words or not all(address.startswith("Q") for address, _ in words):
         return None  # the old cycles stand in blocks of their own kind
-    lines = [f"{cycle.code} {cycle.title.upper()}", *(f"  {address}={value:+.6g}" for address, value in words)]
+    lines = [f"{cycle.code} {cycle.title.upper()}", *(f"  {address}={klartext(value)}" for address, value in words)]
     call = ["L X+20 Y+10 R0 FMAX M99"] if cycle.runs == "call" else []
     written = [address for address, _ in words]
     tool = 1 if "Q207" in written and "Q239" not in written else 2  # an end mill; for holes and their threads the drill
@@ -95,24 +108,24 @@ def _tnc_620(cycle: Any, words: Sequence[tuple[str, float]]) -> str | None:
     return "\n".join([*start, " ~\n".join(lines), *call, "END PGM TRIAL MM", ""])
 
 
-def _nc_31(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+def _nc_31(cycle: Any, words: Sequence[tuple[str, Any]]) -> str:
     marks = [address for address, value in words if address in "~@" and value]
     frames = [" ".join([cycle.code, *marks]), *(a + number(value) for a, value in words if a not in "~@")]
     return "\n".join(["S800", "M3", "F20", "X4000 ~ *", "Z200 ~", " *\n".join(frames), ""])
 
 
-def _jnc_t01(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+def _jnc_t01(cycle: Any, words: Sequence[tuple[str, Any]]) -> str:
     block = " ".join([cycle.code, *(address + number(value) for address, value in words)])
     x = 0 if cycle.code == "G73" else 40
     return f"G90 G94 F100\nT1 S800 M3\nG0 X{x} Z5\n{block}\n"
 
 
-def _g43(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+def _g43(cycle: Any, words: Sequence[tuple[str, Any]]) -> str:
     block = " ".join([cycle.code, *(address + number(value) for address, value in words)])
     return f"T2 M6\nG43 G0 X0 Y0 Z20 S1000 M3\n{block}\nG80\n"
 
 
-PROGRAMS: dict[str, Callable[[Any, Sequence[tuple[str, float]]], str | None]] = {
+PROGRAMS: dict[str, Callable[[Any, Sequence[tuple[str, Any]]], str | None]] = {
     "mnc": _mnc,
     "tnc-620": _tnc_620,
     "nc-31": _nc_31,

@@ -53,7 +53,10 @@ EXAMPLES = {
         *("point table", "SEL PATTERN"),
     ],
     "tnc620-patterns": ["CYCL DEF 220", "CYCL DEF 221"],
-    "tnc620-pockets": ["CYCL DEF 251", "CYCL DEF 252", "CYCL DEF 253", "CYCL DEF 254", "PGM C210 (section 6.10)"],
+    "tnc620-pockets": [
+        *(f"CYCL DEF {number}" for number in (251, 252, 253, 254, 256, 257, 258, 233)),
+        "PGM C210 (section 6.10)",
+    ],
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
@@ -74,6 +77,8 @@ PROGRAMS = {"tnc-620": "tnc620-"}
 
 #: Files whose G and M codes are listed.
 CODES = ["mnc-language", "mnc-drilling", "mnc-milling", "mnc-probing"]
+#: Files of the TNC 620 whose entries are listed, whatever their kind.
+CHAPTERS = ["klartext", "using-cycles", "patterns", "drilling", "threading", "pockets", "transformations", "special"]
 #: Files whose ambiguities are listed: what the manual leaves open, and the reading to adopt.
 AMBIGUITIES = ["mnc-language"]
 KEYS = (
@@ -134,6 +139,15 @@ def listed(folder, names):
                 yield {"code": code, **kept}
 
 
+def chapters(folder, names):
+    """Every entry of some files: its kind, whether it stays and holds at the start, and which examples have a check."""
+    for name in names:
+        for code, entry in entries(folder, f"tnc620-{name}").items():
+            kept = {key: entry[key] for key in ("kind", "modal", "power_on") if entry.get(key) is not None}
+            checked = [example for example in entry.get("examples") or [] if "check" in example or "checks" in example]
+            yield {"file": name, "code": code, **kept, "checked": len(checked)}
+
+
 def ambiguities(folder, names):
     """What the manual leaves open (`text`) and how it is read (`read`), by the names that code and tests cite."""
     for name in names:
@@ -165,6 +179,7 @@ def main(folder):
     for control, records in parameters(folder).items():
         save(f"parameters-{control}", records)
     save("codes", listed(folder, CODES))
+    save("codes-tnc-620", chapters(folder, CHAPTERS))
     save("ambiguities", ambiguities(folder, AMBIGUITIES))
 
 

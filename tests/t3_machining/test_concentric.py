@@ -130,41 +130,6 @@ def test_a_slot_as_wide_as_the_tool_is_one_pass():
     assert [len(concentric.slot(line, w, 4).passes) for w in (9, 16, 16.1, 24.1)] == [2, 2, 3, 4]
 
 
-def test_rings_of_a_rectangular_stud():
-    """Stock 100 × 80, stud 60 × 50, R 5, Q368 0.5, k 7: t = (19.5, 14.5), n = 3, half sizes by the formula."""
-    clearing = concentric.stud_rectangle(60, 50, (100, 80), 5, 7, corner=3, allowance=0.5)
-    expected = [(35.5 + (3 - i) * 6.5, 30.5 + (3 - i) * 14.5 / 3) for i in (1, 2, 3)]
-    assert half_sides(clearing.passes) == pytest.approx(np.array(expected))
-    assert all(ring.area < 0 for ring in clearing.passes)  # climb: clockwise
-    assert {round(r, 6) for ring in clearing.passes for r in ring.radii} == {8.5, np.inf}
-
-
-@pytest.mark.parametrize(("corner", "left"), [(0.0, 0.0), (3.0, (4 - np.pi) * 9), (-3.0, 2 * 9)])
-def test_a_rectangular_stud_is_left_standing(corner, left):
-    clearing = concentric.stud_rectangle(60, 50, (80, 70), 5, 6, corner=corner)
-    stands = shapely.box(-40, -35, 40, 35).difference(swept(clearing.passes, 5))
-    assert stands.area == pytest.approx(60 * 50 - left, abs=0.05)
-
-
-def test_a_circular_stud_is_left_standing():
-    clearing = concentric.stud_circle(40, 70, 5, 4, allowance=0.2)
-    stands = shapely.Point(0, 0).buffer(35, quad_segs=400).difference(swept(clearing.passes, 5))
-    assert stands.area == pytest.approx(np.pi * 20.2**2, abs=0.05)
-    away = np.hypot(*clearing.passes[0].points.T)
-    assert away[0] == pytest.approx(40) and away[-1] == pytest.approx(25.2)
-    assert np.diff(away) == pytest.approx(-14.8 / 8)
-
-
-@pytest.mark.parametrize(
-    ("corner", "change"), [(0, 0.0), (4, 6 * 16 * (np.tan(np.pi / 6) - np.pi / 6)), (-2, 6 * 3**0.5)]
-)
-def test_a_polygon_is_left_standing(corner, change):
-    """Hexagon with flats 20 from the centre: 2·√3·20²; a rounding r takes r²·(tan 30° - 30°), a bevel c takes c²·√3/4."""
-    clearing = concentric.stud_polygon(6, 20, 60, 5, 5, corner=corner, angle=0.3)
-    stands = shapely.Point(0, 0).buffer(30, quad_segs=400).difference(swept(clearing.passes, 5))
-    assert stands.area == pytest.approx(2 * np.sqrt(3) * 400 - change, abs=0.1)
-
-
 def test_passes_are_joined_end_to_start():
     for clearing in (concentric.rectangle(50, 40, 4, 3), concentric.circle(50, 4, 3)):
         for before, after in pairwise(clearing.passes[1:]):
@@ -179,9 +144,6 @@ def test_passes_are_joined_end_to_start():
         (lambda: concentric.circle(11, 5, 4, allowance=1), "allowance of 1 does not fit"),
         (lambda: concentric.circle(20, 5, 0), "stepover"),
         (lambda: concentric.slot(Contour([(0, 0), (9, 0)], closed=False), 7, 4), "a slot 7 wide"),
-        (lambda: concentric.stud_circle(40, 30, 5, 4), "stock"),
-        (lambda: concentric.stud_rectangle(40, 40, (50, 39), 5, 4), "stock"),
-        (lambda: concentric.stud_polygon(5, 20, 30, 5, 4), "stock"),
     ],
 )
 def test_what_does_not_fit_is_refused(make, message):

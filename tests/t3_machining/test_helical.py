@@ -72,8 +72,7 @@ def test_a_thread_milled_in_one_turn(trace):
                         approach_feed=180, position_feed=750)  # fmt: skip
     found = trace(steps, 32)
     assert [point for _, point in found] == [
-        pytest.approx(point, abs=1e-9)
-        for point in [(0, 0, 10), (0, 0, 9.625), (2, 0, 10), (2, 0, 11.5), (0, 0, 11.5)]
+        pytest.approx(point, abs=1e-9) for point in [(0, 0, 10), (0, 0, 9.625), (2, 0, 10), (2, 0, 11.5), (0, 0, 11.5)]
     ]
     assert [step.feed for step, _ in found] == [750, 750, 180, 200, 200]
 
@@ -146,7 +145,8 @@ def test_tapping_reverses_at_both_ends():
     first = kinds(tap([-15], above=5, pitch=1.25, sense=1, end=1, dwell=0.5))
     then = kinds(tap([-15], above=5, pitch=1.25, sense=1, end=1, dwell=0.5, dwell_first=False))
     assert first == [
-        ("Spin", 1, None), ("Thread", -15, 1.25), ("Wait", 0.5), ("Spin", -1, None), ("Thread", 5, 1.25), ("Spin", 1, None),
+        ("Spin", 1, None), ("Thread", -15, 1.25, None), ("Wait", 0.5),
+        ("Spin", -1, None), ("Thread", 5, 1.25, None), ("Spin", 1, None),
     ]  # fmt: skip
     assert then == [first[k] for k in (0, 1, 3, 2, 4, 5)]
 

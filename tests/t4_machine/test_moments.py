@@ -96,3 +96,27 @@ def test_a_dense_look_sees_the_same(blocks, question):
     for moment in run.when(question):  # and just after each of them it is true
         after = np.flatnonzero((rows == moment.row) & (share >= moment.share))
         assert moment.share > 1 - 1 / dense or true[after[:3]].any() or moment.share == 1
+
+
+FACING = "{turn}\nG96 S120\nG95 F0.2\nG0 X30 Z0\nG1 X0\n"  # n = 1000 v / (2 π X), at most 3000
+
+
+@pytest.mark.parametrize(
+    ("question", "x"),
+    [
+        ("spindle >= 1500", 120_000 / (2 * math.pi * 1500)),
+        ("spindle >= 3000", 120_000 / (2 * math.pi * 3000)),  # the limit, where the speed stays
+        ("line == 5 and feed > 200", 0.2 * 120_000 / (2 * math.pi * 200)),
+        ("spindle > 1000 and x < 10", 10),
+    ],
+)
+def test_at_constant_cutting_speed_the_spindle_follows_the_tool(question, x):
+    run = mnclab.run(FACING.format(turn="M3"), "jnc-t01", mnclab.Setup(start=(40, 0, 20)))
+    (moment,) = run.when(question)
+    assert (moment.line, moment.point[0]) == (5, pytest.approx(x, abs=1e-9))
+
+
+def test_a_spindle_that_turns_left_is_negative():
+    run = mnclab.run(FACING.format(turn="M4"), "jnc-t01", mnclab.Setup(start=(40, 0, 20)))
+    assert run.when("spindle >= 1500") == ()
+    assert run.when("spindle <= -1500")[0].point[0] == pytest.approx(120_000 / (2 * math.pi * 1500), abs=1e-9)

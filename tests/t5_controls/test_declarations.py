@@ -101,6 +101,7 @@ NAMES = {
     "center_axis_1": "centre_x",
     "center_axis_2": "centre_y",
     "slot_position_reference": "slot_position",
+    "start_tool_axis": "surface",
 }
 
 ONCE = "only what L chooses is used: the example writes H0 beside L1, so the limit is checked where it counts"
@@ -117,6 +118,7 @@ GLOBAL_LIMITS = [
     *((105, q, TIMES) for q in ("Q210", "Q211")), (110, "Q370", OVERLAP), (111, "Q2", OVERLAP), (111, "Q6", LENGTH),
     (111, "Q7", SIGNED), (120, "Q320", LENGTH), (120, "Q260", SIGNED),
 ]  # fmt: skip
+DEFAULTED = [("CYCL DEF 256", "Q437"), ("CYCL DEF 257", "Q376"), ("CYCL DEF 233", "Q348"), ("CYCL DEF 233", "Q349")]
 #: (control, code, address, key) -> what the declaration has, and why.
 EXPLAINED = {
     **{("mnc", code, "P", "limits"): ({">=": 0}, TIME) for code in ("G83", "G84", "G85")},
@@ -146,6 +148,9 @@ EXPLAINED = {
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "choices"): (set(), "2, 3, … too: any whole number") for n in (262, 267)},
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "type"): ("integer", "of a pitch per step") for n in (262, 267)},
     ("tnc-620", "CYCL DEF 201", "Q203", "limits"): ({">=": -99999.9999, "<=": 99999.9999}, "a misprint: as everywhere"),
+    # studs and face milling (TNC 620, chapter 6)
+    ("tnc-620", "CYCL DEF 257", "Q376", "limits"): ({">=": -1, "<=": 360}, "-1 lets the control choose; 360 is named too"),
+    **{("tnc-620", code, q, "required"): (False, "the table names a value for it") for code, q in DEFAULTED},
     **{("nc-31", code, axis, "limits"): ({}, "any whole number of its unit") for code in LATHE for axis in "XZ"},
     **{("nc-31", code, axis, "type"): ("number", "the reader refuses what is not whole") for code in LATHE for axis in "XZ"},
     ("nc-31", "G31", "P", "default"): (0, "the taper of a cylinder"),

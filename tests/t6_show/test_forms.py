@@ -141,3 +141,22 @@ def test_every_cycle_has_a_form(control, code):
 def test_a_function_has_no_form():
     with pytest.raises(Alarm, match="G1 has no parameters"):
         forms.form("G1", "mnc")
+
+
+def test_a_text_has_a_text_box_that_is_written_in_quotes():
+    live = mnclab.form("CYCL DEF 225", "tnc-620")
+    box = live.boxes["text"]
+    assert isinstance(box, ipywidgets.Text) and '  Q500="ABC"' in live.run.program.text
+    narrow = live.run.toolpath.bounds
+    box.value = "ABCABC"
+    assert 'Q500="ABCABC"' in live.run.program.text and live.run.ok
+    assert live.run.toolpath.bounds[1][0] > narrow[1][0]
+    assert isinstance(mnclab.form("CYCL DEF 12", "tnc-620").boxes["program_name"], ipywidgets.Text)
+
+
+def test_a_rapid_that_is_left_out_is_a_word_to_tick():
+    """Q208 of cycle 22 stands for FMAX where it is not written; no number in a box means that."""
+    live = mnclab.form("CYCL DEF 22", "tnc-620")
+    assert "Q208" not in live.run.program.text and not live.ticks["retract_feed"].value
+    live.ticks["retract_feed"].value = True
+    assert "Q208=+120" in live.run.program.text

@@ -118,3 +118,25 @@ def test_the_panel_follows_its_boxes(run):
     panel.boxes["override"].value = 50.0
     assert panel.profile.override == 0.5
     assert f"{panel.profile.time:.3f}" in panel.alarms.value
+
+
+@pytest.mark.parametrize("way", [("30", "10"), ("10", "30")])  # towards the spindle axis, and away from it
+def test_at_constant_cutting_speed_the_programmed_feed_follows_the_radius(way):
+    start, end = way
+    program = f"M3\nG96 S120\nG95 F0.2\nG0 X{start} Z0\nG1 X{end}\n"
+    path = mnclab.run(program, "jnc-t01").toolpath
+    profile = mnclab.Profile(path[path.kind == mnclab.Kind.LINE], Limits(acceleration=2000))
+    (wanted,) = [line for line in profile.plot(over="path").axes[0].lines if line.get_label() == colours.WANTED.name]
+    place, feed = np.array(wanted.get_xdata()), np.array(wanted.get_ydata())
+    middle = (place > 1) & (place < 19)
+    radius = np.interp(place[middle], [0, 20], [float(start), float(end)])
+    by_hand = 0.2 * 120_000 / (2 * np.pi * radius)
+    assert np.allclose(feed[middle], by_hand, rtol=20 / 64 / 10)  # each of the 64 parts has one feed
+    names = np.array(list(colours.HOLDS))[holds(profile)]
+    assert set(names) == {"feed", "acceleration"}
+
+
+def test_blanks_before_a_comment_take_no_room():
+    run = mnclab.run("G94 F100\nG1 X20        ' a cut\n", "jnc-t01")
+    labels = run.profile().plot_lost().axes[0].get_yticklabels()
+    assert labels[-1].get_text().endswith("G1 X20 ' a cut")

@@ -27,6 +27,8 @@ def feed_mode(m: Machine, words: Words) -> None:
     """What F means: seconds for each move, mm/min, mm/rev. After a change a new F must follow."""
     mode = words.code == "G93", words.code == "G95"
     if mode != (m.per_time, m.per_rev):
+        if m.feed is not None:
+            m.memory["feed ended by"] = words.code
         m.change("feed", None)
         m.change("per_time", mode[0])
         m.change("per_rev", mode[1])
@@ -45,6 +47,10 @@ def cutting_feed(m: Machine, word: Word | None) -> float | None:
             m, "stopped_spindle", f"G95: the spindle stands, the feed is that of {m.speed:g} rev/min", word
         )
         return m.feed * m.speed
+    if m.feed is None and (code := m.memory.get("feed ended by")):
+        m.alarm(
+            f"no feed rate was programmed after {code}, which gives F another unit", word, "write F with a new value"
+        )
     m.feed_of(None, word)
     return None
 

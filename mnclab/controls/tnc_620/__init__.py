@@ -17,11 +17,13 @@ from mnclab.controls.tnc_620.cycles import (
     drilling,
     engraving,
     face_milling,
+    facing,
     pecking,
     pockets,
     program_call,
     slots,
     special,
+    studs,
     tapping,
     thread_drilling,
     threads,
@@ -37,6 +39,7 @@ from mnclab.controls.tnc_620.language import (
     feeds,
     flow,
     free_contours,
+    free_words,
     joints,
     machine_datum,
     motion,
@@ -60,7 +63,7 @@ from mnclab.path.compensation import Compensation
 PHASES = ("start", "motion", "call", "end", "last")
 
 SETTINGS = (
-    Setting("block_skip", False, "operator mode: blocks with / are passed over", "klartext"),
+    Setting("block_skip", False, "operator mode: blocks with / are passed over", "Klartext, not described"),
     Setting("preset", 0, "row of the preset table that is active at the start", "11.4"),
     Setting("overlap", 1.0, "path overlap factor of pockets (pocketOverlap), which Q112 shows", ""),
     Setting("depth_error", True, "a positive depth of a cycle is an alarm (displayDepthErr, no. 201003)", "4.3"),
@@ -70,10 +73,11 @@ SETTINGS = (
         "gouge", "refuse", "what happens where a compensated tool does not fit", "",
         {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
     ),
-    Setting("m6_stop", False, "M6 stops the program for a change of the tool by hand", "M6"),
-    Setting("spindle_angle", 0, "where M19 and M20 stop the spindle without Cycle 13", "12.5", unit="deg"),
+    Setting("feed_needed", True, "a move before any feed rate is an alarm; without, it is at rapid with a warning", "6.10"),
+    Setting("m6_stop", False, "M6 stops the program for a change of the tool by hand", "5.11"),
+    Setting("spindle_angle", 0, "where M19 and M20 stop the spindle without Cycle 13", "12.4", unit="deg"),
     *(
-        Setting(f"m92_{axis}", 0, f"{axis.upper()} of the position that M92 counts from", "M92", unit="mm")
+        Setting(f"m92_{axis}", 0, f"{axis.upper()} of the position that M92 counts from", "11.9", unit="mm")
         for axis in "xyz"
     ),
     Setting(
@@ -100,7 +104,7 @@ for chapter in (
     drilling, boring, pecking,
     tapping, threads, thread_drilling,
     point_patterns,
-    pockets, slots,
+    pockets, slots, studs, facing,
     contours,
     transformations, datums, tilting,
     special, engraving, face_milling,
@@ -124,6 +128,11 @@ MEANINGS = {
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
     "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length", "file": "name of a file",
+    **{axis: f"angle of the rotary axis {axis}" for axis in "ABC"},
+    **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
+    **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
+    **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
+    "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in patterns.MEANINGS.items()},
 }  # fmt: skip
 

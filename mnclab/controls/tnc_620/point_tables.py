@@ -5,9 +5,7 @@
     0 +10 +10 +0
     [END]
 
-Fields stand under the names of their columns, or one after the other where a row has all of them. The names of the
-files are those of ``Setup.files``; the folders of the control are not those of this computer, so a name counts without
-its directory, too.
+Fields stand under the names of their columns, or one after the other where a row has all of them.
 """
 
 from __future__ import annotations

@@ -132,7 +132,7 @@ def cycle_parameters(cursor: Cursor) -> None:
     builder = cursor.builder
     if not any(name.startswith("Q") for name in _addresses(cursor)):
         first = _PARAMETER_HEAD.search(cursor.text, cursor.at, cursor.stop)
-        cursor.at = first.start() if first else cursor.stop
+        name_of_cycle(cursor, first.start() if first else cursor.stop)
     while not cursor.done:
         begin = cursor.at
         found = cursor.match(_PARAMETER_HEAD)
@@ -151,6 +151,15 @@ def cycle_parameters(cursor: Cursor) -> None:
         if value is None:
             raise Fault(f"{name} needs a number", begin, found.end() - begin)
         builder.word(name, value, begin, cursor.at - begin)
+
+
+def name_of_cycle(cursor: Cursor, stop: int = -1) -> None:
+    """The name is free; what looks like a word in it would be lost, which is said."""
+    stop = cursor.stop if stop < 0 else stop
+    for found in _LIKE_A_WORD.finditer(cursor.text, cursor.at, stop):
+        message = f"{found.group()} is read as part of the cycle's name and not obeyed"
+        cursor.builder.alarm(message, found.start(), len(found.group()), severity="warning")
+    cursor.at = stop
 
 
 def _addresses(cursor: Cursor) -> list[str]:
@@ -198,7 +207,7 @@ def definition(keyword: str, part: int) -> Statement:
     if part < 0:
         return Statement(keyword, cycle_parameters, cycle_parameters)
     if part == 0:
-        return Statement(keyword, ignored, None, 0)
+        return Statement(keyword, ignored if keyword.startswith("TCH PROBE") else name_of_cycle, None, 0)
     read = PARTS.get(f"{keyword}.{part}", PARTS.get(keyword, ignored))
     return Statement(keyword, read, read, part)
 
@@ -235,6 +244,8 @@ _WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 _PARAMETER_HEAD = re.compile(r"[ \t]*\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
 _FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
 _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
+#: A coordinate, another number with a sign, an M function, a feed, a speed.
+_LIKE_A_WORD = re.compile(r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS)
 _DIALOG = re.compile(r"[^\d;~]*")
 _TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 _SLASH = re.compile(r"[ \t]*/")

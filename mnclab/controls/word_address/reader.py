@@ -150,13 +150,13 @@ def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labe
     while at < stop:
         match = _WORD.match(text, at, stop)
         if match is None or match.group(2) is None:
-            _refuse(builder, text, at, stop)
+            _refuse(builder, text, at, stop, mark)
             return
         address, number = match.group(1).upper(), float(match.group(2))
         length = match.end() - at
         after = text[match.end() : match.end() + 1]
         if match.end() < stop and (after in ".,+-" or after.isdigit()):
-            _refuse(builder, text, match.end(), stop)
+            _refuse(builder, text, match.end(), stop, mark)
             return
         if address == "N" and mark.labels:
             if not first:
@@ -178,7 +178,10 @@ def _skip_blanks(text: str, at: int, stop: int) -> int:
     return at
 
 
-def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int) -> None:
+FOREIGN_COMMENTS = "(;'"  # how comments begin on other controls
+
+
+def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks) -> None:
     """The fault at a character that is no part of a good word, with the repair where the mistake is known."""
     c = text[at]
     if c == ",":
@@ -198,7 +201,9 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int) -> None:
     elif c.isdigit():
         builder.alarm(f"{c!r} needs an address letter before it", at, hint="a blank inside a number splits it")
     else:
-        builder.alarm(f"{c!r} has no meaning here", at)
+        pattern = mark.comment.pattern
+        foreign = f"a comment begins with {pattern if len(pattern) == 1 else '//'}" if c in FOREIGN_COMMENTS else ""
+        builder.alarm(f"{c!r} has no meaning here", at, hint=foreign)
 
 
 def _digit_meant(text: str, at: int, stop: int) -> str:

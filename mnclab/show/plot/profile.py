@@ -59,10 +59,7 @@ def holds(profile: Profile) -> NDArray[np.int64]:
     """What holds the speed in each piece (m,): an index into ``colours.HOLDS``."""
     p, names = profile.pieces, list(colours.HOLDS)
     at = {name: names.index(name) for name in names}
-    feed, cap = (
-        _of_rows(profile, profile.plan.rows.feed)[p.row],
-        np.sqrt(_of_rows(profile, profile.plan.rows.cap)[p.row]),
-    )
+    feed, cap = (_of_pieces(profile, values) for values in (profile.plan.rows.feed, np.sqrt(profile.plan.rows.cap)))
     v, kind = p.v[:-1], profile.path.kind[p.row]
     found = np.full(len(v), at["corner"])
     found[v >= cap * (1 - 1e-9)] = at["axis speed"]
@@ -73,6 +70,16 @@ def holds(profile: Profile) -> NDArray[np.int64]:
     found[p.j != 0] = at["jerk"]
     found[(kind > Kind.PROBE)] = at["standing"]
     return found
+
+
+def _of_pieces(profile: Profile, values: Array) -> Array:
+    """A value for each piece (m,) from those of planned rows: at constant cutting speed a row is planned in parts."""
+    p, plan = profile.pieces, profile.plan
+    if plan.row is None:
+        return values[p.row]
+    first, last = np.searchsorted(plan.row, p.row), np.searchsorted(plan.row, p.row, "right") - 1
+    part = np.searchsorted(np.cumsum(plan.rows.length), (p.s[:-1] + p.s[1:]) / 2)
+    return values[np.clip(part, first, last)]
 
 
 def _of_rows(profile: Profile, values: Array) -> Array:
@@ -208,9 +215,9 @@ def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = MOST, wid
 
 def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits: bool) -> list[Any]:
     """Programmed and reached feed, stops, corners, and the band of what holds the speed; returns legend entries."""
-    feed, row = _of_rows(profile, profile.plan.rows.feed), profile.move[drawn.piece]
-    known = np.isfinite(feed) & (profile.path.kind <= Kind.PROBE)
-    wanted = np.where(known, feed * 60, np.nan)[row]
+    feed = _of_pieces(profile, profile.plan.rows.feed)
+    known = np.isfinite(feed) & (profile.path.kind[profile.move] <= Kind.PROBE)
+    wanted = np.where(known, feed * 60, np.nan)[drawn.piece]
     lines: list[Any] = [
         ax.plot(x, wanted, **colours.WANTED.style())[0],
         ax.plot(x, drawn.v * 60, **colours.REACHED.style())[0],
@@ -304,5 +311,5 @@ def _in_words(profile: Profile) -> str:
 
 
 def _text(profile: Profile, line: int) -> str:
-    text = profile.source.line_text(line).strip() if profile.source is not None else ""
+    text = " ".join(profile.source.line_text(line).split()) if profile.source is not None else ""
     return f"{line:>4}  {text[:36]}"

@@ -235,7 +235,7 @@ REFUSED = [
     ("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+1 ABST5", 2, 1, "F (feed of the rotary axes) is missing"),
     ("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+1 F0 ABST5", 3, 19, "F (feed of the rotary axes) must be greater than 0"),
     ("CYCL DEF 19.0 P\nCYCL DEF 19.1 IA+1", 3, 15, "takes no incremental value, got IA"),
-    ('SEL TABLE "NONE.D"', 2, 11, "SEL TABLE NONE.D: there is no such table"),
+    ('SEL TABLE "NONE.D"', 2, 11, "SEL TABLE NONE.D: there is no datum table of this name"),
     ('SEL TABLE "5.D"', 2, 11, "SEL TABLE 5.D: the name of a datum table must begin with a letter"),
     ('SEL TABLE "A.PNT"', 2, 11, "SEL TABLE A.PNT: a datum table has the type .D"),
     ("SEL TABLE", 2, 10, "the name of a file is missing"),

@@ -241,3 +241,50 @@ def test_a_transformation_in_a_label_acts_in_the_next_one():
     """Turned by 90 degrees, the second oblong lies 100 farther along Y; a further IROT turns it back to X."""
     assert cleared("", TURN.format("IROT+90"), "")[0] == [[-5, -15], [5, 115]]
     assert cleared("", TURN.format("IROT+90"), TURN.format("IROT-90"))[0] == [[-5, -15], [115, 15]]
+
+
+# --- contours of another program ----------------------------------------------------------------------------------------
+
+HERE = f"CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1\n{data(Q19=0)}"
+SQUARE = "LBL 1\nL X+{0} Y+{0} {1}\nL Y+{2}\nL X+{2}\nL Y+{0}\nL X+{0}\nLBL 0\n"
+ROUTE = "BEGIN PGM {0} {1}\n{2}END PGM {0} {1}\n"
+START = "TOOL CALL 1 Z S2000\nL Z+100 R0 FMAX M3\n"
+
+
+def bounds_of_pocket(main, sub, unit="MM"):
+    """Of what a tool of radius 5 cuts at feed 350 with 0.5 mm for the side."""
+    files = {"SUB": ROUTE.format("SUB", unit, sub)}
+    text = ROUTE.format("MAIN", "MM", START + main)
+    run = mnclab.run(text, "tnc-620", Setup(tools={1: Tool(radius=5)}, files=files))
+    assert run.ok, run.alarms
+    cut = run.toolpath[run.toolpath.feed == 350]
+    return [cut.end[:, :2].min() - 5.5, cut.end[:, :2].max() + 5.5]
+
+
+def test_labels_of_a_contour_are_those_of_the_program_that_defines_it():
+    """Both programs have a label 1: the pocket 10 to 50 of the main program is cut by the call in the other, and back."""
+    ours, theirs = SQUARE.format(10, "RR", 50), SQUARE.format(20, "RR", 90)
+    called_there = bounds_of_pocket(
+        f"{HERE}CALL PGM SUB\nM2\n{ours}", f"CYCL CALL\nFN 9: IF 0 EQU 0 GOTO LBL 2\n{theirs}LBL 2\n"
+    )
+    assert called_there == pytest.approx([10, 50])
+    defined_there = bounds_of_pocket(
+        f"CALL PGM SUB\nCYCL CALL\nM2\n{ours}", f"{HERE}FN 9: IF 0 EQU 0 GOTO LBL 2\n{theirs}LBL 2\n"
+    )
+    assert defined_there == pytest.approx([20, 90])
+
+
+def test_lines_of_a_contour_in_another_program_are_told_there():
+    text = ROUTE.format("MAIN", "MM", START + "CALL PGM SUB\nCYCL CALL\n")
+    sub = ROUTE.format("SUB", "MM", HERE + "FN 9: IF 0 EQU 0 GOTO LBL 2\nLBL 1\nL X+1 Y+1 RR\nL X+Q77\nLBL 0\nLBL 2\n")
+    run = mnclab.run(text, "tnc-620", Setup(tools={1: Tool(radius=5)}, files={"SUB": sub}))
+    (alarm,) = run.alarms
+    line = sub.splitlines().index("L X+Q77") + 1
+    assert alarm.message == "no value was given to Q77" and alarm.span[:2] == (line, 5) and alarm.span.program == 1
+
+
+def test_a_contour_in_inches_for_a_program_in_mm():
+    """Its lengths are inches, of parameters too; depths and clearances were given in mm by the program that calls."""
+    labels = "LBL 1\nQ50 = 1\nL X+Q50 Y+Q50 RR\nL Y+3\nL X+3\nL Y+1\nL X+1\nLBL 0\nLBL 2\n"
+    sub = f"CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1\nFN 9: IF 0 EQU 0 GOTO LBL 2\n{labels}"
+    assert bounds_of_pocket(f"CALL PGM SUB\n{data()}CYCL CALL\n", sub, "INCH") == pytest.approx([25.4, 3 * 25.4])

@@ -88,7 +88,8 @@ def test_every_value_is_kept(tnc) -> None:
 @pytest.mark.parametrize(("code", "parameter"), LINKS, ids=lambda case: getattr(case, "address", case))
 def test_every_cycle_takes_the_values_made_for_it(code: str, parameter: Any, tnc) -> None:
     """Drilling the clearances and dwells, milling the overlap, …: the Q parameter has the value of GLOBAL DEF."""
-    values = {p.address: trial.first_value(p) for p in CYCLES[code].parameters()} | {parameter.address: "PREDEF"}
+    values = {p.address: trial.klartext(trial.first_value(p)) for p in CYCLES[code].parameters()}
+    values[parameter.address] = "PREDEF"
     run = tnc(f"{EVERYTHING}{code} X\n" + "".join(f"{q}={v}\n" for q, v in values.items()))
     assert run.ok, run.alarms
     assert run.variables[parameter.address] == next(

@@ -181,7 +181,7 @@ def test_a_table_without_points_moves_nothing() -> None:
 
 
 TABLES_REFUSED = [
-    ('SEL PATTERN "U"', "", "SEL PATTERN U.PNT: there is no such table"),
+    ('SEL PATTERN "U"', "", "SEL PATTERN U.PNT: there is no point table of this name"),
     ("SEL PATTERN 5.PNT", "", "SEL PATTERN 5.PNT: the name of a point table must begin with a letter"),
     ("SEL PATTERN", "", "the name of a file is missing"),
     (r'SEL PATTERN "TNC:\A\9T"', "", r"SEL PATTERN TNC:\A\9T: the name of a point table must begin with a letter"),
@@ -210,6 +210,12 @@ def test_a_table_on_disk(tmp_path) -> None:
     assert drilled(mnc.run(HEAD + CALL, "tnc-620", mnc.Setup(files={"t.pnt": path})))[:, 0].tolist() == [1]
     run = mnc.run(HEAD + CALL, "tnc-620", mnc.Setup(files={"t.pnt": tmp_path / "none.pnt"}))
     assert "cannot be read: No such file" in run.alarms[0].message and run.alarms[0].span[:2] == (12, 15)
+
+
+def test_a_table_beside_its_program(tmp_path) -> None:
+    (tmp_path / "T.pnt").write_text("T MM\nNR X Y\n0 7 2\n[END]")
+    (tmp_path / "part.h").write_text(HEAD + CALL)
+    assert drilled(mnc.run(tmp_path / "part.h", "tnc-620"))[:, 0].tolist() == [7]
 
 
 # --- any text ---------------------------------------------------------------------------------------------------------

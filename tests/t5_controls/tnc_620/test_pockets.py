@@ -15,7 +15,8 @@ from mnclab import Kind, Setup, Tool
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-pockets.json"
 PROGRAMS = {example["code"][-3:]: example["program"] for example in json.loads(FILE.read_text(encoding="utf-8"))}
-C210 = PROGRAMS.pop("10)")
+C210 = PROGRAMS["10)"]
+PROGRAMS = {number: PROGRAMS[number] for number in ("251", "252", "253", "254")}
 
 NEAR = {"abs": 1e-4}
 LEVELS = [-5, -10, -15, -19.9]
@@ -193,17 +194,19 @@ def test_repetitions_turn_the_slot_about_the_pitch_circle():
 
 
 def test_pgm_c210():
-    """Pocket and slots of 6.10 with R = 10 and R = 3, ANGLE 3; its stud (blocks 5 and 6) is not part of this test."""
-    lines = C210.splitlines()
-    first = next(k for k, line in enumerate(lines) if "CYCL DEF 256" in line)
-    last = next(k for k, line in enumerate(lines) if line.startswith("7 "))
-    program = "\n".join(lines[:first] + lines[last:]).replace(
-        "8 L X+50 Y+50 R0 FMAX M99", "8 L X+50 Y+50 R0 FMAX M3 M99"
-    )
+    """The program of 6.10 with R = 10 and R = 3, ANGLE 3: stud, pocket and slots.
+
+    Block 6 moves before any feed was programmed; the setting takes it as FMAX, with a warning.
+    """
     tools = {1: Tool(radius=10, plunge_angle=3), 2: Tool(radius=3, plunge_angle=3)}
-    found = mnclab.run(program, "tnc-620", Setup(tools=tools))
-    assert found.ok and found.alarms == ()
+    found = mnclab.run(C210, "tnc-620", Setup(tools=tools, settings={"feed_needed": False}))
+    (warning,) = found.alarms
+    assert found.ok and "no feed rate" in warning.message and warning.span[:2] == (25, 1)
     path = found.toolpath[found.toolpath.is_motion]
+    stud = said(path, "CYCL DEF 256")
+    assert levels(stud) == [-5, -10, -15, -20, -25, -30]
+    assert ring(stud, "layer 1 of 6, ring") == near([55, 50])
+    assert said(stud, "over the start").end[0, :2].tolist() == near([112, 50]) and stud[-1].end[2] == 20
     pocket, slots = said(path, "CYCL DEF 252"), said(path, "CYCL DEF 254")
     deep = [-5, -10, -15, -20, -25, -29.9]
     assert layers(pocket) == (deep, deep) and levels(said(pocket, "floor")) == [-30]

@@ -29,7 +29,7 @@ REFUSED = [
     ("2 END PGM A INCH", 3, 13, "END PGM says INCH, BEGIN PGM MM"),
     # motion
     ("2 L X+5 U+5", 3, 9, "U is refused: the axis U is not built yet"),
-    ("2 L X+5\n3 CT X+9 C+5", 4, 10, "C is refused: the axis C is not built yet"),
+    ("2 L X+5\n3 CT X+9 C+5", 4, 10, "C is refused: the rotary axis C is built for L alone"),
     ("2 L X+5 F0", 3, 9, "F (feed rate) must be greater than 0, got 0"),
     ("2 L X+5 FAUTO FMAX", 3, 9, "FMAX and FAUTO stand in one block: one feed is allowed"),
     ("2 L X+5 FU0.2", 3, 1, "a feed per revolution needs a turning spindle (write S and M3 before the move)"),

@@ -118,7 +118,6 @@ def test_a_modal_call(example: dict) -> None:
     assert found.toolpath.end[-1].tolist() == [40, 99, 20]
 
 
-@pytest.mark.skipif("CYCL DEF 201" not in mnc.controls["tnc-620"].cycles, reason="the example is one of cycle 201")
 @pytest.mark.parametrize("example", of("set_up_plane_z", "end_z"))
 def test_predef(example: dict) -> None:
     path = run(f"{example['program']}\n9 CYCL CALL M3\n").toolpath

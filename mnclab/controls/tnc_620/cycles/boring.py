@@ -54,7 +54,7 @@ class Boring(Hole):
     def steps(self, m: Machine) -> Iterator[Step]:
         """Down, dwell, off the wall, to the set-up plane, end plane, axis."""
         bored = bore(
-            self.bottom(m), above=self.above(m), feed=self.feed, retract=rate(self.retract_feed, self.feed),
+            self.bottom(m), above=self.above, feed=self.feed, retract=rate(self.retract_feed, self.feed),
             dwell=self.dwell_bottom, angle=self.spindle_angle, direction=int(self.disengage),
         )  # fmt: skip
         yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
@@ -90,9 +90,9 @@ class BackBoring(Hole):
     disengage: float = addresses.disengage(shift=True)
     spindle_angle: float = addresses.spindle_angle()
 
-    def down(self, m: Machine) -> float:
-        """The counterbore is made upwards; only its being 0 counts here."""
-        return self.counterbore_depth
+    def depths(self) -> dict[str, float]:
+        """The counterbore goes up from below, but the bar comes from above as in every hole."""
+        return {"counterbore_depth": -self.counterbore_depth}
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """A spindle that stops at an angle; a counterbore upwards that stays inside the workpiece; feeds."""
@@ -108,7 +108,7 @@ class BackBoring(Hole):
         """Shifted through the hole, counterbore from below, shifted out; end plane, axis."""
         lower = self.surface - self.thickness - self.edge_height
         bored = back_bore(
-            above=self.above(m), below=lower - self.clearance, bottom=lower + self.counterbore_depth,
+            above=self.above, below=lower - self.clearance, bottom=lower + self.counterbore_depth,
             eccentricity=self.eccentricity, direction=int(self.disengage), angle=self.spindle_angle, feed=self.feed,
             travel=rate(self.positioning_feed), dwell=self.dwell_bottom, turning=m.turning or 1,
             coolant=m.modal.get("coolant") == "M9",
@@ -165,7 +165,7 @@ class BoreMilling(Hole):
             allowed = f"the plunge angle {m.tool.plunge_angle:g} of tool {m.tool.number} allows {pitch:.4g}"
             m.warn(f"{self.code} Q334 {self.pitch:g} is reduced: {allowed}", m.cycle.words.get("pitch"))
         yield from bore_milling(
-            self.bottom(m), above=self.above(m), radius=self.radius(m), pitch=pitch, sense=sense * m.orientation,
+            self.bottom(m), above=self.above, radius=self.radius(m), pitch=pitch, sense=sense * m.orientation,
             feed=self.feed, by_arc=True,
         )  # fmt: skip
-        yield from (step._replace(x=0.0, y=0.0) for step in self.leave(m))  # turns end near the axis, not on it
+        yield from (step._replace(x=0.0, y=0.0) for step in self.leave())  # turns end near the axis, not on it

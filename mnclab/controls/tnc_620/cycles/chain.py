@@ -8,10 +8,12 @@ Rotary axes have no frame: their shift and their mirror image are kept in the me
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.machine import Machine
+from mnclab.text.program import Word
 
 SHIFT, MIRROR, ROTATION, SCALE, FACTORS = "shift", "mirror", "rotation", "scale", "axis scales"
 KINDS = (SHIFT, MIRROR, ROTATION, SCALE, FACTORS)
@@ -20,6 +22,13 @@ TILTED = " (tilted)"
 ALSO = " (before)"  # what outlived its tilt, beside one of its kind
 ROTARY_SHIFT, ROTARY_MIRROR, ANGLES = "rotary shift", "rotary mirror", "rotation angles"
 REST = (0.0, 0.0, 0.0)
+
+
+def absolute(m: Machine, code: str, given: Mapping[str, Word]) -> None:
+    """An alarm at the first word that is incremental."""
+    for word in given.values():
+        if word.incremental:
+            m.alarm(f"{code} takes no incremental value, got I{word.address}", word)
 
 
 def place(m: Machine, kind: str) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -26,7 +26,15 @@ WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
 MOST_LABELS = 12
 
 
-@CYCLES("CYCL DEF 14", "Contour geometry", runs="definition", source="TNC 8.2")
+class Labels(NamedTuple):
+    """Names of labels, the program that they stand in, and what a length of 1 in its parameters is, mm."""
+
+    names: tuple[str, ...]
+    program: int
+    unit: float
+
+
+@CYCLES("CYCL DEF 14", "Contour geometry", runs="definition", source="8.2")
 class ContourGeometry(Cycle):
     """The labels whose contours together are the pocket; no motion."""
 
@@ -45,10 +53,11 @@ class ContourGeometry(Cycle):
 
     def moves(self, m: Machine) -> None:
         """Keep the list until the next one."""
-        m.memory["contour labels"] = tuple(f"{number:g}" for number in self.labels)
+        names = tuple(f"{number:g}" for number in self.labels)
+        m.memory["contour labels"] = Labels(names, m.flow.running[-1], m.variable_unit)
 
 
-@CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="TNC 8.4")
+@CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="8.4")
 class ContourData(Cycle):
     """Depths, allowances and the sense of milling for the cycles that follow; no motion."""
 
@@ -95,8 +104,13 @@ def contour_region(m: Machine) -> Region:
     pockets: list[tuple[Contour, tuple[float, float]]] = []
     islands: list[Contour] = []
     recording: Recording | None = None
-    for label in m.memory["contour labels"]:
-        recording = m.record(label, after=recording)
+    labels: Labels = m.memory["contour labels"]
+    unit = m.variable_unit
+    for label in labels.names:
+        with m.flow.inside(labels.program):
+            m.variable_unit = labels.unit
+            recording = m.record(label, after=recording)
+        m.variable_unit = unit
         if not len(recording.path):
             m.alarm(f"label {label} describes no contour")
         if (abs(recording.path.end[:, 2] - recording.start[2]) > 1e-9).any():
@@ -123,7 +137,7 @@ def contour_region(m: Machine) -> Region:
     return region
 
 
-@CYCLES("CYCL DEF 22", "Rough-out", runs="call", source="TNC 8.6")
+@CYCLES("CYCL DEF 22", "Rough-out", runs="call", source="8.6")
 class RoughOut(Cycle):
     """Clears the contour level by level, each from the inside outward, islands first."""
 
@@ -135,7 +149,7 @@ class RoughOut(Cycle):
         "Q12", "feed rate for roughing", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True
     )
     coarse_tool: float = param(
-        "Q18", "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
+        ("Q18", "QS18"), "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
     )
     swing_feed: float = param(
         "Q19", "feed rate for reciprocation", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True

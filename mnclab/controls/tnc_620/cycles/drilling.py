@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.holes import Hole, depth_sign, moving, point_angle, point_length, rate
+from mnclab.controls.tnc_620.cycles.holes import Hole, moving, point_angle, point_length, rate
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
@@ -33,17 +33,19 @@ class Centering(Hole):
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
 
-    def down(self, m: Machine) -> float:
-        """The depth, or that of a cone of the diameter; the parameter that is not chosen does not count."""
-        return (
-            -math.copysign(point_length(abs(self.diameter) / 2, m.tool.angle), self.diameter)
-            if self.mode
-            else -self.depth
-        )
+    def depths(self) -> dict[str, float]:
+        """What Q343 chooses: the sign of the diameter is a direction, too."""
+        return {"diameter": self.diameter} if self.mode else {"depth": self.depth}
+
+    def reach(self, m: Machine) -> float:
+        """The depth, or that of a cone of the diameter."""
+        if not self.mode:
+            return self.depth
+        return math.copysign(point_length(abs(self.diameter) / 2, m.tool.angle), self.diameter)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """The sign of what Q343 chooses, the point angle for a diameter, a feed."""
-        yield from depth_sign(m, *(("diameter", self.diameter) if self.mode else ("depth", self.depth)))
+        yield from self.signs(m)
         if self.mode:
             yield from point_angle(m, "mode")
         yield from moving("feed", self.feed, "to drill with")
@@ -52,7 +54,7 @@ class Centering(Hole):
         """Down, dwell, out."""
         yield Go("centre", self.bottom(m), self.feed)
         yield Wait("dwell at the bottom", self.dwell_bottom)
-        yield from self.leave(m)
+        yield from self.leave()
 
 
 @CYCLES("CYCL DEF 200", "Drilling", runs="call", source="4.3")
@@ -81,10 +83,10 @@ class Drilling(Hole):
     def steps(self, m: Machine) -> Iterator[Step]:
         """Infeed, dwell, set-up plane, dwell, back above the last depth; end plane."""
         yield from drill(
-            self.levels(m), above=self.above(m), feed=self.feed, reenter=self.clearance, dwell_top=self.dwell_top,
+            self.levels(m), above=self.above, feed=self.feed, reenter=self.clearance, dwell_top=self.dwell_top,
             dwell_each=self.dwell_bottom, dwell_bottom=self.dwell_bottom,
         )  # fmt: skip
-        yield from self.leave(m)
+        yield from self.leave()
 
 
 @CYCLES("CYCL DEF 201", "Reaming", runs="call", source="4.4")
@@ -102,8 +104,8 @@ class Reaming(Hole):
     def steps(self, m: Machine) -> Iterator[Step]:
         """Down, dwell, to the set-up plane; end plane."""
         out = rate(self.retract_feed, self.feed)
-        yield from ream(self.bottom(m), above=self.above(m), feed=self.feed, retract=out, dwell=self.dwell_bottom)
-        yield from self.leave(m)
+        yield from ream(self.bottom(m), above=self.above, feed=self.feed, retract=out, dwell=self.dwell_bottom)
+        yield from self.leave()
 
 
 @CYCLES("CYCL DEF 203", "Universal drilling", runs="call", source="4.6")
@@ -141,8 +143,8 @@ class UniversalDrilling(Hole):
     def steps(self, m: Machine) -> Iterator[Step]:
         """Infeeds with chip breaks and retractions at Q208, dwell, end plane at rapid."""
         yield from drill(
-            self.levels(m), above=self.above(m), feed=self.feed, reenter=self.break_retract or self.clearance,
+            self.levels(m), above=self.above, feed=self.feed, reenter=self.break_retract or self.clearance,
             withdraw=rate(self.retract_feed, self.feed), dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,
             breaks=int(self.chip_breaks), back=self.break_retract,
         )  # fmt: skip
-        yield from self.leave(m)
+        yield from self.leave()

@@ -1,85 +1,51 @@
-"""What the cycles at a hole share: their planes, the faults of their depth, the way in and the way out (chapter 4).
-
-Planes in the tool axis: S the surface Q203, A = S + Q200 the set-up plane, B the bottom, E the plane at the end of the
-cycle, S + Q204 where that is higher than A. With a positive depth a cycle works upwards from A = S - Q200, where the
-setting "depth_error" allows it; E stays above the surface.
-"""
+"""What the cycles at a hole share: where it ends, its faults, the way to it (chapter 4); its planes are in ``planes``."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
 
-from mnclab.machine.cycle import Cycle
+from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machining.steps import RAPID, Go, Step
 
 
-class Hole(Cycle):
+class Hole(AtSurface):
     """A cycle at a hole; a subclass declares the parameters named here and says in ``steps`` what happens below A."""
 
-    clearance: float
     depth: float
     feed: float
-    surface: float
-    second_clearance: float
     reference = 0.0
 
-    def down(self, m: Machine) -> float:
-        """How far the hole goes below the surface, mm; negative where it goes up."""
-        return -self.depth
+    def depths(self) -> dict[str, float]:
+        """One."""
+        return {"depth": self.depth}
+
+    def reach(self, m: Machine) -> float:
+        """Where the hole ends, counted from the surface, mm."""
+        return self.depth
 
     def steps(self, m: Machine) -> Iterable[Step]:
         """From the set-up plane down, and back to it or to the second set-up clearance."""
         raise NotImplementedError
 
-    # --- planes -------------------------------------------------------------------------------------------------------
-
-    def up(self, m: Machine) -> float:
-        """+1 where the tool leaves the hole upwards, -1 where it was drilled from below."""
-        return math.copysign(1.0, self.down(m))
-
-    def above(self, m: Machine) -> float:
-        """A, the set-up plane."""
-        return self.surface + self.up(m) * self.clearance
-
     def bottom(self, m: Machine) -> float:
         """B, where the tip of the tool ends: with Q395 = 1 its cylindrical part reaches the depth."""
         point = point_length(m.radius, m.tool.angle) if self.reference == 1 else 0.0
-        return self.surface - self.down(m) - self.up(m) * point
-
-    @property
-    def end(self) -> float:
-        """E, the plane at the end of the cycle."""
-        return self.surface + max(self.second_clearance, self.clearance)
-
-    # --- faults -------------------------------------------------------------------------------------------------------
+        return self.surface + self.reach(m) - self.down * point
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """The sign of the depth, the point angle for Q395 = 1, a feed."""
-        yield from depth_sign(m, "depth", self.depth)
+        yield from self.signs(m)
         if self.reference == 1:
             yield from point_angle(m, "reference")
         yield from moving("feed", self.feed, "to drill with")
 
-    # --- motion -------------------------------------------------------------------------------------------------------
-
     def moves(self, m: Machine) -> None:
         """To the set-up plane and then what the cycle does; nothing for a depth of 0."""
-        if self.down(m) == 0:
-            return
-        steps = [
-            Go("to the set-up clearance", self.above(m)),
-            *self.steps(m),
-        ]  # with spindle and coolant as at the call
-        perform(m, self.code, steps)
-
-    def leave(self, m: Machine, feed: float = RAPID) -> Iterator[Go]:
-        """To the end plane; a tool that drilled upwards first goes to the set-up plane under the hole."""
-        if self.up(m) < 0:
-            yield Go("retract", self.above(m), feed)
-        yield Go("retract", self.end, feed)
+        if self.down:  # with spindle and coolant as at the call
+            perform(m, self.code, [Go("to the set-up clearance", self.above), *self.steps(m)])
 
 
 def point_length(radius: float, angle: float) -> float:
@@ -89,12 +55,6 @@ def point_length(radius: float, angle: float) -> float:
     1.3856
     """
     return radius / math.tan(math.radians(angle / 2))
-
-
-def depth_sign(m: Machine, name: str, depth: float) -> Iterator[tuple[str, str]]:
-    """A positive depth is a fault where the machine says so (displayDepthErr)."""
-    if depth > 0 and m.settings["depth_error"]:
-        yield name, f"must be negative, got {depth:g}: a positive depth works upwards"
 
 
 def point_angle(m: Machine, name: str) -> Iterator[tuple[str, str]]:

@@ -61,6 +61,13 @@ class FigureMilling(AtSurface):
         """Whether there is something to take off the floor."""
         return self.machining_operation != 1 and self.floor_allowance > 0
 
+    def finishes_nothing(self, m: Machine) -> bool:
+        """Whether only finishing is asked for, and nothing was left for it; says so."""
+        nothing = not (self.roughs or self.finishes_side or self.finishes_floor)
+        if nothing:
+            m.warn(f"{self.code} Q215=2 finishes nothing: neither Q368 nor Q369 is given")
+        return nothing
+
     @property
     def climb(self) -> bool:
         """Q351 = 0 is climb milling too."""
@@ -76,11 +83,6 @@ class FigureMilling(AtSurface):
     def lift(self) -> float:
         """The set-up clearance as an increment against the direction of work."""
         return self.down * self.clearance
-
-    @property
-    def end(self) -> float:
-        """Where the tool is in nobody's way: the second set-up plane, if it is not below the first."""
-        return self.surface + max(self.second_clearance, self.clearance)
 
     @property
     def floor(self) -> float:
@@ -103,17 +105,22 @@ class FigureMilling(AtSurface):
 
     # --- feeds -------------------------------------------------------------------------------------------------------
 
+    @property
+    def finish_feed(self) -> float:
+        """Along walls and floor."""
+        return self.finishing_feed
+
     def roughing_feeds(self, radius: float) -> Feeds:
         """In the plane and down."""
         return Feeds(self.milling_feed, self.plunging_feed)
 
     def side_feeds(self, radius: float) -> Feeds:
         """Along the side."""
-        return Feeds(self.finishing_feed, self.plunging_feed)
+        return Feeds(self.finish_feed, self.plunging_feed)
 
     def floor_feeds(self, radius: float) -> Feeds:
         """On the floor."""
-        return Feeds(self.finishing_feed, self.plunging_feed)
+        return Feeds(self.finish_feed, self.plunging_feed)
 
     # --- checks ------------------------------------------------------------------------------------------------------
 
@@ -135,9 +142,11 @@ class FigureMilling(AtSurface):
         if m.radius <= 0:
             yield "", f"needs a tool with a radius, got {m.radius:g}"
         finishes = self.finishes_side or self.finishes_floor
+        feeds = self.milling_feed, self.plunging_feed, self.finish_feed
         used = {"milling_feed": self.roughs, "plunging_feed": True, "finishing_feed": finishes}
-        for name in (name for name, needed in used.items() if needed and getattr(self, name) == 0):
-            yield name, "must be greater than 0 to mill with, got 0"
+        for (name, needed), feed in zip(used.items(), feeds, strict=True):
+            if needed and feed == 0:
+                yield name, "must be greater than 0 to mill with, got 0"
         yield from too_many("infeed", lambda: self.levels(m.tool))
         yield from self.check_figure(m)
 

@@ -44,11 +44,11 @@ class DeepHole(Hole):
 
     def guide(self, m: Machine) -> Guided:
         """Where drilling begins, and where chips are cleared."""
-        return guided(self.surface, self.start_depth, self.clearance, self.up(m))
+        return guided(self.surface, self.start_depth, self.clearance, self.down)
 
     def begin(self, m: Machine) -> float:
         """Where infeeds count from."""
-        return self.surface - self.up(m) * self.start_depth
+        return self.surface - self.down * self.start_depth
 
     def levels(self, m: Machine) -> tuple[float, ...]:
         """The depths of the infeeds."""
@@ -98,7 +98,7 @@ class UniversalPecking(DeepHole):
             reenter=advanced_stops(self.first_stop, self.last_stop, len(levels) - 1), break_every=self.break_every,
             back=self.break_retract, back_feed=out, approach=rate(self.positioning_feed),
         )  # fmt: skip
-        yield from self.leave(m, out)
+        yield from self.leave(out)
 
 
 @CYCLES("CYCL DEF 241", "Single-lip deep-hole drilling", runs="call", source="4.10")
@@ -154,7 +154,7 @@ class SingleLipDrilling(DeepHole):
             return
         if self.dwell_depth >= abs(self.depth):
             yield "dwell_depth", f"must be less than the depth {abs(self.depth):g}, got {self.dwell_depth:g}"
-        start = self.up(m) * (self.surface - self.guide(m).start)
+        start = self.down * (self.surface - self.guide(m).start)
         if self.dwell_depth <= start:
             yield "dwell_depth", f"must be more than {start:g}, where the drilling begins, got {self.dwell_depth:g}"
         yield from moving("factor", self.factor, "to drill on with")
@@ -166,11 +166,11 @@ class SingleLipDrilling(DeepHole):
         yield from gun_drill(
             self.levels(m), above=guide.clear, start=guide.start, feed=self.feed, approach=rate(self.positioning_feed),
             retract=out, entry=(TURNING[int(self.spindle_direction)], self.entry_speed), speed=self.drilling_speed,
-            dwell=self.dwell_bottom, pause=self.surface - self.up(m) * self.dwell_depth if self.dwell_depth else None,
+            dwell=self.dwell_bottom, pause=self.surface - self.down * self.dwell_depth if self.dwell_depth else None,
             feed_after=self.feed * self.factor / 100, coolant=(on, off), cool_until_slow=True,
         )  # fmt: skip
-        yield Go("retract", self.above(m), out)
-        yield from self.leave(m)
+        yield Go("retract", self.above, out)
+        yield from self.leave()
 
     def moves(self, m: Machine) -> None:
         """As every hole; then spindle and coolant are what their M functions say."""

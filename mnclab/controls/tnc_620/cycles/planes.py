@@ -1,4 +1,4 @@
-"""The planes of a cycle in the tool axis, and the rule of the sign of its depths (4.3, 5.2, 5.5).
+"""The planes of a cycle in the tool axis, and the rule of the sign of its depths (4.3, 5.2, 5.5, 6.2).
 
 S is the surface Q203, A = S + Q200 the set-up plane, E the plane at the end: S + Q204 where that is higher than A. A positive
 depth works upwards from A = S - Q200, where the setting "depth_error" allows it; E stays above the surface.
@@ -6,12 +6,11 @@ depth works upwards from A = S - Q200, where the setting "depth_error" allows it
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machining.steps import Go
+from mnclab.machining.steps import RAPID, Go
 
 
 class AtSurface(Cycle):
@@ -28,16 +27,23 @@ class AtSurface(Cycle):
     @property
     def down(self) -> float:
         """+1 where the cycle works downwards, -1 upwards, 0 where it has nothing to do."""
-        depth = next((depth for depth in self.depths().values() if depth), 0.0)
-        return -math.copysign(1.0, depth) if depth else 0.0
+        for depth in self.depths().values():
+            if depth:
+                return -1.0 if depth > 0 else 1.0
+        return 0.0
 
     @property
     def above(self) -> float:
         """A, the set-up plane."""
         return self.surface + (-self.clearance if self.down < 0 else self.clearance)
 
+    @property
+    def end(self) -> float:
+        """E, the plane at the end of the cycle: nothing stands in the way there."""
+        return self.surface + max(self.second_clearance, self.clearance)
+
     def signs(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The first depth that is not 0 sets the direction; the others follow it."""
+        """The first depth that is not 0 sets the direction (displayDepthErr: downwards); the others follow it."""
         worked = {name: depth for name, depth in self.depths().items() if depth}
         for number, (name, depth) in enumerate(worked.items()):
             if number == 0 and depth > 0 and m.settings["depth_error"]:
@@ -45,8 +51,8 @@ class AtSurface(Cycle):
             if depth * self.down > 0:
                 yield name, f"must have the sign of the other depths, got {depth:g}"
 
-    def leave(self) -> Iterator[Go]:
-        """At rapid to E; a tool that worked upwards first goes to A under the workpiece."""
+    def leave(self, feed: float = RAPID) -> Iterator[Go]:
+        """To E; a tool that worked upwards first goes to A under the workpiece."""
         if self.down < 0:
-            yield Go("retract", self.above)
-        yield Go("retract", self.surface + max(self.second_clearance, self.clearance))
+            yield Go("retract", self.above, feed)
+        yield Go("retract", self.end, feed)

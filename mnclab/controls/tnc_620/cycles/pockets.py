@@ -68,13 +68,6 @@ class InsideMilling(FigureMilling):
         """Whether the tool goes down on a helix or a ramp; at 90 degrees both are straight down."""
         return self.plunging_strategy > 0 and m.tool.plunge_angle < 90
 
-    def finishes_nothing(self, m: Machine) -> bool:
-        """Whether only finishing is asked for, and nothing was left for it; says so."""
-        nothing = not (self.roughs or self.finishes_side or self.finishes_floor)
-        if nothing:
-            m.warn(f"{self.code} Q215=2 finishes nothing: neither Q368 nor Q369 is given")
-        return nothing
-
 
 @dataclass(frozen=True)
 class Pocket(InsideMilling):

@@ -75,9 +75,7 @@ class WorkingPlane(Cycle):
         cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
     ) -> dict[str, Any]:
         """Angles are absolute; one that is not written is that of the cycle before."""
-        for word in given.values():
-            if word.incremental:
-                m.alarm(f"{cls.code} takes no incremental value, got I{word.address}", word)
+        chain.absolute(m, cls.code, given)
         if given:
             before: Mapping[str, float] = m.memory.get(ANGLES, {})
             values |= {f"angle_{axis}": before.get(axis, 0.0) for axis in "abc" if f"angle_{axis}" not in given}

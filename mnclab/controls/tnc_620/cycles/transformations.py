@@ -116,9 +116,7 @@ class AxisScaling(Cycle):
         cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
     ) -> dict[str, Any]:
         """Factors and centre are absolute; at least one axis is named."""
-        for word in given.values():
-            if word.incremental:
-                m.alarm(f"{cls.code} takes no incremental value, got I{word.address}", word)
+        chain.absolute(m, cls.code, given)
         if not {"x", "y", "z"} & given.keys():
             m.alarm(f"{cls.code} needs an axis and its factor, for example CYCL DEF 26.1 X 1.4 Y 0.6", None)
         return values

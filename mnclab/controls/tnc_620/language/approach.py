@@ -58,14 +58,14 @@ def shape(m: Machine, words: Words) -> Lead:
 # --- approach ---------------------------------------------------------------------------------------------------------
 
 
-@FUNCTIONS("APPR LT,", "Approach on a tangent line", takes="X Y Z LEN" + END, source="APPR")
-@FUNCTIONS("APPR LN,", "Approach on a line square to the contour", takes="X Y Z LEN" + END, source="APPR")
-@FUNCTIONS("APPR CT,", "Approach on a tangent arc", takes="X Y Z CCA R" + END, source="APPR")
-@FUNCTIONS("APPR LCT,", "Approach on a line and a tangent arc", takes="X Y Z R" + END, source="APPR")
-@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes="PR PA Z LEN" + END, source="APPR")
-@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes="PR PA Z LEN" + END, source="APPR")
-@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes="PR PA Z CCA R" + END, source="APPR")
-@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes="PR PA Z R" + END, source="APPR")
+@FUNCTIONS("APPR LT,", "Approach on a tangent line", takes="X Y Z LEN" + END, source="8.12")
+@FUNCTIONS("APPR LN,", "Approach on a line square to the contour", takes="X Y Z LEN" + END, source="8.12")
+@FUNCTIONS("APPR CT,", "Approach on a tangent arc", takes="X Y Z CCA R" + END, source="8.12")
+@FUNCTIONS("APPR LCT,", "Approach on a line and a tangent arc", takes="X Y Z R" + END, source="8.12")
+@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes="PR PA Z LEN" + END, source="8.12")
+@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes="PR PA Z LEN" + END, source="8.12")
+@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes="PR PA Z CCA R" + END, source="8.12")
+@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes="PR PA Z R" + END, source="8.12")
 def approach(m: Machine, words: Words) -> None:
     """To the first contour point, compensated from there on; the line to the auxiliary point keeps the feed before."""
     refuse_rapid(m, words)
@@ -114,11 +114,11 @@ def begin_side(m: Machine, words: Words) -> None:
 # --- departure --------------------------------------------------------------------------------------------------------
 
 
-@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN F FAUTO", source="DEP")
-@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN F FAUTO", source="DEP")
-@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R F FAUTO", source="DEP")
-@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R F FAUTO", source="DEP")
-@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R F FAUTO", source="DEP")
+@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN F FAUTO", source="8.10")
+@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN F FAUTO", source="8.10")
+@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R F FAUTO", source="8.10")
+@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R F FAUTO", source="8.10")
+@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R F FAUTO", source="8.10")
 def departure(m: Machine, words: Words) -> None:
     """From the last contour point; at its end the compensation is off, and the register is where the tool stands."""
     f, lead = feed(m, words), shape(m, words)._replace(departs=True)

@@ -13,33 +13,33 @@ TURNING = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise"}
 BOTH = {"M13": "Spindle on clockwise, coolant on", "M14": "Spindle on counter-clockwise, coolant on"}
 
 
-@FUNCTIONS("M3 M4", TURNING, group="spindle", phase="start", source="M3")
+@FUNCTIONS("M3 M4", TURNING, group="spindle", phase="start", source="4.11, example")
 def spindle_on(m: Machine, words: Words) -> None:
     """Before the motion of the block, at the speed of TOOL CALL."""
     m.spindle(turning=1 if words.code == "M3" else -1)
 
 
-@FUNCTIONS("M5", "Spindle stop", group="spindle", phase="end", power_on="M5", source="M5")
+@FUNCTIONS("M5", "Spindle stop", group="spindle", phase="end", power_on="M5", source="12.9")
 def spindle_off(m: Machine, words: Words) -> None:
     """After the motion of the block."""
     m.spindle(turning=0)
 
 
 @FUNCTIONS(
-    "M7 M8", {"M7": "Second coolant on", "M8": "Coolant on"}, group="coolant", phase="start", source="M7, M8"
+    "M7 M8", {"M7": "Second coolant on", "M8": "Coolant on"}, group="coolant", phase="start", source="4.5"
 )  # fmt: skip
 def coolant_on(m: Machine, words: Words) -> None:
     """Before the motion of the block; what M7 switches is up to the machine."""
     m.coolant()
 
 
-@FUNCTIONS("M9", "Coolant off", group="coolant", phase="end", power_on="M9", source="M9")
+@FUNCTIONS("M9", "Coolant off", group="coolant", phase="end", power_on="M9", source="4.4")
 def coolant_off(m: Machine, words: Words) -> None:
     """After the motion of the block."""
     m.coolant()
 
 
-@FUNCTIONS("M13 M14", BOTH, group="spindle", phase="start", source="M13")
+@FUNCTIONS("M13 M14", BOTH, group="spindle", phase="start", source="4.11, example")
 def spindle_and_coolant(m: Machine, words: Words) -> None:
     """M3 or M4 together with M8."""
     m.spindle(turning=1 if words.code == "M13" else -1)
@@ -47,7 +47,7 @@ def spindle_and_coolant(m: Machine, words: Words) -> None:
     m.set_modal("coolant", "M8")
 
 
-@FUNCTIONS("M6", "Tool change", phase="end", modal=False, source="M6")
+@FUNCTIONS("M6", "Tool change", phase="end", modal=False, source="5.11, example")
 def tool_change(m: Machine, words: Words) -> None:
     """After the motion of the block the spindle stops, and with the setting "m6_stop" the program; TOOL CALL names the tool."""
     m.spindle(turning=0)
@@ -56,14 +56,14 @@ def tool_change(m: Machine, words: Words) -> None:
         m.stop()
 
 
-@FUNCTIONS("M19 M20", "Oriented spindle stop", group="spindle", phase="start", modal=False, source="M19, 12.5")
+@FUNCTIONS("M19 M20", "Oriented spindle stop", group="spindle", phase="start", modal=False, source="12.4")
 def orient(m: Machine, words: Words) -> None:
     """Before the motion of the block the spindle turns to the angle of Cycle 13, without it to that of the machine."""
     m.orient(m.memory.get(ORIENTATION, m.settings["spindle_angle"]))
     m.set_modal("spindle", "M5")
 
 
-@FUNCTIONS("M118", "Handwheel superimposition", takes=HANDWHEEL, modal=False, source="M118")
+@FUNCTIONS("M118", "Handwheel superimposition", takes=HANDWHEEL, source="1.2")
 def handwheel(m: Machine, words: Words) -> None:
     """Nothing moves: there is no handwheel whose steps could be added."""
     m.warn("M118 changes nothing here: there is no handwheel", words.words[0])

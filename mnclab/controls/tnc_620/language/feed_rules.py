@@ -25,7 +25,7 @@ def from_here(m: Machine, **changed: Any) -> None:
     ]  # a new list: a recorded label leaves the old one
 
 
-@FUNCTIONS("M103", "Feed factor of plunging moves", takes="M103:F", phase="start", source="M103")
+@FUNCTIONS("M103", "Feed factor of plunging moves", takes="M103:F", phase="start", source="3.4")
 def plunging(m: Machine, words: Words) -> None:
     """M103 F20: no faster downwards than 20 % of the feed, from this block on; without F the feed is as programmed."""
     share = 100.0
@@ -38,7 +38,7 @@ def plunging(m: Machine, words: Words) -> None:
     from_here(m, plunging=share / 100)
 
 
-@FUNCTIONS("M109 M110 M111", TITLES, group="edge feed", phase="start", power_on="M111", source="M110")
+@FUNCTIONS("M109 M110 M111", TITLES, group="edge feed", phase="start", power_on="M111", source="8.6")
 def edge_feed(m: Machine, words: Words) -> None:
     """From this block on the feed of compensated arcs counts at the edge (M110: only where that is slower), or at the centre."""
     from_here(m, edge=EDGES[words.code])

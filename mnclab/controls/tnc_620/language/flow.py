@@ -18,14 +18,14 @@ def label_name(m: Machine, word: Word) -> str:
     return f"{word.value:g}" if isinstance(word.value, float) else f'"{text(m, word)}"'
 
 
-@FUNCTIONS("LBL", "Label", takes="label", source="11.10")
+@FUNCTIONS("LBL", "Label", takes="label", source="11.10, example")
 def label(m: Machine, words: Words) -> None:
     """Where CALL LBL goes; LBL 0 ends a subprogram and does nothing outside one."""
     if label_name(m, words["label"]) == "0":
         m.flow.leave()
 
 
-@FUNCTIONS("CALL LBL,", "Call of a subprogram, repeat of a section", takes="label REP", source="11.10")
+@FUNCTIONS("CALL LBL,", "Call of a subprogram, repeat of a section", takes="label REP", source="11.10, example")
 def call_label(m: Machine, words: Words) -> None:
     """Runs from the label to LBL 0; with REP n the section from the label to here n times more."""
     word = words["label"]
@@ -53,7 +53,7 @@ CONDITIONS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
 
 @FUNCTIONS(
     ", ".join(CONDITIONS), {code: title for code, (title, _) in CONDITIONS.items()},
-    takes="first second parameter state label", source="FN",
+    takes="first second parameter state label", source="Klartext, not described",
 )  # fmt: skip
 def jump(m: Machine, words: Words) -> None:
     """Goes on at a label if the condition holds; numbers are equal when they are exactly so."""
@@ -88,20 +88,20 @@ def call_program(m: Machine, name: str, what: str, word: Word | None) -> None:
     m.memory.update(kept)
 
 
-@FUNCTIONS("CALL PGM,", "Program call", takes="name", source="CALL PGM")
+@FUNCTIONS("CALL PGM,", "Program call", takes="name", source="3.4")
 def call_named(m: Machine, words: Words) -> None:
     """Runs another program up to its END PGM: of Setup(files=…), or beside the calling file."""
     call_program(m, text(m, words["name"]), "CALL PGM", words["name"])
 
 
-@FUNCTIONS("SEL PGM,", "Choice of a program", takes="name", source="CALL PGM")
+@FUNCTIONS("SEL PGM,", "Choice of a program", takes="name", source="Klartext, not described")
 def select(m: Machine, words: Words) -> None:
     """The program that CALL SELECTED PGM runs; its name may stand in a QS parameter."""
     m.memory["selected program"] = text(m, words["name"])
     m.log("selected program", m.memory["selected program"])
 
 
-@FUNCTIONS("CALL SELECTED PGM,", "Call of the chosen program", source="CALL PGM")
+@FUNCTIONS("CALL SELECTED PGM,", "Call of the chosen program", source="Klartext, not described")
 def call_selected(m: Machine, words: Words) -> None:
     """Runs the program that SEL PGM has chosen."""
     if "selected program" not in m.memory:

@@ -260,19 +260,19 @@ def element(m: Machine, words: Words) -> None:
     m.pending.add(m, words, f)
 
 
-@FUNCTIONS("FL FLT", {"FL": "Free line", "FLT": "Free tangential line"}, takes=LINE, collects=True, source="FK")
+@FUNCTIONS("FL FLT", {"FL": "Free line", "FLT": "Free tangential line"}, takes=LINE, collects=True, source="8.13, example")
 def free_line(m: Machine, words: Words) -> None:
     """A line told by what is known of it; FLT joins the element before tangentially."""
     element(m, words)
 
 
-@FUNCTIONS("FC FCT", {"FC": "Free arc", "FCT": "Free tangential arc"}, takes=ARC, collects=True, source="FK")
+@FUNCTIONS("FC FCT", {"FC": "Free arc", "FCT": "Free tangential arc"}, takes=ARC, collects=True, source="8.13, example")
 def free_arc(m: Machine, words: Words) -> None:
     """An arc told by what is known of it; FCT joins the element before tangentially."""
     element(m, words)
 
 
-@FUNCTIONS("FPOL", "Pole of free contours", takes="X Y", collects=True, source="FK")
+@FUNCTIONS("FPOL", "Pole of free contours", takes="X Y", collects=True, source="8.13, example")
 def free_pole(m: Machine, words: Words) -> None:
     """The pole of polar data of free elements, until the next one; no motion."""
     for axis in "XY":
@@ -287,7 +287,7 @@ def free_pole(m: Machine, words: Words) -> None:
     m.log(POLE, pole)
 
 
-@FUNCTIONS("FSELECT", "Choice of a free contour", takes="number", collects=True, source="FK")
+@FUNCTIONS("FSELECT", "Choice of a free contour", takes="number", collects=True, source="8.13, example")
 def select(m: Machine, words: Words) -> None:
     """Go on with one of the solutions of the free elements so far."""
     if not isinstance(m.pending, Chain):

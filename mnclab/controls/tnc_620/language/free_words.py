@@ -20,6 +20,20 @@ if TYPE_CHECKING:
 
 MEANINGS = {"LEN": "length", "R": "radius", "CCA": "central angle", "D": "distance", "DP": "distance of parallels"}
 
+#: What stands in the words of free contours, for explanations; an address with R before it is the block that it counts from.
+KNOWN = {
+    "AN": "angle of the line, or of the tangent where the arc begins", "CCX": "centre along X", "CCY": "centre along Y",
+    "CCPR": "polar radius of the centre", "CCPA": "polar angle of the centre", "PAR": "block of the parallel line",
+    "PDX": "point beside the element, X", "PDY": "point beside the element, Y", "CLSD": "beginning or end of a closed contour",
+    **{f"P{n}{axis}": f"point {n} on the element, {axis}" for n in (1, 2, 3) for axis in "XY"},
+}  # fmt: skip
+COUNTED = ("X", "Y", "PR", "PA", "AN", "CCX", "CCY", "CCPR", "CCPA")
+WORDS = (
+    KNOWN
+    | {f"R{address}": f"block that {address} counts from" for address in COUNTED}
+    | {"D": "distance from the point beside the element", "DP": MEANINGS["DP"]}
+)
+
 
 def describe(chain: Chain, m: Machine, words: Words, k: int) -> None:
     """Every word of the block of element k."""

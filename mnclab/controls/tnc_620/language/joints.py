@@ -12,13 +12,13 @@ from mnclab.path.corners import Chamfer, Rounding
 FUNCTIONS = FunctionTable()
 
 
-@FUNCTIONS("RND", "Corner rounding", takes="R F", collects=True, source="RND")
+@FUNCTIONS("RND", "Corner rounding", takes="R F", collects=True, source="8.13, example")
 def rounding(m: Machine, words: Words) -> None:
     """A tangent arc between the element before and the one after; F counts for the rounding alone."""
     mark(m, words, Rounding(size(m, words, "R", "rounding radius"), m.step, own_feed(m, words)), "R")
 
 
-@FUNCTIONS("CHF", "Chamfer", takes="length F", collects=True, source="CHF")
+@FUNCTIONS("CHF", "Chamfer", takes="length F", collects=True, source="9.2")
 def chamfer(m: Machine, words: Words) -> None:
     """Cuts a corner of two lines off, the length along each of them; F counts for the chamfer alone."""
     mark(m, words, Chamfer(size(m, words, "length", "chamfer side length"), m.step, own_feed(m, words)), "length")

@@ -13,7 +13,7 @@ TITLES = {"M91": "Machine coordinates", "M92": "Coordinates from a position of t
 DATUM = "machine datum"  # in the memory while its block runs: the word, and the machine coordinates to count from
 
 
-@FUNCTIONS("M91 M92", TITLES, group="machine datum", phase="start", modal=False, source="M91, M92")
+@FUNCTIONS("M91 M92", TITLES, group="machine datum", phase="start", modal=False, source="11.9")
 def machine_datum(m: Machine, words: Words) -> None:
     """Positions of the block count from the machine datum or from the position of the settings, without tool length."""
     word, program = words.words[0], m.flow.program
@@ -38,7 +38,7 @@ def machine_target(m: Machine, written: dict[int, tuple[float, bool]]) -> dict[s
     return {"xyz"[axis]: point[axis] for axis in (written if m._shift is not None else range(3))}
 
 
-@FUNCTIONS("M94", "Rotary axes within one turn", takes="M94:A M94:B M94:C", phase="start", modal=False, source="M94")
+@FUNCTIONS("M94", "Rotary axes within one turn", takes="M94:A M94:B M94:C", phase="start", modal=False, source="11.9")
 def within_one_turn(m: Machine, words: Words) -> None:
     """The named rotary axes, or all, show an angle from 0 to less than 360 degrees; nothing moves."""
     named = [word for word in words.words if word.address.startswith("M94:")]

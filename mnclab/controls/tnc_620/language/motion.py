@@ -53,7 +53,7 @@ def side(m: Machine, words: Words, begins: bool) -> None:
         m.change("side", wanted)
 
 
-@FUNCTIONS("L", "Straight line", takes="X Y Z A B C PR PA R0 RL RR F FMAX FAUTO", source="2 L")
+@FUNCTIONS("L", "Straight line", takes="X Y Z A B C PR PA R0 RL RR F FMAX FAUTO", source="4.11, example")
 def line(m: Machine, words: Words) -> None:
     """From the present position to the programmed point at feed, or with FMAX at rapid; axes not written keep their value."""
     f = feed(m, words)
@@ -64,14 +64,16 @@ def line(m: Machine, words: Words) -> None:
             m.alarm(f"{polar[0].address} and coordinates of axes stand in one block", polar[0], hint="write LP PR… PA…")
         m.warn("L with polar coordinates is read as LP", polar[0])
         to["x"], to["y"] = polar_point(m, words)
-    turned = rotary_angles(m, words)
-    moves = math.dist(m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))), m.tip) > 1e-9  # a frame rounds
-    if turned != angles(m) and not moves:
-        turn_axes(m, turned, f)
-        return
-    if turned != angles(m):
+    if any(axis in words for axis in AXES_OF_ROTATION) and (turned := rotary_angles(m, words)) != angles(m):
+        target = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z")))
+        if math.dist(target, m.tip) <= 1e-9:  # a frame rounds
+            turn_axes(m, turned, f)
+            return
         set_angles(m, turned)
     if to:
+        if f is None and m.feed is None and not m.settings["feed_needed"]:
+            m.warn("no feed rate was programmed before this move: it is at rapid")
+            f = math.inf
         m.line(**to, f=f)
 
 
@@ -97,7 +99,7 @@ def sense(m: Machine, words: Words) -> int:
     return 1 if word.value == "+" else -1
 
 
-@FUNCTIONS("C", "Circular path around CC", takes="X Y DR R0 RL RR F FMAX FAUTO", source="C")
+@FUNCTIONS("C", "Circular path around CC", takes="X Y DR R0 RL RR F FMAX FAUTO", source="8.3, example")
 def circle(m: Machine, words: Words) -> None:
     """An arc around the centre CC; an end equal to the start is a full circle."""
     f = feed(m, words)
@@ -107,7 +109,7 @@ def circle(m: Machine, words: Words) -> None:
     m.arc(**coordinates(m, words, "XY"), sense=turning, centre=dict(enumerate(about)), f=f, tolerance=TOLERANCE)
 
 
-@FUNCTIONS("CR", "Circular path with radius", takes="X Y R DR R0 RL RR F FMAX FAUTO", source="CR")
+@FUNCTIONS("CR", "Circular path with radius", takes="X Y R DR R0 RL RR F FMAX FAUTO", source="9.2")
 def circle_by_radius(m: Machine, words: Words) -> None:
     """An arc of a radius: up to half a turn, with a negative radius more."""
     f = feed(m, words)
@@ -125,7 +127,7 @@ def circle_by_radius(m: Machine, words: Words) -> None:
     m.arc(**to, sense=turning, radius=radius, f=f, word=words["R"])
 
 
-@FUNCTIONS("CT", "Circular path with tangential connection", takes="X Y R0 RL RR F FMAX FAUTO", source="CT")
+@FUNCTIONS("CT", "Circular path with tangential connection", takes="X Y R0 RL RR F FMAX FAUTO", source="8.13, example")
 def tangential_circle(m: Machine, words: Words) -> None:
     """An arc that goes on where the element before it points; straight ahead it is a line."""
     f = feed(m, words)

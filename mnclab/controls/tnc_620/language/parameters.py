@@ -46,7 +46,7 @@ def give(m: Machine, word: Word, value: float | str) -> None:
     m.variables[name] = value
 
 
-@FUNCTIONS(", ".join(TITLES), TITLES, takes="target value undefined", collects=True, source="FN")
+@FUNCTIONS(", ".join(TITLES), TITLES, takes="target value undefined", collects=True, source="10.1, example")
 def assign(m: Machine, words: Words) -> None:
     """A Q parameter takes the value of its formula, with the variables as they stand; SET UNDEFINED takes it away."""
     if "undefined" in words:
@@ -55,19 +55,19 @@ def assign(m: Machine, words: Words) -> None:
     give(m, words["target"], m.value(words["value"]))
 
 
-@FUNCTIONS("QS, DECLARE STRING", "Text", takes="target value", source="QS")
+@FUNCTIONS("QS, DECLARE STRING", "Text", takes="target value", source="12.6")
 def assign_text(m: Machine, words: Words) -> None:
     """A QS parameter takes a text: texts in quotes and QS parameters joined with ||, TOCHAR, SUBSTR."""
     m.variables[str(words["target"].value)] = text(m, words["value"])
 
 
-@FUNCTIONS("FN 8,", "Root of a sum of squares", takes="target first second", source="FN")
+@FUNCTIONS("FN 8,", "Root of a sum of squares", takes="target first second", source="Klartext, not described")
 def root_of_squares(m: Machine, words: Words) -> None:
     """FN 8: Q1 = +5 LEN +4 is the hypotenuse of 5 and 4."""
     give(m, words["target"], math.hypot(m.value(words["first"]), m.value(words["second"])))
 
 
-@FUNCTIONS("FN 13,", "Angle", takes="target first second", source="FN")
+@FUNCTIONS("FN 13,", "Angle", takes="target first second", source="Klartext, not described")
 def angle(m: Machine, words: Words) -> None:
     """FN 13: Q1 = +25 ANG +50 is the angle, 0 to 360 degrees, of which 25 is the opposite side and 50 the adjacent one."""
     opposite, adjacent = m.value(words["first"]), m.value(words["second"])
@@ -76,7 +76,7 @@ def angle(m: Machine, words: Words) -> None:
     give(m, words["target"], math.degrees(math.atan2(opposite, adjacent)) % 360)
 
 
-@FUNCTIONS("FN 14,", "Error", takes="number", source="FN")
+@FUNCTIONS("FN 14,", "Error", takes="number", source="Klartext, not described")
 def error(m: Machine, words: Words) -> None:
     """The program itself finds something wrong and stops."""
     number = m.value(words["number"])
@@ -158,7 +158,7 @@ SYSTEM: dict[tuple[float, float], Callable[[Machine, float], float | None]] = {
 }
 
 
-@FUNCTIONS("FN 18,", "Reading system data", takes="target ID NR IDX", source="FN")
+@FUNCTIONS("FN 18,", "Reading system data", takes="target ID NR IDX", source="Klartext, not described")
 def read_system(m: Machine, words: Words) -> None:
     """ID20: tool, axis, speed, spindle, coolant, feed (NR 1, 3, 4, 5, 8, 9); ID210 NR4: the scale of axis IDX."""
     identity, number = m.value(words["ID"]), m.value(words["NR"])
@@ -172,7 +172,7 @@ def read_system(m: Machine, words: Words) -> None:
     give(m, words["target"], value)
 
 
-@FUNCTIONS("FN 17,", "Writing system data", takes="ID NR IDX value", source="FN")
+@FUNCTIONS("FN 17,", "Writing system data", takes="ID NR IDX value", source="17.2")
 def write_system(m: Machine, words: Words) -> None:
     """ID990 NR6: the input of the probe for cycle 3; the probe here answers at either."""
     identity, number = m.value(words["ID"]), m.value(words["NR"])

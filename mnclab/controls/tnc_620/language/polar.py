@@ -13,7 +13,7 @@ FUNCTIONS = FunctionTable()
 SAME = 1e-9  # rad: an end at the angle of the start is a whole turn
 
 
-@FUNCTIONS("LP", "Straight line, polar", takes="PR PA R0 RL RR F FMAX FAUTO", source="LP")
+@FUNCTIONS("LP", "Straight line, polar", takes="PR PA R0 RL RR F FMAX FAUTO", source="10.1, example")
 def polar_line(m: Machine, words: Words) -> None:
     """To a point given by its distance and angle from the pole CC."""
     f = feed(m, words)
@@ -22,7 +22,7 @@ def polar_line(m: Machine, words: Words) -> None:
     m.line(x, y, f=f)
 
 
-@FUNCTIONS("CP", "Circular path, polar; helix", takes="PA Z DR R0 RL RR F FMAX FAUTO", source="CP")
+@FUNCTIONS("CP", "Circular path, polar; helix", takes="PA Z DR R0 RL RR F FMAX FAUTO", source="10.1, example")
 def polar_circle(m: Machine, words: Words) -> None:
     """Around the pole CC on the present radius: to the angle PA, or by the angle IPA of any number of turns."""
     f = feed(m, words)
@@ -45,7 +45,7 @@ def polar_circle(m: Machine, words: Words) -> None:
     m.turn((u, v), math.radians(value), level, f)
 
 
-@FUNCTIONS("CTP", "Tangential arc, polar", takes="PR PA R0 RL RR F FMAX FAUTO", source="CTP")
+@FUNCTIONS("CTP", "Tangential arc, polar", takes="PR PA R0 RL RR F FMAX FAUTO", source="Klartext, not described")
 def polar_tangent_arc(m: Machine, words: Words) -> None:
     """An arc that goes on where the element before it points, to a polar point."""
     f = feed(m, words)

@@ -11,7 +11,7 @@ FUNCTIONS = FunctionTable()
 NEAR = 1e-6  # mm from the pole, where a direction means nothing
 
 
-@FUNCTIONS("CC", "Circle centre, pole", takes="X Y", source="CC")
+@FUNCTIONS("CC", "Circle centre, pole", takes="X Y", source="8.3, example")
 def centre(m: Machine, words: Words) -> None:
     """No motion; a coordinate that is not written is that of the last programmed position, which IX and IY count from."""
     found = list(m.programmed[:2])

@@ -38,7 +38,7 @@ def start(m: Machine) -> None:
     parameters.start(m)
 
 
-@FUNCTIONS("BEGIN PGM,", "Program begin", takes="name unit", source="BEGIN PGM")
+@FUNCTIONS("BEGIN PGM,", "Program begin", takes="name unit", source="4.11, example")
 def begin(m: Machine, words: Words) -> None:
     """Names the program and its unit; lengths and feeds of an INCH program become mm where they are read."""
     m.memory["name"], m.memory["unit"] = words["name"].value if "name" in words else "", words["unit"].value
@@ -46,7 +46,7 @@ def begin(m: Machine, words: Words) -> None:
     m.memory.setdefault("main unit", words["unit"].value)  # the first one is that of the main program
 
 
-@FUNCTIONS("END PGM,", "Program end", takes="name unit", phase="last", source="END PGM")
+@FUNCTIONS("END PGM,", "Program end", takes="name unit", phase="last", source="4.11, example")
 def end(m: Machine, words: Words) -> None:
     """The last block of a program; a program that was called goes back to the one that calls."""
     name, unit = words["name"].value if "name" in words else "", words["unit"]
@@ -72,7 +72,7 @@ def finish(m: Machine) -> None:
     m.ended = True
 
 
-@FUNCTIONS("BLK FORM 0.1,", "Blank: least corner", takes="axis X Y Z", source="BLK FORM")
+@FUNCTIONS("BLK FORM 0.1,", "Blank: least corner", takes="axis X Y Z", source="4.11, example")
 def least_corner(m: Machine, words: Words) -> None:
     """Tool axis and the corner with the least coordinates; for pictures only, no motion."""
     if "axis" not in words:
@@ -85,7 +85,7 @@ def least_corner(m: Machine, words: Words) -> None:
     keep(m, Blank(axis, corner(m, words, None)))
 
 
-@FUNCTIONS("BLK FORM 0.2,", "Blank: greatest corner", takes="X Y Z", source="BLK FORM")
+@FUNCTIONS("BLK FORM 0.2,", "Blank: greatest corner", takes="X Y Z", source="4.11, example")
 def greatest_corner(m: Machine, words: Words) -> None:
     """The corner with the greatest coordinates; IX IY IZ count from the least corner."""
     blank: Blank | None = m.memory.get("stock")
@@ -121,19 +121,19 @@ def keep(m: Machine, blank: Blank) -> None:
     m.log("stock", blank)
 
 
-@FUNCTIONS("STOP", "Program stop", phase="end", source="STOP")
+@FUNCTIONS("STOP", "Program stop", phase="end", source="Klartext, not described")
 def stop(m: Machine, words: Words) -> None:
     """Wait for the operator."""
     m.stop()
 
 
-@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="M0")
+@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="Klartext, not described")
 def program_stop(m: Machine, words: Words) -> None:
     """Wait for the operator after the motion of the block."""
     m.stop()
 
 
-@FUNCTIONS("M2 M30", "Program end", group="program end", phase="last", modal=False, source="M2")
+@FUNCTIONS("M2 M30", "Program end", group="program end", phase="last", modal=False, source="4.11, example")
 def program_end(m: Machine, words: Words) -> None:
     """The run ends after this block; subprograms may follow it."""
     if m.flow.called:

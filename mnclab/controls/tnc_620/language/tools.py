@@ -15,7 +15,7 @@ LAST = 32767  # number of a tool
 DELTAS = {"DL": "dl", "DR": "dr", "DR2": "corner"}  # words and the dimensions that they are added to
 
 
-@FUNCTIONS("TOOL CALL,", "Tool call", takes="tool text axis S F DL DR DR2", source="TOOL CALL")
+@FUNCTIONS("TOOL CALL,", "Tool call", takes="tool text axis S F DL DR DR2", source="4.11, example")
 def tool_call(m: Machine, words: Words) -> None:
     """Puts the tool into the spindle with its deltas; without a tool only speed, feed and deltas change."""
     if m.side:
@@ -85,7 +85,7 @@ def find(m: Machine, word: Word, code: str) -> Tool:
     return tools[number]  # type: ignore[index]  # an index such as 5.2 is a row of its own
 
 
-@FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool text L R", source="TOOL DEF")
+@FUNCTIONS("TOOL DEF,", "Tool definition", takes="tool text L R", source="11.9")
 def tool_def(m: Machine, words: Words) -> None:
     """With a tool table it only names the next tool; without one it defines length and radius. Nothing moves."""
     word = words.get("tool", words.get("text"))

@@ -17,7 +17,7 @@ CYCLES = CycleTable()
 WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
 
 
-@CYCLES("TCH PROBE 419", "Preset in one axis", runs="definition", source="TNC 15.13")
+@CYCLES("TCH PROBE 419", "Preset in one axis", runs="definition", source="15.13")
 class PresetInOneAxis(Cycle):
     """One touch along an axis; the touched point gets the coordinate Q333."""
 
