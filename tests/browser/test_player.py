@@ -298,6 +298,13 @@ def test_the_spindle_follows_x_at_constant_cutting_speed(open_file):
     assert page.locator("#spindle").inner_text() == "318"
 
 
+def test_the_feed_of_a_thread_is_shown_per_revolution(open_file):
+    page = open_file(mnclab.run("G97 S300 M3\nG0 X12 Z4\nG32 Z-20 F2\n", "jnc-t01"))
+    page.get_by_role("option", name="line 3: G32 Z-20 F2").click()
+    assert page.locator("#feed-programmed").inner_text() == "2 mm/rev"
+    assert page.locator("#doing").inner_text() == "G32 thread"
+
+
 def test_light_and_dark(open_file):
     page = open_file(mnclab.run(PROGRAM, "mnc"), color_scheme="dark")
     ground = "getComputedStyle(document.body).backgroundColor"

@@ -132,8 +132,8 @@ def test_a_move_without_a_feed_is_drawn_and_says_so():
 
 
 def test_an_unknown_colour_is_refused_with_those_known():
-    with pytest.raises(ValueError, match="colour must be one of kind, feed, tool, line, z"):
-        run(SQUARE).plot(colour="speed")
+    with pytest.raises(ValueError, match="colour must be one of kind, feed, speed, tool, line, z"):
+        run(SQUARE).plot(colour="weight")
 
 
 def test_a_figure_is_the_same_each_time():

@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 from matplotlib.patches import Polygon
 
-from mnclab import Setup, Tool, run
+from mnclab import Limits, Setup, Tool, run
 from mnclab.comparison.turning import compare, toolpath
 from mnclab.geometry.contours import Contour
 from mnclab.machining import thread_schemes as threads
+from mnclab.show.plot.classes import classes
 from mnclab.show.plot.insert import insert_outline
-from mnclab.show.plot.lathe import plot_speed, silhouette, speeds, thread_leads
+from mnclab.show.plot.lathe import plot_speed, silhouette, speed_strokes, speeds, thread_leads
 from mnclab.show.plot.path import plot_path
+from mnclab.show.plot.strokes import strokes
 from mnclab.show.plot.turning import plot_schemes, plot_threads
 
 SHOULDER = Contour([(0, 20), (-40, 20), (-50, 30)], closed=False)
@@ -61,6 +63,46 @@ def test_what_the_cuts_leave_of_a_blank():
     assert len(inserts) == 2 and not [
         p for p in plot_path(done.toolpath, insert=False).axes[0].patches if p.get_zorder() > 4
     ]
+
+
+def test_an_insert_never_turns_inside_out():
+    """The edge on the left stays on the left of the other one, whatever the table leaves out."""
+    for tool in (
+        Tool(),
+        Tool(main_angle=178),
+        Tool(auxiliary_angle=120),
+        Tool(main_angle=45),
+        Tool(auxiliary_angle=90),
+    ):
+        _, (right, up), _, (left, high) = insert_outline(tool, 1.0)
+        assert right * high - up * left > 0 and high > 0 and up > 0
+
+
+def test_a_blade_reaches_out_of_the_blank():
+    """Its holder stays 1 mm outside: 30 + 1 - 25 long."""
+    groove = Contour([(0, 30), (0, 25), (-10, 25), (-10, 30)], closed=False)
+    picture = compare(groove, 30, Tool(width=4), ["descent"], depth=4).plot()
+    tools = [p.get_xy() for p in picture.axes[0].patches if isinstance(p, Polygon) and p.get_zorder() == 2.1]
+    assert [np.ptp(each[:, 1]) for each in tools] == [pytest.approx(6)]
+
+
+def test_colours_by_spindle_speed():
+    """G96 S100 while facing from diameter 100 to 0: from 318 rev/min to the limit of 3000; under G97 one speed each."""
+    done = run("G96 S100 M3\nG0 X50\nG94 F100 G1 X0\n", "jnc-t01")
+    scale = done.plot(colour="speed").axes
+    texts = [text.get_text() for ax in scale for text in ax.texts] + [ax.get_title() for ax in scale]
+    found = classes(done.toolpath, speed_strokes(done.toolpath, strokes(done.toolpath)), "speed").scale
+    assert found.title == "spindle, rev/min" and found.limits[0] <= 318.3 < found.limits[1]
+    assert found.limits[-2] <= 3000 <= found.limits[-1] and texts
+    two = run("G97 S300 M3\nG0 X50\nG94 F100 G1 X20\nS700 X10\n", "jnc-t01").plot(colour="speed")
+    assert {"300 rev/min", "700 rev/min"} <= {text.get_text() for text in two.legends[0].get_texts()}
+
+
+def test_a_run_has_a_door_to_its_spindle_speeds():
+    """1000 * 100 / (2 pi 50) at the first cut; the limits of the machine hold."""
+    done = run("G96 S100 M3\nG0 X50\nG94 F100 G1 X0\n", "jnc-t01", Setup(limits=Limits(spindle=1500)))
+    line = done.plot_speed().axes[0].lines[0].get_ydata()
+    assert line[-24] == pytest.approx(100_000 / (2 * math.pi * 50)) and line.max() == 1500
 
 
 def test_threads_are_drawn_with_their_lead():

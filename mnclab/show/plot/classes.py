@@ -1,4 +1,4 @@
-"""Which moves share a colour: by kind, feed, tool, source line or height, and the scale that explains it.
+"""Which moves share a colour: by kind, feed, spindle speed, tool, source line or height, and the scale that explains it.
 
 Rapids and probing always keep their own look; ``colour`` divides the cuts. Few different values are a class each, named
 in the legend; many are put into at most :data:`BINS` bins between round numbers, explained by a scale. The colours grow
@@ -19,13 +19,14 @@ from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
+from mnclab.show.plot.lathe import speed_at
 from mnclab.show.plot.strokes import Strokes, parted
 
-COLOURS = ("kind", "feed", "tool", "line", "z")
+COLOURS = ("kind", "feed", "speed", "tool", "line", "z")
 FEW, TOOLS, BINS = 6, 10, 14  # classes that the legend names one by one, tools likewise; bins of a scale at most
 LIGHTEST = 0.58  # of the map: beyond it the contrast on white falls below 3 to 1
-TITLES = {"feed": "feed, mm/min", "tool": "tool", "line": "line", "z": "Z, mm"}
-NAMES = {"feed": "{} mm/min", "tool": "tool {}", "line": "line {}", "z": "Z {} mm"}
+TITLES = {"feed": "feed, mm/min", "speed": "spindle, rev/min", "tool": "tool", "line": "line", "z": "Z, mm"}
+NAMES = {"feed": "{} mm/min", "speed": "{} rev/min", "tool": "tool {}", "line": "line {}", "z": "Z {} mm"}
 
 Array = NDArray[np.float64]
 Values = NDArray[Any]
@@ -98,10 +99,13 @@ def lines(drawn: Strokes, found: Classes) -> list[tuple[Line, Array]]:
 
 
 def _values(path: Toolpath, drawn: Strokes, colour: str) -> Values:
-    """What the colour shows for the stroke to each point; the height of a stroke is that of its lower end."""
+    """What the colour shows for the stroke to each point: the height of its lower end, the spindle speed of its middle."""
     if colour == "z":
         z = np.ascontiguousarray(drawn.xyz[:, 2])
         return np.concatenate([z[:1], np.minimum(z[1:], z[:-1])])
+    if colour == "speed":
+        x = np.ascontiguousarray(drawn.xyz[:, 0])
+        return np.round(speed_at(path, drawn.row, (x + np.append(x[:1], x[:-1])) / 2), 6)
     columns: dict[str, Values] = {"feed": path.feed, "tool": path.tool, "line": path.line}
     return columns[colour][drawn.row]
 

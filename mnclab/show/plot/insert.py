@@ -19,20 +19,24 @@ USUAL = (95.0, 5.0)  # degrees: an insert of 80 degrees, where the table gives n
 STEEL, CARBIDE = "#c9ccd1", "#e9c46a"
 
 
-def insert_outline(tool: Tool, size: float) -> NDArray[np.float64]:
-    """The insert about its tip, (k, 2) as (z, r); `size` is the length of its edges."""
+def insert_outline(tool: Tool, size: float, reach: float = 0.0) -> NDArray[np.float64]:
+    """The insert about its tip, (k, 2) as (z, r); `size` is the length of its edges, `reach` the least one of a blade."""
     if tool.width:
-        high = max(1.6 * size, 1.5 * tool.width)
+        high = max(1.6 * size, min(1.5 * tool.width, 2.4 * size), reach)
         return np.array([(0.0, 0.0), (tool.width, 0.0), (tool.width, high), (0.0, high)])
-    main, auxiliary = (math.radians(a or usual) for a, usual in zip((tool.main_angle, tool.auxiliary_angle), USUAL))
+    auxiliary = tool.auxiliary_angle or min(USUAL[1], (180 - tool.main_angle) / 2)
+    main = tool.main_angle or min(USUAL[0], 0.9 * (180 - auxiliary))
+    main, auxiliary = math.radians(main), math.radians(auxiliary)
     lead = size * np.array([-math.cos(main), math.sin(main)])
     trail = size * np.array([math.cos(auxiliary), math.sin(auxiliary)])
     return np.array([(0.0, 0.0), trail, lead + trail, lead])
 
 
-def insert_patches(tool: Tool, tip: tuple[float, float], size: float) -> list[Patch]:
-    """Holder and insert with the tip at a place (z, r)."""
-    outline = insert_outline(tool, size) + np.array(tip)
+def insert_patches(
+    tool: Tool, tip: tuple[float, float], size: float, reach: float = 0.0, order: float = 4.4
+) -> list[Patch]:
+    """Holder and insert with the tip at a place (z, r); `order` of drawing: strokes have 2.5 to 3."""
+    outline = insert_outline(tool, size, reach) + np.array(tip)
     middle = outline.mean(axis=0)
     if tool.width:
         holder = np.array(
@@ -42,6 +46,8 @@ def insert_patches(tool: Tool, tip: tuple[float, float], size: float) -> list[Pa
     else:
         holder = middle + size * np.array([(-0.25, 0.0), (0.55, 0.0), (0.55, 1.5), (-0.25, 1.5)])
     return [
-        Polygon(holder, facecolor=STEEL, edgecolor=colours.INK, linewidth=0.8, zorder=4.4),
-        Polygon(outline, facecolor=CARBIDE, edgecolor=colours.INK, linewidth=0.9, joinstyle="round", zorder=4.5),
+        Polygon(holder, facecolor=STEEL, edgecolor=colours.INK, linewidth=0.8, zorder=order),
+        Polygon(
+            outline, facecolor=CARBIDE, edgecolor=colours.INK, linewidth=0.9, joinstyle="round", zorder=order + 0.1
+        ),
     ]

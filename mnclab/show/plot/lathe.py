@@ -17,6 +17,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import outlined, polygons, swept
 from mnclab.machining.turning_profiles import edges_of
+from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
@@ -24,7 +25,9 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.insert import insert_patches
 from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.strategy import area
+from mnclab.show.plot.strokes import Strokes
 
+CUTS = (Kind.LINE, Kind.ARC)
 MOST = 2000  # cuts that are taken off a blank
 PARTS = 24  # of a row along which the speed changes
 
@@ -71,7 +74,7 @@ def silhouette(path: Toolpath, blank: tuple[float, float, float], tools: Mapping
 
     The table's angles and widths count. None for a path of too many cuts.
     """
-    cuts = np.flatnonzero(np.isin(path.kind, (Kind.LINE, Kind.ARC)) & ~path.synchronous)
+    cuts = np.flatnonzero(np.isin(path.kind, CUTS) & ~path.synchronous)
     if len(cuts) > MOST:
         return None
     left, right, radius = blank
@@ -111,30 +114,54 @@ def draw_insert(ax: Axes, found: Turned, size: float) -> None:
 
 def thread_leads(path: Toolpath) -> dict[int, float]:
     """Rows of a lathe that cut a thread, and their leads, mm: what the tool goes on in one revolution."""
-    rows = np.flatnonzero(path.synchronous & np.isin(path.kind, (Kind.LINE, Kind.ARC)))
+    rows = np.flatnonzero(path.synchronous & np.isin(path.kind, CUTS))
     return {int(row): float(path.per_rev[row]) for row in rows}
 
 
 def speeds(path: Toolpath, most: float = np.inf) -> tuple[NDArray[np.float64], ...]:
     """Way along the motion, mm, spindle speed there, rev/min, and diameter, mm: (k,) each.
 
-    At constant cutting speed V m/min it is 1000 V / (π d), not above `most`; else the programmed one.
+    At constant cutting speed it follows X, up to the limit of the program; else it is the programmed one. In no case it
+    is above `most`.
     """
     rows = np.flatnonzero(path.is_motion)
     share = np.linspace(0.0, 1.0, PARTS)
     before = np.concatenate([[0.0], np.cumsum(path.lengths[rows])])
     way = before[:-1, None] + path.lengths[rows][:, None] * share
-    radius = path.start[rows, 0][:, None] + (path.end[rows, 0] - path.start[rows, 0])[:, None] * share
+    x = path.start[rows, 0][:, None] + (path.end[rows, 0] - path.start[rows, 0])[:, None] * share
     for k in np.flatnonzero(path.kind[rows] == Kind.ARC):
         row = rows[k]
         arm = path.start[row] - path.centre[row]
         turn = share * path.sweep[row]
-        radius[k] = path.centre[row, 0] + arm[0] * np.cos(turn) + np.cross(path.axis[row], arm)[0] * np.sin(turn)
-    surface = path.surface[rows][:, None]
-    with np.errstate(divide="ignore"):
-        wanted = 1000 * surface / (2 * np.pi * np.abs(radius))
-    speed = np.where(np.isnan(surface), np.abs(path.spindle[rows])[:, None] + 0 * radius, wanted)
-    return way.ravel(), np.minimum(speed, most).ravel(), 2 * np.abs(radius).ravel()
+        x[k] = path.centre[row, 0] + arm[0] * np.cos(turn) + np.cross(path.axis[row], arm)[0] * np.sin(turn)
+    speed = speed_at(path, np.repeat(rows, PARTS), x.ravel())
+    return way.ravel(), np.minimum(speed, most), 2 * np.abs(x).ravel()
+
+
+def speed_at(path: Toolpath, rows: NDArray[np.intp], x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The spindle speed, rev/min, where the tip stands at `x` (n,) in `rows` (n,) of a path."""
+    surface, told = path.surface[rows], np.abs(path.spindle[rows])
+    wanted = spindle_speed(surface, x - path.spindle_x[rows], path.speed_limit[rows])
+    return np.where(np.isnan(surface) | (told == 0), told, wanted)
+
+
+def speed_strokes(path: Toolpath, drawn: Strokes) -> Strokes:
+    """Strokes in which those at constant cutting speed are parted so that each has nearly one speed."""
+    behind = np.flatnonzero(drawn.row >= 0)
+    behind = behind[~np.isnan(path.surface[drawn.row[behind]]) & np.isin(path.kind[drawn.row[behind]], CUTS)]
+    change = np.abs(drawn.xyz[behind, 0] - drawn.xyz[behind - 1, 0])
+    behind = behind[change > 1e-9]
+    share = np.arange(1, PARTS) / PARTS
+    start, end = drawn.xyz[behind - 1], drawn.xyz[behind]
+    between = start[:, None] + (end - start)[:, None] * share[:, None]
+    places = np.repeat(behind, PARTS - 1)
+    return Strokes(np.insert(drawn.xyz, places, between.reshape(-1, 3), axis=0),
+                   np.insert(drawn.row, places, np.repeat(drawn.row[behind], PARTS - 1)))  # fmt: skip
+
+
+def plot_speed_of(run: Any, most: float = np.inf, **options: Any) -> Picture:
+    """As :func:`plot_speed`, for a run; not above the greatest speed of the machine's limits."""
+    return plot_speed(run.toolpath, min(most, run.setup.limits.spindle), **options)
 
 
 def plot_speed(path: Toolpath, most: float = np.inf, size: tuple[float, float] = (7.0, 4.2)) -> Picture:

@@ -25,7 +25,7 @@ from mnclab.show.plot.classes import Classes, classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
-from mnclab.show.plot.lathe import Turned, draw_insert, draw_part, turned, with_blank
+from mnclab.show.plot.lathe import Turned, draw_insert, draw_part, speed_strokes, turned, with_blank
 from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, Picture, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Strokes, corners, parted, strokes
@@ -74,9 +74,10 @@ def plot_path(
 
     - ``ax``: draw one view into these axes of one's own, without legend and scale.
     - ``view``: "XY" from above, "XZ" or "YZ" from the side, "ZX" of a lathe; "auto" takes what the path needs.
-    - ``colour``: what the colour of the cuts shows: "kind" (all blue), "feed" (mm/min), "tool" (its number), "line" (of
-      the source) or "z" (lower end of each stroke, mm). Few values are named in the legend, many are put into at most
-      14 steps of a scale, dark to light. Rapids and probing look the same in all of them.
+    - ``colour``: what the colour of the cuts shows: "kind" (all blue), "feed" (mm/min), "speed" (of the spindle, rev/min;
+      it follows X at constant cutting speed), "tool" (its number), "line" (of the source) or "z" (lower end of each
+      stroke, mm). Few values are named in the legend, many are put into at most 14 steps of a scale, dark to light.
+      Rapids and probing look the same in all of them.
     - ``arrows``: arrowheads on a few long moves; none on a path of more than 300 moves.
     - ``marks``: crosses at zero points that the program selects and at poles, with their names, unless far from the
       path; only :func:`plot_run` knows them.
@@ -91,6 +92,8 @@ def plot_path(
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path)
+    if colour == "speed" and len(drawn.row):
+        drawn = speed_strokes(path, drawn)
     found = classes(path, drawn, colour)
     lines = _programmed(programmed) + lines_of(drawn, found)
     low, high, beyond = _box(path, lines, frame)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,9 +14,11 @@ from matplotlib.patches import Patch, Polygon
 from mnclab.comparison.turning import TurningComparison, TurningTrial
 from mnclab.geometry.contours import Contour
 from mnclab.machining.strokes import CLEANUP, FINISH, PICK_UP, PLUNGE, RAPID, ROUGH, THREAD
+from mnclab.machining.turning_clearance import OUT
+from mnclab.path.tool import Tool
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
-from mnclab.show.plot.insert import insert_patches
+from mnclab.show.plot.insert import insert_outline, insert_patches
 from mnclab.show.plot.picture import SMALL, VIEWS, Picture, dress, write_legend
 from mnclab.show.plot.strategy import CORNER, REST, area
 
@@ -32,6 +34,7 @@ LOOKS = {
 MATERIAL = "#f4f1e8"
 TITLE, GAP, TOP, LEFT, RIGHT, BOTTOM = 0.26, 0.5, 0.3, 0.62, 0.12, 0.46  # inches
 CHORD = 0.01
+INSERT = 0.09  # length of the insert's edges, of the width of what is drawn
 
 
 def plot_schemes(found: TurningComparison | TurningTrial, width: float = 9.0, columns: int | None = None) -> Picture:
@@ -75,9 +78,11 @@ def plot_schemes(found: TurningComparison | TurningTrial, width: float = 9.0, co
 
 def _box(trials: Sequence[TurningTrial]) -> tuple[np.ndarray, np.ndarray]:
     """The corners (z, r) of what is shown of every trial: material and strokes."""
-    spots = [np.array([(s.z, s.r) for s in trial.plan.strokes]) for trial in trials]
-    spots += [trial.profile.points for trial in trials] + [np.array([trial.plan.start]) for trial in trials]
-    every = np.vstack(spots)
+    every = np.vstack([_places(trial) for trial in trials])
+    size = INSERT * float(np.ptp(every[:, 0]))
+    every = np.vstack(
+        [every, *(stand.tip + insert_outline(stand.tool, size, stand.reach) for stand in map(_stand, trials) if stand)]
+    )
     low, high = every.min(axis=0), every.max(axis=0)
     margin = 0.05 * float((high - low).max())
     return np.array([low[0] - margin, max(low[1] - 3 * margin, 0.0)]), high + margin
@@ -93,16 +98,37 @@ def draw(ax: Axes, trial: TurningTrial) -> None:
     ax.add_patch(Polygon(part, facecolor="#d9d5c8", edgecolor=colours.INK, linewidth=1.0, zorder=1.2))
     area(ax, trial.unreachable, facecolor="none", edgecolor=CORNER, hatch="//////", linewidth=0.4, zorder=1.6)
     area(ax, trial.rest, facecolor="none", edgecolor=REST, hatch="xxxxxx", linewidth=0.6, zorder=3.0)
-    begin, last = trial.plan.start, None
+    begin = trial.plan.start
     for stroke in trial.plan.strokes:
         way = Contour([begin, (stroke.z, stroke.r)], [stroke.bulge, 0.0], closed=False)
         ax.add_line(Line2D(*way.points_within(CHORD).T, **{**LOOKS[stroke.role].style(), "label": f"_{stroke.role}"}))
         begin = (stroke.z, stroke.r)
-        last = stroke if stroke.role != RAPID else last
-    if last is not None:
-        size = 0.09 * float(np.diff(ax.get_xlim())[0])
-        for patch in insert_patches(trial.tools[last.tool - 1], (last.z, last.r), size):
+    if stand := _stand(trial):
+        size = INSERT * float(np.ptp([z for z, _ in _places(trial)]))
+        for patch in insert_patches(stand.tool, stand.tip, size, stand.reach, 2.0):  # below the strokes
             ax.add_patch(patch)
+
+
+def _places(trial: TurningTrial) -> list[tuple[float, float]]:
+    """Corners of the profile and of the strokes (z, r)."""
+    ends = [(float(z), float(r)) for z, r in trial.profile.points]
+    return [*ends, trial.plan.start, *((s.z, s.r) for s in trial.plan.strokes)]
+
+
+class _Stand(NamedTuple):
+    """Where the tip of a tool stands, and how long a blade is there so that its holder stays outside the blank."""
+
+    tool: Tool
+    tip: tuple[float, float]
+    reach: float
+
+
+def _stand(trial: TurningTrial) -> _Stand | None:
+    """The tool at the end of the last cut."""
+    cuts = [s for s in trial.plan.strokes if s.role != RAPID]
+    if not cuts:
+        return None
+    return _Stand(trial.tools[cuts[-1].tool - 1], (cuts[-1].z, cuts[-1].r), trial.blank + OUT - cuts[-1].r)
 
 
 def plot_thread(
