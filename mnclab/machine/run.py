@@ -33,6 +33,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place
 from mnclab.text.program import Block, Program
+from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -135,6 +136,17 @@ class Run:
             step, block.span.line, block, position, state, changed, slice(a, b), row, 1.0, tuple(tip.tolist())
         )
 
+    @property
+    def stock(self) -> Blank | None:
+        """The blank in the coordinates of the toolpath: that of the setup, else the last one that the program gives."""
+        if self.setup.stock is not None:
+            found = blank(self.setup.stock)
+            return found and found.moved(-self.toolpath.origin)
+        given = [value for _, value in self.history.changed("stock")]
+        if not given or isinstance(given[-1], Revolved):
+            return given[-1] if given else None
+        return None if given[-1].maximum is None else Box(given[-1].minimum, given[-1].maximum)
+
     def lines(self) -> NDArray[np.integer[Any]]:
         """The line of each step (s,), in the program that ``steps.program`` names."""
         found = np.asarray(self.program.line_of(np.minimum(self.steps.block, len(self.program) - 1)))
@@ -182,7 +194,8 @@ class Run:
         """Views of the path: from above and the side for a mill, X and Z for a lathe.
 
         ``colour`` "kind", "feed" (mm/min), "tool", "line" or "z" (mm) says what the colour of the cuts shows;
-        ``arrows=False`` and ``marks=False`` leave out arrowheads, and crosses at zero points and poles; ``view`` "XY",
+        ``arrows=False``, ``marks=False`` and ``stock=False`` leave out arrowheads, crosses at zero points and poles, and
+        the outline of the blank; ``view`` "XY",
         "XZ", "YZ" or "ZX"; ``frame`` "all" or "cuts"; ``size`` in inches; ``ax`` axes of one's own. All of them are
         explained in ``mnclab.show.plot.path.plot_path``.
         """
@@ -213,8 +226,8 @@ class Run:
     def scene(self, colour: str = "kind", **options: Any) -> pyvista.Plotter:
         """Path, tool and blank in three dimensions (needs pyvista); shows itself as a still picture.
 
-        ``colour`` of the cuts: "kind", "feed", "tool", "z", "line"; ``row``: where the tool stands; ``stock``: corners
-        of a blank. All of them are explained in ``mnclab.show.scene.scene``.
+        ``colour`` of the cuts: "kind", "feed", "tool", "z", "line"; ``row``: where the tool stands; ``stock``:
+        another blank, or False. All of them are explained in ``mnclab.show.scene.scene``.
         """
         from mnclab.show.scene import scene
 
