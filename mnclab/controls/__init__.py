@@ -20,6 +20,7 @@ MODULES = {
     "tnc-620": "mnclab.controls.tnc_620",
     "nc-31": "mnclab.controls.nc_31",
     "g43": "mnclab.controls.g43",
+    "jnc-t01": "mnclab.controls.jnc_t01",
 }
 
 

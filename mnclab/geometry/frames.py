@@ -109,6 +109,10 @@ class FrameChain:
         """Move a frame to the end of the chain, so that it acts on a point before the others."""
         self._frames[name] = self._frames.pop(name, IDENTITY)
 
+    def rename(self, old: str, new: str) -> None:
+        """Give a frame another name in its place; nothing where there is none of the old name."""
+        self._frames = {new if name == old else name: frame for name, frame in self._frames.items()}
+
     @property
     def matrix(self) -> Matrix:
         """The product of all frames: local to outermost coordinates."""

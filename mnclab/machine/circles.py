@@ -10,7 +10,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from mnclab.geometry.arcs import centre_of_one
+from mnclab.geometry.frames import Matrix
 from mnclab.path.kinds import Kind
 from mnclab.text.program import Word
 
@@ -18,6 +21,13 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 Point = tuple[float, float]
+
+
+def normal(matrix: Matrix, first: int, second: int) -> tuple[float, float, float]:
+    """The unit normal of a plane behind a frame, on the side that it has without a mirror image."""
+    across = np.cross(matrix[:3, first], matrix[:3, second]) * (1 if np.linalg.det(matrix[:3, :3]) > 0 else -1)
+    x, y, z = (across / np.linalg.norm(across)).tolist()
+    return x, y, z
 
 
 def check_start(m: Machine, tolerance: float = 0.01, word: Word | None = None) -> None:

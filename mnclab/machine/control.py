@@ -48,8 +48,9 @@ class Function:
     """A preparatory, auxiliary or word function of a control.
 
     ``moves``: belongs to the motion of the block, and runs for later blocks while it is modal. ``still``: a block with it
-    moves nothing. ``ends_cycle``: an active cycle is over before the motion of the block. ``collects``: motion that waits for
-    later blocks may go on waiting; before any other function it is made.
+    moves nothing. ``ends_cycle``: an active cycle is over before the motion of the block. ``owns``: the words of the block
+    are its own, and a motion function beside it only becomes active. ``collects``: motion that waits for later blocks may
+    go on waiting; before any other function it is made.
     """
 
     code: str
@@ -63,6 +64,7 @@ class Function:
     moves: bool = False
     still: bool = False
     ends_cycle: bool = False
+    owns: bool = False
     collects: bool = False
     source: str = ""
     doc: str = ""
@@ -84,6 +86,7 @@ class FunctionTable(dict[str, Function]):
         moves: bool = False,
         still: bool = False,
         ends_cycle: bool = False,
+        owns: bool = False,
         collects: bool = False,
         source: str = "",
     ) -> Callable[[AnyObey], AnyObey]:
@@ -107,6 +110,7 @@ class FunctionTable(dict[str, Function]):
                     moves=moves,
                     still=still,
                     ends_cycle=ends_cycle,
+                    owns=owns,
                     collects=collects,
                     source=source,
                     doc=(obey.__doc__ or "").strip(),

@@ -276,7 +276,9 @@ def fault(definition: Definition, parameter: Parameter | None, sentence: str) ->
     word = definition.words.get(parameter.name) if parameter else None
     word = word or definition.head
     name = f" {parameter.address} ({parameter.meaning})" if parameter else ""
-    return Alarm(f"{definition.code}{name} {sentence}", word.span._replace(program=definition.program) if word else None)
+    return Alarm(
+        f"{definition.code}{name} {sentence}", word.span._replace(program=definition.program) if word else None
+    )
 
 
 @contextmanager

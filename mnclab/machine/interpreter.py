@@ -242,7 +242,7 @@ class Interpreter:
                     f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word
                 )
             return self.control.named(self.machine, word) if self.control.named else word.value
-        if word.value is None or isinstance(word.value, str):
+        if word.value is None or isinstance(word.value, str) or parameter.type == "text":
             return word.value
         value = self.machine.value(word)
         if in_variables and self.control.storage == "variables" and is_variable(parameter):
@@ -261,7 +261,7 @@ def unit_of(machine: Machine, parameter: Parameter) -> float:
 
 def is_variable(parameter: Parameter) -> bool:
     """Whether a parameter is a variable of the program (Q200), not an address (X)."""
-    return parameter.address[0] == "Q" and parameter.address[1:].isdigit()
+    return parameter.address[0] == "Q" and parameter.address[1:].isdigit() and parameter.type != "text"
 
 
 def store(machine: Machine, definition: Definition) -> None:

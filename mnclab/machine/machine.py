@@ -16,9 +16,10 @@ import numpy as np
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import sweep_of_one
 from mnclab.geometry.frames import FrameChain, Matrix
-from mnclab.machine.circles import centre_by_radius, check_radii, check_start, turn
+from mnclab.machine.circles import centre_by_radius, check_radii, check_start, normal, turn
 from mnclab.machine.history import Logs
 from mnclab.machine.recording import Recording, record
+from mnclab.machine.rows import add_row, spindle_axis
 from mnclab.machine.settings import chosen
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
@@ -74,10 +75,14 @@ class Machine:
         self.plane = "XY"
         self.feed: float | None = None
         self.per_rev = False
+        self.per_time = False  # the feed is the time of each move, s
         self.speed, self.turning = 0.0, 0  # S, and +1, -1, 0 for M3, M4, M5
+        self.surface: float | None = None  # the constant cutting speed, m/min, …
+        self.speed_limit = INF  # … and how fast it may turn the spindle
         self.tool: Tool = self.tables.tools[0]
         self.side, self.corner_rule = 0, 0
         self.exact, self.exact_here, self.synchronous = False, False, False
+        self.tolerance = NAN  # how far corners may be cut, mm; nan: as the limits of the machine have it
         self.rotary = (0.0, 0.0, 0.0)
         self.label = ""
         self.cycle: Definition | None = None
@@ -159,30 +164,32 @@ class Machine:
 
     @property
     def radius(self) -> float:
-        """The effective tool radius, signed."""
-        return self.tool.effective_radius
+        """The effective tool radius, signed, in lengths of the program: a scale does not change the tool."""
+        return self.tool.effective_radius / self.scale
+
+    @property
+    def scale(self) -> float:
+        """How long 1 mm of the program in the plane is on the machine, along its first axis."""
+        return 1.0 if self._shift is not None else math.hypot(*self._matrix[:3, PLANES[self.plane][0]].tolist())
 
     def state(self) -> int:
         """The state that rows made now share."""
         if self._state is None:
             axis = _AXES[self.plane]
             if self._shift is None:
-                axis = self._turned_axis()
+                axis = normal(self._matrix, *PLANES[self.plane][:2])
             per_rev = self.feed if self.per_rev and self.feed is not None else NAN
+            surface = NAN, INF, 0.0
+            if self.surface is not None:
+                surface = self.surface, self.speed_limit, spindle_axis(self)
             self._state = self.recorder.state(
                 State(
-                    self.program, axis, self.rotary, per_rev, NAN, self.spindle_speed, self.tool.number, self.radius,
-                    self.side * self.orientation, self.corner_rule, self.exact, self.synchronous,
+                    self.program, axis, self.rotary, per_rev, surface[0], self.spindle_speed, self.tool.number,
+                    self.tool.effective_radius, self.side * self.orientation, self.corner_rule, self.exact,
+                    self.synchronous, self.tolerance, *surface[1:],
                 )
             )  # fmt: skip
         return self._state
-
-    def _turned_axis(self) -> tuple[float, float, float]:
-        first, second, _ = PLANES[self.plane]
-        u, v = self._matrix[:3, first], self._matrix[:3, second]
-        normal = np.cross(u, v) * (1 if np.linalg.det(self._matrix[:3, :3]) > 0 else -1)
-        x, y, z = (normal / np.linalg.norm(normal)).tolist()
-        return x, y, z
 
     # --- frames ------------------------------------------------------------------------------------------------------
 
@@ -261,7 +268,7 @@ class Machine:
         self._go(Kind.LINE, self.target(x, y, z), self.feed_of(f, word), joint)
 
     def feed_of(self, f: float | None, word: Word | None = None) -> float:
-        """The feed of a move, mm/min; an alarm if none was programmed."""
+        """The feed of a move, mm/min, or its time, s, with a minus; an alarm if none was programmed."""
         if f is not None:
             return f
         if self.feed is None:
@@ -270,7 +277,7 @@ class Machine:
             if not self.spindle_speed:
                 self.alarm("a feed per revolution needs a turning spindle", word, hint="write S and M3 before the move")
             return self.feed * abs(self.speed)
-        return self.feed
+        return -self.feed if self.per_time else self.feed
 
     def _go(self, kind: Kind, point: tuple[float, float, float], feed: float, joint: Any = None) -> None:
         tip = self.to_machine(point)
@@ -336,7 +343,8 @@ class Machine:
         if self._shift is not None:
             return 1
         first, second, _ = PLANES[self.plane]
-        return 1 if np.dot(np.cross(self._matrix[:3, first], self._matrix[:3, second]), self._turned_axis()) > 0 else -1
+        across = np.cross(self._matrix[:3, first], self._matrix[:3, second])
+        return 1 if np.dot(across, normal(self._matrix, first, second)) > 0 else -1
 
     def at_block_end(self, undo: Callable[[], None]) -> None:
         """Do something when the running block is over."""
@@ -348,21 +356,7 @@ class Machine:
         while self.block_end:
             self.block_end.pop()()
 
-    def _row(
-        self, kind: Kind, tip: tuple[float, float, float], centre: tuple[float, float, float] = (NAN, NAN, NAN),
-        angle: float = 0.0, feed: float = NAN, time: float = NAN, joint: Any = None,
-    ) -> None:  # fmt: skip
-        recorder, number = self.recorder, -1
-        if joint is not None:
-            number = len(recorder.joints)
-            recorder.joints.append(joint)
-        state = self.state() if self._state is None else self._state
-        if self.exact_here and not self.exact:
-            state = recorder.state(recorder.states[state]._replace(exact=True))
-        if self.per_rev and feed != (self.feed or 0.0) * abs(self.speed):  # a rapid, or a feed in mm/min of a cycle
-            state = recorder.state(recorder.states[state]._replace(per_rev=NAN))
-        label = recorder.label(self.label) if self.label else 0
-        recorder.add((kind, self.source_line, self.step, label, *tip, *centre, angle, feed, time, number, state))
+    _row = add_row
 
     def mark_joint(self, joint: Any) -> bool:
         """Put a joint on the last motion not settled yet; False if there is none, or if it has one already."""
@@ -391,8 +385,9 @@ class Machine:
             self._row(Kind.SPINDLE, self.tip)
 
     def orient(self, angle: float) -> None:
-        """Stop the spindle at an angle, degrees."""
+        """Stop the spindle at an angle, degrees; the memory keeps it as "spindle angle"."""
         self.change("turning", 0)
+        self.memory["spindle angle"] = float(angle)
         self.log("spindle angle", float(angle))
         self._row(Kind.SPINDLE, self.tip)
 

@@ -7,6 +7,7 @@ interpreter makes it once for each kind of block. No word is lost by constructio
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -82,9 +83,12 @@ class Planner:
         ending = any(f.ends_cycle for f, _ in functions)
         if self.active and not cycle and not ending:
             self.claim_again([f for f, _ in functions if f.moves])
+        owned = any(f.owns for f, _ in functions)
         for function, index in functions:
-            if function.moves:
+            if function.moves and (function.owns or not owned):
                 self.hand_out(function, index)
+            elif function.moves:  # it only becomes active
+                self.actions.append(Action(self.phases[function.phase], function, function.code, index, ()))
         self.refuse_motion([f for f, _ in functions])
         at_once = cycle is not None and self.control.cycles[cycle[0]].runs == "definition"
         if at_once and cycle and not self.control.one_command:
@@ -113,6 +117,9 @@ class Planner:
 
     def function(self, code: str, index: int) -> Function:
         found = self.control.functions.get(code)
+        every = self.control.functions.get(code[0])  # one function for all codes of an address that have none of their own
+        if found is None and every is not None and code[1:].isdigit() and index >= 0:
+            return replace(every, code=code)
         if found is None:
             if code in self.control.refused:
                 self.alarm(f"{code} is refused: {self.control.refused[code]}", index)

@@ -50,16 +50,16 @@ def _found(m: Machine, name: str, what: str, span: Span | None) -> tuple[str, st
             if isinstance(source, str):
                 return known, source, caller.folder
             return str(source), _text(source, what, span), str(source.parent)
-    beside = _beside(caller, _last(wanted))
-    if beside is None:
+    found = beside(caller, _last(wanted))
+    if found is None:
         where = f"the folder of {caller.name}" if caller.folder else "a program without a file has no folder"
         names = ", ".join(sorted(m.setup.files)[:8])
         hint = f"Setup(files=…) has {names or 'no programs'}; {where}{' has none' if caller.folder else ''}"
         raise Alarm(f"{what} {name}: there is no program of this name", span, hint=hint)
-    return str(beside), _text(beside, what, span), caller.folder
+    return str(found), _text(found, what, span), caller.folder
 
 
-def _beside(caller: Program, wanted: str) -> Path | None:
+def beside(caller: Program, wanted: str) -> Path | None:
     """A file in the folder of the calling program."""
     if not caller.folder:
         return None

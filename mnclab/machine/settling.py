@@ -98,6 +98,8 @@ def _shown(m: Machine, path: Toolpath) -> Toolpath:
         vertices = np.concatenate([path.start[:1], path.end]) - origin
         centre = path.centre if path.centre.strides[0] == 0 else path.centre - origin
         path = path.replace(start=vertices[:-1], end=vertices[1:], centre=centre)
+        if not np.isnan(path.surface).all():
+            path = path.replace(spindle_x=path.spindle_x - origin[0])
     recorder = m.recorder
     return path.annotated(
         labels=tuple(recorder.labels), joints=tuple(recorder.joints), origin=tuple(origin), lathe=m.control.lathe

@@ -34,13 +34,13 @@ def rows(first: float, last: float, stepover: float) -> tuple[float, ...]:
 
 def lines(
     across: Sequence[float], start: float, stop: float, radius: float, *, one_way: bool = False,
-    within: tuple[float, float] | None = None, axis: int = 0, centre: ArrayLike = (0, 0), angle: float = 0.0,
+    within: tuple[float, float] | None = None, leave: bool = False, axis: int = 0, centre: ArrayLike = (0, 0), angle: float = 0.0,
 ) -> Clearing:  # fmt: skip
     """Lines at the places `across`, along X (`axis` 0) or Y (1), the first one from `start` to `stop`.
 
     Zigzag turns every second line round and links them; one way lifts between lines that run alike. `within` gives the
     coordinates near `start` and near `stop` at which lines end where a zigzag turns: only the first start stays
-    outside. Everything is turned by `angle` rad about the zero point and then moved to `centre`.
+    outside, and with `leave` the last end. Everything is turned by `angle` rad about the zero point and then moved to `centre`.
     """
     if not len(across):
         raise ValueError("facing needs at least one line")
@@ -50,6 +50,8 @@ def lines(
         a, b = (near if k else start), far
         if k % 2 and not one_way:
             a, b = far, near
+        if leave and k == len(across) - 1:
+            b = start if k % 2 and not one_way else stop
         points = np.array([(a, place), (b, place)])
         passes.append(Contour(placed(points[:, ::-1] if axis else points, centre, angle), closed=False))
     linked = (not one_way,) * (len(passes) - 1)

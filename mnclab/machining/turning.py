@@ -14,7 +14,10 @@ other way round. Nothing here knows which side is outside or which way Z points:
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
+
+from mnclab.machining.steps import RAPID, Go
 
 GRAIN = 1e-9  # relative: a stock of 0.3 holds three depths of 0.1
 
@@ -75,3 +78,39 @@ def chip_breaks(begin: float, end: float, length: float) -> tuple[float, ...]:
     """Where a cut is interrupted to break the chip: at multiples of ``length`` from its begin, not at its end."""
     step = math.copysign(length, end - begin)
     return tuple(begin + step * i for i in range(1, count_of_breaks(begin, end, length) + 1))
+
+
+def remove_stock(
+    start: tuple[float, float], shoulder: Shoulder, depth: float | None, *, retract: float, feed: float | None = None,
+    wall: float | None = RAPID,
+) -> Iterator[Go]:  # fmt: skip
+    """From a start (across, along) remove the stock in passes one ``depth`` apart, the last one along the contour.
+
+    Each pass goes in at rapid, cuts to the contour, leaves it by ``retract`` both ways (never beyond the start) and returns.
+    The last one also cuts what the others have left on the bevel; ``wall`` is its feed from the rim to the start level.
+    Without a depth there is this one alone. Steps have x across and z along.
+    """
+    x1, z1 = start
+    passes = roughing(x1, shoulder, depth, with_finish=False) if depth else ()
+    for number, (level, stop) in enumerate(passes, 1):
+        label = f"pass {number} of {len(passes) + 1}"
+        yield Go(f"{label}, infeed", x=level)
+        yield Go(label, stop, feed)
+        yield Go(f"{label}, retract", towards(stop, z1, retract), x=towards(level, x1, retract))
+        yield Go(f"{label}, return", z1)
+    label = f"pass {len(passes) + 1} of {len(passes) + 1}, contour" if passes else "contour"
+    yield Go(f"{label}, infeed", x=shoulder.finish)
+    yield Go(label, shoulder.corner, feed)
+    yield Go(label, shoulder.far, feed, x=shoulder.rim)
+    yield Go(f"{label}, wall", feed=wall, x=x1)
+    yield Go(f"{label}, return", z1)
+
+
+def towards(place: float, goal: float, distance: float) -> float:
+    """A place moved by a distance towards a goal, but not beyond it."""
+    return goal if abs(goal - place) <= distance else place + math.copysign(distance, goal - place)
+
+
+def facing(steps: Iterable[Go]) -> Iterator[Go]:
+    """The same steps for a cut along X: across and along change places."""
+    return (step._replace(x=step.z, z=step.x) for step in steps)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import COLUMNS, Toolpath, concatenate
 
-NAN = float("nan")
+NAN, INF = float("nan"), float("inf")
 
 
 class State(NamedTuple):
@@ -34,6 +34,9 @@ class State(NamedTuple):
     corner_rule: int = 0
     exact: bool = False
     synchronous: bool = False
+    tolerance: float = NAN
+    speed_limit: float = INF
+    spindle_x: float = 0.0
 
 
 #: What a column is where a chunk of rows does not say.

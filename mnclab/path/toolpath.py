@@ -38,8 +38,10 @@ COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
     "feed": (np.float64, (), np.nan, "feed along the path, mm/min; inf for rapids"),
     "per_rev": (np.float64, (), np.nan, "feed per revolution of rows at feed, mm/rev"),
     "surface": (np.float64, (), np.nan, "constant cutting speed, m/min"),
+    "speed_limit": (np.float64, (), np.inf, "greatest spindle speed at constant cutting speed, rev/min"),
+    "spindle_x": (np.float64, (), 0.0, "X of the spindle axis at constant cutting speed, mm"),
     "time": (np.float64, (), np.nan, "time given by the program, s"),
-    "spindle": (np.float64, (), 0.0, "rev/min, negative for counter-clockwise"),
+    "spindle": (np.float64, (), 0.0, "rev/min at the end of the row, negative for counter-clockwise"),
     "tool": (np.int32, (), 0, "tool number"),
     "radius": (np.float64, (), 0.0, "effective tool radius, mm"),
     "side": (np.int8, (), 0, "radius compensation: +1 left, -1 right, 0 none"),
@@ -48,6 +50,7 @@ COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
     "gouge": (np.bool_, (), False, "the tool cuts into the contour on this row (setting gouge = mark)"),
     "exact": (np.bool_, (), False, "stop exactly at the end"),
     "synchronous": (np.bool_, (), False, "spindle and feed locked"),
+    "tolerance": (np.float64, (), np.nan, "how far the program lets corners be cut, mm; nan: as the limits have it"),
     "joint": (np.int16, (), -1, "index into joints"),
 }
 
@@ -69,6 +72,8 @@ class Move(NamedTuple):
     feed: float
     per_rev: float
     surface: float
+    speed_limit: float
+    spindle_x: float
     time: float
     spindle: float
     tool: int
@@ -79,6 +84,7 @@ class Move(NamedTuple):
     gouge: bool
     exact: bool
     synchronous: bool
+    tolerance: float
     joint: Any
 
 
@@ -103,6 +109,8 @@ class Toolpath:
     feed: NDArray[np.float64]
     per_rev: NDArray[np.float64]
     surface: NDArray[np.float64]
+    speed_limit: NDArray[np.float64]
+    spindle_x: NDArray[np.float64]
     time: NDArray[np.float64]
     spindle: NDArray[np.float64]
     tool: NDArray[np.int32]
@@ -113,6 +121,7 @@ class Toolpath:
     gouge: NDArray[np.bool_]
     exact: NDArray[np.bool_]
     synchronous: NDArray[np.bool_]
+    tolerance: NDArray[np.float64]
     joint: NDArray[np.int16]
 
     def __init__(

@@ -101,6 +101,12 @@ def _nc_31(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
     return "\n".join(["S800", "M3", "F20", "X4000 ~ *", "Z200 ~", " *\n".join(frames), ""])
 
 
+def _jnc_t01(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
+    block = " ".join([cycle.code, *(address + number(value) for address, value in words)])
+    x = 0 if cycle.code == "G73" else 40
+    return f"G90 G94 F100\nT1 S800 M3\nG0 X{x} Z5\n{block}\n"
+
+
 def _g43(cycle: Any, words: Sequence[tuple[str, float]]) -> str:
     block = " ".join([cycle.code, *(address + number(value) for address, value in words)])
     return f"T2 M6\nG43 G0 X0 Y0 Z20 S1000 M3\n{block}\nG80\n"
@@ -110,5 +116,6 @@ PROGRAMS: dict[str, Callable[[Any, Sequence[tuple[str, float]]], str | None]] = 
     "mnc": _mnc,
     "tnc-620": _tnc_620,
     "nc-31": _nc_31,
+    "jnc-t01": _jnc_t01,
     "g43": _g43,
 }

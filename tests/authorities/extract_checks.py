@@ -29,8 +29,20 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "jnc-t01": [
+        *("program structure", "table 2 notes", "axes and dimensions", "spindle control", "feed programming"),
+        *("linear moves", "arc moves", "G00", "G01", "G02", "G03", "G04", "G12", "G14", "G32", "G73", "G74", "G75"),
+        *("G77", "G78", "G90", "G91", "G92", "G93", "G94", "G95", "G96", "G97", "T+L"),
+    ],
     "tnc620-klartext": ["BLK FORM", "TOOL CALL", "L", "C", "CT", "CP", "CALL LBL", "CYCL DEF (formats)", "FN", "FK"],
-    "tnc620-special": ["CYCL DEF 12"],
+    "tnc620-special": [
+        *(f"CYCL DEF {number}" for number in (9, 12, 13, 18, 32, 225, 232, 239)),
+        *("engraving layout", "engraving characters", "engraving system variables"),
+    ],
+    "tnc620-transformations": [
+        *("transformation chain", "CYCL DEF 7", "CYCL DEF 7 (datum table)", "datum table", "PGM COTRANS (section 11.10)"),
+        *(f"CYCL DEF {number}" for number in (8, 10, 11, 19, 26, 247)),
+    ],
     "tnc620-using-cycles": [
         *("fixed cycles", "CYCL DEF", "CYCL CALL PAT", "CYCL CALL POS", "M89", "PREDEF"),
         *(f"PATTERN DEF {form}" for form in ("POS", "ROW", "PAT", "FRAME", "CIRC", "PITCHCIRC")),

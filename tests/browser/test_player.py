@@ -288,6 +288,16 @@ def test_a_lathe_opens_on_z_and_x_and_shows_diameters(open_file):
     assert page.get_by_role("rowheader", name="X").inner_text() == "\N{DIAMETER SIGN} X"
 
 
+def test_the_spindle_follows_x_at_constant_cutting_speed(open_file):
+    """G96 S100: 1000 * 100 / (2 pi r) = 318.3 rev/min at radius 50, 636.6 at 25; the limit 3000 on the axis."""
+    page = open_file(mnclab.run("G96 S100 M3 ' m/min\nG0 X50\nG94 F100 G1 X0\n", "jnc-t01"))
+    turning = "([row, x]) => Math.round(window.player.board.turning(row, [x, 0, 0]) * 10) / 10"
+    found = [page.evaluate(turning, [2, x]) for x in (50, 25, -25, 0)]
+    assert found == [318.3, 636.6, 636.6, 3000]
+    page.get_by_role("option", name="line 2: G0 X50").click()
+    assert page.locator("#spindle").inner_text() == "318"
+
+
 def test_light_and_dark(open_file):
     page = open_file(mnclab.run(PROGRAM, "mnc"), color_scheme="dark")
     ground = "getComputedStyle(document.body).backgroundColor"

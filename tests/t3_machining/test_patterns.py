@@ -57,7 +57,9 @@ def test_points_of_a_circle(centre, radius, start, step, count):
     points = patterns.circle(centre, radius, start, step, count) - centre
     assert np.hypot(*points.T) == pytest.approx(np.full(count, radius))
     assert points[0] == pytest.approx([radius * math.cos(start), radius * math.sin(start)])
-    turned = np.arctan2(points[:-1, 0] * points[1:, 1] - points[:-1, 1] * points[1:, 0], (points[:-1] * points[1:]).sum(1))
+    turned = np.arctan2(
+        points[:-1, 0] * points[1:, 1] - points[:-1, 1] * points[1:, 0], (points[:-1] * points[1:]).sum(1)
+    )
     assert np.cos(turned - step) == pytest.approx(np.ones(count - 1))
 
 

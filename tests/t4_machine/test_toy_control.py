@@ -1,4 +1,4 @@
-"""A fourth control in a few lines: what a third party writes to teach the house another language.
+"""One more control in a few lines: what a third party writes to teach the house another language.
 
 Turtle: one word a line. ``F 10`` forward, ``L 90`` turn left (degrees), ``U`` pen up, ``D`` pen down, ``H n`` a hole
 cycle of depth n at the place.
@@ -88,6 +88,21 @@ def test_it_is_read_run_and_listed(tmp_path):
 def test_it_is_plotted_and_explained():
     assert mnclab.run(SQUARE, "turtle").plot().axes
     assert "depth of the hole" in str(mnclab.help("M1", "turtle"))
+
+
+def test_its_time_is_that_of_stops_at_corners():
+    """Each side, from stop to stop: length over speed, and the speed over the acceleration once for both ends."""
+    limits = mnclab.Limits(acceleration=500, rapid=6000)
+    profile = mnclab.run("D\n" + "F 10\nL 90\n" * 4, "turtle").profile(limits)
+    speed = 100 / 60
+    assert profile.time == pytest.approx(4 * (10 / speed + speed / 500), abs=1e-12)
+    assert profile.plot().axes
+
+
+def test_it_plays(tmp_path):
+    run = mnclab.run(SQUARE, "turtle")
+    assert run.save(tmp_path / "square.html").stat().st_size > 10_000 and "<iframe" in run.player()._repr_html_()
+    assert run.player().run is run
 
 
 @pytest.mark.parametrize(

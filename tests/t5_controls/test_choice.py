@@ -9,8 +9,9 @@ SQUARES = {
     "mnc": "N10 G90 G54\nG1 X40 F100 // a comment\n",
     "tnc-620": "0 BEGIN PGM A MM\n1 L X+40 R0 FMAX\n2 END PGM A MM\n",
     "nc-31": "N1 F20\nN2 X4000 ~ *\nN3 Z200 ~\n",
+    "jnc-t01": "G90 F100 ' a comment\nG01 X40.\n",
 }
-SUFFIX = {"mnc": ".mnc", "tnc-620": ".h", "nc-31": ".nc31"}
+SUFFIX = {"mnc": ".mnc", "tnc-620": ".h", "nc-31": ".nc31", "jnc-t01": ".jnc"}
 
 
 @pytest.mark.parametrize("name", SQUARES)
@@ -46,7 +47,9 @@ def test_two_that_fit_are_not_chosen_from(monkeypatch):
 def test_an_unknown_control_is_named_with_those_that_exist():
     with pytest.raises(Alarm) as found:
         mnclab.run("G0 X1\n", "tnc620")
-    assert str(found.value) == ("alarm: there is no control 'tnc620' (known: mnc, tnc-620, nc-31, g43; near: tnc-620)")
+    assert str(found.value) == (
+        "alarm: there is no control 'tnc620' (known: mnc, tnc-620, nc-31, g43, jnc-t01; near: tnc-620)"
+    )
 
 
 def test_a_path_that_does_not_exist_is_an_alarm(tmp_path):

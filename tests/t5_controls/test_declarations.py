@@ -20,7 +20,11 @@ CATALOGUE = Path(__file__).parents[1] / "authorities" / "catalogue"
 def tables(control):
     """The rows of each cycle by its code."""
     entries = json.loads((CATALOGUE / f"parameters-{control}.json").read_text(encoding="utf-8"))
-    return {code: entry["parameters"] for entry in entries for code in (entry["code"], *entry["aliases"])}
+    found = {}
+    for entry in entries:  # "CYCL DEF 7 (datum table)" is another form of CYCL DEF 7
+        for code in (entry["code"].partition(" (")[0], *entry["aliases"]):
+            found[code] = [*found.get(code, ()), *entry["parameters"]]
+    return found
 
 
 TABLES = {control: tables(control) for control in mnclab.controls if control != "g43"}  # its source has no cycles
@@ -28,7 +32,7 @@ CYCLES = [(control, code) for control in TABLES for code in mnclab.controls[cont
 
 #: Our names where the table has a longer one: the word that the address does not say already.
 NAMES = {
-    "set_up_clearance": "clearance",
+    "set_up_clearance": ("clearance", "set_up_clearance"),
     "feed_rate_for_plunging": ("feed", "plunge_feed"),
     "infeed_depth": "infeed",
     "workpiece_surface_coordinate": "surface",
@@ -52,7 +56,13 @@ NAMES = {
     "retraction_feed_rate": "retract_feed",
     "feed_rate_factor": "factor",
     "fine_roughing_strategy": "fine_strategy",
-    "datum_shift": ("x", "y", "z"),  # one row for all axes
+    "datum_shift": ("x", "y", "z", "a", "b", "c"),  # one row for all axes
+    "axis_factor": ("x", "y", "z"),
+    "center": ("centre_x", "centre_y", "centre_z"),
+    "finishing_feed_rate": "finishing_feed",
+    "prepositioning_feed_rate": "prepositioning_feed",
+    "clearance_to_side": "side_clearance",
+    "feed_rate_for_milling": "feed",
     "first_point_axis_1": "x",
     "first_point_axis_2": "y",
     "measuring_height": "z",
@@ -74,7 +84,7 @@ NAMES = {
     "tool_edge_height": "edge_height",
     "pre_positioning_feed_rate": "positioning_feed",
     "counterboring_feed_rate": "feed",
-    "dwell_time": "dwell_bottom",
+    "dwell_time": ("dwell_bottom", "dwell_time"),
     "infeed_per_helix": "pitch",
     "nominal_diameter": ("diameter", "nominal_diameter"),
     "climb_or_up_cut": "climb",
@@ -97,6 +107,7 @@ ONCE = "only what L chooses is used: the example writes H0 beside L1, so the lim
 FEED = "the range of the word F (4.1)"
 MILLING = ("G320", "G321", "G343", "G344")
 TIME = "the table has no range; a time is not negative"
+JNC = [("G73", "Z"), *((c, a) for c in ("G74", "G75") for a in "XZ"), *((c, a) for c in ("G77", "G78") for a in "XZUW")]
 AS_IN_CYCLES = "the table has none: that of the parameter in the cycles"
 LENGTH, SIGNED, TIMES = {">=": 0, "<=": 99999.9999}, {">=": -99999.9999, "<=": 99999.9999}, {">=": 0, "<=": 3600}
 FEEDS, OVERLAP = {">=": 0, "<=": 99999.999}, {">=": 0.0001, "<=": 1.9999}
@@ -119,6 +130,15 @@ EXPLAINED = {
     ("tnc-620", "CYCL DEF 22", "Q208", "limits"): ({">=": 0}, "FMAX is infinite; the upper limit is a check"),
     ("tnc-620", "CYCL DEF 22", "Q208", "default"): (math.inf, "FMAX"),
     ("tnc-620", "CYCL DEF 22", "Q18", "limits"): ({">=": 0, "<=": 99999}, "a number, or a name"),
+    ("tnc-620", "CYCL DEF 8", "axes", "limits"): ({}, "at most three, and which ones, are a check"),
+    **{("tnc-620", "CYCL DEF 7", axis, "unit"): ("deg", "one row for all axes; these turn") for axis in "ABC"},
+    ("tnc-620", "CYCL DEF 7", "#", "required"): (False, "the form of cycle 7 with a table"),
+    **{("tnc-620", "CYCL DEF 26", axis, "default"): (1, "in words there") for axis in "XYZ"},
+    **{("tnc-620", "CYCL DEF 26", axis, "required"): (False, "one of them") for axis in "XYZ"},
+    ("tnc-620", "CYCL DEF 19", "ABST", "default"): (None, "both F and ABST, or the axes are not moved"),
+    ("tnc-620", "CYCL DEF 225", "Q500", "limits"): ({}, "of characters, a check"),
+    ("tnc-620", "CYCL DEF 225", "Q201", "limits"): ({">=": -99999.9999, "<=": 99999.9999}, "its reading has them"),
+    ("tnc-620", "CYCL DEF 225", "Q574", "limits"): ({">=": 0, "<=": 99999.9999}, "a length"),
     ("tnc-620", "CYCL DEF 14", "LBL", "limits"): ({">=": 1, "<=": 65535}, "of each; twelve at most are a check"),
     **{("tnc-620", f"GLOBAL DEF {n}", q, "limits"): (limits, AS_IN_CYCLES) for n, q, limits in GLOBAL_LIMITS},
     **{("tnc-620", "GLOBAL DEF 100", q, "also"): ({"FMAX", "FAUTO"}, AS_IN_CYCLES) for q in ("Q253", "Q208")},
@@ -129,6 +149,7 @@ EXPLAINED = {
     **{("nc-31", "G77", axis, "type"): ("number", "the reader refuses what is not whole") for axis in "XZ"},
     ("nc-31", "G77", "X", "unit"): ("0.01 mm", "that X is a diameter is in its meaning"),
     ("nc-31", "G77", "P", "unit"): ("0.01 mm", "that P1 is on the diameter is in its meaning"),
+    **{("jnc-t01", code, axis, "limits"): ({}, "any number; between which is a check") for code, axis in JNC},
 }
 
 #: Parameters without a row: marks of the word that calls the cycle.

@@ -16,6 +16,8 @@ TNC = (200, 201, 202, 203, 204, 205, 208, 240, 241)
 CYCLES = {code: cycle for code, cycle in mnclab.controls["mnc"].cycles.items() if code == cycle.code} | {
     f"CYCL DEF {number}": mnclab.controls["tnc-620"].cycles[f"CYCL DEF {number}"] for number in TNC
 }
+LATHE = mnclab.controls["jnc-t01"].cycles
+CYCLES |= LATHE
 
 #: What must be given beside a parameter for it to act.
 BESIDE = {
@@ -33,6 +35,10 @@ OTHER = {
     ("G306", "predrilled_diameter"): 6,
     ("G307", "depth"): -12,
     ("G307", "spindle_direction"): 5,
+    ("G77", "end_z"): -65,
+    ("G78", "end_z"): -65,
+    ("G77", "taper_x"): 25,
+    ("G78", "taper_x"): 25,
     ("CYCL DEF 203", "chip_breaks"): 2,
     ("CYCL DEF 208", "diameter"): 12,
     ("CYCL DEF 241", "depth"): -30,
@@ -51,7 +57,7 @@ CASES = [(code, parameter) for code, cycle in CYCLES.items() for parameter in cy
 
 
 def control_of(code):
-    return "tnc-620" if code.startswith("CYCL DEF") else "mnc"
+    return "tnc-620" if code.startswith("CYCL DEF") else "jnc-t01" if code in LATHE else "mnc"
 
 
 def run(code, values):

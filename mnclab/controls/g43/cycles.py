@@ -13,7 +13,15 @@ from typing import Any
 
 from mnclab.controls.g43.language import ISO, undescribed
 from mnclab.controls.g43.lengths import activate
-from mnclab.controls.word_address.holes import approach, initial_level, leave
+from mnclab.controls.word_address.holes import (
+    approach,
+    initial_level,
+    leave,
+    no_pitch,
+    out_of_place,
+    spindle_stands,
+    upside_down,
+)
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
@@ -81,15 +89,11 @@ class HoleCycle(Cycle):
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """The bottom lies below level R."""
-        if not self.bottom < self.r_level:
-            yield "bottom", f"must lie below level R, got bottom {self.bottom:g} and R {self.r_level:g}"
+        yield from upside_down(self.bottom, self.r_level)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """No radius compensation, no machine coordinates."""
-        if m.side:
-            yield "", "cannot run under radius compensation"
-        if "machine coordinates" in m.memory:
-            yield "", "and G53 stand in one block: the cycle counts from the workpiece"
+        yield from out_of_place(m)
 
     def moves(self, m: Machine) -> None:
         """Over the hole, level R, the work, and up."""
@@ -170,10 +174,7 @@ class Tapping(Dwelling):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """As all cycles; and the spindle turns."""
         yield from super().check(m)
-        if not m.spindle_speed:
-            yield "", "needs a turning spindle: write S and M3 or M4 before"
-        if m.feed is None:
-            yield "", "has no feed rate: the pitch is F under G95, and F divided by S under G94"
+        yield from no_pitch(m)
 
     def thread(self, m: Machine, sense: int) -> Iterable[Step]:
         """Cut with the spindle turning one way, back with the other."""
@@ -220,8 +221,7 @@ class Boring(Dwelling):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """As all cycles; and the spindle turns."""
         yield from super().check(m)
-        if not m.spindle_speed:
-            yield "", "needs a turning spindle: write S and M3 or M4 before"
+        yield from spindle_stands(m)
 
 
 @CYCLES("G86", "Boring, spindle stop, rapid out", runs="position", source=ISO, triggers=POSITION)

@@ -8,19 +8,24 @@ from __future__ import annotations
 
 import re
 
-from mnclab.controls.tnc_620 import later, reader
+from mnclab.controls.tnc_620 import datum_tables, later, reader
 from mnclab.controls.tnc_620.cycles import (
     boring,
     contours,
+    datums,
     defaults,
     drilling,
+    engraving,
+    face_milling,
     pecking,
     pockets,
     program_call,
     slots,
+    special,
     tapping,
     thread_drilling,
     threads,
+    tilting,
     transformations,
 )
 from mnclab.controls.tnc_620.cycles import patterns as point_patterns
@@ -79,6 +84,7 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
+    *tilting.SETTINGS, *engraving.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -86,7 +92,7 @@ FUNCTIONS = feeds.in_all_forms(
     pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | machine_datum.FUNCTIONS | feed_rules.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
-    | pattern_calls.FUNCTIONS | patterns.FUNCTIONS | free_contours.FUNCTIONS
+    | pattern_calls.FUNCTIONS | patterns.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in (
@@ -96,7 +102,8 @@ for chapter in (
     point_patterns,
     pockets, slots,
     contours,
-    transformations,
+    transformations, datums, tilting,
+    special, engraving, face_milling,
     presets,
     program_call,
 ):  # fmt: skip

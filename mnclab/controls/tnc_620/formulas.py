@@ -88,6 +88,11 @@ def text_assignment(target: str, begin: int) -> Read:
     return read
 
 
+def text_formula(cursor: Cursor, begin: int, end: int) -> strings.TextFormula:
+    """The text between two places: that of a QS parameter."""
+    return strings.parse_text(cursor.text[begin:end].strip(), span(cursor, begin))
+
+
 def declared_text(cursor: Cursor) -> None:
     """DECLARE STRING QS1 = …"""
     begin = cursor.blanks()

@@ -93,7 +93,6 @@ NOT_THERE = {
 
 WORDS = {
     **{axis: f"the axis {axis} is not built yet" for axis in "UVWABC"},
-    "#": "datum tables are not built yet",
 }  # fmt: skip
 
 

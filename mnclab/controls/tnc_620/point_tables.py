@@ -13,15 +13,15 @@ its directory, too.
 from __future__ import annotations
 
 import re
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.controls.tnc_620.table_files import Fault, text_of
 from mnclab.controls.tnc_620.words import INCH, LARGEST
 from mnclab.machine.machine import Machine
-from mnclab.text.program import Word, decode
+from mnclab.text.program import Word
 
 SUFFIX = ".PNT"
 UNITS = {"MM": 1.0, "INCH": INCH}
@@ -39,43 +39,13 @@ class PointTable(NamedTuple):
     clearance: NDArray[np.float64]
 
 
-class Fault(Exception):
-    """What is wrong in a line of the file."""
-
-    def __init__(self, message: str, line: int) -> None:
-        super().__init__(f"line {line}: {message}")
-
-
 def read_points(m: Machine, word: Word) -> PointTable:
     """The table that SEL PATTERN names; an alarm at that word if there is none, or for a fault in it."""
-    name = str(word.value)
-    file = name.replace("\\", "/").replace(":", "/").rpartition("/")[2]
-    if not file[:1].isalpha():
-        m.alarm(f"SEL PATTERN {name}: the name of a point table must begin with a letter", word)
-    if "." not in file:
-        name, file = name + SUFFIX, file + SUFFIX
-    if not file.upper().endswith(SUFFIX):
-        m.alarm(f"SEL PATTERN {name}: a point table has the type {SUFFIX}", word)
-    text = find(m, name, file, word)
+    name, text = text_of(m, word, "SEL PATTERN", "point table", SUFFIX)
     try:
         return parse(text)
     except Fault as fault:
         m.alarm(f"SEL PATTERN {name}, {fault}", word)
-
-
-def find(m: Machine, name: str, file: str, word: Word) -> str:
-    """The text of a file of ``Setup.files``."""
-    known = {key.replace("\\", "/").upper(): source for key, source in m.setup.files.items()}
-    source = known.get(name.replace("\\", "/").upper(), known.get(file.upper()))
-    if source is None:
-        names = ", ".join(sorted(m.setup.files)[:8])
-        m.alarm(f"SEL PATTERN {name}: there is no such table", word, hint=f"Setup(files=…) has {names or 'no files'}")
-    if isinstance(source, Path):
-        try:
-            return decode(source.read_bytes())[0]
-        except OSError as error:
-            m.alarm(f"SEL PATTERN {name}: {source} cannot be read: {error.strerror}", word)
-    return source
 
 
 def parse(text: str) -> PointTable:

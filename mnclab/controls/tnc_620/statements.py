@@ -10,7 +10,8 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.formulas import FN, assignment, declared_text, text_assignment
+from mnclab.controls.tnc_620 import sub_blocks
+from mnclab.controls.tnc_620.formulas import FN, assignment, declared_text, text_assignment, text_formula
 from mnclab.controls.tnc_620.labels import (
     JUMPS,
     call_label,
@@ -141,6 +142,8 @@ def cycle_parameters(cursor: Cursor) -> None:
         value: object = None
         if text := cursor.match(TEXT):
             value = text.group(1)
+        elif named := cursor.match(_STRING):
+            value = text_formula(cursor, named.start(), named.end())
         elif word := cursor.match(_FEED_WORD):
             value = re.sub(r"[ \t]", "", word.group()).upper().replace(",", ".")
         else:
@@ -179,20 +182,14 @@ def datum_shift(cursor: Cursor) -> None:
     cursor.words()
 
 
-def axes(cursor: Cursor) -> None:
-    """8.1: letters of axes."""
-    cursor.words(bare="XYZUVWABC")
-
-
 #: How sub-blocks n.1, n.2 … are read; the others are known by their number alone.
 PARTS: dict[str, Read] = {
     "CYCL DEF 7": datum_shift,
-    "CYCL DEF 8": axes,
+    **sub_blocks.READERS,
     "CYCL DEF 10": plain,
     "CYCL DEF 11": plain,
     "CYCL DEF 12": program_of_cycle,
     "CYCL DEF 14": contour_labels,
-    "CYCL DEF 19": plain,
 }
 
 
@@ -202,7 +199,7 @@ def definition(keyword: str, part: int) -> Statement:
         return Statement(keyword, cycle_parameters, cycle_parameters)
     if part == 0:
         return Statement(keyword, ignored, None, 0)
-    read = PARTS.get(keyword, ignored)
+    read = PARTS.get(f"{keyword}.{part}", PARTS.get(keyword, ignored))
     return Statement(keyword, read, read, part)
 
 
@@ -215,14 +212,14 @@ WORDS: dict[str, Read] = {
     "FCT": with_radius, "FSELECT": leading("number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
     "CYCL CALL": plain, "LBL": set_label, "CALL LBL": call_label, "TOOL CALL": tool_call, "TOOL DEF": tool_def,
     "CALL PGM": call_program, "SEL PGM": select_program, "CALL SELECTED PGM": plain, "DECLARE STRING": declared_text,
-    "SEL PATTERN": file_name, "PATTERN DEF": plain,  # whose lines PatternWords reads
+    "SEL PATTERN": file_name, "SEL TABLE": file_name, "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
 
 #: Statements whose rest is not read: keyword -> whether further lines without a number belong to them.
 KEYWORDS_ONLY = {
-    "BLK FORM": False, "SEL CONTOUR": False, "SEL TABLE": False, "DECLARE CONTOUR": True, "CONTOUR DEF": True,
+    "BLK FORM": False, "SEL CONTOUR": False, "DECLARE CONTOUR": True, "CONTOUR DEF": True,
     "PLANE": False, "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
 }  # fmt: skip
 
@@ -237,6 +234,7 @@ _M = re.compile(r"M[ \t]*\d", FLAGS)
 _WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 _PARAMETER_HEAD = re.compile(r"[ \t]*\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
 _FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
+_STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 _DIALOG = re.compile(r"[^\d;~]*")
 _TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 _SLASH = re.compile(r"[ \t]*/")

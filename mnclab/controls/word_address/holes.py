@@ -1,12 +1,40 @@
-"""What fixed cycles at holes of G-word controls share: over the hole, to level R, and up again afterwards."""
+"""What fixed cycles at holes of G-word controls share: their faults, over the hole, to level R, and up again afterwards."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machining.steps import Go
+
+
+def upside_down(bottom: float, r_level: float) -> Iterator[tuple[str, str]]:
+    """A fault where the bottom does not lie below level R."""
+    if not bottom < r_level:
+        yield "bottom", f"must lie below level R, got bottom {bottom:g} and R {r_level:g}"
+
+
+def out_of_place(m: Machine) -> Iterator[tuple[str, str]]:
+    """A fault under radius compensation or in machine coordinates."""
+    if m.side:
+        yield "", "cannot run under radius compensation"
+    if "machine coordinates" in m.memory:
+        yield "", "and G53 stand in one block: the cycle counts from the workpiece"
+
+
+def spindle_stands(m: Machine) -> Iterator[tuple[str, str]]:
+    """A fault where the spindle does not turn."""
+    if not m.spindle_speed:
+        yield "", "needs a turning spindle: write S and M3 or M4 before"
+
+
+def no_pitch(m: Machine) -> Iterator[tuple[str, str]]:
+    """A fault where a tap has no pitch to move by."""
+    yield from spindle_stands(m)
+    if m.feed is None:
+        yield "", "has no feed rate: the pitch is F under G95, and F divided by S under G94"
 
 
 def initial_level(m: Machine, kept: dict[str, Any]) -> float:

@@ -82,7 +82,11 @@ def helix(m: Machine, words: Words) -> None:
 
 def remark(m: Machine, setting: str, sentence: str, words: Words, address: str = "") -> None:
     """What a manual does not describe: a warning, an alarm, or nothing, as a setting wants it."""
-    word = words[address] if address else first_word(words)
+    remark_at(m, setting, sentence, words[address] if address else first_word(words))
+
+
+def remark_at(m: Machine, setting: str, sentence: str, word: Word | None) -> None:
+    """The same at a word."""
     choice = m.settings.get(setting, "warn")
     if choice == "refuse":
         m.alarm(sentence, word, hint=f"setting {setting}")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,15 +28,30 @@ _BITS[65:91] = 1 << np.arange(26)
 _WORD = re.compile(r"([A-Za-z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))?")
 
 
-def reader(control: str, comment: str = r"/[ \t]?/") -> Callable[[str, str], Program]:
-    """A function (text, name) -> Program for a control whose comments begin with ``comment``, a regular expression."""
-    mark = re.compile(comment)
+class Marks(NamedTuple):
+    """What may stand in a line beside words: comments, which begin with a regular expression, and three marks.
+
+    Without ``labels`` N is an address like others. Without ``skip`` a slash at the start of a line means nothing. A line
+    that begins with one of the characters of ``headers`` is one word of that address, without a number.
+    """
+
+    comment: re.Pattern[str]
+    labels: bool = True
+    skip: bool = True
+    headers: str = ""
+
+
+def reader(
+    control: str, comment: str = r"/[ \t]?/", *, labels: bool = True, skip: bool = True, headers: str = ""
+) -> Callable[[str, str], Program]:
+    """A function (text, name) -> Program for a control whose lines hold words and such :class:`Marks`."""
+    mark = Marks(re.compile(comment), labels, skip, headers)
 
     def read(text: str, name: str = "program") -> Program:
         found = scan(text)
         builder = ProgramBuilder(text, name, control, found.starts, comment)
         labels: list[tuple[int, int]] = []  # offset and number of the N words
-        bulk = _clean_blocks(builder, found, labels)
+        bulk = _clean_blocks(builder, found, labels, mark.labels)
         for line in np.flatnonzero(~found.clean):
             _read_line(builder, text, int(found.starts[line]), mark, labels)
         _check_labels(builder, labels)
@@ -44,14 +60,14 @@ def reader(control: str, comment: str = r"/[ \t]?/") -> Callable[[str, str], Pro
     return read
 
 
-def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: list[tuple[int, int]]) -> BulkBlocks:
-    """Blocks of the clean lines; N words are checked and left out."""
+def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: list[tuple[int, int]], labelled: bool) -> BulkBlocks:
+    """Blocks of the clean lines; N words are checked and left out where they label blocks."""
     count = found.count[found.count > 0]
     first = first_words(count)  # of each block
     starts = found.offset[first[:-1]]
     letter, value, offset, length = found.letter, found.value, found.offset, found.length
     is_label = letter == ord("N")
-    if is_label.any():
+    if labelled and is_label.any():
         _note_labels(builder, found, is_label, first[:-1], labels)
         words = ~is_label
         first = first_words(count - np.add.reduceat(is_label, first[:-1], dtype=np.int32))
@@ -113,19 +129,21 @@ def plain_blocks(
     return plain
 
 
-def _read_line(
-    builder: ProgramBuilder, text: str, begin: int, mark: re.Pattern[str], labels: list[tuple[int, int]]
-) -> None:
+def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labels: list[tuple[int, int]]) -> None:
     """One line that is not clean: comment, block skip, words, and the first fault."""
     end = min((k for k in (text.find("\n", begin), text.find("\r", begin)) if k >= 0), default=len(text))
-    comment = mark.search(text, begin, end)
+    comment = mark.comment.search(text, begin, end)
     stop = comment.start() if comment else end
     at = _skip_blanks(text, begin + (text[begin : begin + 1] == "\ufeff"), stop)
     if at >= stop:
         if comment:
             builder.block(stop)
         return
-    skip = text[at] == "/"
+    if text[at] in mark.headers:
+        builder.block(at)
+        builder.word(text[at], None, at, len(text[at:stop].rstrip()))
+        return
+    skip = mark.skip and text[at] == "/"
     builder.block(at, skip=skip)
     at = _skip_blanks(text, at + skip, stop)
     first = True
@@ -140,7 +158,7 @@ def _read_line(
         if match.end() < stop and (after in ".,+-" or after.isdigit()):
             _refuse(builder, text, match.end(), stop)
             return
-        if address == "N":
+        if address == "N" and mark.labels:
             if not first:
                 builder.alarm("N must be the first word of its block", at, length)
             elif not 0 < number < math.inf or number != int(number):

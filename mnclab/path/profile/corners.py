@@ -35,23 +35,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.limits import Limits
+from mnclab.path.toolpath import Toolpath
 
 TANGENT = 5e-4  # rad
 
 Array = NDArray[np.float64]
 Columns = Sequence[Array]  # X, Y and Z
-Rule = Callable[[Columns, Columns, Array, Array, Array, Array], Array]
+Slack = float | Array  # how far a corner may be cut, mm; one for all, or one a corner
+Rule = Callable[[Columns, Columns, Array, Array, Array, Array, Slack], Array]
 
 
 def rule(limits: Limits) -> Rule:
-    """v² (m,) from the tangents before and after, the path accelerations and the lengths of both rows."""
+    """v² (m,) from the tangents before and after, the path accelerations and the lengths of both rows, and the tolerance."""
     accelerations, jerks = limits.axes("acceleration"), limits.axes("jerk")
-    jumps, slack = limits.axes("corner_jump"), limits.corner_tolerance
+    jumps = limits.axes("corner_jump")
     smooth = bool(np.isfinite(jerks).any())
 
-    def tolerance(before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array) -> Array:
+    def tolerance(
+        before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array, slack: Slack
+    ) -> Array:  # fmt: skip
         turn, slow, slower = _changes(before, after, accelerations, jerks if smooth else None)
-        if slack == 0:
+        if not np.any(slack):
             return np.where(turn < TANGENT, np.inf, 0.0)
         with np.errstate(divide="ignore", invalid="ignore"):  # straight on, or a row of no length
             if not smooth:
@@ -64,7 +68,9 @@ def rule(limits: Limits) -> Rule:
         w[turn < TANGENT] = np.inf
         return w
 
-    def deviation(before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array) -> Array:
+    def deviation(
+        before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array, slack: Slack
+    ) -> Array:  # fmt: skip
         half = before[0] * after[0]
         half += before[1] * after[1]
         half += before[2] * after[2]
@@ -76,11 +82,12 @@ def rule(limits: Limits) -> Rule:
         w *= slack
         w *= half
         w /= 1.0 - half
-        if slack == 0:
-            w[half >= 1.0 - TANGENT**2 / 8] = np.inf
+        w[(half >= 1.0 - TANGENT**2 / 8) & np.equal(slack, 0)] = np.inf
         return w
 
-    def jump(before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array) -> Array:
+    def jump(
+        before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array, slack: Slack
+    ) -> Array:  # fmt: skip
         w = np.full(len(a0), np.inf)
         turn = np.zeros(len(a0))
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -107,18 +114,26 @@ def _changes(before: Columns, after: Columns, accelerations: Array, jerks: Array
     return np.sqrt(turn, out=turn), slow, slower
 
 
-def bend_joints(before: Array, after: Array, limits: Limits) -> Array:
+def tolerances(path: Toolpath, limits: Limits) -> Slack:
+    """How far the corners (n - 1,) between rows may be cut: what the program allows on both rows, or else the limits."""
+    if np.isnan(path.tolerance).all():
+        return limits.corner_tolerance
+    own = np.where(np.isnan(path.tolerance), limits.corner_tolerance, path.tolerance)
+    return np.minimum(own[1:], own[:-1])
+
+
+def bend_joints(before: Array, after: Array, limits: Limits, slack: Slack) -> Array:
     """v² (m,) where the curvature vector (m, 3) changes, under a jerk limit."""
     change = np.abs(after - before)
     slow = (change / limits.axes("jerk")).max(axis=1)
     size = np.linalg.norm(change, axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
-        w = np.cbrt(24 * limits.corner_tolerance / (size * slow**2))
+        w = np.cbrt(24 * slack / (size * slow**2))
     largest = np.maximum(np.linalg.norm(before, axis=1), np.linalg.norm(after, axis=1))
     return np.where(size <= TANGENT * largest, np.inf, w)
 
 
-def curves(tangent: Array, length: Array, lines: NDArray[np.bool_], limits: Limits) -> Array:
+def curves(tangent: Array, length: Array, lines: NDArray[np.bool_], limits: Limits, slack: Slack) -> Array:
     """v² (n - 1,) at the corners between rows that are short lines of a curve, 0 elsewhere; for "tolerance" with jerk.
 
     ``tangent`` (n, 3) and ``length`` (n,) of all rows; ``lines`` (n,) says which of them are lines.
@@ -134,5 +149,5 @@ def curves(tangent: Array, length: Array, lines: NDArray[np.bool_], limits: Limi
         w = np.minimum(
             (limits.axes("acceleration") / np.abs(bend)).min(axis=1), np.cbrt(np.minimum(cubed[1:], cubed[:-1])) ** 2
         )
-    fits = corner & (np.linalg.norm(turn, axis=1) * mean <= 8 * limits.corner_tolerance)
+    fits = corner & (np.linalg.norm(turn, axis=1) * mean <= 8 * slack)
     return np.where(fits, np.nan_to_num(w, nan=0.0, posinf=np.inf), 0.0)

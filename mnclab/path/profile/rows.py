@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import corners
@@ -48,7 +49,7 @@ def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, o
     """The programmed feed of some rows, mm/s; inf where the axes alone decide.
 
     Per minute, per revolution (with the speed that the spindle has: the programmed one, not above its limit), in a given
-    time (inverse time feed), or at constant cutting speed S = 1000 v / (2 π x) with x in the middle of the row.
+    time (inverse time feed), or at constant cutting speed, with the spindle speed of the middle of the row.
     """
     part = slice(begin, end)
     feed = path.feed[part] * (override / 60)
@@ -57,9 +58,8 @@ def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, o
         turning = np.abs(path.spindle[part])
         surface = path.surface[part]
         if not np.isnan(surface).all():
-            middle = np.abs(path.start[part, 0] + path.end[part, 0]) / 2
-            with np.errstate(divide="ignore"):
-                turning = np.where(np.isnan(surface), turning, 1000 * surface / (2 * np.pi * middle))
+            middle = (path.start[part, 0] + path.end[part, 0]) / 2 - path.spindle_x[part]
+            turning = np.where(np.isnan(surface), turning, spindle_speed(surface, middle, path.speed_limit[part]))
         turning = np.minimum(turning, limits.spindle)
         feed = np.where(np.isfinite(per_rev), per_rev * turning * (override / 60), feed)
     time = path.time[part]
@@ -79,7 +79,7 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array |
     jerky = bool(np.isfinite(jerks).any())
     length, feed, cap, a = (np.empty(n) for _ in range(4))
     rows = Rows(length, feed, cap, a, np.empty(n if jerky else 0), np.zeros(n + 1))
-    rule = corners.rule(limits)
+    rule, slack = corners.rule(limits), corners.tolerances(path, limits)
     last: list[Array] = []  # the tangent at the end of the piece before
     for i in range(0, n, PIECE):
         j = min(n, i + PIECE)
@@ -124,18 +124,19 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array |
         first = max(i - 1, 0)
         joined = [np.concatenate([one, each[:-1]]) for one, each in zip(last, before)] or [each[:-1] for each in before]
         w = rule(joined, after if i else [each[1:] for each in after], rows.a[first : j - 1], rows.a[first + 1 : j],
-                 rows.length[first : j - 1], rows.length[first + 1 : j])  # fmt: skip
+                 rows.length[first : j - 1], rows.length[first + 1 : j],
+                 slack[first : j - 1] if isinstance(slack, np.ndarray) else slack)  # fmt: skip
         np.minimum(w, rows.cap[first : j - 1], out=w)
         np.minimum(w, rows.cap[first + 1 : j], out=rows.corner[first + 1 : j])
         last = [each[-1:].copy() for each in before]
     if jerky:
-        if limits.corner_speed == "tolerance" and limits.corner_tolerance > 0:
+        if limits.corner_speed == "tolerance" and np.any(slack):
             lines = (path.kind == Kind.LINE) & (rows.length > 0)
             with np.errstate(divide="ignore", invalid="ignore"):
                 tangent = (path.end - path.start) / rows.length[:, None]
-            w = corners.curves(tangent, rows.length, lines, limits)
+            w = corners.curves(tangent, rows.length, lines, limits, slack)
             np.maximum(rows.corner[1:-1], np.minimum(w, np.minimum(rows.cap[1:], rows.cap[:-1])), out=rows.corner[1:-1])
-        _bend_joints(path, rows, limits)
+        _bend_joints(path, rows, limits, slack)
     _stops(path, rows)
     return rows
 
@@ -158,7 +159,7 @@ def _stops(path: Toolpath, rows: Rows) -> None:
         rows.corner[1:][alone] = 0.0
 
 
-def _bend_joints(path: Toolpath, rows: Rows, limits: Limits) -> None:
+def _bend_joints(path: Toolpath, rows: Rows, limits: Limits, slack: corners.Slack) -> None:
     """Under a jerk limit, hold the nodes where an arc begins or ends."""
     arcs = np.flatnonzero((path.kind == Kind.ARC) & (rows.length > 0))
     if not len(arcs):
@@ -167,7 +168,10 @@ def _bend_joints(path: Toolpath, rows: Rows, limits: Limits) -> None:
     at_start, at_end = np.zeros((len(path) + 1, 3)), np.zeros((len(path) + 1, 3))
     at_start[arcs], at_end[arcs + 1] = bends.curvature(0.0), bends.curvature(1.0)
     nodes = np.unique(np.concatenate([arcs, arcs + 1]))
-    rows.corner[nodes] = np.minimum(rows.corner[nodes], corners.bend_joints(at_end[nodes], at_start[nodes], limits))
+    if isinstance(slack, np.ndarray):  # nobody passes the ends at speed
+        slack = np.pad(slack, 1, mode="edge")[nodes] if len(slack) else 0.0
+    held = corners.bend_joints(at_end[nodes], at_start[nodes], limits, slack)
+    rows.corner[nodes] = np.minimum(rows.corner[nodes], held)
 
 
 def allowed(bends: Bends, feed: Array, limits: Limits) -> tuple[Array, Array, Array]:

@@ -23,6 +23,7 @@ from mnclab.text.program import Program
 SCALES = (1e3, 1e4, 1e6)  # parts of a millimetre
 ANGLES = 1e9  # parts of a radian
 DEGREES = 1e6  # parts of a degree, of rotary axes
+SHOWN = ("feed", "per_rev", "surface", "speed_limit", "spindle_x", "spindle", "side")  # columns that the page has as logs
 OFF = 0.02  # mm that a rapid leaves its straight line before its true course is sent
 
 Array = NDArray[np.float64]
@@ -53,7 +54,7 @@ def payload(run: Any, profile: Profile) -> str:
         "path": _geometry(pack, path, scale),
         "programmed": None if programmed is path else _geometry(pack, programmed, scale),
         "row": {"step": pack.add(path.step)}
-        | {name: _log(pack, getattr(path, name)) for name in ("feed", "per_rev", "surface", "spindle", "side")}
+        | {name: _log(pack, getattr(path, name)) for name in SHOWN}
         | {"label": _log(pack, np.array(path.labels, dtype=object)[path.label] if len(path) else [])},
         "position": {
             "at": pack.add([step for step, _ in run.history.changed("position")]),

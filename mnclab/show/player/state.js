@@ -83,11 +83,18 @@ class Board {
   positions(column, point) {
     for (const axis of this.axes) this.find(`${column}-${"XYZ"[axis]}`).textContent = point ? this.shown(point, axis) : "–";
   }
+  // The spindle speed; at constant cutting speed it follows X, but not beyond its limit.
+  turning(row, point) {
+    const {row: columns} = this.run, told = columns.spindle.value(row) || 0, surface = columns.surface.value(row), limit = columns.speed_limit.value(row);
+    if (typeof surface !== "number" || !told) return told;
+    const speed = 1000 * surface / (2 * Math.PI * Math.abs(point[0] - columns.spindle_x.value(row)));
+    return Math.sign(told) * Math.min(speed, typeof limit === "number" ? limit : Infinity);
+  }
   show({step, row, point, speed, item, angles}) {
     const {run, find} = this, at = Math.max(row, 0);
     this.positions("tool", point);
     this.positions("machine", point.map((value, k) => value + run.origin[k]));
-    const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = run.row.spindle.value(at) || 0;
+    const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = this.turning(at, point);
     const kind = row >= 0 ? run.path.kind[row] : -1, own = item >= 0 && run.itemRow[item] === row;
     const programmed = perRev ? `${short(perRev)} mm/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${short(feed)}` : "";
     find("feed").textContent = number(speed * 60, 0);

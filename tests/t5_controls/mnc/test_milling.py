@@ -408,10 +408,13 @@ def test_it_runs_once_and_leaves_the_prepared_cycle():
 
 
 def test_a_frame_mirrors_turns_and_scales_a_pocket():
-    """Climb stays what L says of the program: under one mirror the tool goes round the other way (MNC-POCKET-L)."""
+    """Climb stays what L says of the program: under one mirror the tool goes round the other way (MNC-POCKET-L).
+
+    A scale does not change the tool (MNC-G37-SCOPE): twice the pocket of a tool of half the radius.
+    """
     text, start = "G344 D40 Z0 H-4 P4 Q2 U0.2 K1 F400 V150\n", (10, 5, 40)
-    plain = cycle_rows(run(text, start=start))
     for frame, (x, y), sense in (("G51 X0", (-1, 1), -1), ("G51 X0 Y0", (-1, -1), 1), ("G37 X2 Y2", (2, 2), 1)):
+        plain = cycle_rows(run(text, start=start, radius=5 / abs(x)))
         rows = cycle_rows(run(f"{frame}\n{text}", start=start))
         assert np.allclose(rows.end, plain.end * (x, y, 1))
         assert np.allclose(rows.sweep, plain.sweep * sense)

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mnclab.controls.word_address.holes import approach, initial_level, leave
+from mnclab.controls.word_address.holes import approach, initial_level, leave, no_pitch, out_of_place, upside_down
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
@@ -99,15 +99,11 @@ class FixedCycle(Cycle):
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """The bottom lies below level R."""
-        if not self.bottom < self.r_level:
-            yield "bottom", f"must lie below level R, got bottom {self.bottom:g} and R {self.r_level:g}"
+        yield from upside_down(self.bottom, self.r_level)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """No radius compensation, no machine coordinates."""
-        if m.side:
-            yield "", "cannot run under radius compensation"
-        if "machine coordinates" in m.memory:
-            yield "", "and G53 stand in one block: the cycle counts from the workpiece"
+        yield from out_of_place(m)
 
 
 @CYCLES("G83", "Deep-hole drilling", runs="position", source="MNC 9.1", triggers=POSITION)
@@ -154,10 +150,7 @@ class Tapping(FixedCycle):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """As all fixed cycles; and the spindle turns."""
         yield from super().check(m)
-        if not m.spindle_speed:
-            yield "", "needs a turning spindle: write S and M3 or M4 before"
-        if m.feed is None:
-            yield "", "has no feed rate: the pitch is F under G95, and F divided by S under G94"
+        yield from no_pitch(m)
 
     def moves(self, m: Machine) -> None:
         """The cycle runs at a feed per revolution; F in mm/min is divided by the speed."""

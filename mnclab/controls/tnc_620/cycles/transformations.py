@@ -1,7 +1,7 @@
-"""Coordinate transformations (chapter 11): the datum shift and the rotation.
+"""Mirror image, rotation and scaling (11.5 to 11.8): each acts as soon as it is defined, about the datum that is active then.
 
-Each acts as soon as it is defined, about the datum that is active then: the frames form a chain in the order of
-definition. A new value replaces the old one in its place; a neutral one takes the frame out of the chain.
+The tool is neither mirrored nor scaled: its radius is that of the tool table on the machine, and it stays on the side of the
+contour on which it was. The chain of the transformations is in :mod:`~mnclab.controls.tnc_620.cycles.chain`.
 """
 
 from __future__ import annotations
@@ -10,56 +10,45 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from mnclab.controls.tnc_620.cycles import chain
+from mnclab.controls.tnc_620.cycles.addresses import FAR
 from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
-FAR = 99999.9999  # mm
+SMALLEST, LARGEST = 0.000001, 99.999999  # of a factor
+NOT_BUILT = "UVW"  # secondary axes
 
 
-@CYCLES("CYCL DEF 7", "Datum shift", runs="definition", source="11.2")
-class DatumShift(Cycle):
-    """Moves the datum; IX counts from the shift that was valid before, an axis that is not named keeps its shift."""
+@CYCLES("CYCL DEF 8", "Mirroring", runs="definition", source="11.5")
+class Mirroring(Cycle):
+    """Coordinates of the named axes change their sign about the active datum; without an axis the mirror image is over."""
 
-    x: float | None = param(
-        "X", "datum shift along X", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True
-    )
-    y: float | None = param(
-        "Y", "datum shift along Y", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True
-    )
-    z: float | None = param(
-        "Z", "datum shift along Z", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True
-    )
-
-    @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
-        """Increments are added to the shift as it is."""
-        for name, before in zip("xyz", shift(m), strict=True):
-            if name in given and given[name].incremental:
-                values[name] += before
-        return values
+    mirrored_axes: tuple[str, ...] | None = param(
+        "axes", "mirrored axes", "text", default=None, default_means="none: no mirror image", modal=True, type="text",
+        several=True, note="letters: X, Y, X Y; not the tool axis",
+    )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """At least one axis."""
-        if self.x is self.y is self.z is None:
-            yield "", "needs an axis, for example CYCL DEF 7.1 X+60"
+        """At most three, each once, not the tool axis while a tool is called, and only those that are there."""
+        named = self.mirrored_axes or ()
+        if len(named) > 3:
+            yield "mirrored_axes", f"must be at most three, got {' '.join(named)}"
+        if twice := next((axis for axis in named if named.count(axis) > 1), None):
+            yield "mirrored_axes", f"names {twice} twice"
+        if "Z" in named and m.tool.number:
+            yield "mirrored_axes", "cannot be the tool axis Z"
+        if absent := next((axis for axis in named if axis in NOT_BUILT), None):
+            yield "mirrored_axes", f"cannot be {absent}: this axis is not built yet"
 
     def moves(self, m: Machine) -> None:
-        """No motion: the register is read anew from where the tip stands."""
-        x, y, z = (
-            before if new is None else new for new, before in zip((self.x, self.y, self.z), shift(m), strict=True)
-        )
-        m.set_frame("shift", frames.shift(x, y, z) if (x, y, z) != (0, 0, 0) else None, keep="tip")
-
-
-def shift(m: Machine) -> tuple[float, float, float]:
-    """The active datum shift, mm."""
-    x, y, z = m.frames["shift"][:3, 3].tolist()
-    return x, y, z
+        """No motion; an arc turns the other way and RL becomes RR where one axis of the plane is mirrored."""
+        named = self.mirrored_axes or ()
+        linear = "".join(axis for axis in named if axis in "XYZ")
+        m.memory[chain.ROTARY_MIRROR] = "".join(axis for axis in named if axis in "ABC")
+        chain.define(m, chain.MIRROR, frames.mirror(linear) if linear else None)
 
 
 @CYCLES("CYCL DEF 10", "Rotation", runs="definition", source="11.6")
@@ -76,19 +65,65 @@ class Rotation(Cycle):
     ) -> dict[str, Any]:
         """An increment within its range is added to the active angle; the sum has no limit and counts modulo a whole turn."""
         if "angle" in given and given["angle"].incremental and abs(values["angle"]) <= 360:
-            values["angle"] = math.fmod(m.memory.get("rotation", 0.0) + values["angle"], 360)
+            values["angle"] = math.fmod(chain.angle_of(m) + values["angle"], 360)
         return values
 
     def moves(self, m: Machine) -> None:
         """No motion: the register is read anew from where the tip stands."""
         m.change("side", 0)
-        m.memory["rotation"] = self.angle
-        m.set_frame("rotation", frames.turn(math.radians(self.angle)) if self.angle % 360 else None, keep="tip")
+        chain.remember_angle(m, self.angle)
+        chain.define(m, chain.ROTATION, frames.turn(math.radians(self.angle)) if self.angle % 360 else None)
 
 
-def cancel(m: Machine) -> None:
-    """The end of a program takes every transformation away (11.1)."""
-    for name, _ in list(m.frames):
-        if name not in m.frames.slots:
-            m.set_frame(name, None)
-    m.memory.pop("rotation", None)
+def factor(address: str, meaning: str, **more: Any) -> Any:
+    """A factor of enlargement or reduction."""
+    return param(address, meaning, "ratio", at_least=SMALLEST, at_most=LARGEST, modal=True, **more)
+
+
+@CYCLES("CYCL DEF 11", "Scaling", runs="definition", source="11.7")
+class Scaling(Cycle):
+    """Multiplies all coordinates, radii and lengths of cycles with a factor about the active datum; 1 is the end of it."""
+
+    scaling_factor: float = factor("SCL", "scaling factor")
+
+    def moves(self, m: Machine) -> None:
+        """No motion."""
+        s = self.scaling_factor
+        chain.define(m, chain.SCALE, frames.scale(s, s, s) if s != 1 else None)
+
+
+def centre(address: str) -> Any:
+    """CCX, CCY, CCZ."""
+    return param(
+        address, f"centre of the scaling along {address[-1]}", default=None, default_means="the active datum",
+        at_least=-FAR, at_most=FAR, modal=True,
+    )  # fmt: skip
+
+
+@CYCLES("CYCL DEF 26", "Axis-specific scaling", runs="definition", source="11.8")
+class AxisScaling(Cycle):
+    """A factor for each axis, about a centre: coordinates that share an arc must have the same one. An axis left out has 1."""
+
+    x: float = factor("X", "factor along X", default=1)
+    y: float = factor("Y", "factor along Y", default=1)
+    z: float = factor("Z", "factor along Z", default=1)
+    centre_x: float | None = centre("CCX")
+    centre_y: float | None = centre("CCY")
+    centre_z: float | None = centre("CCZ")
+
+    @classmethod
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
+        """Factors and centre are absolute; at least one axis is named."""
+        for word in given.values():
+            if word.incremental:
+                m.alarm(f"{cls.code} takes no incremental value, got I{word.address}", word)
+        if not {"x", "y", "z"} & given.keys():
+            m.alarm(f"{cls.code} needs an axis and its factor, for example CYCL DEF 26.1 X 1.4 Y 0.6", None)
+        return values
+
+    def moves(self, m: Machine) -> None:
+        """No motion."""
+        scales, about = (self.x, self.y, self.z), (self.centre_x or 0.0, self.centre_y or 0.0, self.centre_z or 0.0)
+        chain.define(m, chain.FACTORS, frames.scale(*scales, about) if scales != (1, 1, 1) else None)

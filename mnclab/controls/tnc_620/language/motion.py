@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
 from mnclab.controls.tnc_620.language.feeds import feed
 from mnclab.controls.tnc_620.language.machine_datum import DATUM, machine_target
 from mnclab.controls.tnc_620.language.pole import polar_point, pole
@@ -64,7 +65,7 @@ def line(m: Machine, words: Words) -> None:
         m.warn("L with polar coordinates is read as LP", polar[0])
         to["x"], to["y"] = polar_point(m, words)
     turned = rotary_angles(m, words)
-    moves = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))) != m.tip
+    moves = math.dist(m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))), m.tip) > 1e-9  # a frame rounds
     if turned != angles(m) and not moves:
         turn_axes(m, turned, f)
         return
@@ -75,12 +76,12 @@ def line(m: Machine, words: Words) -> None:
 
 
 def rotary_angles(m: Machine, words: Words) -> Angles:
-    """Where the rotary axes go, degrees; IA counts from where it stands."""
+    """Where the rotary axes go, degrees, behind their shift and mirror image; IA counts from where it stands."""
     found = list(angles(m))
     for k, axis in enumerate(AXES_OF_ROTATION):
         if axis in words:
             value = m.value(words[axis])
-            found[k] = found[k] + value if words[axis].incremental else value
+            found[k] = to_rotary(m, k, value + to_angle(m, k, found[k]) if words[axis].incremental else value)
     return found[0], found[1], found[2]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.cycles.transformations import cancel
+from mnclab.controls.tnc_620.cycles.chain import cancel
 from mnclab.controls.tnc_620.language import parameters
 from mnclab.controls.tnc_620.words import INCH
 from mnclab.machine.control import FunctionTable, Words

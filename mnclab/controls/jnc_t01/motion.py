@@ -1,0 +1,238 @@
+"""Motion: G00 to G03, the one-shot moves G12, G14 and G32, dwell, and the frames of G92 and of the correctors.
+
+X is a radius, or with the setting ``diameter`` a diameter that is halved where it is read; the machine knows radii only.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from mnclab.controls.jnc_t01.feeds import cutting_feed, follow_speed
+from mnclab.controls.word_address.motion import first_word
+from mnclab.geometry import frames
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.machine import Machine
+from mnclab.machine.performing import locked
+from mnclab.machining.threading import lead_along
+
+FUNCTIONS = FunctionTable()
+AXES = {"X": 0, "Z": 2}
+ONCE = "08"
+
+
+def scale(m: Machine, address: str) -> float:
+    """mm of radius for 1 in a word X or U, mm for 1 in any other."""
+    return 0.5 if address in "XU" and m.settings["diameter"] else 1.0
+
+
+def coordinate(m: Machine, address: str, value: float) -> float:
+    """The coordinate, mm, that a number of X, Z, U or W means: from part zero, or under G91 from where the tool stands."""
+    value *= scale(m, address)
+    return value if m.modal["dimension"] == "G90" else value + m.programmed[0 if address in "XU" else 2]
+
+
+def targets(m: Machine, words: Words) -> dict[str, Any]:
+    """Where the axes that are written go; a corrector chosen before counts from now on."""
+    to = {axis.lower(): coordinate(m, axis, m.value(words[axis])) for axis in AXES if axis in words}
+    if to:
+        use_corrector(m)
+    return to
+
+
+@FUNCTIONS("G0", "Rapid positioning", group="motion", takes="X Z", power_on="G0", moves=True, source="8.1")
+def rapid(m: Machine, words: Words) -> None:
+    """Straight to X, Z at rapid."""
+    if to := targets(m, words):
+        m.rapid(**to)
+
+
+@FUNCTIONS("G1", "Linear interpolation", group="motion", takes="X Z", moves=True, source="8.2")
+def line(m: Machine, words: Words) -> None:
+    """Straight to X, Z at feed."""
+    if to := targets(m, words):
+        m.line(**to, f=cutting_feed(m, first_word(words)), word=first_word(words))
+
+
+ARCS = {"G2": "Circular interpolation clockwise", "G3": "Circular interpolation counter-clockwise"}
+
+
+@FUNCTIONS("G2 G3", ARCS, group="motion", takes="X Z R I K", moves=True, source="8.3, 8.4")
+def arc(m: Machine, words: Words) -> None:
+    """To X, Z about the centre I, K from the start, or with the radius R (negative: more than half a circle).
+
+    The sense is that seen with Z to the right and X up.
+    """
+    offsets = [words[c] for c in "IK" if c in words]
+    if len(words.words) == 1 and words.words[0].address == "G":
+        return  # the code alone: it only becomes active
+    if "X" not in words and "Z" not in words:
+        m.alarm(f"{words.code} needs X or Z", first_word(words))
+    if not offsets and "R" not in words:
+        m.alarm(f"{words.code} needs R, or I or K", first_word(words), "they count for one block only")
+    if offsets and "R" in words:
+        m.alarm(
+            f"R and {offsets[0].address} stand in one block: the centre is given twice", words["R"], "keep one of them"
+        )
+    to, sense, tolerance = targets(m, words), 1 if words.code == "G3" else -1, m.settings["arc_tolerance"]
+    head = words["R"] if "R" in words else offsets[0]
+    feed = cutting_feed(m, first_word(words))
+    if "R" in words:
+        radius = m.value(head)
+        if radius == 0:
+            m.alarm(f"{words.code} R (radius) must not be 0", head)
+        m.arc(**to, sense=sense, radius=radius, f=feed, word=head, tolerance=tolerance)
+        return
+    centre = {k: m.programmed[k] + (m.value(words[c]) if c in words else 0.0) for c, k in (("I", 0), ("K", 2))}
+    m.arc(**to, sense=sense, centre=centre, f=feed, word=head, tolerance=tolerance)
+
+
+# --- moves of one block ----------------------------------------------------------------------------------------------
+
+CORNERS = {"G12": "Straight line with fillet of 90 degrees", "G14": "Straight line with chamfer of 45 degrees"}
+SIZES = {"G12": "fillet radius", "G14": "chamfer size"}
+
+
+@FUNCTIONS("G12 G14", CORNERS, group=ONCE, modal=False, moves=True, owns=True, takes="X Z R", source="8.6, 8.7")
+def corner(m: Machine, words: Words) -> None:
+    """Along one axis, and at its end by R into the other: a quarter circle or a chamfer. R has the sign of that way."""
+    head = first_word(words)
+    named = [words[axis] for axis in AXES if axis in words]
+    if len(named) != 1:
+        m.alarm(f"{words.code} needs either X or Z, got {'both' if named else 'none'}", named[1] if named else head)
+    if "R" not in words:
+        m.alarm(f"{words.code} R ({SIZES[words.code]}) is missing", head)
+    word, size = named[0], m.value(words["R"])
+    along, across = (0, 2) if word.address == "X" else (2, 0)
+    start, end = m.programmed, coordinate(m, word.address, m.value(word))
+    way = end - start[along]
+    if abs(size) > abs(way) * (1 + 1e-12):
+        sentence = f"must be at most the way along {word.address}, {abs(way):.10g} mm, got {size:g}"
+        m.alarm(f"{words.code} R ({SIZES[words.code]}) {sentence}", words["R"])
+    use_corrector(m)
+    turn = end - math.copysign(abs(size), way)
+    middle, last = list(start), list(start)
+    middle[along], last[along], last[across] = turn, end, start[across] + size
+    centre = {along: turn, across: start[across] + size}
+    round_it = words.code == "G12" and size != 0
+    lengths = abs(turn - start[along]), abs(size) * (math.pi / 2 if round_it else math.sqrt(2))
+    feeds = shared(m, cutting_feed(m, head), lengths)
+    m.label = f"{words.code} line"
+    if lengths[0]:
+        m.line(x=middle[0], z=middle[2], f=feeds[0], word=head)
+    m.label = f"{words.code} {'fillet' if words.code == 'G12' else 'chamfer'}"
+    if round_it:
+        sense = (1 if way * size > 0 else -1) * (1 if along == 2 else -1)
+        m.arc(x=last[0], z=last[2], sense=sense, centre=centre, f=feeds[1], word=head)
+    elif size:
+        m.line(x=last[0], z=last[2], f=feeds[1], word=head)
+    m.label = ""
+
+
+def shared(m: Machine, feed: float | None, lengths: tuple[float, ...]) -> list[float | None]:
+    """The feeds of the parts of one programmed move: under G93 its time is shared by their lengths."""
+    total = sum(lengths)
+    if not m.per_time or m.feed is None or not total:
+        return [feed for _ in lengths]
+    return [-m.feed * part / total for part in lengths]
+
+
+@FUNCTIONS("G32", "Thread move", group=ONCE, modal=False, moves=True, owns=True, takes="X Z F", source="8.8")
+def thread(m: Machine, words: Words) -> None:
+    """Straight to X, Z with the spindle; the axis with the longer way advances F in a turn. Starts at the zero mark."""
+    head = first_word(words)
+    if "F" not in words:
+        m.alarm("G32 F (thread pitch) is missing", head)
+    if "X" not in words and "Z" not in words:
+        m.alarm("G32 needs X or Z", head)
+    pitch = m.value(words["F"])
+    if not pitch > 0:
+        m.alarm(f"G32 F (thread pitch) must be greater than 0, got {pitch:g}", words["F"])
+    if not m.spindle_speed:
+        m.alarm("G32 needs a turning spindle", head, hint="write S and M3 before the move")
+    if m.surface is not None:
+        m.warn(
+            "G32 under constant cutting speed (G96): the spindle speed changes where X does", head, "write G97 S first"
+        )
+    start, to = m.programmed, targets(m, words)
+    way = [to.get(axis, start[k]) - start[k] for axis, k in (("x", 0), ("z", 2))]
+    m.label = "G32 thread"
+    if any(way):
+        with locked(m, lead_along(way[0], way[1], pitch)):
+            m.line(**to, word=head)
+    m.label = ""
+
+
+@FUNCTIONS("G4", "Dwell", group=ONCE, phase="dwell", modal=False, still=True, owns=True, takes="F", source="8.5")
+def dwell(m: Machine, words: Words) -> None:
+    """A pause of F seconds."""
+    if "F" not in words:
+        m.alarm("G4 F (dwell, s) is missing", first_word(words))
+    m.end_block()  # M5, M9: before the pause
+    m.dwell(m.value(words["F"]))
+
+
+# --- frames ----------------------------------------------------------------------------------------------------------
+
+
+@FUNCTIONS(
+    "G92", "Zero offset", group=ONCE, phase="dwell", modal=False, still=True, owns=True, takes="X Z", source="8.16"
+)  # fmt: skip
+def zero_offset(m: Machine, words: Words) -> None:
+    """Puts the origin to X, Z of part zero (G90; what is left out is 0), or shifts it by X, Z (G91). Nothing moves."""
+    m.end_block()
+    given = {k: m.value(words[axis]) * scale(m, axis) if axis in words else 0.0 for axis, k in AXES.items()}
+    old = m.frames["offset"][:3, 3] if m.modal["dimension"] == "G91" else (0.0, 0.0, 0.0)
+    x, z = (float(old[k]) + given[k] for k in (0, 2))
+    m.set_frame("offset", frames.shift(x, 0.0, z) if x or z else None)
+    follow_speed(m)
+
+
+def corrector(m: Machine, words: Words) -> None:
+    """The offsets of corrector L count from the next motion on, in both axes; L0 has none."""
+    number = int(m.value(words["L"]))
+    if number and number not in m.tables.correctors:
+        if number not in (told := m.memory.setdefault("empty correctors", set())):
+            told.add(number)
+            message = f"L{number} (corrector) has no offsets: they count as 0"
+            m.warn(message, words["L"], hint="Setup(correctors={…}) gives them")
+    m.memory["corrector"] = number
+    m.log("corrector", number)
+
+
+FUNCTIONS("L", "Corrector", phase="corrector", source="3, table 1")(corrector)
+
+
+def use_corrector(m: Machine) -> None:
+    """The next motion takes up the offsets of the corrector chosen last."""
+    number = m.memory.get("corrector", 0)
+    if number != m.memory.get("active corrector", 0):
+        m.memory["active corrector"] = number
+        row = m.tables.correctors.get(number)
+        shift = frames.shift(row.x, 0.0, row.z) if row and (row.x or row.z) else None
+        m.set_frame("corrector", shift, "programmed")
+
+
+HOME: dict[str, tuple[str, str]] = {
+    "M60": ("Home X and Z", "XZ"), "M61": ("Home X", "X"), "M63": ("Home Z", "Z"),
+}  # fmt: skip
+
+
+@FUNCTIONS(
+    " ".join(HOME), {code: title for code, (title, _) in HOME.items()},
+    phase="motion", modal=False, still=True, source="9.29 to 9.31",
+)  # fmt: skip
+def home(m: Machine, words: Words) -> None:
+    """To the machine's zero position at rapid, the axes together; where it lies is a setting."""
+    use_corrector(m)
+    x, _, z = m.to_program((m.settings["home_x"], 0.0, m.settings["home_z"]))
+    to = {axis.lower(): {"X": x, "Z": z}[axis] for axis in HOME[words.code][1]}
+    m.label = f"{words.code} home"
+    m.rapid(**to)
+    m.label = ""
+
+
+def plain(m: Machine) -> bool:
+    """Whether words of motion mean nothing but motion now: radii, a feed per minute, no corrector to take up."""
+    pending = m.memory.get("corrector", 0) != m.memory.get("active corrector", 0)
+    return not (m.settings["diameter"] or m.per_time or pending or m.surface is not None)

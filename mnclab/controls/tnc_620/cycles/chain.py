@@ -1,0 +1,105 @@
+"""The chain of transformations (11.1): in the order of definition, one place for each kind before the tilt and one behind.
+
+A new value replaces the old one in its place; a neutral one takes the frame out, and a later definition is appended. What is
+defined while the plane is tilted acts in the tilted system; it is a frame of its own, with the mark :data:`TILTED`.
+
+Rotary axes have no frame: their shift and their mirror image are kept in the memory of the machine, see :func:`to_rotary`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mnclab.geometry.frames import Matrix
+from mnclab.machine.machine import Machine
+
+SHIFT, MIRROR, ROTATION, SCALE, FACTORS = "shift", "mirror", "rotation", "scale", "axis scales"
+KINDS = (SHIFT, MIRROR, ROTATION, SCALE, FACTORS)
+TILT = "tilt"
+TILTED = " (tilted)"
+ALSO = " (before)"  # what outlived its tilt, beside one of its kind
+ROTARY_SHIFT, ROTARY_MIRROR, ANGLES = "rotary shift", "rotary mirror", "rotation angles"
+REST = (0.0, 0.0, 0.0)
+
+
+def place(m: Machine, kind: str) -> str:
+    """The name of the frame that a definition of a kind sets now."""
+    return kind + TILTED if TILT in m.frames else kind
+
+
+def define(m: Machine, kind: str, matrix: Matrix | None) -> None:
+    """Set the frame of a kind where it belongs, None for a neutral one; the register is read anew from where the tip stands."""
+    name = place(m, kind)
+    if name == kind and kind + ALSO in m.frames:  # one value stands for both
+        m.set_frame(kind + ALSO, None)
+    m.set_frame(name, matrix, keep="tip")
+
+
+def shift_of(m: Machine) -> tuple[float, float, float]:
+    """The datum shift that a new one replaces, mm."""
+    name = place(m, SHIFT)
+    x, y, z = (m.frames[name][:3, 3] + (m.frames[SHIFT + ALSO][:3, 3] if name == SHIFT else 0.0)).tolist()
+    return x, y, z
+
+
+def angle_of(m: Machine) -> float:
+    """The rotation that a new one replaces, degrees."""
+    angles: dict[str, float] = m.memory.get(ANGLES, {})
+    name = place(m, ROTATION)
+    return angles.get(name, 0.0) + (angles.get(ROTATION + ALSO, 0.0) if name == ROTATION else 0.0)
+
+
+def remember_angle(m: Machine, angle: float) -> None:
+    """Note the rotation that is set now, degrees."""
+    name = place(m, ROTATION)
+    kept = {key: value for key, value in m.memory.get(ANGLES, {}).items() if key != ROTATION + ALSO or name != ROTATION}
+    m.memory[ANGLES] = {**kept, name: angle}
+
+
+def untilt(m: Machine) -> list[str]:
+    """Take the tilt out; what was defined behind it acts in the untilted system from now on. The kinds of those are told."""
+    left = []
+    for kind in KINDS:
+        if kind + TILTED in m.frames:
+            now = kind if kind not in m.frames else kind + ALSO
+            m.frames.rename(kind + TILTED, now)
+            if kind == ROTATION:
+                angles = dict(m.memory.get(ANGLES, {}))
+                m.memory[ANGLES] = {**angles, now: angles.pop(kind + TILTED, 0.0)}
+            left.append(kind)
+    m.set_frame(TILT, None)
+    return left
+
+
+def reset(m: Machine) -> None:
+    """Take the transformations of cycles 7, 8, 10, 11 and 26 away; a tilt stays (11.4)."""
+    for name, _ in list(m.frames):
+        if name != TILT and name not in m.frames.slots:
+            m.set_frame(name, None)
+    for name in (ANGLES, ROTARY_SHIFT, ROTARY_MIRROR):
+        m.memory.pop(name, None)
+
+
+def cancel(m: Machine) -> None:
+    """The end of a program takes every transformation away (11.1)."""
+    reset(m)
+    m.set_frame(TILT, None)
+
+
+def rotary(m: Machine) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Shift (degrees) and sense (1 or -1) of the axes A, B and C."""
+    shift: Any = m.memory.get(ROTARY_SHIFT, REST)
+    mirrored = m.memory.get(ROTARY_MIRROR, "")
+    return shift, tuple(-1.0 if axis in mirrored else 1.0 for axis in "ABC")
+
+
+def to_rotary(m: Machine, axis: int, angle: float) -> float:
+    """The position of a rotary axis, degrees, for an angle of the program."""
+    shift, sense = rotary(m)
+    return shift[axis] + sense[axis] * angle
+
+
+def to_angle(m: Machine, axis: int, position: float) -> float:
+    """The angle of the program, degrees, for a position of a rotary axis."""
+    shift, sense = rotary(m)
+    return sense[axis] * (position - shift[axis])

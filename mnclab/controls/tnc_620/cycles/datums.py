@@ -1,0 +1,107 @@
+"""Datums: cycle 7 with values or with a row of a datum table, cycle 247 with a row of the preset table (11.2 to 11.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from mnclab.controls.tnc_620.cycles import chain
+from mnclab.controls.tnc_620.cycles.addresses import FAR
+from mnclab.controls.tnc_620.datum_tables import row_of
+from mnclab.geometry import frames
+from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.machine import Machine
+from mnclab.machine.setup import Datum
+from mnclab.text.program import Word
+
+CYCLES = CycleTable()
+AXES = "xyzabc"
+
+
+def axis_shift(address: str) -> Any:
+    """The shift of one axis."""
+    return param(
+        address, f"datum shift along {address}" if address in "XYZ" else f"datum shift of {address}",
+        "mm" if address in "XYZ" else "deg", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True,
+    )  # fmt: skip
+
+
+@CYCLES("CYCL DEF 7", "Datum shift", runs="definition", source="11.2")
+class DatumShift(Cycle):
+    """Moves the datum; IX counts from the shift that was valid before, an axis that is not named keeps its shift.
+
+    ``#5`` takes the shift from a row of the active datum table; an empty field there leaves its axis as it is.
+    """
+
+    x: float | None = axis_shift("X")
+    y: float | None = axis_shift("Y")
+    z: float | None = axis_shift("Z")
+    a: float | None = axis_shift("A")
+    b: float | None = axis_shift("B")
+    c: float | None = axis_shift("C")
+    datum_number: float | None = param(
+        "#", "row of the datum table", "count", default=None, default_means="the shift is written", at_least=0,
+        at_most=9999, modal=True, type="integer",
+    )  # fmt: skip
+
+    @classmethod
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
+        """Increments are added to the shift as it is."""
+        for name, before in zip(AXES, (*chain.shift_of(m), *chain.rotary(m)[0]), strict=True):
+            if name in given and given[name].incremental:
+                values[name] += before
+        return values
+
+    @property
+    def written(self) -> dict[str, float]:
+        """The axes that are named, with their values."""
+        return {axis: value for axis in AXES if (value := getattr(self, axis)) is not None}
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """Either axes or the row of a table."""
+        if not self.written and self.datum_number is None:
+            yield "", "needs an axis, for example CYCL DEF 7.1 X+60"
+        if self.written and self.datum_number is not None:
+            yield "datum_number", "and shifts of axes cannot stand in one definition"
+        elif self.datum_number is not None:
+            try:
+                row_of(m, int(self.datum_number))
+            except LookupError as error:
+                yield "datum_number", str(error.args[0])
+
+    def moves(self, m: Machine) -> None:
+        """No motion: the register is read anew from where the tip stands."""
+        new = self.written if self.datum_number is None else row_of(m, int(self.datum_number))
+        x, y, z = (new.get(axis, before) for axis, before in zip("xyz", chain.shift_of(m), strict=True))
+        turned = tuple(new.get(axis, before) for axis, before in zip("abc", chain.rotary(m)[0], strict=True))
+        m.memory[chain.ROTARY_SHIFT] = turned
+        chain.define(m, chain.SHIFT, frames.shift(x, y, z) if (x, y, z) != (0, 0, 0) else None)
+
+
+@CYCLES("CYCL DEF 247", "Presetting", runs="definition", source="11.4")
+class Presetting(Cycle):
+    """Makes a row of the preset table the datum of the program; cycles 7, 8, 10, 11 and 26 are over, a tilt stays."""
+
+    preset_number: float = param(
+        "Q339", "number of the preset", "count", at_least=0, at_most=65535, modal=True, type="integer",
+        note="0: the one set by hand",
+    )  # fmt: skip
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A row of the table; row 0 is always there."""
+        row = int(self.preset_number)
+        if row and row not in m.tables.presets:
+            known = ", ".join(map(str, sorted(m.tables.presets))) or "none but 0"
+            yield "preset_number", f"names row {row}, which the preset table does not have (rows: {known})"
+        preset = m.tables.presets.get(row, Datum())
+        if any((preset.a, preset.b, preset.c, preset.rotation)):
+            yield "preset_number", f"names row {row}, which carries a rotation: that is not built yet"
+
+    def moves(self, m: Machine) -> None:
+        """No motion: the register is read anew from where the tip stands."""
+        row = int(self.preset_number)
+        chain.reset(m)
+        m.memory["preset"] = row
+        m.select_datum(m.tables.presets.get(row, Datum()), "preset")

@@ -1,0 +1,139 @@
+"""Engraving, cycle 225 (12.6): a text on a straight line or round a circle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from datetime import UTC, datetime
+
+from mnclab.controls.tnc_620 import engraved_text
+from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.machine.cycle import CycleTable, param
+from mnclab.machine.machine import Machine
+from mnclab.machine.performing import perform
+from mnclab.machine.settings import Setting
+from mnclab.machining.engraving import Glyph, cells, engrave, length, on_arc, on_line
+from mnclab.machining.steps import Go
+from mnclab.text.strings import TextFormula
+
+CYCLES = CycleTable()
+SETTINGS = (
+    Setting("clock", 0.0, "the time that %time engraves, from 1970 in UTC; 0: now", "12.6", unit="s", at_least=0),
+    Setting("counter", 0, "what %count engraves", "12.6", at_least=0),
+)
+
+FONTS: dict[float, str] = {0: "DejaVuSans"}
+LAYOUTS: dict[float, str] = {0: "on a straight line", 1: "on an arc, legible", 2: "on an arc, all the way round"}
+REFERENCES: dict[float, str] = {
+    0: "centre of the circle, or bottom left", 1: "bottom left", 2: "bottom centre", 3: "bottom right", 4: "top right",
+    5: "top centre", 6: "top left",
+}  # fmt: skip
+
+
+@CYCLES("CYCL DEF 225", "Engraving", runs="call", source="12.6")
+class Engraving(AtSurface):
+    """Engraves a text, stroke by stroke; the tool stands at its reference point at the call.
+
+    The letters are single strokes with the widths of DejaVu Sans. Behind % stand umlauts, time and counter; \\n is a new line.
+    """
+
+    text: str | TextFormula = param(("Q500", "QS500"), "text", "text", modal=True, type="text")
+    character_height: float = addresses.length(
+        "Q513", "character height", note="0: as the length Q574 asks", example=10
+    )
+    spacing_factor: float = param(
+        "Q514",
+        "spacing factor",
+        "ratio",
+        at_least=0,
+        at_most=9.9999,
+        modal=True,
+        note="0: as the letters have it",
+        example=0,
+    )
+    font: float = addresses.choice("Q515", "font", FONTS, default=0, note="its widths; the strokes are our own")
+    text_layout: float = addresses.choice("Q516", "text layout", LAYOUTS, example=0)
+    angle: float = addresses.angle("Q374", "angle of rotation", note="on an arc that of the reference point", example=0)
+    arc_radius: float = addresses.length("Q517", "radius of the arc", example=50)
+    feed: float = addresses.milling_feed(example=750)
+    depth: float = addresses.depth(example=-0.5)
+    plunge_feed: float = addresses.plunge_feed(example=150)
+    clearance: float = addresses.clearance(predef=True, example=2)
+    surface: float = addresses.surface(example=0)
+    second_clearance: float = addresses.second_clearance(predef=True, example=50)
+    text_position: float = addresses.choice("Q367", "text position", REFERENCES, default=0, example=1)
+    maximum_text_length: float = param(
+        "Q574", "greatest text length", default=0, at_least=0, at_most=addresses.FAR, modal=True, note="0: no limit"
+    )
+
+    def depths(self) -> dict[str, float]:
+        """One."""
+        return {"depth": self.depth}
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """A radius for an arc, and a height."""
+        if self.text_layout and not self.arc_radius:
+            yield "arc_radius", "must be greater than 0 for a text on an arc, got 0"
+        if not self.character_height and not self.maximum_text_length:
+            yield "character_height", "and Q574 are both 0: one of them says how large the text is"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A text that can be engraved, in its length; feeds."""
+        if not isinstance(self.text, str | TextFormula):
+            yield "text", "must be a text in quotes or a QS parameter"
+            return
+        for name in ("feed", "plunge_feed"):
+            if getattr(self, name) == 0:
+                yield name, "must be greater than 0, got 0"
+        try:
+            found = self.tokens(m)
+            height = self.height(found)
+            self.glyphs(found, height)
+        except ValueError as error:
+            yield "text", str(error)
+            return
+        long, most = length(cells(found, self.spacing_factor)) * height, self.maximum_text_length
+        if most and long > most + 1e-9:
+            yield "maximum_text_length", f"is {most:g}, the text is {long:.3f} long"
+
+    def tokens(self, m: Machine) -> list[str]:
+        """The characters of the text as they are now."""
+        clock = m.settings["clock"]
+        try:
+            now = datetime.fromtimestamp(clock, UTC) if clock else datetime.now()
+        except (ValueError, OverflowError, OSError):
+            m.alarm(f"setting clock: {clock:g} seconds from 1970 are no time that can be written")
+        text = self.text if isinstance(self.text, str) else self.text.evaluate(m.variables)
+        return engraved_text.tokens(text, now, int(m.settings["counter"]))
+
+    def height(self, found: list[str]) -> float:
+        """The height of a capital; ValueError for a text without width that should have a length."""
+        if self.character_height:
+            return self.character_height
+        if not (long := length(cells(found, self.spacing_factor))):
+            raise ValueError("has no character whose height Q574 could give")
+        return self.maximum_text_length / long
+
+    def glyphs(self, found: list[str], height: float) -> list[Glyph]:
+        """Every character in its place, from where the tool stands."""
+        row, angle, reference = cells(found, self.spacing_factor), math.radians(self.angle), int(self.text_position)
+        if self.text_layout == 0:
+            return on_line(row, height, reference, angle)
+        sense = 1 if self.text_layout == 1 and self.angle % 360 > 180 else -1
+        return on_arc(row, height, reference, angle, self.arc_radius, sense)
+
+    def moves(self, m: Machine) -> None:
+        """Stroke by stroke; nothing where the depth is 0."""
+        if self.depth == 0:
+            return
+        found = self.tokens(m)
+        height = self.height(found)
+        if m.programmed[2] < self.above and self.down > 0:
+            perform(m, self.code, [Go("to the clearance level", self.above)])
+        way = engrave(
+            self.glyphs(found, height), height, above=self.above, floor=self.surface + self.depth,
+            plunge=self.plunge_feed, feed=self.feed,
+        )  # fmt: skip
+        perform(m, self.code, way)
+        perform(m, self.code, self.leave())

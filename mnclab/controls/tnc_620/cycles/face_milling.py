@@ -1,0 +1,148 @@
+"""Face milling, cycle 232 (12.7): a rectangle on parallel lines, in equal infeeds and a finishing one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.machine import Machine
+from mnclab.machine.performing import perform
+from mnclab.machining.clearing import Clearing, numbered
+from mnclab.machining.depths import DRIFT
+from mnclab.machining.face_milling import Layer, face
+from mnclab.machining.facing import lines, rows
+from mnclab.machining.steps import Go
+
+CYCLES = CycleTable()
+MOST = 100_000  # lines of one cycle, all its levels together
+STRATEGIES: dict[float, str] = {
+    0: "meander, stepover outside the surface",
+    1: "meander, stepover at its edge",
+    2: "one way, retraction and back at the positioning feed",
+}
+
+
+@CYCLES("CYCL DEF 232", "Face milling", runs="call", source="12.7")
+class FaceMilling(Cycle):
+    """Mills a level surface in several infeeds, each level backwards over the one before; the last one finishes."""
+
+    strategy: float = addresses.choice("Q389", "machining strategy", STRATEGIES, example=2)
+    start_1st_axis: float = addresses.coordinate("Q225", "starting point, first axis", example=10)
+    start_2nd_axis: float = addresses.coordinate("Q226", "starting point, second axis", example=12)
+    start_3rd_axis: float = addresses.coordinate("Q227", "coordinate of the surface", example=2.5)
+    end_3rd_axis: float = addresses.coordinate("Q386", "coordinate to mill down to", example=-3)
+    first_side_length: float = addresses.coordinate(
+        "Q218", "first side length", incremental=True, note="the sign is the direction of the first line", example=150
+    )
+    second_side_length: float = addresses.coordinate(
+        "Q219",
+        "second side length",
+        incremental=True,
+        note="the sign is the direction of the first stepover",
+        example=75,
+    )
+    maximum_plunging_depth: float = addresses.length("Q202", "greatest infeed", incremental=True, example=2)
+    floor_allowance: float = addresses.length(
+        "Q369", "finishing allowance for the floor", incremental=True, note="the last infeed", example=0.5
+    )
+    maximum_overlap: float = param(
+        "Q370", "greatest path overlap factor", "ratio", at_least=0.1, at_most=1.9999, modal=True, example=1,
+        note="times the tool radius is the stepover",
+    )  # fmt: skip
+    feed: float = addresses.milling_feed(example=500)
+    finishing_feed: float = addresses.feed(
+        "Q385", "finishing feed rate", ("FAUTO", "FU", "FZ"), at_most=addresses.FAR, example=800
+    )
+    prepositioning_feed: float = addresses.feed(
+        "Q253", "feed rate for pre-positioning", ("FMAX", "FAUTO"), at_most=addresses.FAR, example=2000
+    )
+    clearance: float = addresses.clearance(example=2)
+    side_clearance: float = addresses.length("Q357", "clearance to the side", incremental=True, example=2)
+    second_clearance: float = addresses.second_clearance(predef=True, example=50)
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """Downwards."""
+        if self.end_3rd_axis > self.start_3rd_axis:
+            yield "end_3rd_axis", f"must not lie above Q227 = {self.start_3rd_axis:g}, got {self.end_3rd_axis:g}"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """An infeed, a tool that is flat below, a plane where the tool stays round; nothing where nothing is milled."""
+        if self.height == 0:
+            return
+        if self.maximum_plunging_depth == 0 and self.roughing > DRIFT:
+            yield "maximum_plunging_depth", "must be greater than 0, got 0"
+        if not m.radius > 0:
+            yield "", f"needs a tool with a radius, got {m.radius:g}"
+        if self.flat(m) <= 0:
+            yield "", f"needs a tool that is flat below, got R {m.radius * m.scale:g} and R2 {m.tool.corner:g}"
+        if not m.keeps_circles:
+            yield "", "cannot run under unequal scales of the plane"
+        for name in ("feed", "finishing_feed", "prepositioning_feed"):
+            if getattr(self, name) == 0:
+                yield name, "must be greater than 0, got 0"
+        yield from too_many("maximum_plunging_depth", self.levels)
+        yield from too_many("maximum_overlap", lambda: self.across(self.flat(m)))
+        if len(self.levels()) * len(self.across(self.flat(m))) > MOST:
+            yield "maximum_overlap", f"makes more than {MOST} lines"
+
+    @property
+    def height(self) -> float:
+        """A: what is taken off."""
+        return self.start_3rd_axis - self.end_3rd_axis
+
+    @property
+    def roughing(self) -> float:
+        """A_r: what is taken off before the finishing infeed."""
+        return self.height - self.floor_allowance
+
+    @staticmethod
+    def flat(m: Machine) -> float:
+        """R_e: the radius of what is flat below the tool."""
+        return m.radius - m.tool.corner / m.scale
+
+    def levels(self) -> tuple[float, ...]:
+        """Equal infeeds down to the allowance, and then the allowance."""
+        last = self.end_3rd_axis
+        rough: tuple[float, ...] = ()
+        if self.roughing > DRIFT:
+            rough = rows(self.start_3rd_axis, last + self.floor_allowance, self.maximum_plunging_depth)[1:]
+        return (*rough, last) if self.floor_allowance else rough
+
+    def across(self, flat: float) -> tuple[float, ...]:
+        """Where the lines lie: the first on the edge or, with an overlap over 1, inside; the edge of the last on the far edge."""
+        first, last = max(0.0, self.maximum_overlap - 1) * flat, abs(self.second_side_length) - flat
+        places = rows(first, last, self.maximum_overlap * flat) if last > first else (first,)
+        return tuple(self.start_2nd_axis + math.copysign(place, self.second_side_length) for place in places)
+
+    def lines(self, m: Machine) -> Clearing:
+        """The lines of the first level."""
+        ahead, near = math.copysign(1.0, self.first_side_length), self.start_1st_axis
+        far, outside = near + self.first_side_length, ahead * (m.radius + self.side_clearance)
+        edges = (near, far) if self.strategy == 1 else None
+        return lines(
+            self.across(self.flat(m)), near - outside, far + outside, m.radius, one_way=self.strategy == 2, within=edges,
+            leave=True,
+        )  # fmt: skip
+
+    def layers(self, m: Machine) -> Iterator[Layer]:
+        """Every second level backwards; the finishing infeed at its own feed."""
+        passes, levels = self.lines(m), self.levels()
+        for k, (name, level) in enumerate(zip(numbered("level", len(levels)), levels, strict=True)):
+            finishing = bool(self.floor_allowance) and k == len(levels) - 1
+            feed = self.finishing_feed if finishing else self.feed
+            link = feed if self.strategy == 1 else self.prepositioning_feed
+            way = passes.reversed() if k % 2 else passes
+            yield Layer("finishing" if finishing else name, level, way, feed, link, self.prepositioning_feed)
+
+    def moves(self, m: Machine) -> None:
+        """Steps 1 to 9 of the manual."""
+        if self.height == 0:
+            return
+        above = self.start_3rd_axis + self.clearance
+        high = self.start_3rd_axis + max(self.second_clearance, self.clearance)
+        if m.programmed[2] <= high:
+            perform(m, self.code, [Go("to the second set-up clearance", high)])
+        perform(m, self.code, face(list(self.layers(m)), above, self.clearance), (0.0, 0.0))
+        perform(m, self.code, [Go("retract", high)])

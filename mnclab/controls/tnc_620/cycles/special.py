@@ -1,0 +1,145 @@
+"""Special cycles (chapter 12): dwell, spindle orientation, tolerance, ascertaining the load, thread cutting.
+
+Engraving and face milling have files of their own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import ClassVar
+
+from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.machine import Machine
+from mnclab.machine.performing import perform
+from mnclab.machining.steps import Spin, Step, Thread, Wait
+from mnclab.path.recorder import NAN
+
+CYCLES = CycleTable()
+
+ORIENTATION = "spindle angle"  # in the memory: where M19 and M20 stop the spindle, degrees
+FILTERS: dict[float, str] = {0: "finishing: more exact", 1: "roughing: faster"}
+LOADS: dict[float, str] = {0: "forget the values found before", 1: "weigh: the axes move to find the load"}
+
+
+@CYCLES("CYCL DEF 9", "Dwell time", runs="definition", source="12.2")
+class DwellTime(Cycle):
+    """The program waits; the spindle turns on."""
+
+    dwell_time: float = param("DWELL", "dwell", "s", at_least=0, at_most=addresses.LONG)
+
+    def moves(self, m: Machine) -> None:
+        """One wait."""
+        m.dwell(self.dwell_time)
+
+
+@CYCLES("CYCL DEF 13", "Oriented spindle stop", runs="definition", source="12.4")
+class SpindleOrientation(Cycle):
+    """Stores the angle at which M19 or M20 stops the spindle; cycles 202, 204 and 209 overwrite it."""
+
+    orientation_angle: float = param("ANGLE", "angle of the spindle", "deg", at_least=0, at_most=360, modal=True)
+
+    def moves(self, m: Machine) -> None:
+        """No motion."""
+        m.memory[ORIENTATION] = self.orientation_angle
+        m.log("orientation", self.orientation_angle)
+
+
+@CYCLES("CYCL DEF 32", "Tolerance", runs="definition", source="12.5")
+class Tolerance(Cycle):
+    """How far the tool may leave the contour at corners, to go faster: the profile counts with it, the path stays as it is.
+
+    Without T, or with 0, the tolerance is that of the machine. Filter and tolerance of rotary axes are kept in the history.
+    """
+
+    tolerance: float | None = param(
+        "T", "permissible contour deviation", default=None, default_means="that of the machine", at_least=0, at_most=10,
+        modal=True, note="0: that of the machine",
+    )  # fmt: skip
+    hsc_mode: float = param("HSC-MODE", "filter", "choice", choices=FILTERS, default=0, modal=True)
+    rotary_axis_tolerance: float = param(
+        "TA", "permissible deviation of rotary axes", "deg", default=0, at_least=0, at_most=10, modal=True,
+        note="with M128; 0: that of the machine",
+    )  # fmt: skip
+
+    def moves(self, m: Machine) -> None:
+        """No motion."""
+        m.tolerance, m._state = self.tolerance or NAN, None
+        m.log("tolerance", self.tolerance or 0.0)
+        m.log("filter", FILTERS[self.hsc_mode])
+        m.log("tolerance of rotary axes", self.rotary_axis_tolerance)
+
+
+def hobbing_tolerance(contact_length: float, rotary_tolerance: float) -> float:
+    """T (mm) that TA (degrees) costs an end mill whose flank cuts over a contact length, mm (12.5): K L TA, K = 0.0175."""
+    return 0.0175 * contact_length * rotary_tolerance
+
+
+def toroid_rotary_tolerance(major_radius: float, tolerance: float) -> float:
+    """The angle (degrees) that a tolerance T (mm) allows a toroid cutter of a major radius, mm (12.5): 180 T / (π R)."""
+    return math.degrees(tolerance / major_radius)
+
+
+@CYCLES("CYCL DEF 239", "Ascertaining the load", runs="definition", source="12.8")
+class LoadAscertaining(Cycle):
+    """Finds what the load of the table weighs, or forgets it. How the axes move for that only the machine knows: no path."""
+
+    load: float = param("Q570", "what to do", "choice", choices=LOADS, modal=True)
+
+    def moves(self, m: Machine) -> None:
+        """No path; a message where the axes would move."""
+        m.log("load", LOADS[self.load])
+        if self.load:
+            m.message(
+                f"{self.code}: the axes would move here to weigh the load, as the machine tool builder has set; no path"
+            )
+
+
+@CYCLES("CYCL DEF 18", "Thread cutting", runs="call", source="12.9")
+class ThreadCutting(Cycle):
+    """Cuts a thread from where the tool stands with the spindle locked to the feed; the tool stays at the bottom.
+
+    The spindle must stand still before: the cycle turns it, clockwise where pitch and depth have opposite signs. A second
+    call with the depth reversed runs the thread back.
+    """
+
+    thread_depth: float = param(
+        "DEPTH",
+        "depth of the thread from where the tool stands",
+        at_least=-99999,
+        at_most=99999,
+        incremental=True,
+        modal=True,
+    )
+    thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, note="positive: a right-hand thread")
+
+    own_spindle: ClassVar[bool] = True
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """A pitch, within what the control can hold."""
+        if self.thread_pitch == 0 or abs(self.thread_pitch) > addresses.FAR:
+            yield (
+                "thread_pitch",
+                f"must be at most {addresses.FAR:.10g} either way and not 0, got {self.thread_pitch:g}",
+            )
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A spindle that stands still and has a speed."""
+        if m.turning:
+            yield "", "needs a spindle that stands still: it would stop it and cut with no rotation; write M5 before"
+        if not m.speed:
+            yield "", "needs a spindle speed: write S in TOOL CALL"
+
+    def steps(self, m: Machine) -> Iterator[Step]:
+        """On, into the thread, off; a wait where the machine has one."""
+        opposite = (self.thread_pitch > 0) != (self.thread_depth > 0)
+        yield Spin("spindle on", 1 if opposite else -1)
+        yield Thread("cut the thread", m.programmed[2] + self.thread_depth, abs(self.thread_pitch))
+        yield Spin("stop the spindle", 0)
+        yield Wait("wait for the spindle", m.settings["thread_wait"])
+
+    def moves(self, m: Machine) -> None:
+        """Nothing where the depth is 0."""
+        if self.thread_depth:
+            perform(m, self.code, self.steps(m))

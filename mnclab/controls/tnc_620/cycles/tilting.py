@@ -1,0 +1,165 @@
+"""Cycle 19, the tilted working plane (11.9): rotation, shift and cycles act in a system that is tilted about the active datum.
+
+Positions are those of the tool tip on the workpiece, so heads and tables look the same. Which axes the machine has (setting
+"rotary_axes") and whether the angles of the cycle are spatial or those of the axes ("tilt_angles") is up to its builder.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from mnclab.controls.tnc_620.cycles import chain
+from mnclab.controls.tnc_620.cycles.addresses import FAR, FAST
+from mnclab.geometry import tilting
+from mnclab.geometry.frames import Matrix
+from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.machine import Machine
+from mnclab.machine.rotary import Angles, set_angles, turn_axes
+from mnclab.machine.settings import Setting
+from mnclab.text.program import Word
+
+CYCLES = CycleTable()
+SETTINGS = (
+    Setting(
+        "rotary_axes", "CA", "which rotary axes there are, the one that carries the other first", "11.9",
+        {pair: f"{pair[0]} carries {pair[1]}" for pair in tilting.PAIRS},
+    ),
+    Setting(
+        "tilt_angles", "spatial", "what the angles of cycle 19 are", "11.9",
+        {"spatial": "turns about the fixed axes X, then Y, then Z", "axes": "positions of the rotary axes"},
+    ),
+)  # fmt: skip
+AXES = "ABC"
+ANGLES = "tilt angles"  # in the memory: those of the active cycle 19, degrees
+RESULTS = {"A": "Q120", "B": "Q121", "C": "Q122"}
+
+
+def tilt(axis: str) -> Any:
+    """The angle of an axis."""
+    return param(
+        axis,
+        f"tilt angle {axis}",
+        "deg",
+        default=None,
+        default_means="as it is",
+        at_least=-360,
+        at_most=360,
+        modal=True,
+    )
+
+
+@CYCLES("CYCL DEF 19", "Working plane", runs="definition", source="11.9")
+class WorkingPlane(Cycle):
+    """Tilts the working plane about the active datum and writes where the rotary axes must stand into Q120 to Q122.
+
+    F and ABST move them there while the point ABST below the tip stands still; without them the program does. Without a word
+    the function is off.
+    """
+
+    angle_a: float | None = tilt("A")
+    angle_b: float | None = tilt("B")
+    angle_c: float | None = tilt("C")
+    rotary_feed: float | None = param(
+        "F", "feed of the rotary axes", "mm/min", default=None, default_means="they are not moved", at_least=0,
+        at_most=FAST, modal=True, note="degrees a minute",
+    )  # fmt: skip
+    set_up_clearance: float | None = param(
+        "ABST", "set-up clearance", default=None, default_means="they are not moved", at_least=0, at_most=FAR,
+        modal=True, incremental=True, note="how far below the tip the point is that stands still",
+    )  # fmt: skip
+
+    @classmethod
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
+        """Angles are absolute; one that is not written is that of the cycle before."""
+        for word in given.values():
+            if word.incremental:
+                m.alarm(f"{cls.code} takes no incremental value, got I{word.address}", word)
+        if given:
+            before: Mapping[str, float] = m.memory.get(ANGLES, {})
+            values |= {f"angle_{axis}": before.get(axis, 0.0) for axis in "abc" if f"angle_{axis}" not in given}
+        return values
+
+    @property
+    def angles(self) -> dict[str, float]:
+        """A, B and C, degrees."""
+        return {"A": self.angle_a or 0.0, "B": self.angle_b or 0.0, "C": self.angle_c or 0.0}
+
+    @property
+    def off(self) -> bool:
+        """Whether the function is switched off: no word was written."""
+        return self.angle_a is None
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """No compensation, both words of the positioning or none, and only axes that are there."""
+        if m.side:
+            yield "", "cannot tilt the plane under radius compensation: write R0 before"
+        if (self.rotary_feed is None) != (self.set_up_clearance is None):
+            name = "rotary_feed" if self.rotary_feed is None else "set_up_clearance"
+            yield name, "is missing: to position the rotary axes both F and ABST are needed"
+        if self.rotary_feed == 0:
+            yield "rotary_feed", "must be greater than 0 to position the rotary axes, got 0"
+        pair: str = m.settings["rotary_axes"]
+        if m.settings["tilt_angles"] == "axes":
+            for axis, angle in self.angles.items():
+                if angle and axis not in pair:
+                    yield (
+                        f"angle_{axis.lower()}",
+                        f"must be 0, got {angle:g}: the rotary axes are {' and '.join(sorted(pair))}",
+                    )
+
+    def moves(self, m: Machine) -> None:
+        """The frame, the results, and the motion of the rotary axes where it is asked for."""
+        if self.off:
+            m.memory.pop(ANGLES, None)
+            if chain.TILT in m.frames and (left := chain.untilt(m)):
+                m.warn(f"{self.code} is switched off, and {', '.join(left)} defined behind it act in the untilted system",
+                       None, "reset in the reverse order of definition")  # fmt: skip
+            return
+        m.memory[ANGLES] = {axis.lower(): angle for axis, angle in self.angles.items()}
+        m.set_frame(chain.TILT, self.matrix(m), keep="tip")
+        to = self.positions(m)
+        for axis, name in RESULTS.items():
+            m.variables[name] = round(math.degrees(to[axis]), 12)
+        if self.rotary_feed is not None:
+            self.position(m, to)
+
+    def matrix(self, m: Machine) -> Matrix:
+        """The tilted system in the untilted one."""
+        radians = {axis: math.radians(angle) for axis, angle in self.angles.items()}
+        if m.settings["tilt_angles"] == "axes":
+            return tilting.of_axes(m.settings["rotary_axes"], radians)
+        return tilting.spatial(*radians.values())
+
+    def positions(self, m: Machine) -> dict[str, float]:
+        """Where A, B and C must stand, rad."""
+        now, pair = dict(zip(AXES, m.rotary, strict=True)), m.settings["rotary_axes"]
+        if m.settings["tilt_angles"] == "axes":
+            return now | {axis: math.radians(angle) for axis, angle in self.angles.items() if axis in pair}
+        tool_axis = (m.frames.before(chain.TILT) @ m.frames[chain.TILT])[:3, 2]
+        return now | tilting.nearest(tilting.positions(pair, tool_axis, now), now)
+
+    def position(self, m: Machine, to: Mapping[str, float]) -> None:
+        """Turn the axes together; the point ABST below the tip stands still, so the tip goes round it."""
+        assert self.rotary_feed is not None and self.set_up_clearance is not None
+        pair = m.settings["rotary_axes"]
+        now = dict(zip(AXES, m.rotary, strict=True))
+        travel = self.set_up_clearance * (tilting.direction(pair, to) - tilting.direction(pair, now))
+        way = math.degrees(max(abs(to[axis] - now[axis]) for axis in AXES))
+        if not way:
+            return
+        m.label = f"{self.code} tilt"
+        if not (length := math.hypot(*travel)):
+            turn_axes(m, degrees(to), self.rotary_feed)
+            return
+        set_angles(m, degrees(to))
+        m.line(*m.to_program(p + d for p, d in zip(m.tip, travel, strict=True)), f=length * self.rotary_feed / way)
+
+
+def degrees(angles: Mapping[str, float]) -> Angles:
+    """A, B and C, degrees."""
+    a, b, c = (math.degrees(angles[axis]) for axis in AXES)
+    return a, b, c

@@ -1,0 +1,83 @@
+"""The rows of a machine: what one move or event adds to the path.
+
+The feed of a move is known beforehand, except where it depends on the way: a move in a given time is as fast as it is
+long, and at constant cutting speed the spindle follows X, and a feed per revolution follows the spindle. Such a row has
+the mean feed of its way, the speed at its end, and in the columns ``surface``, ``speed_limit`` and ``spindle_x`` what
+the speed on the way follows from.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.cutting_speed import mean_turn, spindle_speed
+from mnclab.path.kinds import Kind
+from mnclab.path.recorder import NAN
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+
+Point = tuple[float, float, float]
+PARTS = 64  # of an arc, within each of which the radius is taken as changing evenly
+
+
+def add_row(
+    m: Machine, kind: Kind, tip: Point, centre: Point = (NAN, NAN, NAN), angle: float = 0.0, feed: float = NAN,
+    time: float = NAN, joint: Any = None,
+) -> None:  # fmt: skip
+    """Add a row that ends at a tip. A feed below 0 is the time of the move, in seconds with a minus."""
+    recorder, number = m.recorder, -1
+    if joint is not None:
+        number = len(recorder.joints)
+        recorder.joints.append(joint)
+    other_feed = m.per_rev and feed != (m.feed or 0.0) * abs(m.spindle_speed)  # a rapid, or a feed in mm/min of a cycle
+    if feed < 0:
+        time, feed = -feed, -60 * length(m, kind, tip, centre, angle) / feed
+    if m.surface is not None and kind <= Kind.PROBE:
+        if m.per_rev and not other_feed:
+            assert m.feed is not None
+            feed = m.feed / mean_turn(m.surface, radii(m, kind, tip, centre, angle), m.speed_limit)
+        m.change("speed", speed_at(m, tip))
+    state = m.state() if m._state is None else m._state
+    if m.exact_here and not m.exact:
+        state = recorder.state(recorder.states[state]._replace(exact=True))
+    if other_feed:
+        state = recorder.state(recorder.states[state]._replace(per_rev=NAN))
+    label = recorder.label(m.label) if m.label else 0
+    recorder.add((kind, m.source_line, m.step, label, *tip, *centre, angle, feed, time, number, state))
+
+
+def spindle_axis(m: Machine) -> float:
+    """Where the spindle axis lies, machine coordinates: at X0 of the program."""
+    return m.to_machine((0.0, 0.0, 0.0))[0]
+
+
+def speed_at(m: Machine, tip: Point) -> float:
+    """The spindle speed that the constant cutting speed asks for at a tip, rev/min; the present one without it."""
+    if m.surface is None:
+        return m.speed
+    return float(spindle_speed(m.surface, tip[0] - spindle_axis(m), m.speed_limit))
+
+
+def length(m: Machine, kind: Kind, tip: Point, centre: Point, angle: float) -> float:
+    """The length of a row from where the tool stands, mm."""
+    if kind != Kind.ARC:
+        return math.dist(m.tip, tip)
+    spoke, axis = np.subtract(m.tip, centre), np.array(m.recorder.states[m.state()].axis)
+    along = float(np.subtract(tip, m.tip) @ axis)
+    return math.hypot(float(np.linalg.norm(spoke - (spoke @ axis) * axis)) * angle, along)
+
+
+def radii(m: Machine, kind: Kind, tip: Point, centre: Point, angle: float) -> NDArray[np.float64]:
+    """Signed distances (k,) from the spindle axis, at equal steps of the way; between them straight."""
+    here = spindle_axis(m)
+    if kind != Kind.ARC:
+        return np.array([m.tip[0] - here, tip[0] - here])
+    turn = np.linspace(0.0, angle, PARTS + 1)
+    spoke, axis = np.subtract(m.tip, centre), np.array(m.recorder.states[m.state()].axis)
+    across = float(np.cross(axis, spoke)[0])
+    return np.asarray(centre[0] - here + spoke[0] * np.cos(turn) + across * np.sin(turn))
