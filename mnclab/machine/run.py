@@ -158,14 +158,20 @@ class Run:
     def when(self, condition: str) -> Moments:
         """The moments at which a condition becomes true: ``run.when("z < -5")``, ``run.when("Q5 > 3")``.
 
-        Names are those of variables, and x y z d (tool tip, mm), feed, spindle, tool, radius, side, line; see
-        :mod:`mnclab.machine.moments`. The place is exact, within lines and arcs too.
+        Names are those of variables, and x y z d (tool tip, mm), a b c (rotary axes, degrees), feed, spindle, tool, radius,
+        side, line. The place is exact, within lines and arcs too, unless coordinates are multiplied or in a function; see
+        :mod:`mnclab.machine.moments`, and ``.exact`` of the result.
         """
         return when(self, condition)
 
-    def explain(self, line: int | None = None, pass_: int = 1, step: int | None = None) -> Explanation:
-        """A block in plain words: what each word means and changed, and the way from the programmed point to the tool."""
-        return Explanation(self, self.at(line, pass_, step))
+    def explain(
+        self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0
+    ) -> Explanation:
+        """A block in plain words: what each word means and changed, and the way from the programmed point to the tool.
+
+        The block is named as for :meth:`at`.
+        """
+        return Explanation(self, self.at(line, pass_, step, program))
 
     def profile(self, limits: Limits | str | None = None, *, override: float = 1.0) -> Profile:
         """When the tool is where, and how fast, under the limits of a machine: those of the setup, others, or those

@@ -49,7 +49,8 @@ REFUSED = {letter: _NO_ADDRESS for letter in "ABCEHJOPQVY"} | {
 MEANINGS = {
     "I": "centre along X from the start", "K": "centre along Z from the start", "R": "radius",
     "G12 R": "fillet radius, signed", "G14 R": "chamfer size, signed", "G4 F": "seconds", "G32 F": "pitch, mm",
-    "G92 X": "origin along X", "G92 Z": "origin along Z",
+    "G96 S": "cutting speed, m/min",
+    "G97 S": "spindle speed, rev/min", "G92 X": "origin along X", "G92 Z": "origin along Z",
 }  # fmt: skip
 
 ONCE = {"G4", "G12", "G14", "G32", "G92", *cycles.CYCLES}

@@ -58,6 +58,7 @@ CONTROL = Control(
     codes=("G",),
     read=read,
     functions=functions.FUNCTIONS,
+    meanings={"M": "auxiliary function", "G25 P": "first * 1000 + last frame, then how often"},
     cycles=turning.CYCLES,
     phases=("motion",),
     settings=SETTINGS,

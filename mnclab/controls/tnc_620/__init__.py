@@ -37,6 +37,7 @@ from mnclab.controls.tnc_620.language import (
     feeds,
     flow,
     free_contours,
+    free_words,
     joints,
     machine_datum,
     motion,
@@ -124,6 +125,7 @@ MEANINGS = {
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
     "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length", "file": "name of a file",
+    **free_words.EXPLAINED, **{f"M118:{axis}": f"how far the handwheel may move {axis}" for axis in "XYZABC"},
     **{f"PATTERN DEF {address}": meaning for address, meaning in patterns.MEANINGS.items()},
 }  # fmt: skip
 

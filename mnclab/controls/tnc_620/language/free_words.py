@@ -21,6 +21,21 @@ if TYPE_CHECKING:
 MEANINGS = {"LEN": "length", "R": "radius", "CCA": "central angle", "D": "distance", "DP": "distance of parallels"}
 
 
+#: What the words are, for run.explain: those of any statement, and those that mean something else elsewhere.
+EXPLAINED = {
+    "AN": "angle of the line, or of the tangent at the start", "CLSD": "begin (+) or end (-) of a closed contour",
+    "CCX": "circle centre's X", "CCY": "circle centre's Y", "CCPR": "circle centre's polar radius",
+    "CCPA": "circle centre's polar angle", "PAR": "block of the parallel line", "DP": "distance of parallels",
+    "PDX": "X of the point that D counts from", "PDY": "Y of the point that D counts from",
+    **{f"P{n}{axis}": f"{axis} of auxiliary point {n}" for n in (1, 2, 3) for axis in "XY"},
+    "RX": "block that IX counts from", "RY": "block that IY counts from", "RPR": "block that IPR counts from",
+    "RPA": "block that IPA counts from", "RAN": "block that IAN counts from", "RCCX": "block that ICCX counts from",
+    "RCCY": "block that ICCY counts from", "RCCPR": "block that ICCPR counts from", "RCCPA": "block that ICCPA counts from",
+    **{f"{code} D": "distance of the auxiliary point" for code in ("FL", "FLT", "FC", "FCT")},
+    "FSELECT number": "which of the possible contours",
+}  # fmt: skip
+
+
 def describe(chain: Chain, m: Machine, words: Words, k: int) -> None:
     """Every word of the block of element k."""
     contour, arc = chain.contour, words.code in ("FC", "FCT")
