@@ -132,7 +132,7 @@ def test_a_block_of_a_called_program_is_explained():
             "tnc-620",
             "1 BLK FORM 0.1 Z X-1 Y-2 Z-3\n2 BLK FORM 0.2 X4 Y5 Z0",
             2,
-            ["stock: X-1 Y-2 Z-3 -> X-1 Y-2 Z-3 to X4 Y5 Z0"],
+            ["X-1 Y-2 Z-3 -> X-1 Y-2 Z-3 to X4 Y5 Z0"],
         ),
         ("jnc-t01", "G96 S120 F0.2", 1, ["cutting speed, m/min"]),
         ("tnc-620", "1 TOOL CALL 1 Z S1000\n2 L X+1 R0 FMAX M3", 2, ["no radius compensation", "rapid traverse"]),
