@@ -21,7 +21,7 @@ This module is the front door, and nothing else: it imports numpy only.
 from typing import TYPE_CHECKING
 
 from mnclab.controls import CONTROLS as controls
-from mnclab.controls.choice import Help, help, read, run
+from mnclab.controls.choice import Help, help, modern, read, run
 from mnclab.machine.run import Run
 from mnclab.machine.setup import Datum, Probe, Setup
 from mnclab.path.kinds import Kind
@@ -50,11 +50,13 @@ __all__ = [
     "Tool",
     "Toolpath",
     "compare",
+    "compare_turning",
     "controls",
     "diff",
     "editor",
     "form",
     "help",
+    "modern",
     "panel",
     "read",
     "run",
@@ -66,6 +68,16 @@ def compare(region: object, tool: object, *strategies: object, **options: object
     from mnclab.comparison.strategies import compare as build
 
     return build(region, tool, *strategies, **options)  # type: ignore[arg-type]
+
+
+def compare_turning(profile: object, blank: float, *arguments: object, **options: object) -> object:
+    """Roughing schemes of turning on a profile side by side, a table when shown: `comparison.turning` (needs shapely).
+
+    `profile` is an open contour of points (z, r) from the face to the chuck, `blank` the radius of the blank, mm.
+    """
+    from mnclab.comparison.turning import compare as build
+
+    return build(profile, blank, *arguments, **options)  # type: ignore[arg-type]
 
 
 def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) -> "Deviation":
@@ -82,7 +94,9 @@ def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) 
     paths = [each.toolpath if isinstance(each, Run) else each for each in (one, other)]
     names = [each.program.name if isinstance(each, Run) else "path" for each in (one, other)]
     if names[0] == names[1]:
-        names = [f"the first {names[0]}", f"the second {names[1]}"]
+        controls = [each.control.name if isinstance(each, Run) else "" for each in (one, other)]
+        marks = ["first", "second"] if controls[0] == controls[1] else controls
+        names = [f"the {mark} {name}" for mark, name in zip(marks, names)]
     return deviation(paths[0], paths[1], (names[0], names[1]), step, times=times)
 
 

@@ -20,6 +20,7 @@ from mnclab.path.toolpath import Toolpath
 
 Array = NDArray[np.float64]
 PLACES = 4000  # of a path, if no step is given
+SAME = 1e-9  # mm; paths no farther apart than this are the same
 CHUNK, GROUP = 256, 64  # places at a time; strokes that share a box
 
 
@@ -79,9 +80,9 @@ class Deviation:
     def rows(self) -> list[tuple[str, str, str]]:
         """What the table shows: a quantity, and its value on each path."""
         one, other = self.paths
-        places = [point(place) for place in self.where[:2]] if self.where else ["", ""]
+        apart = self.where if not self.largest < SAME else None
         found = [
-            ("farthest apart", places[0], places[1]),
+            *([("farthest apart", point(apart[0]), point(apart[1]))] if apart else []),
             ("moves", str(int(one.is_motion.sum())), str(int(other.is_motion.sum()))),
             ("length", f"{figure(one.length, 3)} mm", f"{figure(other.length, 3)} mm"),
         ]
@@ -95,7 +96,7 @@ class Deviation:
         where = self.where
         if where is None:
             return "no motion on either path" if self.largest == 0 else "only one of the paths has motion"
-        if self.largest < 1e-9:
+        if self.largest < SAME:
             return "the paths are the same"
         return f"largest deviation {figure(self.largest, 6)} mm at line {where[2]} of {self.names[where[3]]}"
 

@@ -14,12 +14,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from mnclab.comparison.engagement import Engagement, engagement
+from mnclab.comparison.table import Table
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
@@ -139,52 +139,18 @@ class Trial:
         }
 
 
-@dataclass(frozen=True, eq=False)
-class Comparison:
+@dataclass(frozen=True, eq=False, repr=False)
+class Comparison(Table[Trial]):
     """Trials of several strategies on one area; a table when shown."""
 
+    titles: ClassVar = COLUMNS
     trials: tuple[Trial, ...]
-
-    def __len__(self) -> int:
-        return len(self.trials)
-
-    def __getitem__(self, key: int | str) -> Trial:
-        if isinstance(key, str):
-            found = [trial for trial in self.trials if trial.name == key]
-            if not found:
-                raise KeyError(f"{key!r} was not compared; there are {', '.join(t.name for t in self.trials)}")
-            return found[0]
-        return self.trials[key]
-
-    @cached_property
-    def rows(self) -> tuple[dict[str, Any], ...]:
-        """One dict of :data:`COLUMNS` a strategy."""
-        return tuple(trial.row for trial in self.trials)
-
-    def columns(self) -> dict[str, np.ndarray]:
-        """The table as arrays, for pandas, polars or matplotlib."""
-        return {name: np.array([row[name] for row in self.rows]) for name in COLUMNS}
 
     def plot(self, **options: Any) -> Picture:
         """The paths side by side, coloured by engagement (needs matplotlib)."""
         from mnclab.show.plot.strategy import plot_strategies
 
         return plot_strategies(self, **options)
-
-    def _lines(self) -> list[list[str]]:
-        titles = [title for title, _ in COLUMNS.values()]
-        return [titles, *([form.format(row[name]) for name, (_, form) in COLUMNS.items()] for row in self.rows)]
-
-    def __repr__(self) -> str:
-        lines = self._lines()
-        wide = [max(map(len, column)) for column in zip(*lines, strict=True)]
-        return "\n".join("  ".join(f"{text:>{w}}" for text, w in zip(line, wide)) for line in lines)
-
-    def _repr_html_(self) -> str:
-        head, *rows = self._lines()
-        cells = "".join(f"<th style='white-space:normal'>{escape(text)}</th>" for text in head)
-        body = "".join("<tr>" + "".join(f"<td>{escape(text)}</td>" for text in row) + "</tr>" for row in rows)
-        return f"<table><thead><tr>{cells}</tr></thead><tbody>{body}</tbody></table>"
 
 
 def compare(

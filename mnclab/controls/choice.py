@@ -13,6 +13,7 @@ from mnclab.machine.settings import Setting, settings_html, settings_table
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import Alarm
 from mnclab.text.nearest import hint, nearest
+from mnclab.text.notation import Notation
 from mnclab.text.program import Program, decode
 
 
@@ -39,6 +40,20 @@ def read(source: str | Path, control: str | None = None) -> Program:
     for alarm in program.alarms:
         alarm.source = program
     return program
+
+
+def modern(source: str | Path | Program | Run, control: str | None = None) -> Notation:
+    """A program beside itself in modern notation: one command a line, millimetres, decimal points (NC-31).
+
+    ``source`` and ``control`` are those of :func:`run`, or a run. An Alarm where the control's own notation is modern.
+    """
+    program = source.program if isinstance(source, Run) else source
+    program = program if isinstance(program, Program) else read(program, control)
+    chosen = CONTROLS[program.control]
+    if chosen.modern is None:
+        able = ", ".join(name for name in CONTROLS if CONTROLS[name].modern)
+        raise Alarm(f"programs of {chosen.name} have no other notation", hint=f"those of {able} have")
+    return chosen.modern(program)
 
 
 def _text_of(source: str | Path) -> tuple[str, str, str]:

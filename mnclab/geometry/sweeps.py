@@ -1,4 +1,4 @@
-"""What a disc covers that moves along contours, what it leaves of an area, and the middle line of an area.
+"""What a disc or an outline covers that moves along contours, what it leaves of an area, and the middle line of an area.
 
 Polylines and polygons, by shapely: near, where `regions` is exact. What is covered is a little less than the truth: a
 disc is a polygon in it, off by R/13 000 at most, a path keeps `CHORD_ERROR`. Lengths in mm.
@@ -25,6 +25,27 @@ def covered(passes: Iterable[Contour], radius: float) -> Any:
 
     lines = [shapely.LineString(contour.points_within(CHORD_ERROR)) for contour in passes]
     return shapely.union_all(shapely.buffer(lines, radius, quad_segs=QUARTER_STEPS))
+
+
+def swept(outline: Floats, way: Contour) -> Any:
+    """What a convex outline (k, 2) covers that is moved along a contour without turning, as a shapely area.
+
+    `outline` counts from the moved point. Arcs are chords, off by `CHORD_ERROR` at most.
+    """
+    import shapely
+
+    places = way.points_within(CHORD_ERROR)
+    corners = places[:, None] + outline
+    hulls = shapely.convex_hull(shapely.multipoints(np.concatenate([corners[:-1], corners[1:]], axis=1)))
+    return shapely.union_all(hulls[shapely.get_type_id(hulls) == 3])
+
+
+def under(contour: Contour, level: float) -> Any:
+    """The area between a contour (x, y) and a level of y, as a shapely area; arcs as in :func:`swept`."""
+    import shapely
+
+    points = contour.points_within(CHORD_ERROR)
+    return shapely.make_valid(shapely.Polygon([*points, (points[-1, 0], level), (points[0, 0], level)]))
 
 
 def polygons(region: Region) -> Any:

@@ -48,7 +48,7 @@ def centre_by_radius(
         chord, address = 2 * (shortage + abs(radius)), word.address if word else "R"
         m.alarm(
             f"{address}{abs(radius):g} is too small for the distance {chord:.7g} mm between start and end: "
-            f"at least {chord / 2:.4f} is needed",
+            f"at least {chord / 2:.7g} is needed",
             word,
             hint=f"too short by {shortage:.4g} mm",
         )

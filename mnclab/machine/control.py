@@ -13,6 +13,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from mnclab.machine.settings import Setting, settings_html
+from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
 
 if TYPE_CHECKING:
@@ -140,7 +141,7 @@ class Control:
     what PREDEF stands for in a parameter of a cycle of a code; ``calls_again`` whether a modal call of a cycle (a modal
     function of the group "call") calls it in a block with a keyword and words.
     ``preassigned`` are variables that the control keeps itself; names that begin with ``local_variables`` belong to one
-    program.
+    program. ``modern`` writes a program in the notation of today, where the control's own is another.
     """
 
     name: str
@@ -172,6 +173,7 @@ class Control:
     lathe: bool = False
     preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
     local_variables: str = ""
+    modern: Callable[[Program], Notation] | None = None
 
     def power_on(self) -> dict[str, str]:
         """The modal state at the start: group -> code."""

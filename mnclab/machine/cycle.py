@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import Alarm
-from mnclab.text.program import Word
+from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Word
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -254,7 +254,15 @@ def check_value(definition: Definition, parameter: Parameter, value: Any) -> Non
     """An Alarm when a number, or one of several, is outside what its parameter allows."""
     for number in value if isinstance(value, tuple) else (value,):
         if isinstance(number, int | float) and parameter.refuses(number):
-            raise fault(definition, parameter, f"must be {parameter.allowed}, got {number:g}")
+            raise fault(definition, parameter, f"must be {parameter.allowed}, got {number:.10g}")
+
+
+def refuse_marks(cycle: type[Cycle], code: str, head: Word) -> None:
+    """An Alarm at a mark of the calling word that the cycle has no use for; the mark of a group is the reader's."""
+    known = GROUP_MARK | sum(p.mark for p in cycle.parameters())
+    for mark, sign in ((RAPID_MARK, "~"), (INCREMENTAL, "@")):
+        if head.flag & mark & ~known:
+            raise Alarm(f"the mark {sign} has no meaning on {code}", head.span)
 
 
 def too_many(name: str, levels: Callable[[], object]) -> Iterator[tuple[str, str]]:

@@ -66,8 +66,9 @@ class Explanation:
         self.meanings = tuple(_meanings(run, moment, dict((name, (a, b)) for name, a, b in self.changed)))
         self.stages = tuple(_stages(run, moment))
         path = run.toolpath[moment.rows]
-        self.moves = tuple(f"{move.kind.name.lower()} {words(move)}".strip() for move in path[:SHOWN])
-        self.more_moves = max(0, len(path) - SHOWN)
+        shown = len(path) if len(path) <= SHOWN + 1 else SHOWN  # a line that says "1 more" is no shorter
+        self.moves = tuple(f"{move.kind.name.lower()} {words(move)}".strip() for move in path[:shown])
+        self.more_moves = len(path) - shown
 
     @property
     def title(self) -> str:
@@ -170,7 +171,8 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
                 says, source = f"{_meaning(run.control, what, word)} of {what.code} ({what.title})", ""
             else:
                 assert word is not None
-                says, source = _parameter(what, action.code, word), ""
+                before_it = [block.words[i].address for i in action.takes if i < index]
+                says, source = _parameter(what, action.code, word, before_it.count(word.address)), ""
             kept = word is None and action.code != block.keyword  # modal, not written in this block
             shown = str(word) if word is not None else f"({action.code})" if kept else block.keyword
             if kept:
@@ -224,13 +226,13 @@ def _meaning(control: Control, what: Function, word: Word) -> str:
     return f"word {address}" if address.isalpha() and address.isupper() else "part"
 
 
-def _parameter(cycle: type[Cycle], code: str, word: Word) -> str:
-    """The parameter of a cycle that a word gives."""
-    for parameter in cycle.parameters():
-        if word.address in (parameter.address, *parameter.aliases):
-            unit = f", {parameter.unit}" if parameter.unit and not parameter.mark else ""
-            return f"{parameter.meaning}{unit} ({code})"
-    return f"word of {code}"
+def _parameter(cycle: type[Cycle], code: str, word: Word, which: int = 0) -> str:
+    """The parameter of a cycle that a word gives: of several with the same address, by their order."""
+    alike = [p for p in cycle.parameters() if word.address in (p.address, *p.aliases) and not p.mark]
+    if not alike:
+        return f"word of {code}"
+    parameter = alike[min(which, len(alike) - 1)]
+    return f"{parameter.meaning}{f', {parameter.unit}' if parameter.unit else ''} ({code})"
 
 
 def _changes(what: Function | type[Cycle], word: Word | None) -> str:

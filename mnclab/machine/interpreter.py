@@ -17,7 +17,7 @@ import numpy as np
 from mnclab.machine.bulk import Bulk
 from mnclab.machine.calls import Flow
 from mnclab.machine.control import Control, Function, Words
-from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance
+from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance, refuse_marks
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
 from mnclab.machine.programs import alarms_of
@@ -184,6 +184,8 @@ class Interpreter:
         machine = self.machine
         values, words = self.assign(cycle, code, given)
         head = head or Word(code, None, int(place_of(*self.span_here()[:3])))
+        if head.flag:
+            refuse_marks(cycle, code, head)
         marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
         values, words = values | dict.fromkeys(marks, 1.0), words | marks
         again = machine.position_cycle

@@ -169,8 +169,10 @@ class Machine:
 
     @property
     def scale(self) -> float:
-        """How long 1 mm of the program in the plane is on the machine, along its first axis."""
-        return 1.0 if self._shift is not None else math.hypot(*self._matrix[:3, PLANES[self.plane][0]].tolist())
+        """How long 1 mm of the program in the plane is on the machine; 1 where that depends on the direction."""
+        if self._shift is not None or not self.keeps_circles:
+            return 1.0
+        return math.hypot(*self._matrix[:3, PLANES[self.plane][0]].tolist())
 
     def state(self) -> int:
         """The state that rows made now share."""

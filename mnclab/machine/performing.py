@@ -36,7 +36,7 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: tuple[float, fl
                 m.dwell(step.seconds)
             case Thread():
                 with locked(m, step.pitch):
-                    m.line(z=step.z)
+                    m.line(x=None if step.x is None else x + step.x, z=step.z)
             case Turn():
                 with in_plane(m, "XY"):
                     m.turn((x + step.centre[0], y + step.centre[1]), step.angle, step.z, step.feed)

@@ -34,7 +34,7 @@ def infeeds(
     if decrement:
         return (*(surface + sign * depth for depth in _decreasing(total, step, decrement, least)), float(bottom))
     if total > (MOST + 0.5) * step:
-        raise TooMany(f"{step:g} divides {total:g} into more than {MOST} infeeds")
+        raise TooMany(f"{step:.10g} divides {total:.10g} into more than {MOST} infeeds")
     whole = math.ceil((total - DRIFT) / step) - 1  # steps that end clearly before the bottom
     return (*(surface + sign * k * step for k in range(1, whole + 1)), float(bottom))
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mnclab.machining.depths import infeeds
-from mnclab.machining.steps import Go
+from mnclab.machining.steps import RAPID, Go
 
 
 def places(first: float, last: float, step: float | None) -> tuple[float, ...]:
@@ -23,12 +23,20 @@ def places(first: float, last: float, step: float | None) -> tuple[float, ...]:
 
 
 def grooves(
-    across: float, bottom: float, along: tuple[float, ...], feed: float | None = None, home: bool = True
+    across: float,
+    bottom: float,
+    along: tuple[float, ...],
+    feed: float | None = None,
+    home: bool = True,
+    shift: float | None = RAPID,
 ) -> Iterator[Go]:
-    """From the level ``across`` plunge to the bottom at each of the places, and return to the first at the end."""
+    """From the level ``across`` plunge to the bottom at each of the places, and return to the first at the end.
+
+    ``shift`` is the feed from one place to the next.
+    """
     for number, place in enumerate(along, 1):
         label = f"groove {number} of {len(along)}" if len(along) > 1 else "groove"
-        yield Go(f"to {label}", place)
+        yield Go(f"to {label}", place, shift)
         yield Go(label, x=bottom, feed=feed)
         yield Go(f"out of {label}", x=across)
     if home:

@@ -44,11 +44,12 @@ class Along(NamedTuple):
 
 
 class Thread(NamedTuple):
-    """A straight move by one pitch (mm, positive) for each revolution of the spindle."""
+    """A straight move by ``pitch`` (mm of its way, positive) for each revolution of the spindle."""
 
     label: str
-    z: float
+    z: float | None
     pitch: float
+    x: float | None = None
 
 
 class Wait(NamedTuple):

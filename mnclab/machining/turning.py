@@ -1,4 +1,4 @@
-"""Roughing by parallel passes down to a shoulder with a bevel: levels, where a pass meets the contour, chip breaks.
+"""Turning down to a shoulder with a bevel: levels, where a pass meets the contour, chip breaks, and all as steps.
 
 Coordinates are (across, along), mm. A longitudinal cut has the radius across and Z along; a facing cut has them the
 other way round. Nothing here knows which side is outside or which way Z points: signs follow from the numbers. ::
@@ -14,12 +14,13 @@ other way round. Nothing here knows which side is outside or which way Z points:
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from mnclab.machining.steps import RAPID, Go
+from mnclab.machining.steps import RAPID, Go, Step, Thread
 
 GRAIN = 1e-9  # relative: a stock of 0.3 holds three depths of 0.1
+LOOP = 0.5  # mm in both axes at the end of a roughing pass, as the textbook has it (NC-31, 3.20.2)
 
 
 class Shoulder(NamedTuple):
@@ -80,30 +81,72 @@ def chip_breaks(begin: float, end: float, length: float) -> tuple[float, ...]:
     return tuple(begin + step * i for i in range(1, count_of_breaks(begin, end, length) + 1))
 
 
+# --- as steps of a tool: x across, z along; :func:`facing` makes them the other way round ------------------------------
+
+
+def loops(
+    start: tuple[float, float],
+    passes: Sequence[Pass],
+    *,
+    retract: float = LOOP,
+    feed: float | None = None,
+    infeed: float | None = RAPID,
+    chip: float = 0.0,
+    chip_retract: float = 0.0,
+    total: int = 0,
+) -> Iterator[Go]:
+    """Roughing passes from ``start`` (across, along), each a loop: in, cut, off by ``retract`` both ways, back.
+
+    After every ``chip`` mm (0: never) the tool goes back by ``chip_retract`` at rapid and cuts on. No retract goes beyond
+    the start, where a tailstock or the far wall of a bore may be. ``total`` is how many passes the labels tell of.
+    """
+    x1, z1 = start
+    for number, (level, stop) in enumerate(passes, 1):
+        label = f"pass {number} of {total or len(passes)}"
+        yield Go(f"{label}, infeed", x=level, feed=infeed)
+        for place in chip_breaks(z1, stop, chip):
+            yield Go(label, place, feed)
+            yield Go(f"{label}, chip break", towards(place, z1, chip_retract))
+        yield Go(label, stop, feed)
+        yield Go(f"{label}, retract", towards(stop, z1, retract), x=towards(level, x1, retract))
+        yield Go(f"{label}, return", z1)
+
+
+def around(
+    start: tuple[float, float],
+    shoulder: Shoulder,
+    *,
+    label: str,
+    feed: float | None = None,
+    infeed: float | None = RAPID,
+    wall: float | None = None,
+) -> Iterator[Go]:
+    """From ``start`` (across, along) once along the contour and back: in, to the corner, up the bevel, out, return.
+
+    ``wall`` is the feed from the rim to the start level; the return is at rapid.
+    """
+    x1, z1 = start
+    yield Go(f"{label}, infeed", x=shoulder.finish, feed=infeed)
+    yield Go(label, shoulder.corner, feed)
+    yield Go(label, shoulder.far, feed, x=shoulder.rim)
+    yield Go(f"{label}, wall", feed=wall, x=x1)
+    yield Go(f"{label}, return", z1)
+
+
 def remove_stock(
     start: tuple[float, float], shoulder: Shoulder, depth: float | None, *, retract: float, feed: float | None = None,
     wall: float | None = RAPID,
 ) -> Iterator[Go]:  # fmt: skip
     """From a start (across, along) remove the stock in passes one ``depth`` apart, the last one along the contour.
 
-    Each pass goes in at rapid, cuts to the contour, leaves it by ``retract`` both ways (never beyond the start) and returns.
     The last one also cuts what the others have left on the bevel; ``wall`` is its feed from the rim to the start level.
-    Without a depth there is this one alone. Steps have x across and z along.
+    Without a depth there is this one alone.
     """
-    x1, z1 = start
-    passes = roughing(x1, shoulder, depth, with_finish=False) if depth else ()
-    for number, (level, stop) in enumerate(passes, 1):
-        label = f"pass {number} of {len(passes) + 1}"
-        yield Go(f"{label}, infeed", x=level)
-        yield Go(label, stop, feed)
-        yield Go(f"{label}, retract", towards(stop, z1, retract), x=towards(level, x1, retract))
-        yield Go(f"{label}, return", z1)
-    label = f"pass {len(passes) + 1} of {len(passes) + 1}, contour" if passes else "contour"
-    yield Go(f"{label}, infeed", x=shoulder.finish)
-    yield Go(label, shoulder.corner, feed)
-    yield Go(label, shoulder.far, feed, x=shoulder.rim)
-    yield Go(f"{label}, wall", feed=wall, x=x1)
-    yield Go(f"{label}, return", z1)
+    passes = roughing(start[0], shoulder, depth, with_finish=False) if depth else ()
+    count = len(passes) + 1
+    yield from loops(start, passes, retract=retract, feed=feed, total=count)
+    label = f"pass {count} of {count}, contour" if passes else "contour"
+    yield from around(start, shoulder, label=label, feed=feed, wall=wall)
 
 
 def towards(place: float, goal: float, distance: float) -> float:
@@ -111,6 +154,6 @@ def towards(place: float, goal: float, distance: float) -> float:
     return goal if abs(goal - place) <= distance else place + math.copysign(distance, goal - place)
 
 
-def facing(steps: Iterable[Go]) -> Iterator[Go]:
-    """The same steps for a cut along X: across and along change places."""
-    return (step._replace(x=step.z, z=step.x) for step in steps)
+def facing(steps: Iterable[Step]) -> Iterator[Step]:
+    """The same steps for a cut along X, or a hole along it: across and along change places."""
+    return (s._replace(x=s.z, z=s.x) if isinstance(s, Go | Thread) else s for s in steps)

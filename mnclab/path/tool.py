@@ -11,6 +11,8 @@ class Tool:
 
     ``angle`` is the point angle, ``plunge_angle`` the steepest plunge, ``dl`` and ``dr`` are deltas added to length and
     radius, ``corner`` is the corner radius, ``cutting_length`` the length of the edges, ``pitch`` that of a tap.
+    Of a lathe tool ``main_angle`` and ``auxiliary_angle`` lie between the cutting edges and the axis (0: not given),
+    ``width`` is that of a grooving tool, whose tip is its left corner, and ``corner`` the nose radius.
     """
 
     radius: float = 0.0
@@ -26,6 +28,9 @@ class Tool:
     cutting_length: float = 0.0
     kind: str = ""
     pitch: float = 0.0
+    main_angle: float = 0.0
+    auxiliary_angle: float = 0.0
+    width: float = 0.0
 
     @property
     def effective_radius(self) -> float:

@@ -228,6 +228,11 @@ class Toolpath:
 
         return points(self, chord_error)
 
+    def labelled(self, piece: str) -> Toolpath:
+        """The rows whose label has ``piece`` in it, such as "helix" or "layer 1 of 3, ring"; it may be none."""
+        found = [number for number, label in enumerate(self.labels) if piece in label]
+        return self[np.isin(self.label, found)]
+
     def columns(self) -> dict[str, NDArray[Any]]:
         """A dict of one-dimensional arrays for pandas, polars or pyarrow; vectors become ``end_x``, ``end_y``, …"""
         flat: dict[str, NDArray[Any]] = {}

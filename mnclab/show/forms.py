@@ -177,7 +177,7 @@ def _number_box(name: str, number: Number) -> Any:
 
 def _name(p: Parameter) -> str:
     """What is written beside a box: ``K depth of one peck [mm]``."""
-    return f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and not p.mark else "")
+    return f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and p.unit != "choice" and not p.mark else "")
 
 
 def _parameter_box(p: Parameter, width: float) -> Any:

@@ -29,6 +29,10 @@ EXAMPLES = {
         *("G302", "G303", "G304", "G305", "G306", "G307", "G309"),
     ],
     "mnc-milling": ["G320", "G321", "G343", "G344"],
+    "nc-31": [
+        *("frame", "discretes", "G70", "G71", "G77", "G78", "contour exercise", "G73", "G72", "G74", "G75"),
+        *("G31", "G32", "G33", "G25", "fragment N90-N111"),
+    ],
     "jnc-t01": [
         *("program structure", "table 2 notes", "axes and dimensions", "spindle control", "feed programming"),
         *("linear moves", "arc moves", "G00", "G01", "G02", "G03", "G04", "G12", "G14", "G32", "G73", "G74", "G75"),
@@ -53,6 +57,11 @@ EXAMPLES = {
     "tnc620-threading": [
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
+    ],
+    "turning-technology": [
+        *("loop", "zigzag", "descent", "pick-up", "semi-finish pass", "equidistant", "contour scheme"),
+        *("closed zone strokes", "groove pass count", "groove scheme 5", "one-sided flank infeed"),
+        "alternate flank infeed",
     ],
     "tnc620-drilling": [
         *("Q379 positioning behavior", "CYCL DEF 240", "CYCL DEF 200", "CYCL DEF 201", "CYCL DEF 202", "CYCL DEF 203"),

@@ -29,6 +29,13 @@ def test_vertices_are_one_array():
     assert np.array_equal(path.start[1:], path.end[:-1])
 
 
+def test_rows_by_a_piece_of_their_label():
+    plain = path_of(*((Kind.LINE, (x, 0, 0), NOWHERE, 0) for x in range(4)))
+    path = plain.replace(label=np.array([0, 1, 2, 1])).annotated(labels=("", "layer 1, ring", "lift"))
+    assert path.labelled("ring").end[:, 0].tolist() == [1, 3]
+    assert len(path.labelled("")) == 4 and len(path.labelled("helix")) == 0
+
+
 def test_length_of_a_helix():
     """sqrt((2 pi r turns)² + pitch²)."""
     path = path_of((Kind.RAPID, (10, 0, 0), NOWHERE, 0), HELIX)

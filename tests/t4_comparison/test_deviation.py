@@ -18,6 +18,12 @@ def test_the_same_path_has_none():
     found = mnclab.diff(run, run)
     assert found.largest == pytest.approx(0, abs=1e-12) and found.sentence == "the paths are the same"
     assert found.first() is None
+    assert "farthest apart" not in str(found) + found._repr_html_()
+
+
+def test_programs_without_a_name_are_told_by_their_controls():
+    found = mnclab.diff(mnclab.run("G1 X10 F100\n", "mnc"), mnclab.run("L X+10 Y+3 R0 F100\n", "tnc-620"))
+    assert found.names == ("the mnc program", "the tnc-620 program") and found.largest == pytest.approx(3, abs=1e-9)
 
 
 def test_two_rings_about_one_centre_differ_by_their_radii():

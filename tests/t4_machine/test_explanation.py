@@ -141,3 +141,15 @@ def test_a_block_of_a_called_program_is_explained():
 def test_words_are_called_what_they_are(control, text, line, says):
     explained = str(mnclab.run(text + "\n", control).explain(line=line))
     assert all(meaning in explained for meaning in says)
+
+
+def test_many_moves_are_cut_short_but_never_by_one():
+    """Holes of one to eight infeeds: all moves are shown, or twelve of them and how many more there are."""
+    hidden = set()
+    for depth in range(5, 41, 5):
+        run = mnclab.run(f"G90 G54 T2 F100\nG0 X20 Z10\nG83 X20 Z-{depth} R0 K5\n", "mnc")
+        told = run.explain(line=3)
+        assert len(told.moves) + told.more_moves == len(run.toolpath[run.toolpath.line == 3])
+        assert (f"… {told.more_moves} more" in str(told)) == (told.more_moves > 0)
+        hidden.add(told.more_moves)
+    assert 1 not in hidden and 0 in hidden and max(hidden) > 1

@@ -107,6 +107,7 @@ ONCE = "only what L chooses is used: the example writes H0 beside L1, so the lim
 FEED = "the range of the word F (4.1)"
 MILLING = ("G320", "G321", "G343", "G344")
 TIME = "the table has no range; a time is not negative"
+LATHE = ("G70", "G71", "G77", "G78", "G72", "G73", "G74", "G75", "G31", "G33")
 JNC = [("G73", "Z"), *((c, a) for c in ("G74", "G75") for a in "XZ"), *((c, a) for c in ("G77", "G78") for a in "XZUW")]
 AS_IN_CYCLES = "the table has none: that of the parameter in the cycles"
 LENGTH, SIGNED, TIMES = {">=": 0, "<=": 99999.9999}, {">=": -99999.9999, "<=": 99999.9999}, {">=": 0, "<=": 3600}
@@ -145,15 +146,19 @@ EXPLAINED = {
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "choices"): (set(), "2, 3, … too: any whole number") for n in (262, 267)},
     **{("tnc-620", f"CYCL DEF {n}", "Q355", "type"): ("integer", "of a pitch per step") for n in (262, 267)},
     ("tnc-620", "CYCL DEF 201", "Q203", "limits"): ({">=": -99999.9999, "<=": 99999.9999}, "a misprint: as everywhere"),
-    **{("nc-31", "G77", axis, "limits"): ({}, "any whole number of its unit") for axis in "XZ"},
-    **{("nc-31", "G77", axis, "type"): ("number", "the reader refuses what is not whole") for axis in "XZ"},
-    ("nc-31", "G77", "X", "unit"): ("0.01 mm", "that X is a diameter is in its meaning"),
-    ("nc-31", "G77", "P", "unit"): ("0.01 mm", "that P1 is on the diameter is in its meaning"),
+    **{("nc-31", code, axis, "limits"): ({}, "any whole number of its unit") for code in LATHE for axis in "XZ"},
+    **{("nc-31", code, axis, "type"): ("number", "the reader refuses what is not whole") for code in LATHE for axis in "XZ"},
+    ("nc-31", "G31", "P", "default"): (0, "the taper of a cylinder"),
+    **{("nc-31", f"G{n}", "P", "limits"): ({">": 0}, "its upper limit is a check") for n in (72, 73, 74, 75)},
     **{("jnc-t01", code, axis, "limits"): ({}, "any number; between which is a check") for code, axis in JNC},
 }
 
 #: Parameters without a row: marks of the word that calls the cycle.
-MARKS = {("nc-31", "G77"): ["~", "@"]}
+MARKS = {
+    **{("nc-31", code): ["~"] for code in ("G70", "G71", "G74", "G75")},
+    **{("nc-31", code): ["~", "@"] for code in ("G77", "G78")},
+    ("nc-31", "G33"): ["@"],
+}
 
 
 def rows(control, code):

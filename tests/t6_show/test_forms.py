@@ -94,6 +94,12 @@ def test_a_form_is_made_from_the_declaration_of_its_cycle():
     assert not any(isinstance(widget, ipywidgets.FloatSlider | ipywidgets.IntSlider) for widget in widgets(live))
 
 
+def test_a_box_has_a_unit_only_where_there_is_one():
+    boxes = forms.form("CYCL DEF 251", "tnc-620").boxes
+    assert boxes["machining_operation"].description == "Q215 machining operation"
+    assert boxes["first_side_length"].description == "Q218 first side length [mm]"
+
+
 def test_a_form_runs_its_cycle():
     live = mnclab.form("G83", "mnc")
     for name, value in (("bottom", -20), ("r_level", 2), ("peck_depth", 4)):

@@ -1,4 +1,4 @@
-; Origin: made for this project; a plate that is faced and engraved, on lines, round a circle, and mirrored.
+; A plate that is faced and engraved, on lines, round a circle, and mirrored. Made for this project.
 0  BEGIN PGM PLATE MM
 1  BLK FORM 0.1 Z X+0 Y+0 Z-10
 2  BLK FORM 0.2 X+120 Y+80 Z+1

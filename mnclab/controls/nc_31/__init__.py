@@ -1,20 +1,27 @@
 """The lathe control Elektronika NC-31: frames of one word, integers in discretes, marks.
 
 ``reader`` makes frames into blocks, ``discretes`` is the scale of the integers, ``functions`` holds moves, repetition
-and words, ``turning`` the cycles. X is a diameter in programs and a radius everywhere else. Still to come are the
-single-pass, facing, grooving, drilling and thread cycles; their codes are refused by name.
+and words; ``turning``, ``grooving``, ``drilling`` and ``threads`` are the cycles. X is a diameter in programs and a
+radius everywhere else.
 """
 
 from __future__ import annotations
 
-from mnclab.controls.nc_31 import functions, turning
+from mnclab.controls.nc_31 import drilling, functions, grooving, notation, threads, turning
 from mnclab.controls.nc_31.reader import looks_like, read
 from mnclab.machine.control import Control
 from mnclab.machine.settings import Setting
 
 SETTINGS = (
     Setting("parameter_6", 0, "G31: infeed angle of the thread", "group P, adopted 0", unit="deg"),
-    Setting("parameter_7", 0, "G31: run-out at the end of the thread, 0.1 of the pitch", "group P, adopted 0"),
+    Setting(
+        "parameter_7",
+        0,
+        "G31: run-out at the end of the thread",
+        "group P, adopted 0",
+        unit="tenths of the pitch",
+        at_least=0,
+    ),
     Setting(
         "parameter_8",
         100,
@@ -39,16 +46,31 @@ SETTINGS = (
         unit="0.01 mm",
         at_least=0,
     ),
-    Setting("p1_on_radius", False, "G77: P1 counts on the radius, not on the diameter", "not stated"),
+    Setting("p1_on_radius", False, "G77 P1, G72 P: on the radius, not on the diameter", "not stated"),
+    Setting(
+        "g78_bevel",
+        "along_z",
+        "G78: which way its bevel P2 counts",
+        "3.20.6, its figure is lost",
+        {"along_z": "along Z, as its table says: a conical face", "along_x": "along X: G77 with the axes exchanged"},
+    ),
 )
 
-_LATER = "it is part of this control but not built yet"
-_OUTSIDE = "the source does not describe it, and it is not built yet"
-REFUSED = (
-    {f"G{n}": _LATER for n in (70, 71, 72, 73, 74, 75, 78, 31, 32, 33)}
-    | {f"G{n}": _OUTSIDE for n in (2, 3, 12, 13)}
-    | {"T": "the source does not describe a tool word"}
-)
+#: Known from elsewhere to be part of this control, but not described in the source: refused by name.
+_OTHER_CHAPTERS = {
+    **{"G2": "arcs", "G3": "arcs", "G12": "quarter arcs", "G13": "quarter arcs"},
+    "T": "tool words",
+}
+REFUSED = {code: f"{what} stand in a chapter that the source does not have" for code, what in _OTHER_CHAPTERS.items()}
+
+MEANINGS = {
+    "X": "diameter, 0.01 mm", "Z": "coordinate along the axis, 0.01 mm", "F": "feed, 0.01 mm/rev",
+    "S": "spindle speed, rev/min", "M": "auxiliary function", "P": "parameter",
+    "G25 P": "frames, first * 1000 + last; then how often", "G32 F": "pitch, 0.0001 mm",
+    **{f"G{n} M": "auxiliary function at the end of the move" for n in range(61, 68)},
+}  # fmt: skip
+
+CYCLES = turning.CYCLES | grooving.CYCLES | drilling.CYCLES | threads.CYCLES
 
 CONTROL = Control(
     name="nc-31",
@@ -57,14 +79,15 @@ CONTROL = Control(
     axes="XZ",
     codes=("G",),
     read=read,
-    functions=functions.FUNCTIONS,
-    meanings={"M": "auxiliary function", "G25 P": "first * 1000 + last frame, then how often"},
-    cycles=turning.CYCLES,
+    functions=functions.FUNCTIONS | threads.FUNCTIONS,
+    cycles=CYCLES,
     phases=("motion",),
     settings=SETTINGS,
     start=functions.power_on,
     looks_like=looks_like,
     refused=REFUSED,
+    meanings=MEANINGS,
     one_command=True,
     lathe=True,
+    modern=lambda program: notation.modern(program, CYCLES),
 )

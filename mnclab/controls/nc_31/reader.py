@@ -218,7 +218,7 @@ class _Frames:
         c = self.text[at]
         second = _WORD.match(self.text, at, stop)
         if _CHAMFER.match(self.text, at, stop):
-            self.alarm(f"the mark {c}45 (chamfer of 45 degrees) is not built yet", at, 3)
+            self.alarm(f"the mark {c}45 (chamfer of 45 degrees) is not described in the source", at, 3)
         elif second and second[1] == "N":
             self.alarm(f"{second[0]} begins a second frame in this line", at, len(second[0]), "a line holds one frame")
         elif second:

@@ -13,6 +13,7 @@ from dataclasses import replace
 from typing import Any
 
 from mnclab.text.expression import Expression, parse
+from mnclab.text.nearest import hint as near
 from mnclab.text.program import INCREMENTAL, ProgramBuilder
 
 LARGEST = 1e9  # no coordinate, feed or number of a program is as large
@@ -26,6 +27,9 @@ SIGNED = re.compile(rf"[ \t]*([+-]?)[ \t]*({NUMBER})", FLAGS)
 PARAMETER = re.compile(r"[ \t]*[+-]?[ \t]*Q[LR]?\d+", FLAGS)
 TEXT = re.compile(r'[ \t]*"([^"]*)"')
 
+FEEDS = ("FMAX", "FAUTO")
+_OPERATION = re.compile(r"[*/^][ \t]*[\dQ(]", FLAGS)
+_LETTERS = re.compile("[A-Z]{2,}", FLAGS)
 _FEEDS = re.compile(r"F[ \t]*(MAX|AUTO)(?![A-Z])", FLAGS)
 _SIDES = re.compile(r"(?:(RL|RR|RO)(?![A-Z])|(R0)(?![\d.,]))", FLAGS)
 _SENSE = re.compile(r"DR[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
@@ -190,6 +194,8 @@ class Cursor:
         hint = (
             "the letter O stands where the digit 0 was meant" if c in "Oo" and self.text[self.at - 1].isdigit() else ""
         )
+        if _OPERATION.match(self.text, self.at, self.stop):
+            hint = "a formula stands in a block of its own, for example Q10 = Q1 / 2"
         return Fault(f"{c!r} has no meaning here", self.at, hint=hint)
 
     def without_number(self, found: re.Match[str]) -> Fault:
@@ -204,5 +210,7 @@ class Cursor:
             hint = "the letter O stands where the digit 0 was meant"
         elif after == "=":
             hint = "no = between an address and its number"
+        elif letters := _LETTERS.match(self.text, self.at, self.stop):
+            hint = near(letters.group(), FEEDS, 1)
         what = f", found {after!r}" if after else ""
         return Fault(f"{name} needs a number{what}", self.at, found.end() - found.start(), hint)

@@ -84,7 +84,11 @@ function drawTool(pen, tool, tip, project, colours, extent) {
 function drawInsert(pen, tool, tip, side, project, colours, extent) {
   const size = extent / 14, nose = Math.min(tool.corner || (side ? tool.radius : 0) || 0, size / 4);
   const at = side ? [tip[0] - nose, tip[1], tip[2] - nose] : tip;  // a compensated path is that of the nose's centre
-  const edge = [[0, 0], [0.17, 1], [1.1, 1.14], [1, 0.1]].map(([x, z]) => [at[0] + x * size, at[1], at[2] + z * size]);
+  // edges at the angles of the tool table; without them an insert of 80 degrees, with a width a blade
+  const [main, other] = [tool.main_angle || 95, tool.auxiliary_angle || 5].map(angle => angle * Math.PI / 180);
+  const lead = [Math.sin(main), -Math.cos(main)], trail = [Math.sin(other), Math.cos(other)], wide = (tool.width || 0) / size;
+  const corners = wide ? [[0, 0], [1.6, 0], [1.6, wide], [0, wide]] : [[0, 0], lead, [lead[0] + trail[0], lead[1] + trail[1]], trail];
+  const edge = corners.map(([x, z]) => [at[0] + x * size, at[1], at[2] + z * size]);
   const holder = [[0.62, 0.4], [0.78, 1.06], [2.7, 1.06], [2.7, 0.4]].map(([x, z]) => [at[0] + x * size, at[1], at[2] + z * size]);
   for (const [part, fill] of [[holder, colours.shank], [edge, colours.cutter]]) {
     trace(pen, part.map(project));

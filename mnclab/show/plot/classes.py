@@ -63,6 +63,8 @@ def classes(path: Toolpath, drawn: Strokes, colour: str) -> Classes:
     group = of_kind[path.kind[drawn.row]] if len(drawn.row) else np.empty(0, np.int16)
     group[drawn.row < 0] = -1
     cuts = group == 2
+    if colour == "kind" and path.lathe and path.synchronous.any():
+        return _with_threads(path, drawn, fixed, group)
     if colour == "kind" or not cuts.any():
         return Classes(fixed, group)
     values = _values(path, drawn, colour)
@@ -73,6 +75,20 @@ def classes(path: Toolpath, drawn: Strokes, colour: str) -> Classes:
     else:
         group[cuts] = divided + np.int16(2)
     return Classes([*fixed[:2], *looks], group, scale)
+
+
+def _with_threads(path: Toolpath, drawn: Strokes, fixed: list[Line], group: NDArray[np.int16]) -> Classes:
+    """On a lathe threads are a class for each lead (one for all if there are many)."""
+    leads = np.round(path.per_rev[drawn.row], 6)
+    thread = (group == 2) & path.synchronous[drawn.row]
+    found = np.unique(leads[thread])
+    found = found[np.isfinite(found)]
+    if not 0 < len(found) <= FEW:
+        group[thread] = len(fixed)
+        return Classes([*fixed, colours.THREAD], group)
+    looks = [colours.THREAD._replace(name=f"thread, lead {lead:.4g} mm") for lead in found]
+    group[thread] = len(fixed) + np.searchsorted(found, leads[thread])
+    return Classes([*fixed, *looks], group)
 
 
 def lines(drawn: Strokes, found: Classes) -> list[tuple[Line, Array]]:

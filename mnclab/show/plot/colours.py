@@ -62,6 +62,8 @@ class Mark(NamedTuple):
 #: Rapids are thinner than cuts and lie above them: where both run on one line (pecking), both are seen.
 RAPID = Line("rapid", "#c62828", (0, (5, 3)), 0.9, 3.0)
 FEED = Line("feed", "#1259a8", "-", 1.9, 2.6)
+#: A thread on a lathe: the tool goes on by the lead in every revolution.
+THREAD = Line("thread", "#00695c", (0, (7, 1.2, 1.5, 1.2)), 1.9, 2.7)
 PROBING = Line("probing", "#7b1fa2", (0, (1, 1.2)), 1.6, 2.8)
 PROGRAMMED = Line("programmed", "#8c8c8c", "-", 0.9, 2.2)
 BLANK = Line("blank", "#9a8f6e", "-", 0.8, 1.4)

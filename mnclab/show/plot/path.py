@@ -6,7 +6,8 @@ line of a million points costs. Arcs are cut finely enough for the size of the p
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
+from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import arrows as heads
 from mnclab.show.plot import colours
@@ -23,6 +25,7 @@ from mnclab.show.plot.classes import Classes, classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
+from mnclab.show.plot.lathe import Turned, draw_insert, draw_part, turned, with_blank
 from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, Picture, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Strokes, corners, parted, strokes
@@ -30,6 +33,7 @@ from mnclab.text.alarm import ALARM, Alarm
 from mnclab.workpiece.blank import Blank
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
+INSERT = 0.09  # edges of an insert, of the greatest side of the picture
 FAR = 5  # a box of all moves this many times that of the cuts is not shown whole
 
 Array = NDArray[np.float64]
@@ -48,6 +52,7 @@ class Drawing(NamedTuple):
     plunge: Mark
     arrows: bool
     stock: Blank | None = None
+    turned: Turned | None = None
 
 
 def plot_path(
@@ -64,6 +69,8 @@ def plot_path(
     alarms: Sequence[Alarm] = (),
     places: Sequence[Place] = (),
     stock: Blank | None = None,
+    tools: Mapping[int, Tool] = MappingProxyType({}),
+    insert: bool | int = True,
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -81,7 +88,9 @@ def plot_path(
     - ``programmed``: the contour before compensation, drawn thin and grey where it differs.
     - ``alarms``: the first that stopped the program is marked where the tool stands and named below.
     - ``places``: the crosses (see :func:`mnclab.show.plot.datums.places_of`).
-    - ``stock``: the outline of a blank, thin, in the coordinates of the path.
+    - ``stock``: a blank in the coordinates of the path: its outline, thin; on a lathe with what the cuts leave of it.
+    - ``tools``, ``insert``: on a lathe the tool table, and after which row the insert is drawn: True for the last one,
+      False for none.
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path)
@@ -90,14 +99,30 @@ def plot_path(
     low, high, beyond = _box(path, lines, frame)
     shown = near(places, low, high) if marks else []
     low, high = _with(shown, low, high)
+    low, high = with_blank(path, stock, low, high)
+    if path.lathe and len(path) and insert is not False and not beyond:
+        room = 1.6 * INSERT * float((high - low).max())
+        high = np.fmax(high, path.end[-1] + (room, 0.0, room))
     views = _views(view, path, low, high, single=ax is not None)
-    if stock is not None and frame != "cuts":
-        least, greatest = stock.bounds
-        low, high = np.fmin(low, [0, *least[1:]] if path.lathe else least), np.fmax(high, greatest)
+    if stock is not None and not path.lathe and frame != "cuts":
+        low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
     plunges = {each: _plunges(path, each) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
-    drawing = Drawing(path, drawn, found, lines, _marks(path, stop is not None), shown, plunges, plunge, arrows, stock)
+    lathe = turned(path, stock, tools, insert) if path.lathe and views == [VIEWS["ZX"]] else None
+    drawing = Drawing(
+        path,
+        drawn,
+        found,
+        lines,
+        _marks(path, stop is not None),
+        shown,
+        plunges,
+        plunge,
+        arrows,
+        None if lathe else stock,
+        lathe,
+    )
     if ax is not None:
         _draw(ax, views[0], drawing)
         dress(ax, views[0])
@@ -112,7 +137,7 @@ def plot_path(
         figure: Any = ax.get_figure(root=True)
         return figure
     names = [line.name for line, _ in lines] if not found.scale else [line.name for line, _ in lines if _fixed(line)]
-    names += [colours.BLANK.name] if stock is not None else []
+    names += [colours.BLANK.name] if drawing.stock is not None else []
     names += [mark.name for mark, _ in drawing.marks]
     if any(map(len, drawing.plunges.values())):
         names.append(colours.PLUNGE.name)
@@ -142,6 +167,8 @@ def plot_run(
     """
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
     given["stock"] = run.stock if stock else None
+    if run.toolpath.lathe:
+        given["tools"] = run.tables.tools
     if marks:
         given["places"] = places_of(run)
     return plot_path(run.toolpath, ax, view, **{**given, **options}, marks=marks)
@@ -250,6 +277,8 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     artists += crosses(drawing.places, view)
     for artist in artists:
         ax.add_line(artist)
+    if drawing.turned is not None:
+        draw_part(ax, drawing.turned)
     if view.diameter:
         ax.axhline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre line"})
     return artists
@@ -258,6 +287,8 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
 def _write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> None:
     """Add what depends on the scale: arrowheads and names."""
     occupied = [xyz[:, [view.right, view.up]] for _, xyz in drawing.marks]
+    if drawing.turned is not None:
+        draw_insert(ax, drawing.turned, INSERT * float((high - low).max()))
     if drawing.arrows:
         occupied.append(heads.draw(ax, view, drawing.strokes, drawing.classes, low, high))
     if drawing.places:

@@ -72,9 +72,9 @@ def plot_strategies(found: Comparison | Trial, width: float = 9.0, columns: int 
 
 def draw(ax: Axes, trial: Trial) -> None:
     """One trial in its axes."""
-    _area(ax, trial.region, facecolor="#f4f1e8", edgecolor=colours.INK, linewidth=1.0, zorder=1.0)
-    _area(ax, trial.corners, facecolor="none", edgecolor=CORNER, hatch="//////", linewidth=0.4, zorder=1.6)
-    _area(ax, trial.rest, facecolor="none", edgecolor=REST, hatch="xxxxxx", linewidth=0.6, zorder=3.0)
+    area(ax, trial.region, facecolor="#f4f1e8", edgecolor=colours.INK, linewidth=1.0, zorder=1.0)
+    area(ax, trial.corners, facecolor="none", edgecolor=CORNER, hatch="//////", linewidth=0.4, zorder=1.6)
+    area(ax, trial.rest, facecolor="none", edgecolor=REST, hatch="xxxxxx", linewidth=0.6, zorder=3.0)
     found = trial.engagement
     half = found.step[:, None] / 2 * np.stack([np.cos(found.heading), np.sin(found.heading)], axis=1)
     strokes = np.stack([found.points - 1.05 * half, found.points + 1.05 * half], axis=1)
@@ -84,7 +84,8 @@ def draw(ax: Axes, trial: Trial) -> None:
     ax.add_line(Line2D(*trial.entries.T, **ENTRY.style()))
 
 
-def _area(ax: Axes, region: Region, **look: Any) -> None:
+def area(ax: Axes, region: Region, **look: Any) -> None:
+    """A region with its holes as one patch."""
     if not region.loops:
         return
     rings = [loop.points_within(CHORD) for loop in region.loops]

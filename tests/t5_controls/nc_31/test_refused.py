@@ -1,5 +1,6 @@
 """Programs that must be refused, each with its alarm and its place; and any text raises nothing but alarms."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,8 @@ PROGRAMS = [
     "".join(line for line in file.read_text("utf-8").partition("---")[0].splitlines(keepends=True) if line[0] != "#")
     for file in sorted((HERE / "examples").glob("*.txt"))
 ]
+CATALOGUE = HERE.parents[1] / "authorities" / "catalogue" / "nc-31.json"
+PROGRAMS += [example["program"] for example in json.loads(CATALOGUE.read_text("utf-8"))]
 START = Setup(start=(30, 0, 2))
 
 
@@ -45,12 +48,14 @@ def test_a_changed_program_raises_nothing_but_alarms(program, changes, insert):
     run = mnclab.run(program, "nc-31", START)
     assert run.toolpath.is_motion.sum() < 1_000_000
     assert str(run.program) and all(str(alarm) for alarm in run.alarms)
+    assert len(str(mnclab.modern(run)).splitlines()) >= 3
 
 
 @given(st.text(max_size=200) | st.text(alphabet="GXZFSPN0123456789*~@-\n ", max_size=200))
 def test_any_text_raises_nothing_but_alarms(text):
     run = mnclab.run(text + "\n", "nc-31", START)
     assert len(run.program) == len(list(run.program))
+    assert mnclab.modern(run)._repr_html_().startswith("<table>")
 
 
 @pytest.mark.parametrize("text", ["", "\n", "\ufeff", "; nothing but a remark\n", "X" + "9" * 1_000_000, "N" * 10_000])

@@ -45,7 +45,7 @@ REFUSED = [
     ("2 CC X+5 Y+0\n3 C X+10 Z+5 DR+", 4, 10, "Z5 has no meaning in this block (C does not take Z)"),
     (
         "2 CR X+10 R+3 DR+", 3, 11,
-        "R3 is too small for the distance 10 mm between start and end: at least 5.0000 is needed (too short by 2 mm)",
+        "R3 is too small for the distance 10 mm between start and end: at least 5 is needed (too short by 2 mm)",
     ),
     ("2 CR X+10 DR+", 3, 1, "CR needs the radius R"),
     ("2 CR X+0 R5 DR+", 3, 10, "CR needs an end other than its start (a full circle is written with CC and C)"),

@@ -21,6 +21,8 @@ REFUSED = [
      "a feed per revolution needs a turning spindle (write S and M3 before the move)"),
     ("2 L X+5 FZ0.1 M3\n3 TOOL CALL 6\n4 L X+9", 5, 1, "no feed rate was programmed before this move (write F)"),
     ("2 L X+5 F MAXX", 3, 9, "F needs a number, found 'M'"),
+    ("2 L X+5 FMX", 3, 9, "F needs a number, found 'M' (near: FMAX)"),
+    ("2 L X-Q1/2", 3, 9, "'/' has no meaning here (a formula stands in a block of its own, for example Q10 = Q1 / 2)"),
     ("2 CYCL DEF 200 D\nQ206=FU0", 4, 1, "Q206=FU (feed per revolution) must be greater than 0, got 0"),
     ("2 CYCL DEF 200 D\nQ206=FZ.1", 4, 1, "CYCL DEF 200 Q206 (feed rate for plunging) must be a number, FAUTO, FU, got FZ.1"),
     ("2 TOOL CALL S0\n3 CYCL DEF 200 D\nQ206=FU0.1", 5, 1,

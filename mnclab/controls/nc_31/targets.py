@@ -1,0 +1,63 @@
+"""What the cycles have alike: X and Z as coordinates or increments, the feed of a cycle, and the marks of their frames."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from mnclab.controls.nc_31 import discretes
+from mnclab.controls.nc_31.functions import refuse_rapid
+from mnclab.machine.cycle import Cycle, param
+from mnclab.machine.machine import Machine
+from mnclab.text.program import RAPID_MARK, Word
+
+SWITCH = {0.0: "no", 1.0: "yes"}
+FROM_START = "@: from the start point"
+
+
+class FromStart(Cycle):
+    """A cycle whose X and Z count from the start point where they have the mark @."""
+
+    @classmethod
+    def prepare(
+        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
+    ) -> dict[str, Any]:
+        """Increments become coordinates, in discretes."""
+        ends = {name: given[name] for name in ("x", "z") if name in given}
+        refuse_rapid(m, list(ends.values()), cls.code)
+        for name, axis, scale in (("x", 0, discretes.X), ("z", 2, discretes.Z)):
+            if name in ends and ends[name].incremental:
+                values[name] += round(m.programmed[axis] * scale, 6)
+        return values
+
+
+def here(m: Machine) -> tuple[float, float]:
+    """The start point in discretes: X on the diameter, Z."""
+    return m.programmed[0] * discretes.X, m.programmed[2] * discretes.Z
+
+
+def apart(x: float | None, z: float | None, m: Machine) -> Iterator[tuple[str, str]]:
+    """Faults of ends that lie at the start."""
+    x1, z1 = here(m)
+    if x is not None and abs(x - x1) < 1e-6:
+        yield "x", f"must differ from the start diameter, got {x:.10g}"
+    if z is not None and abs(z - z1) < 1e-6:
+        yield "z", f"must differ from the Z of the start, got {z:.10g}"
+
+
+def feed_word(meaning: str, unit: str = "0.0001 mm/rev", default: str = "the modal feed", example: float = 2000) -> Any:
+    """F of a cycle: six digits, and left out what was set before it."""
+    return param(
+        "F", meaning, unit, default=None, default_means=default, at_least=1, at_most=999_999, type="integer",
+        example=example,
+    )  # fmt: skip
+
+
+def rapid_mark(meaning: str) -> Any:
+    """The mark ~ on the G frame."""
+    return param("~", meaning, "mark", default=0, choices=SWITCH, mark=RAPID_MARK, example=1)
+
+
+def in_mm(feed: float | None) -> float | None:
+    """F of a cycle, mm/rev or mm; None where it was left out."""
+    return None if feed is None else feed / discretes.CYCLE_FEED

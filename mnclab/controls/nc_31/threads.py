@@ -1,0 +1,164 @@
+"""Threads: the cycle of passes G31, one threading move G32, tapping G33 (source, 3.20.12 to 3.20.14).
+
+F is the pitch, 0.0001 mm; left out, it is the feed that is active. A start at the zero mark of the spindle has no column
+in a path: the label says it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from mnclab.controls.nc_31 import discretes
+from mnclab.controls.nc_31.functions import refuse_rapid, targets
+from mnclab.controls.nc_31.targets import FROM_START, SWITCH, FromStart, apart, feed_word, here, in_mm
+from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.cycle import CycleTable, param, too_many
+from mnclab.machine.machine import Machine
+from mnclab.machine.performing import locked, perform
+from mnclab.machining.depths import infeeds
+from mnclab.machining.steps import Go, Step, Thread
+from mnclab.machining.tapping import tap
+from mnclab.machining.threading import lead_along, thread_passes
+from mnclab.text.program import INCREMENTAL, RAPID_MARK
+
+CYCLES = CycleTable()
+FUNCTIONS = FunctionTable()
+
+SAME = "the modal feed"
+ZERO_MARK = "start at the zero mark of the spindle"
+
+
+def pitch_of(m: Machine, feed: float | None) -> float:
+    """The pitch, mm: F of the cycle, or the modal feed (check has seen that there is one)."""
+    pitch = in_mm(feed)
+    return pitch if pitch is not None else float(m.feed or 0.0)
+
+
+def needs_pitch(m: Machine, feed: float | None) -> Iterator[tuple[str, str]]:
+    """Neither F nor a modal feed; a spindle that stands."""
+    if feed is None and m.feed is None:
+        yield "", "needs a pitch: F here, or a feed before it"
+    if not m.spindle_speed:
+        yield "", "needs a turning spindle: write S before it"
+
+
+@CYCLES("G31", "Thread cutting in passes", runs="definition", source="NC-31 3.20.12")
+class ThreadCutting(FromStart):
+    """Passes of P2 down to the depth P1 below the diameter X, the last one the rest; without P one pass at X itself.
+
+    A start outside X cuts an external thread, one inside X an internal one. Each pass starts at the zero mark of the
+    spindle: in at Z1, along Z locked to the spindle, out, back. With the taper P3 the thread is that much deeper at the
+    start, and X counts at its end. Machine parameter 6 is the infeed angle (passes begin shifted towards the end),
+    parameter 7 the run-out at the end in tenths of the pitch.
+    """
+
+    x: float = param("X", "crest diameter, or root with no P", "0.01 mm on diameter", note=FROM_START, example=3600)
+    z: float = param("Z", "end of the thread", "0.01 mm", note=FROM_START, example=-3000)
+    feed: float | None = feed_word("pitch", "0.0001 mm", SAME, 15_000)
+    thread_depth: float | None = param(
+        "P", "depth of the thread", "0.01 mm on radius", default=None, default_means="a single pass at X", above=0,
+        incremental=True, type="integer", example=92,
+    )  # fmt: skip
+    depth_per_pass: float | None = param(
+        "P", "depth of cut per pass", "0.01 mm on radius", default=None, default_means="a single pass at X", above=0,
+        incremental=True, type="integer", example=25,
+    )  # fmt: skip
+    taper: float = param(
+        "P", "taper", "0.01 mm on diameter", default=0, at_least=0, incremental=True, type="integer", example=0,
+    )  # fmt: skip
+
+    def depths(self) -> tuple[float, ...]:
+        """The depth of each pass below X, mm on the radius."""
+        if self.thread_depth is None or self.depth_per_pass is None:
+            return (0.0,)
+        return infeeds(0, self.thread_depth / discretes.Z, self.depth_per_pass / discretes.Z)
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        """The depth of the thread alone: the source allows leaving out all of P, or P3."""
+        if self.thread_depth is not None and self.depth_per_pass is None:
+            yield "depth_per_pass", "is missing: P1 stands alone (leave out both, or neither)"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A start beside the thread, a pitch, machine parameters that leave some thread."""
+        yield from apart(self.x, self.z, m)
+        yield from needs_pitch(m, self.feed)
+        yield from too_many("depth_per_pass", self.depths)
+        angle, length = m.settings["parameter_6"], abs(self.z - here(m)[1]) / discretes.Z
+        if not abs(angle) < 90:
+            yield "", f"needs machine parameter 6 (infeed angle) to be less than 90 degrees, it is {angle:.10g}"
+        shift = self.depths()[-1] * math.tan(math.radians(angle))
+        if shift + self.run_out(m) >= length:
+            ends = f"the infeed angle takes {max(shift, 0):.3f} mm and the run-out {self.run_out(m):.3f} mm"
+            yield "", f"has no thread left: of {length:.10g} mm {ends} (machine parameters 6 and 7)"
+
+    def run_out(self, m: Machine) -> float:
+        """Machine parameter 7: tenths of the pitch, as mm."""
+        return float(m.settings["parameter_7"]) * 0.1 * pitch_of(m, self.feed)
+
+    def moves(self, m: Machine) -> None:
+        """All passes, then at the start."""
+        start, end = (m.programmed[0], m.programmed[2]), (self.x / discretes.X, self.z / discretes.Z)
+        angle, pitch = math.radians(m.settings["parameter_6"]), pitch_of(m, self.feed)
+        taper = self.taper / discretes.X
+        cuts = thread_passes(start, end, pitch, self.depths(), taper=taper, angle=angle, run_out=self.run_out(m))
+        perform(m, "G31", cuts, (0.0, 0.0))
+
+
+@CYCLES("G33", "Tapping (tap or die)", runs="definition", source="NC-31 3.20.14")
+class Tapping(FromStart):
+    """Along Z locked to the spindle, the spindle reversed, back the same way, the spindle as before; then to X at rapid.
+
+    The source gives the frames alone, its figure is lost: reversal and return are a reading, for a tap has no other way
+    out of a thread.
+    """
+
+    x: float | None = param("X", "X of the tool afterwards", "0.01 mm on diameter", default=None, default_means="unchanged",
+                            note=FROM_START, example=6000)  # fmt: skip
+    z: float = param("Z", "end of the thread", "0.01 mm", note=FROM_START, example=-2000)
+    feed: float | None = feed_word("pitch", "0.0001 mm", SAME, 12_500)
+    zero_mark: float = param("@", ZERO_MARK, "mark", default=0, choices=SWITCH, mark=INCREMENTAL, example=1)
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A thread, a pitch, a spindle."""
+        yield from apart(None, self.z, m)
+        yield from needs_pitch(m, self.feed)
+
+    def moves(self, m: Machine) -> None:
+        """In, reversal, out, reversal, aside."""
+        sense, pitch = m.turning, pitch_of(m, self.feed)
+        steps: list[Step] = [*tap([self.z / discretes.Z], above=m.programmed[2], sense=sense, end=sense, pitch=pitch)]
+        if self.zero_mark:
+            cut = next(k for k, step in enumerate(steps) if isinstance(step, Thread))
+            steps[cut] = steps[cut]._replace(label=f"{steps[cut].label}, synchronised start")
+        if self.x is not None:
+            steps.append(Go("aside", x=self.x / discretes.X))
+        perform(m, "G33", steps, (0.0, 0.0))
+
+
+@FUNCTIONS("G32", "Single threading move", takes="X Z F", modal=False, source="3.20.13")
+def thread_move(m: Machine, words: Words) -> None:
+    """One straight move locked to the spindle; F is the pitch (0.0001 mm), left out it is the modal feed.
+
+    The pitch counts along the axis of the longer travel (X on the radius). With @ on G32 the move starts at the zero
+    mark of the spindle, without it at once. Approach and return are frames of their own.
+    """
+    head = words.words[0]
+    if head.flag & RAPID_MARK:
+        m.alarm("the mark ~ has no meaning on G32", head)
+    refuse_rapid(m, [*words.words[1:]], "G32")
+    ends = targets(m, words)
+    if not ends:
+        m.alarm("G32 needs X or Z", head, "tie their frames to it with the mark *")
+    feed = m.value(words["F"]) if "F" in words else None
+    if feed is not None and not 1 <= feed <= 999_999:
+        m.alarm(f"G32 F (pitch, 0.0001 mm) must be from 1 to 999999, got {feed:.10g}", words["F"])
+    for _, sentence in needs_pitch(m, feed):
+        m.alarm(f"G32 {sentence}", head)
+    dx, dz = (ends.get(name, m.programmed[k]) - m.programmed[k] for name, k in (("x", 0), ("z", 2)))
+    if not (dx or dz):
+        m.alarm("G32 has no way to go: its end is where the tool stands", head)
+    m.label = "G32 synchronised start" if head.flag & INCREMENTAL else "G32"
+    with locked(m, lead_along(dx, dz, pitch_of(m, feed))):
+        m.line(**ends, word=head)
+    m.label = ""

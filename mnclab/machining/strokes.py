@@ -1,0 +1,141 @@
+"""Strokes of a turning tool in the plane of z and r, and the plan they make. Lengths in mm.
+
+A stroke ends at (z, r); its `role` says which feed it gets, its `number` which working stroke it belongs to.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour
+
+RAPID, ROUGH, PICK_UP, CLEANUP, PLUNGE, FINISH, THREAD = (
+    "rapid", "rough", "pick-up", "clean-up", "plunge", "finish", "thread",
+)  # fmt: skip
+#: What a stroke may be for.
+ROLES = (RAPID, ROUGH, PICK_UP, CLEANUP, PLUNGE, FINISH, THREAD)
+SAME = 1e-9
+
+
+class Stroke(NamedTuple):
+    """One motion of the tip to (z, r), straight or an arc with a bulge; `tool` is the first or second of a scheme."""
+
+    z: float
+    r: float
+    role: str
+    bulge: float = 0.0
+    number: int = 0
+    tool: int = 1
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All strokes of a scheme, from `start` (z, r) on."""
+
+    name: str
+    start: tuple[float, float]
+    strokes: tuple[Stroke, ...]
+
+    def __len__(self) -> int:
+        return len(self.strokes)
+
+    @property
+    def passes(self) -> int:
+        """How many working strokes there are."""
+        return len({stroke.number for stroke in self.strokes if stroke.role != RAPID})
+
+    def contours(self, *roles: str) -> list[Contour]:
+        """Every stroke of some roles (of all but rapids without a role), each as a contour of (z, r)."""
+        wanted = roles or ROLES[1:]
+        begin, found = self.start, []
+        for stroke in self.strokes:
+            here = (stroke.z, stroke.r)
+            if stroke.role in wanted:
+                found.append(Contour([begin, here], [stroke.bulge, 0.0], closed=False))
+            begin = here
+        return found
+
+    def length(self, *roles: str) -> float:
+        """Length of the strokes of some roles, or of all but rapids."""
+        return sum(contour.length for contour in self.contours(*roles))
+
+    def mapped(self, swap: bool = False, mirror: bool = False) -> Plan:
+        """The plan with z and r exchanged (for a face), or with r turned over (for a bore: the caller shifts it)."""
+        sign = -1.0 if mirror else 1.0
+
+        def place(z: float, r: float) -> tuple[float, float]:
+            return (sign * r, z) if swap else (z, sign * r)
+
+        turned = -1.0 if swap != mirror else 1.0
+        moved = (Stroke(*place(s.z, s.r), s.role, turned * s.bulge, s.number, s.tool) for s in self.strokes)
+        return Plan(self.name, place(*self.start), tuple(moved))
+
+    def __str__(self) -> str:
+        lines = [f"start R{self.start[1]:g} Z{self.start[0]:g}"]
+        lines += [f"{'rapid' if s.role == RAPID else 'feed'} R{s.r:.6g} Z{s.z:.6g}  {s.role}" for s in self.strokes]
+        return "\n".join(lines)
+
+
+@dataclass
+class Pen:
+    """Where the tip is, and the strokes so far; a straight cut that goes on is made longer."""
+
+    z: float
+    r: float
+    number: int = 0
+    tool: int = 1
+    strokes: list[Stroke] = field(default_factory=list)
+    start: tuple[float, float] = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        self.start = (float(self.z), float(self.r))
+
+    def rapid(self, z: float, r: float) -> None:
+        """Straight, at rapid."""
+        self._to(z, r, RAPID)
+
+    def feed(self, z: float, r: float, role: str) -> None:
+        """Straight, at the feed of the role."""
+        self._to(z, r, role)
+
+    def along(self, contour: Contour | None, role: str) -> None:
+        """Along a contour, at the feed of the role: straight to its start, if the tip is elsewhere."""
+        if contour is None:
+            return
+        self._to(float(contour.points[0, 0]), float(contour.points[0, 1]), role)
+        for end, bulge in zip(contour.ends, contour.bulge, strict=False):
+            self._to(float(end[0]), float(end[1]), role, float(bulge))
+
+    def append(self, plan: Plan, outside: float) -> None:
+        """Another plan, reached outside the blank."""
+        if np.hypot(plan.start[0] - self.z, plan.start[1] - self.r) > SAME:
+            self.rapid(self.z, outside)
+            self.rapid(plan.start[0], outside)
+            self.rapid(*plan.start)
+        base = self.number
+        for stroke in plan.strokes:
+            self.number = base + stroke.number
+            self._to(stroke.z, stroke.r, stroke.role, stroke.bulge)
+
+    def plan(self, name: str) -> Plan:
+        """What has been drawn."""
+        return Plan(name, self.start, tuple(self.strokes))
+
+    def _to(self, z: float, r: float, role: str, bulge: float = 0.0) -> None:
+        z, r = float(z), float(r)
+        way = np.array([z - self.z, r - self.r])
+        if np.hypot(*way) <= SAME:
+            return
+        number = 0 if role == RAPID else self.number
+        last = self.strokes[-1] if self.strokes else None
+        straight = role != RAPID and not bulge and last and not last.bulge
+        if straight and last and (last.role, last.number, last.tool) == (role, number, self.tool):
+            begin = (self.strokes[-2].z, self.strokes[-2].r) if len(self.strokes) > 1 else self.start
+            before = np.array([last.z - begin[0], last.r - begin[1]])
+            if abs(before[0] * way[1] - before[1] * way[0]) <= 1e-9 * np.hypot(*before) and before @ way > 0:
+                self.strokes.pop()
+        self.strokes.append(Stroke(z, r, role, bulge, number, self.tool))
+        self.z, self.r = z, r

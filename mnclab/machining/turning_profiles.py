@@ -1,0 +1,342 @@
+"""Profiles of turned parts: r(z) as a contour of lines and arcs, where it meets a level, what a tool can reach of it.
+
+A profile is an open `Contour` with points (z, r), mm, r the radius; it runs from the face towards the chuck, so that z
+never grows along it. Shoulders (z constant) are allowed, undercuts behind them are not. ::
+
+      r |                 .--------
+        |    ____________/             the profile is read from right to left,
+        |   /                          as the tool is fed
+        +---------------------- z
+       chuck                face
+
+Boring and facing are the same with r or z turned over, or with both exchanged.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.path.tool import Tool
+
+SAME = 1e-9  # mm
+
+
+class Stretch(NamedTuple):
+    """A part of a line or of an arc on which r is a function of z, from `right` down to `left`.
+
+    A line has its r at both ends; an arc its `centre` (z, r) and its `radius`, negative for the lower half circle.
+    """
+
+    right: float
+    left: float
+    ends: tuple[float, float]
+    centre: tuple[float, float] = (0.0, 0.0)
+    radius: float = 0.0
+
+    def at(self, z: float) -> float:
+        """The r over a z."""
+        if z in (self.right, self.left):
+            return self.ends[0] if z == self.right else self.ends[1]
+        if self.radius:
+            away = math.sqrt(max(self.radius**2 - (z - self.centre[0]) ** 2, 0.0))
+            return self.centre[1] + math.copysign(away, self.radius)
+        share = (self.right - z) / (self.right - self.left)
+        return self.ends[0] + share * (self.ends[1] - self.ends[0])
+
+
+def checked(profile: Contour) -> Contour:
+    """The profile with its arcs parted at their highest and lowest points; a ValueError where it is none."""
+    if profile.closed:
+        raise ValueError("a profile is an open contour, from the face to the chuck")
+    points: list[Floats] = [profile.points[0]]
+    bulges: list[float] = []
+    for start, end, bulge, centre, radius in zip(
+        profile.starts, profile.ends, profile.bulge, profile.centres, profile.radii, strict=False
+    ):
+        tops = [centre + (0, s * radius) for s in (1, -1)] if bulge else []
+        sweep = 4 * math.atan(bulge)
+        inner = [(_share(start, centre, sweep, top), top) for top in tops]
+        places = [top for share, top in sorted(inner, key=lambda each: each[0]) if 1e-9 < share < 1 - 1e-9]
+        for place in (*places, end):
+            if np.hypot(*(place - points[-1])) > SAME:
+                bulges.append(_bulge(points[-1], place, centre, sweep) if bulge else 0.0)
+                points.append(place)
+    if not bulges:
+        raise ValueError("a profile needs a length")
+    found = Contour(np.array(points), [*bulges, 0.0], closed=False)
+    heads, tails = found.tangents()
+    if max(heads[:, 0].max(), tails[:, 0].max()) > 1e-7:
+        raise ValueError("a profile runs from the face to the chuck: its z must never grow")
+    if found.points[:, 1].min() < -SAME:
+        raise ValueError("a profile lies on one side of the axis: its radius must not be negative")
+    return found
+
+
+def _share(start: Floats, centre: Floats, sweep: float, place: Floats) -> float:
+    """How far along an arc a place on its circle lies, 0 to 1 on the arc."""
+    first, then = (math.atan2(*(p - centre)[::-1]) for p in (start, place))
+    return ((then - first) * math.copysign(1, sweep)) % (2 * math.pi) / abs(sweep)
+
+
+def _bulge(start: Floats, end: Floats, centre: Floats, sweep: float) -> float:
+    first, then = (math.atan2(*(p - centre)[::-1]) for p in (start, end))
+    return math.tan(math.copysign(((then - first) * math.copysign(1, sweep)) % (2 * math.pi), sweep) / 4)
+
+
+# ---- places on a profile ----
+
+
+def way_at(profile: Contour, element: int, level: float) -> float:
+    """The way along a checked profile to where an element meets a level that lies between its ends."""
+    start, end = profile.starts[element], profile.ends[element]
+    before = float(profile.lengths[:element].sum())
+    share = (level - start[1]) / (end[1] - start[1])
+    sweep = profile.sweeps[element]
+    if sweep:
+        centre, radius = profile.centres[element], profile.radii[element]
+        side = math.copysign(1.0, (start + end)[0] / 2 - centre[0])
+        z = centre[0] + side * math.sqrt(max(radius**2 - (level - centre[1]) ** 2, 0.0))
+        share = _share(start, centre, sweep, np.array([z, level]))
+        share = 0.0 if share > 1.5 else share  # rounding just before the start
+    return before + min(max(share, 0.0), 1.0) * float(profile.lengths[element])
+
+
+def between(profile: Contour, first: float, last: float) -> Contour | None:
+    """The part of an open contour from one way along it to another; None if it has no length."""
+    upto = np.concatenate([[0.0], np.cumsum(profile.lengths)])
+    points, bulges = [profile.point_at(first)[0]], []
+    for i, sweep in enumerate(profile.sweeps):
+        low, high = max(first, upto[i]), min(last, upto[i + 1])
+        if high - low > SAME:
+            end = profile.points[i + 1] if high == upto[i + 1] else profile.point_at(high)[0]
+            bulges.append(math.tan(sweep * (high - low) / profile.lengths[i] / 4))
+            points.append(end)
+    return Contour(np.array(points), [*bulges, 0.0], closed=False) if bulges else None
+
+
+def joined(pieces: Iterable[Contour | None]) -> Contour:
+    """Contours that follow each other as one, with straight lines across gaps."""
+    points: list[Floats] = []
+    bulges: list[float] = []
+    for piece in pieces:
+        if piece is None:
+            continue
+        if points and np.hypot(*(piece.points[0] - points[-1])) <= SAME:
+            points.pop()
+        elif points:
+            bulges.append(0.0)
+        points.extend(piece.points)
+        bulges.extend(piece.bulge[:-1])
+    return Contour(np.array(points), [*bulges, 0.0], closed=False)
+
+
+def entry_way(profile: Contour, level: float) -> float | None:
+    """The way to the first point at or below a level, None where the profile begins below it."""
+    r = profile.points[:, 1]
+    if r[0] <= level + SAME:
+        return None
+    for i in range(len(r) - 1):
+        if r[i + 1] <= level + SAME:
+            return float(profile.lengths[: i + 1].sum()) if r[i + 1] >= level - SAME else way_at(profile, i, level)
+    raise ValueError(f"the profile never comes down to {level:g}")
+
+
+def exit_way(profile: Contour, level: float) -> float:
+    """The way to the last point at or below a level."""
+    r = profile.points[:, 1]
+    for i in range(len(r) - 1, -1, -1):
+        if r[i] <= level + SAME:
+            if i == len(r) - 1 or r[i] >= level - SAME:
+                return float(profile.lengths[:i].sum())
+            return way_at(profile, i, level)
+    raise ValueError(f"the profile never comes down to {level:g}")
+
+
+# ---- the uppermost of many ----
+
+
+def stretches(profile: Contour) -> list[Stretch]:
+    """The elements of a checked profile that are not shoulders."""
+    found = []
+    for i, (start, end) in enumerate(zip(profile.starts, profile.ends, strict=True)):
+        if start[0] - end[0] > SAME:
+            ends, radius = (float(start[1]), float(end[1])), 0.0
+            centre = (0.0, 0.0)
+            if profile.bulge[i]:
+                centre = (float(profile.centres[i][0]), float(profile.centres[i][1]))
+                radius = math.copysign(float(profile.radii[i]), profile.bulge[i])
+            found.append(Stretch(float(start[0]), float(end[0]), ends, centre, radius))
+    return found
+
+
+def uppermost(pieces: Sequence[Stretch], first: Sequence[float], last: Sequence[float]) -> Contour:
+    """The upper envelope of stretches from a point (z, r) to another one, with shoulders where it jumps."""
+    places = {first[0], last[0]}
+    for piece in pieces:
+        places |= {piece.right, piece.left}
+    for one, other in combinations(pieces, 2):
+        if min(one.right, other.right) > max(one.left, other.left):
+            places |= {z for z in _crossings(one, other) if z < one.right and z < other.right}
+    falling = sorted((z for z in places if last[0] <= z <= first[0]), reverse=True)
+    kept = [z for k, z in enumerate(falling) if k == 0 or falling[k - 1] - z > 1e-10]
+    points, bulges, owner = [np.array(first, dtype=float)], [], -1
+    for right, left in zip(kept, kept[1:], strict=False):
+        middle = (right + left) / 2
+        over = [k for k, piece in enumerate(pieces) if piece.left <= middle <= piece.right]
+        if not over:
+            raise ValueError(f"nothing bounds the part at z {middle:g}")
+        top = max(over, key=lambda k: (pieces[k].at(middle), k == owner))
+        piece = pieces[top]
+        begin, end = np.array([right, piece.at(right)]), np.array([left, piece.at(left)])
+        if abs(begin[1] - points[-1][1]) > SAME:
+            points.append(begin)
+            bulges.append(0.0)
+            owner = -1
+        if top == owner:
+            points.pop()
+            bulges.pop()
+        bulges.append(_arc(piece, points[-1], end))
+        points.append(end)
+        owner = top
+    if abs(points[-1][1] - last[1]) > SAME:
+        points.append(np.array(last, dtype=float))
+        bulges.append(0.0)
+    return Contour(np.array(points), [*bulges, 0.0], closed=False)
+
+
+def _arc(piece: Stretch, start: Floats, end: Floats) -> float:
+    if not piece.radius:
+        return 0.0
+    half = math.asin(min(1.0, float(np.hypot(*(end - start))) / 2 / abs(piece.radius)))
+    return math.copysign(math.tan(half / 2), piece.radius)
+
+
+def _crossings(one: Stretch, other: Stretch) -> list[float]:
+    """The z where two whole lines or circles cross."""
+    if not one.radius and not other.radius:
+        z = one.right
+        gap = one.ends[0] - other.ends[0] + _slope(other) * (other.right - z)
+        lean = _slope(other) - _slope(one)
+        return [z + gap / lean] if abs(lean) > 1e-12 else []
+    ring, line = (one, other) if one.radius else (other, one)
+    centre = np.array(ring.centre)
+    if line.radius:
+        apart = np.array(line.centre) - centre
+        size = float(np.hypot(*apart))
+        if size < 1e-12:
+            return []
+        along = (size**2 + ring.radius**2 - line.radius**2) / (2 * size)
+        foot, way = centre + along * apart / size, np.array([-apart[1], apart[0]]) / size
+    else:
+        way = np.array([1.0, _slope(line)]) / math.hypot(1.0, _slope(line))
+        start = np.array([line.right, line.ends[0]])
+        foot = start + ((centre - start) @ way) * way
+    reach = ring.radius**2 - float(((foot - centre) ** 2).sum())
+    if reach < -1e-9:
+        return []
+    return [float((foot + s * math.sqrt(max(reach, 0.0)) * way)[0]) for s in (1, -1)]
+
+
+def _slope(line: Stretch) -> float:
+    return (line.ends[0] - line.ends[1]) / (line.right - line.left)
+
+
+# ---- what a tool can reach ----
+
+
+def angles_of(tool: Tool) -> tuple[float, float]:
+    """Main and auxiliary cutting-edge angle, rad; what the tool table does not give does not restrict: 90 degrees."""
+    return math.radians(tool.main_angle or 90.0), math.radians(tool.auxiliary_angle or 90.0)
+
+
+def reachable(profile: Contour, tool: Tool) -> Contour:
+    """The lowest way of a tool's tip over a profile: nowhere steeper than the cutting edges, no wall within its width.
+
+    A wall that grows with the feed is cut up to the main angle, one that falls up to the auxiliary angle. Behind a
+    corner that is steeper the edge leaves a straight line.
+    """
+    contour = checked(profile)
+    if tool.width:
+        contour = _for_width(contour, tool.width)
+    main, auxiliary = angles_of(tool)
+    first, last = contour.points[0], contour.points[-1]
+    pieces = stretches(contour)
+    found = list(pieces)
+    for angle, side in ((auxiliary, -1.0), (main, 1.0)):
+        if angle >= math.pi / 2 - 1e-12:
+            continue
+        edge = float(last[0] if side < 0 else first[0])
+        for z, r in (*contour.points, *_leaning(pieces, side * angle)):
+            if abs(z - edge) > SAME:
+                fallen = float(r - abs(z - edge) * math.tan(angle))
+                rows = (float(z), edge, (float(r), fallen)) if side < 0 else (edge, float(z), (fallen, float(r)))
+                found.append(Stretch(*rows))
+    if len(found) == len(pieces):
+        return contour
+    ends = [(z, max(r, *(p.at(z) for p in found if p.left <= z <= p.right))) for z, r in (first, last)]
+    return checked(uppermost(found, *ends))
+
+
+def _leaning(pieces: Iterable[Stretch], angle: float) -> list[tuple[float, float]]:
+    """Where convex arcs lean by an angle, + in the direction of feed: there the edge of a tool touches them."""
+    spots = []
+    for piece in pieces:
+        z = piece.centre[0] + piece.radius * math.sin(angle)
+        if piece.radius > 0 and piece.left < z < piece.right:
+            spots.append((z, piece.centre[1] + piece.radius * math.cos(angle)))
+    return spots
+
+
+def _for_width(contour: Contour, width: float) -> Contour:
+    """The greatest radius within the width to the right of every z: the way of the left corner of a blade."""
+    pieces = stretches(contour)
+    moved = [
+        p._replace(right=p.right - width, left=p.left - width, centre=(p.centre[0] - width, p.centre[1]))
+        for p in pieces
+    ]
+    level = [Stretch(float(z), float(z) - width, (float(r), float(r))) for z, r in contour.points]
+    first, last = contour.points[0], contour.points[-1]
+    return checked(uppermost([*pieces, *moved, *level], first, (last[0], highest(contour, last[0], last[0] + width))))
+
+
+def lowest(profile: Contour, z: float) -> float:
+    """The least radius of a checked profile over a z: the foot of the wall where one stands there."""
+    turned = Contour(profile.points[:, ::-1], -profile.bulge, closed=False)
+    stop = entry_way(turned, z)
+    ways = np.array([_behind(turned, z), 0.0 if stop is None else stop])
+    return float(profile.point_at(ways)[0][:, 1].min())
+
+
+def highest(profile: Contour, left: float, right: float) -> float:
+    """The greatest radius of a checked profile strictly between two z; walls that stand on them do not count."""
+    piece = over(profile, left, right)
+    return lowest(profile, left) if piece is None else float(piece.bounds[1, 1])
+
+
+def over(profile: Contour, left: float, right: float) -> Contour | None:
+    """The part of a checked profile strictly between two z, None if there is none."""
+    turned = Contour(profile.points[:, ::-1], -profile.bulge, closed=False)  # (r, z): its levels are z
+    stop = entry_way(turned, left)
+    return between(profile, *sorted((_behind(turned, right), 0.0 if stop is None else stop)))
+
+
+def _behind(turned: Contour, z: float) -> float:
+    """The way to the last point at or in front of a z."""
+    found = entry_way(Contour(-turned.points[::-1], turned.reversed().bulge, closed=False), -z)
+    return turned.length - (0.0 if found is None else found)
+
+
+def edges_of(tool: Tool, height: float) -> Floats:
+    """What a tool covers above its tip up to a height, (k, 2) from the tip: between its edges, over its width.
+
+    Without angles and width it is a line, and what it passes under falls.
+    """
+    main, auxiliary = angles_of(tool)
+    lean = [0.0 if abs(math.tan(a)) > 1e12 else height / math.tan(a) for a in (main, auxiliary)]
+    return np.array([(0.0, 0.0), (tool.width, 0.0), (tool.width + lean[1], height), (-lean[0], height)])

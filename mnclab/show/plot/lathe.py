@@ -1,0 +1,162 @@
+"""What only figures of a lathe show: blank and finished part, the insert, threads with their lead, the spindle speed.
+
+Views have Z to the right and X up; positions are those of the path: X a radius, mm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Polygon
+from numpy.typing import NDArray
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+from mnclab.geometry.sweeps import outlined, polygons, swept
+from mnclab.machining.turning_profiles import edges_of
+from mnclab.path.kinds import Kind
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath
+from mnclab.show.plot import colours
+from mnclab.show.plot.insert import insert_patches
+from mnclab.show.plot.picture import SMALL, Picture
+from mnclab.show.plot.strategy import area
+from mnclab.workpiece.blank import Blank
+
+MOST = 2000  # cuts that are taken off a blank
+PARTS = 24  # of a row along which the speed changes
+
+
+class Turned(NamedTuple):
+    """A blank (z from, z to, radius), what the cuts leave of it, the tool and where its tip stands (z, r)."""
+
+    blank: tuple[float, float, float] | None
+    part: Region | None
+    tool: Tool
+    tip: tuple[float, float] | None
+
+
+def turned(path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], insert: bool | int) -> Turned:
+    """What is drawn beside the path; `stock` stands in the coordinates of the path, the insert stands after a row."""
+    blank = _blank(stock)
+    tip, tool = None, Tool()
+    if len(path) and insert is not False:
+        row = len(path) - 1 if insert is True else range(len(path))[int(insert)]
+        tip, tool = (float(path.end[row, 2]), float(path.end[row, 0])), tools.get(int(path.tool[row]), Tool())
+    return Turned(blank, silhouette(path, blank, tools) if blank else None, tool, tip)
+
+
+def _blank(stock: Blank | None) -> tuple[float, float, float] | None:
+    if stock is None:
+        return None
+    low, high = stock.bounds
+    return float(low[2]), float(high[2]), float(max(abs(low[0]), abs(high[0])))
+
+
+def with_blank(
+    path: Toolpath, stock: Blank | None, low: NDArray[np.float64], high: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The box (3,) and (3,) of a picture with the blank of a lathe in it."""
+    blank = _blank(stock) if path.lathe else None
+    if blank is None:
+        return low, high
+    left, right, radius = blank
+    return np.fmin(low, (0.0, low[1], left)), np.fmax(high, (radius, high[1], right))
+
+
+def silhouette(path: Toolpath, blank: tuple[float, float, float], tools: Mapping[int, Tool]) -> Region | None:
+    """What the cuts leave of a blank: its half section without what the edges of the tools sweep.
+
+    The table's angles and widths count. None for a path of too many cuts.
+    """
+    cuts = np.flatnonzero(np.isin(path.kind, (Kind.LINE, Kind.ARC)) & ~path.synchronous)
+    if len(cuts) > MOST:
+        return None
+    left, right, radius = blank
+    whole = Contour([(left, 0.0), (right, 0.0), (right, radius), (left, radius)])
+    gone = []
+    for row in cuts:
+        start, end = path.start[row][[2, 0]], path.end[row][[2, 0]]
+        if np.hypot(*(end - start)) < 1e-9 and not path.sweep[row]:
+            continue
+        tool = tools.get(int(path.tool[row]), Tool())
+        height = 1.01 * (abs(radius) + abs(float(min(start[1], end[1]))) + 1.0)
+        bulge = float(np.tan(path.sweep[row] * path.axis[row, 1] / 4)) if path.kind[row] == Kind.ARC else 0.0
+        gone.append(swept(edges_of(tool, height), Contour([start, end], [bulge, 0.0], closed=False)))
+    body = polygons(Region.of(whole))
+    for each in gone:
+        body = body.difference(each)
+    return outlined(body)
+
+
+def draw_part(ax: Axes, found: Turned) -> None:
+    """Blank and finished part below everything else, on both sides of the centre line where the view shows them."""
+    if found.blank is None:
+        return
+    left, right, radius = found.blank
+    corners = [(left, 0), (left, radius), (right, radius), (right, 0)]
+    ax.add_patch(Polygon(corners, facecolor="#f4f1e8", edgecolor="#b8b09a", linewidth=0.8, zorder=0.6, label="blank"))
+    if found.part is not None:
+        area(ax, found.part, facecolor="#d9d5c8", edgecolor="#7d7664", linewidth=0.9, zorder=0.8, label="part")
+
+
+def draw_insert(ax: Axes, found: Turned, size: float) -> None:
+    """The insert with its tip where it stands; `size` mm is the length of its edges."""
+    if found.tip is not None:
+        for patch in insert_patches(found.tool, found.tip, size):
+            ax.add_patch(patch)
+
+
+def thread_leads(path: Toolpath) -> dict[int, float]:
+    """Rows of a lathe that cut a thread, and their leads, mm: what the tool goes on in one revolution."""
+    rows = np.flatnonzero(path.synchronous & np.isin(path.kind, (Kind.LINE, Kind.ARC)))
+    return {int(row): float(path.per_rev[row]) for row in rows}
+
+
+def speeds(path: Toolpath, most: float = np.inf) -> tuple[NDArray[np.float64], ...]:
+    """Way along the motion, mm, spindle speed there, rev/min, and diameter, mm: (k,) each.
+
+    At constant cutting speed V m/min it is 1000 V / (π d), not above `most`; else the programmed one.
+    """
+    rows = np.flatnonzero(path.is_motion)
+    share = np.linspace(0.0, 1.0, PARTS)
+    before = np.concatenate([[0.0], np.cumsum(path.lengths[rows])])
+    way = before[:-1, None] + path.lengths[rows][:, None] * share
+    radius = path.start[rows, 0][:, None] + (path.end[rows, 0] - path.start[rows, 0])[:, None] * share
+    for k in np.flatnonzero(path.kind[rows] == Kind.ARC):
+        row = rows[k]
+        arm = path.start[row] - path.centre[row]
+        turn = share * path.sweep[row]
+        radius[k] = path.centre[row, 0] + arm[0] * np.cos(turn) + np.cross(path.axis[row], arm)[0] * np.sin(turn)
+    surface = path.surface[rows][:, None]
+    with np.errstate(divide="ignore"):
+        wanted = 1000 * surface / (2 * np.pi * np.abs(radius))
+    speed = np.where(np.isnan(surface), np.abs(path.spindle[rows])[:, None] + 0 * radius, wanted)
+    return way.ravel(), np.minimum(speed, most).ravel(), 2 * np.abs(radius).ravel()
+
+
+def plot_speed(path: Toolpath, most: float = np.inf, size: tuple[float, float] = (7.0, 4.2)) -> Picture:
+    """Spindle speed and diameter over the way of the tool; `most` is the greatest speed of the spindle, rev/min."""
+    way, speed, diameter = speeds(path, most)
+    picture = Picture(size, alt="spindle speed over the path")
+    finite = np.isfinite(speed)
+    for k, (values, label) in enumerate(
+        ((np.where(finite, speed, np.nan), "spindle, rev/min"), (diameter, "X (diameter), mm"))
+    ):
+        ax = picture.add_axes((0.11, (0.56, 0.12)[k], 0.86, 0.4))
+        ax.plot(way, values, color=(colours.FEED.colour, "#7d7664")[k], linewidth=1.5)
+        ax.set_ylabel(label, fontsize=SMALL + 1)
+        ax.set_xlim(0, max(float(way[-1]), 1e-9) if len(way) else 1)
+        ax.set_ylim(bottom=0)
+        ax.tick_params(labelsize=SMALL, labelbottom=bool(k))
+        ax.grid(True, color=colours.FAINT, linewidth=0.6)
+        if not k and np.isfinite(most) and (speed >= most).any():
+            ax.axhline(most, **{**colours.LIMIT.style(), "label": "_limit"})
+            ax.annotate("greatest speed", (0.01, most), (0, 2), xycoords=("axes fraction", "data"),
+                        textcoords="offset points", fontsize=SMALL, color=colours.LIMIT.colour)  # fmt: skip
+            ax.set_ylim(0, 1.18 * most)
+    picture.axes[-1].set_xlabel("path, mm", fontsize=SMALL + 1)
+    return picture

@@ -1,0 +1,231 @@
+"""Roughing schemes stroke by stroke against the examples of the catalogue, and their promises on any profile."""
+
+import json
+import math
+import re
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from mnclab import Tool
+from mnclab.comparison.turning import SUITED, compare
+from mnclab.geometry.contours import Contour
+from mnclab.machining import turning_schemes as schemes
+from mnclab.machining.groove_schemes import Groove, plunges, scheme_5, side_steps
+from mnclab.machining.strokes import CLEANUP, PICK_UP, PLUNGE, RAPID
+from mnclab.machining.thread_schemes import added, shifts
+from mnclab.machining.turning_profiles import reachable
+from mnclab.machining.zones import zone_of, zones
+
+CATALOGUE = Path(__file__).parent.parent / "authorities" / "catalogue" / "turning-technology.json"
+OPEN = Contour([(0, 20), (-50, 20)], closed=False)
+SEMI_OPEN = Contour([(0, 20), (-40, 20), (-50, 30)], closed=False)
+CLOSED = Contour([(-10, 30), (-20, 20), (-40, 20), (-50, 30)], closed=False)
+STEPPED = Contour(
+    [(0, 15), (-10, 18), (-20, 18), (-25, 12), (-30, 12), (-32, 18), (-40, 18), (-40, 24), (-60, 24)], closed=False
+)
+SQUARE = Tool(main_angle=90, auxiliary_angle=60)
+
+#: What draws each example of the catalogue, by its title.
+DRAWN = {
+    "loop: Open": lambda: schemes.loop(OPEN, 30, 4),
+    "loop: Semi-open": lambda: schemes.loop(SEMI_OPEN, 30, 4),
+    "zigzag: Test": lambda: schemes.zigzag(SEMI_OPEN, 30, 4),
+    "descent: Test": lambda: schemes.descent(CLOSED, 30, 5),
+    "pick-up: Test": lambda: schemes.pick_up(SEMI_OPEN, 30, 4),
+    "semi-finish pass: After the last": lambda: schemes.semi_finish(SEMI_OPEN, 30, 4),
+    "semi-finish pass: After the penultimate": lambda: schemes.semi_finish(SEMI_OPEN, 30, 4, after="penultimate"),
+    "equidistant: Test": lambda: schemes.equidistant(SEMI_OPEN, 30, 4),
+    "contour scheme: Test": lambda: schemes.contour(SEMI_OPEN, 30, 4, shift=(8, 2), passes=3),
+    "closed zone strokes: With pick-up": lambda: schemes.pick_up(CLOSED, 30, 4),
+    "closed zone strokes: With clean-up": lambda: schemes.semi_finish(CLOSED, 30, 4),
+    "groove scheme 5: b = 10": lambda: scheme_5(Groove(0, 10, 25, 30), 4, finish=True),
+}
+EXAMPLES = {f"{e['code']}: {e['title']}": e for e in json.loads(CATALOGUE.read_text("utf-8"))}
+FEEDS = {"main feed": "rough", "roughing feed": "rough", "pick-up feed": PICK_UP, "semi-finish feed": CLEANUP}
+
+
+def listed(text):
+    """The strokes of an expected listing: (rapid or not, r, z), with the start first; and the words behind a #."""
+    found = re.findall(r"(start|rapid|feed) R(\S+) Z(\S+)(?: *# *(.*))?", text)
+    return [(kind, float(r), float(z), note) for kind, r, z, note in found]
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_examples_of_the_catalogue(name):
+    (example,) = [e for title, e in EXAMPLES.items() if title.startswith(name)]
+    plan = DRAWN[name]()
+    start, *strokes = listed(example["expected"])
+    assert len(strokes) > 4
+    assert plan.start == pytest.approx((start[2], start[1]))
+    assert [s.role == RAPID for s in plan.strokes] == [kind == "rapid" for kind, *_ in strokes]
+    assert [(s.r, s.z) for s in plan.strokes] == [pytest.approx((r, z), abs=5e-5) for _, r, z, _ in strokes]
+    for stroke, (*_, note) in zip(plan.strokes, strokes, strict=True):
+        assert note not in FEEDS or stroke.role == FEEDS[note]
+        assert not note.startswith("plunge feed") or stroke.role == PLUNGE
+
+
+def test_every_example_is_looked_at():
+    formulas = [title for title, e in EXAMPLES.items() if "(formula)" in e["program"]]
+    assert len(formulas) == 6
+    assert all(any(title.startswith(name) for name in DRAWN) for title in EXAMPLES if title not in formulas)
+
+
+def numbers(text, after):
+    """The numbers on the line of an expected text behind some words."""
+    (line,) = [line for line in text.splitlines() if line.startswith(after)]
+    return [float(each) for each in re.findall(r"-?\d+(?:\.\d+)?", line[len(after) :])]
+
+
+def test_formulas_of_the_catalogue():
+    depths = (0.4, 0.8, 1.2, 1.5, 1.84)
+    sixty, fifty_five = (EXAMPLES[f"one-sided flank infeed: {t}"]["expected"] for t in (
+        "60 degrees, depths 0.4 0.8 1.2 1.5 1.84", "55 degrees, same depths"))  # fmt: skip
+    assert added(shifts(depths, "flank")) == pytest.approx(numbers(sixty, "shift added before each pass:"))
+    assert shifts(depths, "flank") == pytest.approx(numbers(sixty, "position s_i:"))
+    last = [-s for s in shifts(depths, "flank", nominal_last=True)]
+    assert last == pytest.approx(numbers(sixty, "nominal at the last pass:"))
+    assert added(shifts(depths, "flank", 55)) == pytest.approx(numbers(fifty_five, "shift added:"))
+    assert shifts(depths, "flank", 55) == pytest.approx(numbers(fifty_five, "position s_i:"))
+    (alternate,) = [e["expected"] for e in EXAMPLES.values() if e["code"] == "alternate flank infeed"]
+    assert shifts(depths, "alternate") == pytest.approx(numbers(alternate, "s_i:"))
+    assert plunges(0, 10, 4) == pytest.approx((-4, -7, -10)) and side_steps(10, 4) == 2
+    assert plunges(0, 10, 4, finish=True) == pytest.approx((-4.5, -7, -9.5))
+    assert side_steps(10, 4, finish=True) == pytest.approx(5 / 3)
+    assert plunges(0, 20, 4) == pytest.approx((-4, -6.6667, -9.3333, -12, -14.6667, -17.3333, -20), abs=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("profile", "kind", "passes"),
+    [(OPEN, "open", 3), (SEMI_OPEN, "semi-open", 3), (CLOSED, "closed", 3), (STEPPED, "combined", None)],
+)
+def test_zones(profile, kind, passes):
+    assert zone_of(profile) == kind
+    if passes:
+        assert schemes.loop(profile, 30, 4).passes == schemes.zigzag(profile, 30, 4).passes == passes
+
+
+def test_a_combined_zone_is_parted():
+    """A shaft with a step and a groove: what stays dry grows to 24 and goes on level; the groove is closed."""
+    found = zones(STEPPED, 30)
+    assert [zone.kind for zone in found] == ["semi-open", "open", "closed"]
+    assert found[0].main == pytest.approx(90) and found[1].profile.points.tolist() == [[-40, 24], [-60, 24]]
+    assert found[2].auxiliary == pytest.approx(math.degrees(math.atan2(6, 5)))
+    ribbed = Contour([(0, 20), (-4, 10), (-6, 15), (-8, 12), (-12, 20)], closed=False)
+    assert [float(zone.profile.points[0, 1]) for zone in zones(ribbed)] == pytest.approx([20, 15, 15])
+
+
+def test_an_edge_leaves_a_line_behind_a_corner():
+    """30 degrees behind the rim: 10 deep, 10 / tan 30 = 17.3205 long; a main angle of 40 likewise in front of a wall."""
+    found = reachable(CLOSED, Tool(main_angle=40, auxiliary_angle=30)).points
+    long, short = 10 / math.tan(math.radians(30)), 10 / math.tan(math.radians(40))
+    assert found == pytest.approx(np.array([(-10, 30), (-10 - long, 20), (short - 50, 20), (-50, 30)]))
+    ball = Contour([(0, 20), (-20, 20), (-20, 25)], [1, 0, 0], closed=False)  # half a circle of radius 10
+    cut = reachable(ball, Tool(auxiliary_angle=45))
+    touch = (-10 - 10 * math.sin(math.pi / 4), 20 + 10 * math.cos(math.pi / 4))
+    assert np.hypot(*(cut.points - touch).T).min() < 1e-6  # a tangent: the root of rounding
+
+
+@pytest.mark.parametrize("profile", [OPEN, SEMI_OPEN, CLOSED])
+@pytest.mark.parametrize("name", ["pick-up", "semi-finish", "equidistant", "contour"])
+def test_the_area_removed_is_that_between_blank_and_contour(profile, name):
+    trial = compare(profile, 30, SQUARE, [name], depth=4)[0]
+    corners = np.vstack([profile.points, [(profile.points[-1, 0], 30), (profile.points[0, 0], 30)]])
+    assert trial.removed == pytest.approx(abs(Contour(corners).area), abs=1e-6)
+    assert trial.rest.area == trial.ridge == 0
+
+
+@pytest.mark.parametrize(("name", "ridges"), [("loop", [4, 4, 2]), ("zigzag", [4, 0, 2])])
+def test_loop_and_zigzag_leave_ridges_on_a_shoulder(name, ridges):
+    """A triangle of half the square of each level's depth on the flank of 45 degrees, but where the zigzag goes down it."""
+    trial = compare(SEMI_OPEN, 30, SQUARE, [name], depth=4)[0]
+    assert trial.rest.area == pytest.approx(sum(a * a / 2 for a in ridges), abs=1e-6)
+    assert trial.gouged == trial.struck == 0
+
+
+@pytest.mark.parametrize("profile", [OPEN, SEMI_OPEN, CLOSED])
+def test_the_ranking_of_the_source(profile):
+    """Loop, semi-finish, pick-up: equal cuts, longer idle strokes, where the clean-up takes the place of the last pass."""
+    tool = Tool(main_angle=95, auxiliary_angle=50)
+    penultimate = partial(schemes.semi_finish, after="penultimate")
+    ways = {"loop": "loop", "clean-up": penultimate, "pick-up": "pick-up", "after the last": "semi-finish"}
+    loop, clean, pick, last = (trial.row for trial in compare(profile, 30, tool, ways, depth=4).trials)
+    assert loop["time"] <= clean["time"] <= pick["time"] + 1e-9
+    assert clean["length"] == pytest.approx(pick["length"]) and clean["rapid"] <= pick["rapid"] + 0.7
+    assert loop["ridge"] > 1 or profile is OPEN  # only there the loop leaves an even allowance
+    if profile is SEMI_OPEN:  # cut by hand: three passes of 48, 44 and 42, and a flank of 14.142 in all
+        assert pick["length"] == pytest.approx(48 + 44 + 42 + 10 * math.sqrt(2))
+        assert last["length"] == pytest.approx(48 + 44 + 42 + 42 + 10 * math.sqrt(2)) and last["time"] > pick["time"]
+
+
+def test_time_at_the_feeds():
+    """0.3 mm/rev at 800 rev/min is 240 mm/min; at 180 m/min and radius 26 the spindle turns 1101.8 times a minute."""
+    row = compare(SEMI_OPEN, 30, SQUARE, ["loop"], depth=4, feed=0.3, spindle=800, rapid=6000)["loop"].row
+    assert row["time"] == pytest.approx((48 + 44 + 42) / 240 * 60 + row["rapid"] / 6000 * 60)
+    path = compare(SEMI_OPEN, 30, SQUARE, ["loop"], depth=4, surface=180, spindle=1200)["loop"].path
+    assert path.spindle[1] == pytest.approx(1000 * 180 / (2 * math.pi * 26)) and path.spindle.max() == 1200
+
+
+@st.composite
+def profiles(draw):
+    """Steps and cones up and down under a blank of 30, with the highest wall at the chuck."""
+    z, r = 0.0, draw(st.integers(6, 28))
+    points, bulges = [(z, r)], []
+    for _ in range(draw(st.integers(1, 5))):
+        dz, to = draw(st.integers(0 if bulges else 2, 8)), draw(st.integers(3, 28))
+        dz = 2 if dz == 0 and to == r else dz
+        bulge = 0.0
+        z, r = z - dz, to
+        points.append((z, r))
+        bulges.append(bulge)
+    points.append((z - 3, max(31, *(r for _, r in points))))
+    bulges.append(0.0)
+    assume(min(r for _, r in points) < 29)
+    return Contour(points, [*bulges, 0.0], closed=False)
+
+
+TOOLS = st.builds(
+    lambda main, auxiliary, width: Tool(main_angle=main, auxiliary_angle=auxiliary, width=width),
+    st.sampled_from([0, 90, 95]), st.sampled_from([0, 15, 30, 60]), st.just(0),
+)  # fmt: skip
+FINE = 2e-3  # mm²: arcs are chords here
+
+
+@settings(max_examples=12, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@given(profiles(), TOOLS, st.sampled_from([2.7, 4.0, 6.0]))
+def test_no_stroke_goes_below_and_no_rapid_through_material(profile, tool, depth):
+    kind = zone_of(profile, 30)
+    assume(kind != "combined")
+    names = set(SUITED[kind])
+    for trial in compare(profile, 30, tool, sorted(names), depth=depth).trials:
+        assert trial.gouged < FINE and trial.struck < FINE, trial.name
+        if trial.name in ("pick-up", "semi-finish", "equidistant", "contour"):
+            assert trial.rest.area < FINE, trial.name
+
+
+def test_a_shaft_with_a_step_and_a_groove():
+    trial = compare(STEPPED, 30, Tool(main_angle=95, auxiliary_angle=52), depth=4)["combined"]
+    assert trial.rest.area < 1e-6 and trial.gouged < 1e-6 and trial.struck < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: schemes.loop(SEMI_OPEN, 30, 0), "depth of a pass"),
+        (lambda: schemes.loop(SEMI_OPEN, 20, 4), "nothing to cut"),
+        (lambda: schemes.loop(SEMI_OPEN, 30, 1e-6), "passes, allowed are"),
+        (lambda: schemes.loop(STEPPED, 30, 4), "part it into zones"),
+        (lambda: schemes.descent(CLOSED, 30, 5, Tool(width=4)), "at most the tool width 4"),
+        (lambda: schemes.loop(SEMI_OPEN.reversed(), 30, 4), "must never grow"),
+        (lambda: schemes.semi_finish(SEMI_OPEN, 30, 4, after="first"), "penultimate"),
+        (lambda: compare(SEMI_OPEN, 30, schemes=["spiral"]), "known: loop"),
+        (lambda: compare(SEMI_OPEN, 30, feeds={"cut": 1}), "no role 'cut'"),
+    ],
+)
+def test_refused(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()

@@ -1,0 +1,82 @@
+"""Figures of a lathe: schemes side by side, blank and part, the insert, threads, the spindle speed."""
+
+import math
+
+import numpy as np
+import pytest
+from matplotlib.patches import Polygon
+
+from mnclab import Setup, Tool, run
+from mnclab.comparison.turning import compare, toolpath
+from mnclab.geometry.contours import Contour
+from mnclab.machining import thread_schemes as threads
+from mnclab.show.plot.insert import insert_outline
+from mnclab.show.plot.lathe import plot_speed, silhouette, speeds, thread_leads
+from mnclab.show.plot.path import plot_path
+from mnclab.show.plot.turning import plot_schemes, plot_threads
+
+SHOULDER = Contour([(0, 20), (-40, 20), (-50, 30)], closed=False)
+SQUARE = "S800\nM3\nF20\nX4000 ~ *\nZ200 ~\nX3000 ~\nZ-2000\nX6200\nZ200 ~\n"
+STOCK = ((-30, -30, -60), (30, 30, 0))
+
+
+@pytest.fixture(scope="module")
+def found():
+    return compare(SHOULDER, 30, depth=4)
+
+
+def test_schemes_at_one_scale_and_nothing_overlaps(found):
+    picture = found.plot(width=9)
+    assert [ax.get_title(loc="left") for ax in picture.axes] == [trial.name for trial in found.trials]
+    picture.canvas.draw()
+    boxes = [ax.get_tightbbox() for ax in picture.axes] + [legend.get_window_extent() for legend in picture.legends]
+    for i, a in enumerate(boxes):
+        assert a.x0 >= -0.5 and a.x1 <= picture.bbox.x1 + 0.5 and a.y0 >= -0.5 and a.y1 <= picture.bbox.y1 + 0.5
+        assert not any(a.overlaps(b) for b in boxes[i + 1 :])
+    assert all(ax.get_aspect() == 1 for ax in picture.axes)
+    names = [text.get_text() for text in picture.legends[0].get_texts()]
+    assert {"rapid", "roughing", "pick-up", "clean-up", "left standing"} == set(names)
+    with pytest.raises(ValueError, match="nothing to draw"):
+        plot_schemes(type(found)(()))
+
+
+def test_an_insert_has_the_angles_of_its_tool():
+    """Edges from the tip: 95 degrees from the direction of feed, 30 from the axis; a blade is as wide as its tool."""
+    _, trail, _, lead = insert_outline(Tool(main_angle=95, auxiliary_angle=30), 2.0)
+    assert math.degrees(math.atan2(lead[1], -lead[0])) == pytest.approx(95)
+    assert math.degrees(math.atan2(trail[1], trail[0])) == pytest.approx(30)
+    assert np.ptp(insert_outline(Tool(width=3), 2.0)[:, 0]) == 3
+
+
+def test_what_the_cuts_leave_of_a_blank():
+    """A square shoulder at radius 15, 20 long, out of a half section of 60 × 30, cut by a tool that leans nowhere."""
+    done = run(SQUARE, "nc-31", Setup(stock=STOCK, tools={}))
+    assert done.ok
+    part = silhouette(done.toolpath, (-60, 0, 30), {})
+    assert part.area == pytest.approx(60 * 30 - 20 * 15, abs=1e-6)
+    axes = done.plot().axes[0]
+    assert {"blank", "part"} <= {str(patch.get_label()) for patch in axes.patches}
+    assert axes.get_xlim()[0] < -60 and axes.get_ylim()[1] > 30
+    inserts = [p for p in axes.patches if isinstance(p, Polygon) and p.get_zorder() > 4]
+    assert len(inserts) == 2 and not [
+        p for p in plot_path(done.toolpath, insert=False).axes[0].patches if p.get_zorder() > 4
+    ]
+
+
+def test_threads_are_drawn_with_their_lead():
+    path = toolpath(threads.thread(2, -20, 10, (0.5, 0.9)), {"thread": 1.75})
+    assert list(thread_leads(path).values()) == [1.75, 1.75]
+    names = [text.get_text() for text in path.plot().legends[0].get_texts()]
+    assert "thread, lead 1.75 mm" in names and "feed" not in names
+    picture = plot_threads({m: threads.shifts((0.5, 0.9), m) for m in threads.METHODS}, (0.5, 0.9))
+    assert [ax.get_title(loc="left") for ax in picture.axes] == list(threads.METHODS)
+
+
+def test_spindle_speed_over_the_path():
+    """Facing from radius 30 to 5 at 180 m/min: n = 1000 v / (π d), but at most 2000; along a cylinder it stays."""
+    path = toolpath(compare(SHOULDER, 30, Tool(), ["loop"], depth=10)["loop"].plan, {"rough": 0.2}, 3000, surface=180)
+    way, speed, diameter = speeds(path, 2000)
+    assert way[-1] == pytest.approx(path.length) and (np.diff(way) >= 0).all()
+    assert speed == pytest.approx(np.minimum(2000, 1000 * 180 / (math.pi * diameter)))
+    picture = plot_speed(path, 1200)
+    assert [ax.get_ylabel() for ax in picture.axes] == ["spindle, rev/min", "X (diameter), mm"]
