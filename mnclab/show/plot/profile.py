@@ -228,7 +228,7 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
     )
     if not whole and fast > RAPIDS * cut > 0:
         top = 1.15 * min(max(cut, float(np.nanmax(wanted, initial=0.0))), RAPIDS * cut)
-        note = {"ha": "right", "va": "top", "fontsize": SMALL - 1, "color": colours.RAPID.colour}
+        note: dict[str, Any] = {"ha": "right", "va": "top", "fontsize": SMALL - 1, "color": colours.RAPID.colour}
         ground = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
         ax.text(
             0.995,
