@@ -1,4 +1,4 @@
-"""mnclab from a shell: check, run, plot, time, help, lab; ``python -m mnclab`` is the same as ``mnclab``.
+"""mnclab from a shell: check, run, plot, report, time, help, lab; ``python -m mnclab`` is the same as ``mnclab``.
 
 Exit status: 0 clean, 1 alarms, 2 a command line that makes no sense, 130 stopped by Ctrl-C. Alarms go to stderr, one
 line each, in the form that editors understand: ``FILE:LINE:COLUMN: alarm: message (hint)``.
@@ -76,7 +76,9 @@ def parser() -> argparse.ArgumentParser:
 
     def options(sub: argparse.ArgumentParser, json_says: str = "") -> None:
         sub.add_argument("--control", choices=list(mnclab.controls), help="default: from the file's suffix or its text")
-        sub.add_argument("--setup", metavar="S.toml", help="tools, datums, start, settings (mnclab --help shows one)")
+        sub.add_argument(
+            "--setup", metavar="S.toml", help="tools, datums, blank, start, settings (mnclab --help shows one)"
+        )
         if json_says:
             sub.add_argument("--json", action="store_true", help=json_says)
 
@@ -86,20 +88,28 @@ def parser() -> argparse.ArgumentParser:
     sub = command("run", run, "run a program and print its moves, one a line")
     sub.add_argument("file", metavar="FILE")
     options(sub, "summary, alarms and columns of the path on stdout instead")
-    sub = command("plot", plot, "run a program and save what it does")
+    sub = command(
+        "plot", plot, "run a program and save what it does: a picture, a page to play it, a file for other programs"
+    )
     sub.add_argument("file", metavar="FILE")
     sub.add_argument(
         "-o",
         "--output",
         required=True,
         metavar="OUT",
-        help="the suffix says what: svg, pdf, png, csv, json, dxf, ngc, …",
+        help="the suffix says what: svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; "
+        "ngc (plain blocks); stl, gltf, glb, vtk",
     )
     sub.add_argument(
         "--compensation", action="store_true", help="contour, tool-centre path and how its corners were found"
     )
     sub.add_argument("--rules", type=words, metavar="G160,G161", help="with --compensation: a picture for each rule")
     sub.add_argument("--radii", type=numbers, metavar="2,5", help="with --compensation: a picture for each radius, mm")
+    options(sub)
+    sub = command("report", report, "run a program and write a report: figures, tools, times, picture, alarms, listing")
+    sub.add_argument("file", metavar="FILE")
+    sub.add_argument("-o", "--output", required=True, metavar="OUT", help="an .html or a .pdf file")
+    sub.add_argument("--title", help="default: the name of the file")
     options(sub)
     sub = command("time", time, "say how long a program takes on a machine, and where the time goes")
     sub.add_argument("file", metavar="FILE")
@@ -189,6 +199,15 @@ def plot(chosen: argparse.Namespace) -> int:
         sensible(save, result, chosen.output, lambda run: run.plot_compensation(**options))
     else:
         sensible(result.save, chosen.output)
+    return verdict(result)
+
+
+def report(chosen: argparse.Namespace) -> int:
+    """Write a report of a run."""
+    result = obey(chosen)
+    if result is None:
+        return ALARMS
+    sensible(result.report, chosen.output, chosen.title)
     return verdict(result)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from html import escape
 from pathlib import Path
 
@@ -116,7 +117,8 @@ class Help:
             takes = f"\ntakes {' '.join(entry.takes)}" if entry.takes else ""
             group = f", group {entry.group}" if entry.group else ""
             return f"{entry.code}  {entry.title}  ({self.control.name} {entry.source}{group})\n{entry.doc}{takes}"
-        return help_table(entry)
+        iso = [name for name, code in self.control.names.items() if code == entry.code]
+        return help_table(entry) + (f"\n\nDIN/ISO {', '.join(iso)}" if iso else "")
 
     __repr__ = __str__
 
@@ -125,7 +127,8 @@ class Help:
             return settings_html(self.entry)
         if isinstance(self.entry, Function):
             return f"<pre>{escape(str(self))}</pre>"
-        return help_html(self.entry)
+        iso = ", ".join(f"<code>{name}</code>" for name, code in self.control.names.items() if code == self.entry.code)
+        return help_html(self.entry) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
 
 
 def help(code: str, control: str) -> Help:
@@ -149,8 +152,11 @@ def help(code: str, control: str) -> Help:
 
 
 def _normal(code: str, control: Control) -> str:
-    """A code as the tables spell it: upper case, one blank, no leading zeros; a bare cycle number finds its cycle."""
+    """A code as the tables spell it: upper case, one blank, no leading zeros; a bare cycle number finds its cycle, and so
+    does another name of it."""
     code = " ".join(code.upper().split())
+    if re.fullmatch(r"G0*\d+", code) and (named := control.names.get(f"G{int(code[1:])}")):
+        return named
     if len(code) > 1 and code[0] in control.codes and code[1:].isdigit():
         return f"{code[0]}{int(code[1:])}"
     for known in control.cycles:

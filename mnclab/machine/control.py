@@ -137,6 +137,7 @@ class Control:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
     ("G4 P").
+    ``names`` leads from other names of cycles (DIN/ISO) to their codes; help knows them.
     ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; ``predefined``
     what PREDEF stands for in a parameter of a cycle of a code; ``calls_again`` whether a modal call of a cycle (a modal
     function of the group "call") calls it in a block with a keyword and words.
@@ -164,6 +165,7 @@ class Control:
     looks_like: Callable[[str], bool] | None = None
     refused: Mapping[str, str] = field(default_factory=dict)
     meanings: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
     together: Callable[[Machine, str, list[Word]], None] | None = None
     bulk: Any = None
     one_command: bool = False

@@ -58,7 +58,7 @@ class Explanation:
         self.alarms = tuple(a for a in run.alarms if a.span and a.source is self.program and a.span.line == span.line)
         history = run.history
         self.changed = [
-            (name, _plain(history.value(name, moment.step - 1)) if moment.step else "", _plain(value))
+            (name, _said(name, history.value(name, moment.step - 1)) if moment.step else "", _said(name, value))
             for name, value in moment.changed.items()
         ]
         self.changed = [change for change in self.changed if change[1] != change[2]]
@@ -218,9 +218,11 @@ def _meaning(control: Control, what: Function, word: Word) -> str:
     address = word.address
     says = control.meanings.get(f"{what.code} {address}") or control.meanings.get(address)
     if says:
-        return says
+        return f"{says}, incremental" if word.incremental else says
     if address in ("X", "Y", "Z"):
         return f"increment along {address}" if word.incremental else f"coordinate {address}"
+    if (axis := address.rpartition(":")[2]) in ("A", "B", "C"):
+        return f"increment about {axis}" if word.incremental else f"rotary axis {axis}"
     return f"word {address}" if address.isalpha() and address.isupper() else "part"
 
 
@@ -319,6 +321,13 @@ def _tuple(xyz: NDArray[np.float64]) -> tuple[float, float, float]:
     return x, y, z
 
 
+def _said(name: str, value: Any) -> str:
+    """A value of the history in words: angles of the rotary axes in degrees."""
+    if name == "rotary" and value is not None:
+        return " ".join(f"{axis}{figure(np.degrees(angle), 6)}" for axis, angle in zip("ABC", value, strict=True))
+    return _plain(value)
+
+
 def _plain(value: Any) -> str:
     """A value of the history in words."""
     if value is None:
@@ -329,6 +338,8 @@ def _plain(value: Any) -> str:
         return value
     if isinstance(value, tuple) and len(value) == 4 and np.shape(value[-1]) == (4,):
         return _describe(np.array(value)) or "none"
+    if isinstance(value, tuple) and type(value).__str__ is not tuple.__str__:  # it says itself what it is
+        return str(value)
     if isinstance(value, tuple):
         return " ".join(figure(each, 4) if isinstance(each, int | float) else _plain(each) for each in value)
     number = getattr(value, "number", None)

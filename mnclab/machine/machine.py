@@ -52,7 +52,7 @@ class Machine:
 
     def __init__(self, control: Control, setup: Setup) -> None:
         self.control, self.setup, self.tables = control, setup, Tables(setup)
-        self.settings = chosen(control.settings, setup.settings, control.name)
+        self.settings = chosen(control.settings, setup.settings, control.name, setup.source)
         self.flow: Flow  # set by the interpreter
         self.alarms: list[Alarm] = []
         self.logs = Logs()

@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import NamedTuple
 
-from mnclab.machine.setup_file import check_names, parse, record
+from mnclab.machine.setup_file import File, check_names, parse, record
 from mnclab.path.limits import Limits
 from mnclab.text.alarm import Alarm
 
@@ -45,8 +45,9 @@ def load(machine: str | Path) -> MachineFile:
     raise Alarm(f"no machine has the name {text!r}", hint=hint)
 
 
-def _machine(table: dict[str, object], path: Path) -> MachineFile:
+def _machine(table: dict[str, object], file: File) -> MachineFile:
     check_names(table, ("title", "assumes", "limits"), "a machine")
+    path = Path(file.name)
     title, assumes = table.get("title", path.stem), table.get("assumes", [])
     if not isinstance(title, str):
         raise Alarm(f"title must be a text, got {title!r}")

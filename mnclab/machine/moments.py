@@ -2,9 +2,10 @@
 
 A run is a row of places: the moves of each step, and for a step that moves nothing the place where the tool stands. On a
 move a condition can change only where one of its comparisons changes sign; such a place is found by halving, to the last
-digit, and between two of them one look is enough. Coordinates alone (``z < -5``) are exact on lines and arcs, since the
-arcs are divided where a coordinate turns back; what mixes them (``x^2 + y^2 > 900``) is looked at in :data:`LOOKS` places
-of each line and quarter of a turn. So are spindle and feed at constant cutting speed, which follow the radius.
+digit, and between two of them one look is enough. Comparisons that are linear in the coordinates (``z < -5``, ``x + 2 y >
+Q5``, and any ``and``, ``or``, ``not`` of such) are exact on lines and arcs, since the arcs are divided where they turn back;
+others (``x^2 + y^2 > 900``, ``abs(x) > 3``) are looked at in :data:`LOOKS` places of each line and quarter of a turn, and
+the result says so (``.exact``). So are spindle and feed at constant cutting speed, which follow the radius.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.listing import point
-from mnclab.path.places import points_at, turning_points
+from mnclab.path.places import points_at, spokes, turning_points, turns_of_sum
 from mnclab.text.condition import Condition, Node, parse
 
 if TYPE_CHECKING:
@@ -36,6 +37,9 @@ PLACE = {
     "y": "tool tip along Y, mm",
     "z": "tool tip along Z, mm",
     "d": "twice X: the diameter on a lathe, mm",
+    "a": "rotary axis A, degrees",
+    "b": "rotary axis B, degrees",
+    "c": "rotary axis C, degrees",
 }
 COLUMN = {
     "feed": "feed of the move, mm/min; infinite for rapids, not known at events",
@@ -51,9 +55,13 @@ FOLLOW_RADIUS = {"spindle", "feed"}
 
 
 class Moments(tuple["Moment", ...]):
-    """The moments at which a condition becomes true, in order; shown as a table."""
+    """The moments at which a condition becomes true, in order; shown as a table.
+
+    ``exact``: whether nothing can lie between two looks.
+    """
 
     condition = ""
+    exact = True
 
     def rows(self) -> list[tuple[str, ...]]:
         """What the table shows."""
@@ -78,7 +86,8 @@ class Moments(tuple["Moment", ...]):
         )
         more = f"<p>… {len(self) - 50} more</p>" if len(self) > 50 else ""
         head = "<tr><th>line</th><th>block</th><th>tool tip</th><th>of the move</th></tr>"
-        return f"<table><caption><code>{escape(self.condition)}</code></caption>{head}{body}</table>{more}"
+        told = "" if self.exact else f"<br>looked at in {LOOKS} places of each line and quarter of a turn"
+        return f"<table><caption><code>{escape(self.condition)}</code>{told}</caption>{head}{body}</table>{more}"
 
 
 class Looks(NamedTuple):
@@ -103,7 +112,7 @@ def when(run: Run, text: str) -> Moments:
     true = np.broadcast_to(truth.true, looks.share.shape)[known]
     begins = known[true & ~np.concatenate([[False], true[:-1]])]
     found = Moments(search.moment(looks.take(place)[0:3], int(i)) for i in begins)
-    found.condition = text
+    found.condition, found.exact = text, not any(map(_mixed, condition.comparisons))
     return found
 
 
@@ -154,7 +163,7 @@ class _Search:
         spatial = [node for node in self.condition.comparisons if _names(node) & self.along]
         if not spatial or not count:
             return every, np.zeros(count)
-        mixed = any(not _single(node) for node in spatial)
+        mixed = any(map(_mixed, spatial))
         arc = self.path.kind == Kind.ARC
         rows, shares = [], []
         straight = np.flatnonzero(self.path.is_motion & ~arc)
@@ -168,7 +177,8 @@ class _Search:
         if len(bent):
             quarters = np.abs(self.path.sweep[bent]).max() / (np.pi / 2)
             cuts = np.linspace(0, 1, int(np.ceil(quarters * (LOOKS if mixed else 1))) + 1)
-            inside = np.concatenate([turning_points(self.path, bent), np.tile(cuts, (len(bent), 1))], axis=1)
+            turns = [self.turns(node, bent) for node in spatial if not _single(node) and not _mixed(node)]
+            inside = np.concatenate([turning_points(self.path, bent), *turns, np.tile(cuts, (len(bent), 1))], axis=1)
             rows.append(np.repeat(bent, inside.shape[1]))
             shares.append(inside.ravel())
         row, share = _sorted(np.concatenate(rows), np.concatenate(shares))
@@ -177,6 +187,23 @@ class _Search:
             np.concatenate([row, *(found for found, _ in roots)]),
             np.concatenate([share, *(found for _, found in roots)]),
         )
+
+    def turns(self, node: Node, row: Rows) -> Array:
+        """Shares (n, k) of arcs at which the sides of a linear comparison, one less the other, turn back."""
+        values = self.values(Looks(row, np.zeros(len(row)), self.step[row]))
+        first = self.gap(node, row, np.zeros(len(row)))
+        slope = np.zeros((len(row), 3))
+        with np.errstate(all="ignore"):
+            for k, axis in enumerate("xyz"):
+                if axis not in values:
+                    continue
+                beside = values | {axis: values[axis] + 1} | ({"d": values["d"] + 2} if axis == "x" else {})
+                slope[:, k] = node.gap(beside) - first
+        u, v = spokes(self.path, row)
+        sweep = self.path.sweep[row]
+        cosine, sine = np.einsum("ij,ij->i", slope, u), np.einsum("ij,ij->i", slope, v)
+        whole = self.gap(node, row, np.ones(len(row))) - first
+        return turns_of_sum(cosine, sine, whole - cosine * (np.cos(sweep) - 1) - sine * np.sin(sweep), sweep)
 
     def roots(self, node: Node, row: Rows, share: Array) -> tuple[Rows, Array]:
         """Where the two sides of a comparison become equal between neighbouring shares of a row, by halving."""
@@ -205,6 +232,8 @@ class _Search:
         if names & PLACE.keys():
             xyz = self.points(looks)
             found |= {"x": xyz[:, 0], "y": xyz[:, 1], "z": xyz[:, 2], "d": 2 * xyz[:, 0]}
+            if names & set("abc"):
+                found |= dict(zip("abc", np.degrees(self.angles(looks)).T, strict=True))
         row = self.standing(looks)
         for name in names & COLUMN.keys():
             if name == "line":
@@ -240,6 +269,16 @@ class _Search:
         share = np.where(looks.row >= 0, looks.share, np.where(row >= 0, 1.0, 0.0))
         return points_at(self.path, np.maximum(row, 0), share)
 
+    def angles(self, looks: Looks) -> Array:
+        """Where the rotary axes are (m, 3), rad."""
+        if not len(self.path):
+            return np.zeros((len(looks.row), 3))
+        row = self.standing(looks)
+        there = np.where(row[:, None] >= 0, self.path.rotary[np.maximum(row, 0)], 0.0)
+        before = np.where(row[:, None] > 0, self.path.rotary[np.maximum(row - 1, 0)], 0.0)
+        share = np.where(looks.row >= 0, looks.share, 1.0)[:, None]
+        return before + share * (there - before)
+
     def moment(self, looks: Sequence[NDArray[Any]], index: int) -> Moment:
         """A place as a moment of the run."""
         here = Looks(*(column[index : index + 1] for column in looks))
@@ -258,6 +297,11 @@ def _sorted(row: Rows, share: Array) -> tuple[Rows, Array]:
 
 def _names(node: Node) -> set[str]:
     return {part.name for part in node.walk() if part.what == "name"}
+
+
+def _mixed(node: Node) -> bool:
+    """Whether a comparison is not linear in the coordinates."""
+    return node.degree(PLACE.keys()) > 1
 
 
 def _single(node: Node) -> bool:

@@ -33,6 +33,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place
 from mnclab.text.program import Block, Program
+from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -135,6 +136,17 @@ class Run:
             step, block.span.line, block, position, state, changed, slice(a, b), row, 1.0, tuple(tip.tolist())
         )
 
+    @property
+    def stock(self) -> Blank | None:
+        """The blank in the coordinates of the toolpath: that of the setup, else the last one that the program gives."""
+        if self.setup.stock is not None:
+            found = blank(self.setup.stock)
+            return found and found.moved(-self.toolpath.origin)
+        given = [value for _, value in self.history.changed("stock")]
+        if not given or isinstance(given[-1], Revolved):
+            return given[-1] if given else None
+        return None if given[-1].maximum is None else Box(given[-1].minimum, given[-1].maximum)
+
     def lines(self) -> NDArray[np.integer[Any]]:
         """The line of each step (s,), in the program that ``steps.program`` names."""
         found = np.asarray(self.program.line_of(np.minimum(self.steps.block, len(self.program) - 1)))
@@ -146,14 +158,20 @@ class Run:
     def when(self, condition: str) -> Moments:
         """The moments at which a condition becomes true: ``run.when("z < -5")``, ``run.when("Q5 > 3")``.
 
-        Names are those of variables, and x y z d (tool tip, mm), feed, spindle, tool, radius, side, line; see
-        :mod:`mnclab.machine.moments`. The place is exact, within lines and arcs too.
+        Names are those of variables, and x y z d (tool tip, mm), a b c (rotary axes, degrees), feed, spindle, tool, radius,
+        side, line. The place is exact, within lines and arcs too, unless coordinates are multiplied or in a function; see
+        :mod:`mnclab.machine.moments`, and ``.exact`` of the result.
         """
         return when(self, condition)
 
-    def explain(self, line: int | None = None, pass_: int = 1, step: int | None = None) -> Explanation:
-        """A block in plain words: what each word means and changed, and the way from the programmed point to the tool."""
-        return Explanation(self, self.at(line, pass_, step))
+    def explain(
+        self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0
+    ) -> Explanation:
+        """A block in plain words: what each word means and changed, and the way from the programmed point to the tool.
+
+        The block is named as for :meth:`at`.
+        """
+        return Explanation(self, self.at(line, pass_, step, program))
 
     def profile(self, limits: Limits | str | None = None, *, override: float = 1.0) -> Profile:
         """When the tool is where, and how fast, under the limits of a machine: those of the setup, others, or those
@@ -183,7 +201,8 @@ class Run:
 
         ``colour`` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
         colour of the cuts shows;
-        ``arrows=False`` and ``marks=False`` leave out arrowheads, and crosses at zero points and poles; ``view`` "XY",
+        ``arrows=False``, ``marks=False`` and ``stock=False`` leave out arrowheads, crosses at zero points and poles, and
+        the outline of the blank; ``view`` "XY",
         "XZ", "YZ" or "ZX"; ``frame`` "all" or "cuts"; ``size`` in inches; ``ax`` axes of one's own. All of them are
         explained in ``mnclab.show.plot.path.plot_path``.
         """
@@ -220,8 +239,8 @@ class Run:
     def scene(self, colour: str = "kind", **options: Any) -> pyvista.Plotter:
         """Path, tool and blank in three dimensions (needs pyvista); shows itself as a still picture.
 
-        ``colour`` of the cuts: "kind", "feed", "tool", "z", "line"; ``row``: where the tool stands; ``stock``: corners
-        of a blank. All of them are explained in ``mnclab.show.scene.scene``.
+        ``colour`` of the cuts: "kind", "feed", "tool", "z", "line"; ``row``: where the tool stands; ``stock``:
+        another blank, or False. All of them are explained in ``mnclab.show.scene.scene``.
         """
         from mnclab.show.scene import scene
 

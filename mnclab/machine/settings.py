@@ -56,15 +56,27 @@ class Setting(NamedTuple):
         return value
 
 
-def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str) -> dict[str, Any]:
-    """Values by name: the defaults, and what a Setup gives instead. An Alarm names what is unknown or not allowed."""
+def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str, source: Any = None) -> dict[str, Any]:
+    """Values by name: the defaults, and what a Setup gives instead. An Alarm names what is unknown or not allowed.
+
+    ``source`` is the file of the setup, if there is one: the alarm shows the line of the setting in it.
+    """
     known = {setting.name: setting for setting in declared}
     for name in given:
         if name not in known:
             near = nearest(str(name), known, 1)
             listed = f"mnclab.help('settings', {control!r}) lists them" if known else "it has none"
-            raise Alarm(f"{control} has no setting {name!r}", hint=f"near: {near[0]}" if near else listed)
-    return {name: setting.check(given.get(name, setting.default)) for name, setting in known.items()}
+            told = f"near: {near[0]}" if near else listed
+            place = source and source.place_of(name)
+            raise Alarm(f"{control} has no setting {name!r}", place, hint=told, source=source)
+    found = {}
+    for name, setting in known.items():
+        try:
+            found[name] = setting.check(given.get(name, setting.default))
+        except Alarm as alarm:
+            alarm.source, alarm.span = source, source and source.place_of(name)
+            raise
+    return found
 
 
 def rows(settings: Iterable[Setting]) -> list[tuple[str, str, str, str, str]]:

@@ -56,6 +56,8 @@ class Setup:
     the control (``mnclab.help("settings", control)``). ``correctors`` are offsets along the axes, mm, of the controls whose
     words D or L name them. Tools given without a number get the one they are listed under.
     ``variables`` have their values before the program begins: what another program left (``run.variables``).
+    ``stock`` is the blank: two corners, or a body of revolution (``mnclab.workpiece.blank.cylinder``); pictures show it.
+    ``source`` is the file that the setup was read from: an alarm about one of its settings shows its line.
     """
 
     tools: Mapping[int, Tool] = field(default_factory=lambda: MAGAZINE)
@@ -72,6 +74,7 @@ class Setup:
     kinematics: Any = None
     true_tools: Mapping[int, Tool] = field(default_factory=dict)
     variables: Mapping[str, float | str] = field(default_factory=dict)
+    source: Any = field(default=None, compare=False, repr=False)
 
     def with_radius(self, radius: float) -> Setup:
         """The same machine with another radius, mm, in all its tools but the probes."""
@@ -80,7 +83,7 @@ class Setup:
 
     def with_settings(self, **settings: Any) -> Setup:
         """The same machine with some settings changed."""
-        return replace(self, settings={**self.settings, **settings})
+        return replace(self, settings={**self.settings, **settings}, source=None)
 
 
 class Tables:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -14,6 +14,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.nearest import hint
+from mnclab.workpiece.blank import Blank, Box, cylinder
 
 Result = TypeVar("Result")
 
@@ -30,6 +31,11 @@ length = 80                    # and in degrees angle (of the point) and plunge_
 1 = [100, 50, -200]
 2 = { x = 300, y = 50, z = -200, rotation = 30 }
 
+[stock]                        # the blank, machine coordinates: low and high, two corners; or a cylinder about an axis:
+radius = 25                    # mm; also bore (of a tube), axis "X", "Y" or "Z", at (a point on the axis)
+low = -60
+high = 2
+
 [presets]                      # written like datums, where a control has them
 [correctors]                   # offsets along the axes, written like datums, where words D or L name them
 [limits]                       # rapid, acceleration, jerk, corner_speed, corner_tolerance, corner_jump, rapid_motion,
@@ -43,10 +49,10 @@ length = 80                    # and in degrees angle (of the point) and plunge_
 ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum}
 RECORDS = {"limits": Limits, "probe": Probe}
 TEXTS = ("name", "kind", "corner_speed", "rapid_motion")  # of a tool; of the limits
-KNOWN = ("start", *ROWS, *RECORDS, "settings", "files", "variables")
+KNOWN = ("start", "stock", *ROWS, *RECORDS, "settings", "files", "variables")
 
 
-class _File:
+class File:
     """The text of a setup file, so that an alarm can show a line of it."""
 
     def __init__(self, name: str, text: str) -> None:
@@ -60,22 +66,34 @@ class _File:
     def line_text(self, line: int) -> str:
         return self._lines[line - 1] if 0 < line <= len(self._lines) else ""
 
+    def place_of(self, key: str) -> Span | None:
+        """Where a key gets its value; None where it stands in a form of TOML that is not looked for."""
+        written = re.compile(rf"""(?:^|[\s.{{,])(["']?{re.escape(key)}["']?)\s*=""")
+        for number, line in enumerate(self._lines, 1):
+            if found := written.search(line.partition("#")[0]):
+                return Span(number, found.start(1) + 1, len(found[1]))
+        return None
+
 
 def load(path: str | Path) -> Setup:
     """The setup of a file; an Alarm names what is wrong in it."""
-    return parse(Path(path), lambda table, file: _setup(table, file.parent), "setup")
+
+    def build(table: dict[str, Any], file: File) -> Setup:
+        return replace(_setup(table, Path(file.name).parent), source=file)
+
+    return parse(Path(path), build, "setup")
 
 
-def parse(path: Path, build: Callable[[dict[str, Any], Path], Result], what: str) -> Result:
+def parse(path: Path, build: Callable[[dict[str, Any], File], Result], what: str) -> Result:
     """What ``build`` makes of the table in a TOML file; alarms show the line of the file."""
     try:
         text = path.read_text("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-        raise Alarm(f"the {what} cannot be read: {reason}", source=_File(str(path), "")) from None
-    file = _File(str(path), text)
+        raise Alarm(f"the {what} cannot be read: {reason}", source=File(str(path), "")) from None
+    file = File(str(path), text)
     try:
-        return build(tomllib.loads(text), path)
+        return build(tomllib.loads(text), file)
     except tomllib.TOMLDecodeError as error:
         place = re.search(r"line (\d+), column (\d+)", str(error))
         span = Span(int(place[1]), int(place[2])) if place else file.end
@@ -90,6 +108,8 @@ def _setup(table: Mapping[str, Any], folder: Path) -> Setup:
     found: dict[str, Any] = {}
     if "start" in table:
         found["start"] = _point(table["start"], "start")
+    if "stock" in table:
+        found["stock"] = _stock(_table(table["stock"], "stock"))
     for name, kind in ROWS.items():
         if name in table:
             rows = _table(table[name], name)
@@ -104,6 +124,20 @@ def _setup(table: Mapping[str, Any], folder: Path) -> Setup:
     if "files" in table:
         found["files"] = {name: folder / str(file) for name, file in _table(table["files"], "files").items()}
     return Setup(**found)
+
+
+def _stock(table: Mapping[str, Any]) -> Blank:
+    """The blank: a cylinder where it has a radius, else a box."""
+    if "radius" not in table:
+        check_names(table, ("low", "high"), "stock without a radius")
+        return Box(_point(table.get("low"), "stock.low"), _point(table.get("high"), "stock.high"))
+    check_names(table, ("radius", "low", "high", "bore", "axis", "at"), "stock")
+    numbers = {name: _number(table.get(name, 0.0), f"stock.{name}") for name in ("radius", "low", "high", "bore")}
+    at = _point(table.get("at", [0.0, 0.0, 0.0]), "stock.at")
+    try:
+        return cylinder(**numbers, axis=table.get("axis", "Z"), at=at)
+    except ValueError as fault:
+        raise Alarm(f"stock: {fault}") from None
 
 
 def record(kind: Any, value: Any, where: str) -> Any:

@@ -40,6 +40,19 @@ def points_at(path: Toolpath, rows: NDArray[np.integer], share: Array) -> Array:
     return xyz
 
 
+def turns_of_sum(cosine: Array, sine: Array, pitch: Array, sweep: Array) -> Array:
+    """Shares t (n, k) at which ``cosine`` cos(sweep t) + ``sine`` sin(sweep t) + ``pitch`` t turns back, in any order; 0
+    where there are fewer than k. All arguments are (n,)."""
+    size = np.hypot(cosine, sine)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        opening = np.arccos(-pitch / (sweep * size))  # nan where it never turns back
+    most = int(np.ceil(np.abs(sweep).max() / (2 * np.pi))) + 1 if len(sweep) else 0
+    angle = np.stack([opening, -opening], axis=1)[:, :, None] - np.arctan2(cosine, sine)[:, None, None]
+    angle = angle + 2 * np.pi * np.arange(-most, most + 1)
+    share = (angle / sweep[:, None, None]).reshape(len(sweep), -1)
+    return np.where((share > 0) & (share < 1), share, 0.0)
+
+
 def turning_points(path: Toolpath, rows: NDArray[np.integer]) -> Array:
     """Shares (n, k) of arcs where a coordinate turns back, in any order; 0 where there are fewer than k."""
     u, v = spokes(path, rows)

@@ -19,6 +19,7 @@ from mnclab.show.times import clock
 from mnclab.text.alarm import Alarm
 
 Table = list[tuple[str, ...]]
+Listing = list[tuple[int, str, bool]]
 TOOL_HEAD = ("tool", "name", "kind", "radius", "corner", "length", "teeth", "time")
 
 
@@ -32,9 +33,16 @@ class Report:
     tools: Table
     times: Table
     alarms: tuple[Alarm, ...]
-    listing: list[tuple[int, str, bool]]
+    listing: Listing
     """Number and text of each line, and whether an alarm stands in it."""
     tool_head: tuple[str, ...] = TOOL_HEAD
+    called: tuple[tuple[str, Listing], ...] = ()
+    """Name and listing of the programs that were called."""
+
+    @property
+    def programs(self) -> list[tuple[str, Listing]]:
+        """Every listing with its heading, the main program first."""
+        return [("Program", self.listing), *((f"Program {name}", lines) for name, lines in self.called)]
 
 
 def report(run: Any, title: str | None = None) -> Report:
@@ -54,14 +62,20 @@ def report(run: Any, title: str | None = None) -> Report:
             for k, axis in enumerate("XYZ")
             if not (run.toolpath.lathe and axis == "Y")
         ]
+    turned = np.degrees(run.toolpath.rotary)
+    for k, axis in enumerate("ABC"):
+        if turned[:, k].any():
+            facts.append((f"{axis} from, to", f"{figure(turned[:, k].min(), 3)}, {figure(turned[:, k].max(), 3)} degrees"))
+    if run.stock:
+        size = np.diff(run.stock.bounds, axis=0)[0]
+        facts.append(("blank", " x ".join(figure(length, 3) for length in size) + " mm"))
     by_tool = profile.time_by("tool")
     times: Table = [
         (str(cause), clock(seconds), f"{100 * seconds / profile.time:.1f} %")
         for cause, seconds in sorted(profile.time_by("cause").items(), key=lambda item: -item[1])
         if seconds > 0
     ]
-    faulty = {alarm.span.line for alarm in run.alarms if alarm.span and alarm.span.program == 0}
-    lines = run.program.text.splitlines()
+    main, *others = (_numbered(run, index) for index in range(len(run.programs)))
     return Report(
         title or Path(run.program.name).name,
         run.control.title,
@@ -69,8 +83,15 @@ def report(run: Any, title: str | None = None) -> Report:
         [_tool(number, run.tables.tools.get(number, Tool()), by_tool.get(number, 0.0)) for number in _used(run)],
         times,
         run.alarms,
-        [(number, text, number in faulty) for number, text in enumerate(lines, 1)],
+        main,
+        called=tuple((Path(p.name).name, lines) for p, lines in zip(run.programs[1:], others, strict=True)),
     )
+
+
+def _numbered(run: Any, index: int) -> Listing:
+    """The lines of a program of the run."""
+    faulty = {alarm.span.line for alarm in run.alarms if alarm.span and alarm.span.program == index}
+    return [(number, text, number in faulty) for number, text in enumerate(run.programs[index].text.splitlines(), 1)]
 
 
 def _used(run: Any) -> list[int]:
@@ -124,8 +145,8 @@ def html(run: Any, found: Report, **options: Any) -> str:
         f"<h2>Path</h2><figure>{picture.html(2.0)}</figure>",
         f"<h2>Time</h2>{_table((), found.times) if found.times else '<p>none</p>'}",
         f"<h2>Alarms</h2>{alarms}",
-        f'<h2>Program</h2><pre class="listing">{_listing(found)}</pre>',
     ]
+    parts += [f'<h2>{escape(name)}</h2><pre class="listing">{_listing(lines)}</pre>' for name, lines in found.programs]
     head = f'<meta charset="utf-8"><title>{escape(found.title)}</title><style>{style}</style>'
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(parts) + "\n</body></html>\n"
 
@@ -141,10 +162,10 @@ def _table(head: tuple[str, ...], rows: Table) -> str:
     return f"<table>{top}{body}</table>"
 
 
-def _listing(found: Report) -> str:
-    wide = len(str(len(found.listing)))
+def _listing(lines: Listing) -> str:
+    wide = len(str(len(lines)))
     rows = []
-    for number, text, faulty in found.listing:
+    for number, text, faulty in lines:
         line = f'<span class="number">{number:{wide}d}</span>  {escape(text)}'
         rows.append(f'<span class="fault">{line}</span>' if faulty else line)
     return "\n".join(rows)

@@ -25,6 +25,8 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show import solids
 from mnclab.show.export_mesh import CHORD, FEED, PROBING, RAPID, STOCK, TOOL
 from mnclab.text.alarm import Alarm
+from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.blank import blank as as_blank
 
 if TYPE_CHECKING:
     import pyvista
@@ -44,15 +46,16 @@ def scene(
     *,
     row: int = -1,
     tool: bool = True,
-    stock: bool | tuple[ArrayLike, ArrayLike] = True,
+    stock: bool | Blank | tuple[ArrayLike, ArrayLike] = True,
     axes: bool = True,
     size: tuple[int, int] = SIZE,
 ) -> pyvista.Plotter:
     """The path of a run with its tool and blank, seen from the front, right and above.
 
     ``colour`` of the cuts: "kind", "feed" (mm/min), "tool", "z" (mm) or "line"; rapids are thin and red in all of them.
-    ``row``: where the tool stands, by default at the end. ``stock``: whether the blank of the setup is shown, or two
-    opposite corners (3,) of one, mm in the coordinates of the path. ``size`` in pixels.
+    ``row``: where the tool stands, by default at the end. ``stock``: whether the blank of the setup or the program
+    is shown, or another one, mm in the coordinates of the path: two opposite corners (3,) or a body of
+    :mod:`mnclab.workpiece.blank`. ``size`` in pixels.
 
     An Alarm says in a sentence what is missing: pyvista, or something for VTK to draw with.
     """
@@ -68,7 +71,10 @@ def scene(
         plotter.add_mesh(
             _surface(body), color=TOOL, specular=0.4, smooth_shading=True, split_sharp_edges=True, name="tool"
         )
-    blank = solids.stock_of(run) if stock is True else solids.box(*stock) if stock else None
+    given = run.stock if stock is True else as_blank(stock) if stock is not False else None
+    if stock is not True and stock is not False and given is None:
+        raise ValueError(f"stock must be True, False, two corners (3,) or a body of workpiece.blank, got {stock!r}")
+    blank = solids.body_of(given) if given else None
     if blank:
         plotter.add_mesh(_surface(blank), color=STOCK, opacity=0.25, name="blank")
         plotter.add_mesh(

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
+from mnclab.workpiece.blank import Blank, Box
 
 SIDES = 48  # of a tool
 TUBE_SIDES = 6
@@ -45,9 +46,11 @@ def box(low: ArrayLike, high: ArrayLike) -> Body:
     return Body(points, np.array([t for a, b, c, d in squares for t in ((a, b, c), (a, c, d))], dtype=np.int64))
 
 
-def revolved(profile: ArrayLike, sides: int = SIDES) -> Body:
+def revolved(profile: ArrayLike, sides: int = SIDES, bore: float = 0.0) -> Body:
     """A body of revolution about Z: ``profile`` (k, 2) holds radius and height from the lower end to the upper one."""
     outline = np.asarray(profile, dtype=np.float64)
+    if bore > 0:  # back along the inside, and round to the beginning
+        outline = np.concatenate([outline, [(bore, outline[-1, 1]), (bore, outline[0, 1])], outline[:1]])
     angle = 2 * np.pi * np.arange(sides) / sides
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     rings = np.concatenate([np.column_stack([radius * ring, np.full(sides, height)]) for radius, height in outline])
@@ -58,6 +61,8 @@ def revolved(profile: ArrayLike, sides: int = SIDES) -> Body:
         low, high = k * sides, (k + 1) * sides
         triangles += [np.stack([low + here, low + there, high + there], 1)]
         triangles += [np.stack([low + here, high + there, high + here], 1)]
+    if bore > 0:
+        return Body(rings, np.concatenate(triangles))
     bottom, top, last = len(rings), len(rings) + 1, (len(outline) - 1) * sides
     triangles += [np.stack([np.full(sides, bottom), there, here], 1)]
     triangles += [np.stack([np.full(sides, top), last + here, last + there], 1)]
@@ -124,16 +129,19 @@ def size_of(path: Toolpath) -> float:
     return span if np.isfinite(span) and span > 0 else 1.0
 
 
+def body_of(stock: Blank) -> Body:
+    """A blank as a body."""
+    if isinstance(stock, Box):
+        return box(*stock.bounds)
+    profile = np.array(stock.profile, dtype=np.float64)
+    points, triangles = revolved(profile if profile[-1, 1] > profile[0, 1] else profile[::-1], 2 * SIDES, stock.bore)
+    along = stock.along  # Z, X, Y of the body in turn lie there
+    return Body(np.roll(points, along + 1, axis=1), triangles).at(stock.at)
+
+
 def stock_of(run: Any) -> Body | None:
-    """The blank as a box in the coordinates of the path: two corners of the setup, in machine coordinates, or, where it has
-    none, those that the program gives last, which count from the origin of the path."""
-    stock = run.setup.stock
-    if stock is None and (blanks := run.history.changed("stock")):
-        blank = blanks[-1][1]
-        return None if blank.maximum is None else box(blank.minimum, blank.maximum)
-    if not isinstance(stock, tuple | list) or np.asarray(stock).shape != (2, 3):
-        return None
-    return box(*(np.asarray(corner, dtype=np.float64) - run.toolpath.origin for corner in stock))
+    """The blank of a run in the coordinates of its path."""
+    return body_of(run.stock) if run.stock else None
 
 
 def tool_of(run: Any, row: int = -1) -> Body | None:

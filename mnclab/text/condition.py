@@ -95,6 +95,17 @@ class Node:
         """Left side less right side of a comparison."""
         return self.parts[0].value(values) - self.parts[1].value(values)
 
+    def degree(self, names: Collection[str]) -> float:
+        """The degree of a number in some names: 0 without them, 1 where it is linear in them, infinite beyond products."""
+        if self.what == "name":
+            return float(self.name in names)
+        degrees = [part.degree(names) for part in self.parts]
+        if self.what == "comparison" or self.name in ("+", "-"):
+            return max(degrees)
+        if self.name == "*":
+            return sum(degrees)
+        return (degrees[0] if self.name == "/" and not degrees[1] else np.inf) if any(degrees) else 0.0
+
     def walk(self) -> Iterator[Node]:
         """This part and all parts in it."""
         yield self

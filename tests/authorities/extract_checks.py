@@ -157,6 +157,13 @@ def ambiguities(folder, names):
                 yield {"id": found[1], "code": code, "text": found[2], "read": found[3]}
 
 
+def iso_names(folder):
+    """The DIN/ISO names in the headings of the cycles."""
+    for code, entry in entries(folder, "tnc620-index").items():
+        if "iso" in entry:
+            yield {"code": code, "iso": re.findall(r"G\d+", entry["iso"] or "")}
+
+
 def save(name, records):
     """One record a line and one parameter a line, so that changes can be read."""
     lines = []
@@ -180,6 +187,7 @@ def main(folder):
         save(f"parameters-{control}", records)
     save("codes", listed(folder, CODES))
     save("codes-tnc-620", chapters(folder, CHAPTERS))
+    save("iso-names-tnc-620", iso_names(folder))
     save("ambiguities", ambiguities(folder, AMBIGUITIES))
 
 

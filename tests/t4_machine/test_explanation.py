@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 import mnclab
+from mnclab.machine.explanation import _meaning
+from mnclab.text.program import Word, place_of
 
 SETUP = mnclab.Setup(datums={1: (100, 200, -50)}, tools={1: mnclab.Tool(radius=5, length=80)}, start=(100, 200, 200))
 PROGRAM = """G90 G54 T1
@@ -95,6 +97,30 @@ def test_every_block_of_the_samples_can_be_explained(file):
             assert tip.point == pytest.approx(run.toolpath.end[row])
 
 
+def test_every_word_that_a_function_takes_says_what_it_is():
+    unknown = []
+    for control in mnclab.controls.values():
+        for function in control.functions.values():
+            for address in (taken.rstrip("*") for taken in function.takes):
+                word = Word(address, 1.0, int(place_of(1, 1, 1)))
+                if _meaning(control, function, word).startswith(("word ", "part")):
+                    if _meaning(control, function, word) != "part of a circle":  # of a pattern
+                        unknown.append((control.name, function.code, address))
+    assert unknown == []
+
+
+def test_a_block_of_a_called_program_is_explained():
+    main = "BEGIN PGM A MM\nTOOL CALL 1 Z S100\nL X+5 A+30 C-90 FMAX\nCALL PGM B\nEND PGM A MM\n"
+    other = "BEGIN PGM B MM\nQ1 = 3\nL IC+45 X+Q1 F100\nEND PGM B MM\n"
+    run = mnclab.run(main, "tnc-620", mnclab.Setup(files={"B.H": other}))
+    explained = run.explain(line=3, program=1)
+    assert explained.title == "line 3: L IC+45 X+Q1 F100"
+    assert ("X+Q1", "coordinate X of L (Straight line) = 3") in [(m.word, m.says) for m in explained.meanings]
+    assert "angle of the rotary axis C, incremental of L (Straight line)" in str(explained)
+    assert ("rotary", "A30 B0 C-90", "A30 B0 C-45") in explained.changed
+    assert run.at(line=3, program=1).point == (3, 0, 0) and run.at(line=3).point == (5, 0, 0)
+
+
 @pytest.mark.parametrize(
     ("control", "text", "line", "says"),
     [
@@ -102,6 +128,13 @@ def test_every_block_of_the_samples_can_be_explained(file):
         ("mnc", "G17 G90 G54 F200\nG0 X0 Y0\nG4 P2", 3, ["seconds"]),
         ("mnc", "G17 G90 G54\nG39 A30 X5 Y7", 2, ["angle in degrees", "rotation centre's X"]),
         ("tnc-620", "1 TOOL CALL 1 Z S1000 DR+0.1", 1, ["tool axis", "spindle speed", "delta radius"]),
+        (
+            "tnc-620",
+            "1 BLK FORM 0.1 Z X-1 Y-2 Z-3\n2 BLK FORM 0.2 X4 Y5 Z0",
+            2,
+            ["X-1 Y-2 Z-3 -> X-1 Y-2 Z-3 to X4 Y5 Z0"],
+        ),
+        ("jnc-t01", "G96 S120 F0.2", 1, ["cutting speed, m/min"]),
         ("tnc-620", "1 TOOL CALL 1 Z S1000\n2 L X+1 R0 FMAX M3", 2, ["no radius compensation", "rapid traverse"]),
     ],
 )

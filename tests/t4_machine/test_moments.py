@@ -13,6 +13,12 @@ from mnclab.path.places import points_at
 PROGRAM = "G90 G54 S100 M3\nG0 X0 Y0 Z10\nG1 Z-10 F100\nG3 X0 Y0 I20 J0\nX40 Y40 Z0\nT2\nG0 Z50\nG1 Z5\n"
 
 
+#: From the right, x + 2 y = 20 + 20 √5 cos(t - atan 2) first reaches 64 before its top, at 64.7.
+LEAST = math.atan(2) - math.acos(44 / (20 * math.sqrt(5)))
+#: x = 5 + y / 100 on the lower half of (x - 20)² + y² = 400: (y / 100 - 15)² + y² = 400.
+ON_ARC = (0.3 - math.sqrt(0.09 + 4 * 1.0001 * 175)) / 2 / 1.0001
+
+
 @pytest.fixture(scope="module")
 def run():
     return mnclab.run(PROGRAM, "mnc")
@@ -27,6 +33,9 @@ def run():
         ("y >= 20", 4, (20, 20, -10)),  # the very top of the arc: touched in one place
         ("y > 20", 5, (20, 20, -5)),  # never on the arc
         ("x^2 + y^2 > 900", 4, (22.5, -math.sqrt(900 - 22.5**2), -10)),  # two circles: 40 x = 900
+        ("x + y > 61", 5, (40 * 61 / 80, 61 / 2, 61 / 8 - 10)),  # the arc's x + y is 20 + 20 √2 at most: 48.3
+        ("x + 2 * y > 64", 4, (20 + 20 * math.cos(LEAST), 20 * math.sin(LEAST), -10)),
+        ("x > 5 + y / 100 and not z > -3 * tool", 4, (5 + ON_ARC / 100, ON_ARC, -10)),
         ("tool == 2 and z > 20", 7, (40, 40, 20)),
         ("feed == 100", 3, (0, 0, 10)),
         ("spindle > 0", 1, (0, 0, 0)),
@@ -37,6 +46,34 @@ def test_the_first_moment_in_closed_form(run, question, line, point):
     moment = run.when(question)[0]
     assert moment.line == line
     assert moment.point == pytest.approx(point, abs=1e-8)
+
+
+def test_what_is_linear_is_exact_and_what_is_looked_at_says_so(run):
+    for question in ("z < 1", "x + 2*y > z / 4 and tool < 3", "not (x - y) * 2 < 3"):
+        assert run.when(question).exact
+    for question in ("x*y > 5", "abs(x) > 5", "z < 1 or x^2 > 4", "1 / z > 3"):
+        assert not run.when(question).exact
+        assert "looked at in 16 places" in run.when(question)._repr_html_() or run.when(question) == ()
+
+
+def test_a_sum_that_a_short_touch_would_hide():
+    """An arc of 20 mm whose x + y exceeds its bound by a hundredth of a micrometre, between any sixteen looks."""
+    run = mnclab.run("G90 F100\nG0 X20\nG3 X-20 Y0 I-20 J0\n", "mnc")
+    top = 20 * math.sqrt(2)
+    (moment,) = run.when(f"x + y > {top - 1e-5}")
+    assert moment.point == pytest.approx((top / 2, top / 2, 0), abs=0.05) and moment.point[0] > top / 2
+    assert run.when(f"x + y > {top + 1e-5}") == ()
+
+
+def test_rotary_axes_can_be_asked_for():
+    text = "BEGIN PGM A MM\nL X+0 A+0 R0 F100\nL X+10 A+30 C-90\nL A+40\nEND PGM A MM\n"
+    run = mnclab.run(text, "tnc-620")
+    (moment,) = run.when("a > 12")
+    assert (moment.line, moment.point[0]) == (3, pytest.approx(4))
+    (moment,) = run.when("a + x > 20 and c < 0")  # 40 share = 20
+    assert (moment.line, moment.share) == (3, pytest.approx(0.5))
+    (moment,) = run.when("a > 35")
+    assert (moment.line, moment.share) == (4, pytest.approx(0.5))
 
 
 def test_all_moments_come_in_order(run):
@@ -69,7 +106,14 @@ BLOCKS = st.lists(
     min_size=1, max_size=5,
 )  # fmt: skip
 QUESTIONS = st.sampled_from(
-    ["x > 7.5", "z < -2.5 and y > 1.5", "not (y < 3.3 or x < 0.5)", "x + y > 4.1", "0.5 < z < 9.5"]
+    [
+        "x > 7.5",
+        "z < -2.5 and y > 1.5",
+        "not (y < 3.3 or x < 0.5)",
+        "x + y > 4.1",
+        "x - 2 * y + z / 3 > 1.7",
+        "0.5 < z < 9.5",
+    ]
 )
 
 

@@ -2,8 +2,10 @@
 
 import pytest
 
+import mnclab
 from mnclab import Alarm, Datum, Limits
 from mnclab.machine.setup_file import FORMAT, load
+from mnclab.workpiece.blank import Box, cylinder
 
 
 def written(tmp_path, text):
@@ -17,6 +19,35 @@ def test_the_example_of_the_help_can_be_read(tmp_path):
     assert setup.start == (0, 0, 300)
     assert (setup.tools[1].radius, setup.tools[1].length) == (5, 80)
     assert setup.datums == {1: Datum(100, 50, -200), 2: Datum(300, 50, -200, rotation=30)}
+
+
+def test_a_blank_is_a_box_or_a_cylinder(tmp_path):
+    setup = load(written(tmp_path, "[stock]\nlow = [0, 0, -20]\nhigh = [60, 40, 0]\n"))
+    assert setup.stock == Box((0, 0, -20), (60, 40, 0))
+    setup = load(written(tmp_path, "[stock]\nradius = 20\nlow = -50\nhigh = 0\naxis = 'X'\nat = [0, 1, 2]\n"))
+    assert setup.stock == cylinder(20, -50, 0, "X", (0, 1, 2))
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        (
+            "[settings]\nblok_skip = true\n",
+            "machine.toml:2:1: alarm: mnc has no setting 'blok_skip' (near: block_skip)",
+        ),
+        ("\n[settings]\n 'block_skip'=3\n", "machine.toml:3:2: alarm: setting block_skip "),
+        ("# block_skip = 1\nsettings = { block_skip = 3 }\n", "machine.toml:2:14: alarm: setting block_skip "),
+        ("settings.block_skip = 3\n", "machine.toml:1:10: alarm: setting block_skip "),
+    ],
+)
+def test_a_wrong_setting_is_an_alarm_at_its_line_of_the_file(tmp_path, text, place):
+    setup = load(written(tmp_path, text))
+    with pytest.raises(Alarm) as caught:
+        mnclab.run("G0 X1\n", "mnc", setup)
+    assert place in caught.value.headline
+    with pytest.raises(Alarm) as caught:  # a setting of one's own is none of the file's
+        mnclab.run("G0 X1\n", "mnc", load(written(tmp_path, "[settings]\n")).with_settings(block_skip=3))
+    assert caught.value.source is None
 
 
 def test_every_part_arrives(tmp_path):
@@ -44,6 +75,9 @@ def test_every_part_arrives(tmp_path):
         ("[tools.1]\nname = 3\n", "tools.1.name must be a text, got 3"),
         ("start = [0, 0]\n", "start must be three numbers [x, y, z], got [0, 0]"),
         ("[datums]\n1 = [true, 0, 0]\n", "datums.1 must be a number, got True"),
+        ("[stock]\nradius = 0\n", "stock: a cylinder needs radius > bore"),
+        ("[stock]\nlow = [0, 0, 0]\n", "stock.high must be three numbers [x, y, z], got None"),
+        ("[stock]\ndiameter = 3\n", "stock without a radius has no 'diameter'"),
         ("limits = 3\n", "limits must be a table, got 3"),
     ],
 )

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 import mnclab
 from mnclab import Kind, Setup, Tool, Toolpath
 from mnclab.show.plot.path import plot_path
+from mnclab.workpiece.blank import cylinder
 
 SQUARE = "G90 G54\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX40\nY40\nX0\nY0\nG0 Z5\n"
 ARC = "G90 G54\nG0 X50 Y0\nG3 X0 Y50 I-50 J0 F100\n"
@@ -213,6 +214,31 @@ def test_little_or_nothing_is_a_picture_too(text):
         result = run(text)
         for picture in (result.plot(), result.toolpath.plot(), result.toolpath[:0].plot(), result.plot(view="ZX")):
             assert picture.png().startswith(b"\x89PNG")
+
+
+def outlines(picture):
+    return [line.get_xydata() for ax in picture.axes for line in ax.lines if line.get_label() == "blank"]
+
+
+def test_the_blank_is_outlined_in_every_view_and_can_be_left_out():
+    part = run(SQUARE, stock=((-5, -5, -12), (45, 60, 0)))
+    above, side = outlines(part.plot())
+    assert np.allclose([above.min(axis=0), above.max(axis=0)], [(-5, -5), (45, 60)])
+    assert np.allclose([side.min(axis=0), side.max(axis=0)], [(-5, -12), (45, 0)])
+    picture = part.plot()
+    assert all(ax.get_ylim()[0] < low for ax, low in zip(picture.axes, (-5, -12), strict=True))
+    assert "blank" in [text.get_text() for legend in picture.legends for text in legend.get_texts()]
+    assert outlines(part.plot(stock=False)) == [] and outlines(run(SQUARE).plot()) == []
+
+
+def test_a_round_blank_is_a_circle_from_above_and_half_a_rectangle_on_a_lathe():
+    (above, _) = outlines(run(SQUARE, stock=cylinder(30, -12, 0, at=(20, 20, 0))).plot())
+    assert np.allclose(np.hypot(*(above - 20).T), 30)
+    setup = Setup(stock=cylinder(25, -60, 2))
+    picture = mnclab.run("S800\nM3\nF20\nX4000\nZ-2000\n", "nc-31", setup).plot()
+    (half,) = [patch.get_xy() for patch in picture.axes[0].patches if patch.get_label() == "blank"]
+    assert np.allclose([half.min(axis=0), half.max(axis=0)], [(-60, 0), (2, 25)])
+    assert picture.axes[0].get_ylim()[1] > 25
 
 
 def test_slices_and_selections_are_drawn_where_they_are():

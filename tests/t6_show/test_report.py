@@ -65,9 +65,25 @@ def test_a_long_program_goes_on_over_pages():
     from mnclab.show.plot import report as pages
 
     found = report(mnclab.run("G0 X1\n" * 200 + "// " + "x" * 300 + "\n", "mnc"))
-    lines = list(pages.listing(found))
+    lines = list(pages.listing(found.listing))
     assert len(lines) == 200 + 4 and max(map(len, lines)) <= pages.WIDTH
     assert sum(map(len, pages.chunks([(line, False) for line in lines]))) == 204
+
+
+def test_called_programs_rotary_axes_and_the_blank_are_told(tmp_path):
+    main = "BEGIN PGM A MM\nBLK FORM 0.1 Z X-1 Y-2 Z-3\nBLK FORM 0.2 X9 Y8 Z0\nTOOL CALL 2 Z S100\n"
+    main += "L X+5 A+30 FMAX\nCALL PGM SUB\nEND PGM A MM\n"
+    sub = "BEGIN PGM SUB MM\nL X+1 A-90 R0 F100\nL X+2 F-1\nEND PGM SUB MM\n"
+    run = mnclab.run(main, "tnc-620", mnclab.Setup(files={"SUB.H": sub}))
+    found = report(run)
+    facts = dict(found.facts)
+    assert facts["blank"] == "10 x 10 x 3 mm" and facts["A from, to"] == "-90, 30 degrees"
+    assert [(name, len(lines)) for name, lines in found.programs] == [("Program", 7), ("Program SUB.H", 4)]
+    assert [line[0] for line in found.called[0][1] if line[2]] == [3] and not any(line[2] for line in found.listing)
+    page = Page()
+    page.feed(run.report(tmp_path / "a.html").read_text("utf-8"))
+    assert page.open == [] and "Program SUB.H" in page.text
+    assert run.report(tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_an_empty_program_has_a_report(tmp_path):

@@ -6,6 +6,7 @@ import pytest
 import mnclab
 from mnclab import Alarm, Kind
 from mnclab.show import scene as module
+from mnclab.workpiece.blank import cylinder
 
 pytest.importorskip("pyvista")
 
@@ -19,6 +20,15 @@ def run():
 
 def bounds(scene, name):
     return np.array(scene.actors[name].bounds).reshape(3, 2)
+
+
+def test_a_round_blank_is_round(run):
+    scene = run.again(mnclab.Setup(stock=cylinder(20, -10, 0, at=(15, 12, 0)))).scene()
+    assert np.allclose(bounds(scene, "blank"), [(-5, 35), (-8, 32), (-10, 0)])
+    scene = run.scene(stock=cylinder(3, 0, 9, "X"))
+    assert np.allclose(bounds(scene, "blank"), [(0, 9), (-3, 3), (-3, 3)])
+    with pytest.raises(ValueError, match="stock must be"):
+        run.scene(stock="steel")
 
 
 def test_path_tool_and_blank_stand_where_they_are(run):

@@ -94,6 +94,13 @@ def test_plot_writes_the_file_that_was_asked_for(folder, capsys):
     assert len((folder / "out.csv").read_text("utf-8").splitlines()) == 3
 
 
+def test_report_writes_a_page_and_keeps_the_status(folder, capsys):
+    assert mnclab("report", "comma.mnc", "-o", "out.html", "--title", "Part 7") == 1
+    assert "<h1>Part 7</h1>" in (folder / "out.html").read_text("utf-8")
+    assert mnclab("report", "good.mnc", "-o", "out.pdf") == 0
+    assert (folder / "out.pdf").read_bytes().startswith(b"%PDF")
+
+
 def test_help_shows_the_parameters(capsys):
     assert mnclab("help", "G83", "--control", "mnc") == 0
     assert re.search(r"^K +depth of one peck +mm +greater than 0", capsys.readouterr().out, re.M)
@@ -108,6 +115,7 @@ def test_help_shows_the_parameters(capsys):
         ["run", "good.mnc", "--control", "none"],
         ["run", "good.mnc", "--setup", "none.toml"],
         ["plot", "good.mnc"],
+        ["report", "good.mnc", "-o", "out.svg"],
         ["plot", "good.mnc", "-o", "out.xyz"],
         ["help", "G83"],
         ["help", "G999", "--control", "mnc"],

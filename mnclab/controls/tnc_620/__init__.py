@@ -31,6 +31,7 @@ from mnclab.controls.tnc_620.cycles import (
     transformations,
 )
 from mnclab.controls.tnc_620.cycles import patterns as point_patterns
+from mnclab.controls.tnc_620.iso_names import ISO_NAMES
 from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
@@ -159,6 +160,7 @@ CONTROL = Control(
     refused=later.refused(FUNCTIONS, CYCLES),
     together=strange_parameters(CYCLES),
     meanings=MEANINGS,
+    names=ISO_NAMES,
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
     named=feeds.named,
     preassigned=parameters.PREASSIGNED,

@@ -12,6 +12,7 @@ import re
 from dataclasses import replace
 from typing import Any
 
+from mnclab.controls.tnc_620.iso_names import ISO_NAMES
 from mnclab.text.expression import Expression, parse
 from mnclab.text.nearest import hint as near
 from mnclab.text.program import INCREMENTAL, ProgramBuilder
@@ -53,6 +54,7 @@ OWN = {
     94: re.compile(r"[ABC](?![A-Z])", FLAGS), 138: re.compile(r"[ABC](?![A-Z])", FLAGS),
 }  # fmt: skip
 
+_G_NAME = re.compile(r"G[ \t]*(\d{1,4})(?!\d)", FLAGS)
 _LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
 
 
@@ -188,9 +190,10 @@ class Cursor:
             hint = "the axis letter is missing" if c in "+-" else "a blank inside a number splits it"
             return Fault(f"{c!r} needs an address before it", self.at, hint=hint)
         if c in "Gg":
-            return Fault(
-                "G has no meaning here", self.at, hint="G words belong to DIN/ISO programs; write L, C, CR or CYCL DEF"
-            )
+            found = _G_NAME.match(self.text, self.at, self.stop)
+            named = ISO_NAMES.get(f"G{int(found[1])}") if found else None
+            other = f"; {found[0].upper()} is {named}" if found and named else "; write L, C, CR or CYCL DEF"
+            return Fault("G has no meaning here", self.at, hint=f"G words belong to DIN/ISO programs{other}")
         hint = (
             "the letter O stands where the digit 0 was meant" if c in "Oo" and self.text[self.at - 1].isdigit() else ""
         )

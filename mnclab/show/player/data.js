@@ -146,6 +146,9 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     this.history = new Map(Object.entries(header.history).map(([name, log]) => [name, new Log(columns, log)]));
     this.positions = {at: columns[header.position.at], from: header.position.from.map(k => columns[k])};
     this.scale = scale;
+    this.rotary = header.rotary && header.rotary.map(k => columns[k].map(v => v / header.degrees));
+    this.turned = this.rotary ? this.rotary.map(column => column.some(angle => angle !== 0)) : [];
+    this.stock = header.stock;
     this.arrange();
   }
 
@@ -198,21 +201,28 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
   // The tool during an item: its place (mm) and speed (mm/s).
   tool(item, t) {
     const row = this.items ? this.itemRow[item] : -1, {path, course} = this;
-    if (row < 0) return {point: path.vertex(this.items ? this.before[item] : 0), speed: 0};
-    if (t >= this.end[item]) return {point: path.vertex(row + 1), speed: t > this.begin[item] ? this.speedAfter(row) : 0};
+    if (row < 0) return {point: path.vertex(this.items ? this.before[item] : 0), speed: 0, share: 1};
+    if (t >= this.end[item]) return {point: path.vertex(row + 1), speed: t > this.begin[item] ? this.speedAfter(row) : 0, share: 1};
     const i = this.pieceAt(row, t);
-    if (!path.isMotion(row) || i < 0) return {point: path.vertex(row), speed: 0};
+    const passed = (t - this.begin[item]) / (this.end[item] - this.begin[item]);
+    if (!path.isMotion(row) || i < 0) return {point: path.vertex(row), speed: 0, share: passed};
     const T = course.t[i + 1] - course.t[i], since = Math.min(Math.max(t - course.t[i], 0), T);
     const way = Course.cubic(since, T, 0, course.v[i], course.way[i], course.v[i + 1]);
     const u = since / T, w = 1 - u;
     const speed = 6 * u * w * course.way[i] / T + w * (1 - 3 * u) * course.v[i] + u * (3 * u - 2) * course.v[i + 1];
-    const loose = course.loose.get(i);
+    const loose = course.loose.get(i), length = course.length.get(row), share = length > 0 ? (course.done[i] + way) / length : passed;
     if (loose) {
       const [p0, v0, p1, v1] = loose;
-      return {point: p0.map((p, k) => Course.cubic(since, T, p, v0[k], p1[k], v1[k])), speed: Math.max(speed, 0)};
+      return {point: p0.map((p, k) => Course.cubic(since, T, p, v0[k], p1[k], v1[k])), speed: Math.max(speed, 0), share};
     }
-    const length = course.length.get(row);
-    return {point: path.point(row, length > 0 ? (course.done[i] + way) / length : 1), speed: Math.max(speed, 0)};
+    return {point: path.point(row, length > 0 ? share : 1), speed: Math.max(speed, 0), share};
+  }
+  // Rotary axes A, B and C at a share of a row, degrees; null in a run that turns none.
+  angles(row, share) {
+    return this.rotary && this.rotary.map(angle => {
+      const before = row > 0 ? angle[row - 1] : 0;
+      return row < 0 ? 0 : before + share * (angle[row] - before);
+    });
   }
   speedAfter(row) {
     const i = last(this.course.row, row);

@@ -22,6 +22,7 @@ from mnclab.text.program import Program
 
 SCALES = (1e3, 1e4, 1e6)  # parts of a millimetre
 ANGLES = 1e9  # parts of a radian
+DEGREES = 1e6  # parts of a degree, of rotary axes
 SHOWN = ("feed", "per_rev", "surface", "speed_limit", "spindle_x", "spindle", "side")  # columns that the page has as logs
 OFF = 0.02  # mm that a rapid leaves its straight line before its true course is sent
 
@@ -39,7 +40,10 @@ def payload(run: Any, profile: Profile) -> str:
         "title": run.program.name,
         "control": run.control.title,
         "lathe": path.lathe,
-        "alarms": [alarm.as_dict() | {"text": str(alarm)} for alarm in run.alarms],
+        "alarms": [
+            alarm.as_dict() | {"text": str(alarm), "program": alarm.span.program if alarm.span else 0}
+            for alarm in run.alarms
+        ],
         "programs": [{"name": program.name, "text": program.text} for program in run.programs],
         "lines": lines,
         "lasts": lasts,
@@ -56,6 +60,9 @@ def payload(run: Any, profile: Profile) -> str:
             "at": pack.add([step for step, _ in run.history.changed("position")]),
             "from": _columns(pack, _whole(positions, scale) - _tips(run, scale)),
         },
+        "rotary": _columns(pack, _whole(np.degrees(path.rotary), DEGREES)) if path.rotary.any() else None,
+        "degrees": DEGREES,
+        "stock": [np.round(edge, 4).tolist() for edge in run.stock.edges()] if run.stock else [],
         "history": {name: _changes(pack, run.history.changed(name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
     }

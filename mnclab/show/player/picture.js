@@ -17,6 +17,11 @@ class Picture {
     const fine = [this.strokes.box(RAPIDS, CUTS, PROBINGS), this.strokes.box(CUTS)];
     this.box = cuts && size(all) > FAR * size(cuts) && size(cuts) > 0 ? fine[1] : fine[0];
     this.box = this.box || [run.path.vertex(0).map(v => v - 10), run.path.vertex(0).map(v => v + 10)];
+    for (const point of run.stock.flat())
+      point.forEach((value, k) => {
+        this.box[0][k] = Math.min(this.box[0][k], value);
+        this.box[1][k] = Math.max(this.box[1][k], value);
+      });
     this.extent = Math.max(size(this.box), 1);
     this.long = this.strokes.n > LONG;
     this.fewRapids = this.strokes.kind.reduce((n, kind) => n + (kind === RAPIDS), 0) < 3000;
@@ -31,7 +36,7 @@ class Picture {
   }
   recolour() {
     const style = getComputedStyle(document.documentElement);
-    this.colours = Object.fromEntries(["paper", "ink", "faint", "rapid", "cut", "probing", "contour", "now", "cutter", "shank",
+    this.colours = Object.fromEntries(["paper", "ink", "faint", "rapid", "cut", "probing", "contour", "blank", "now", "cutter", "shank",
       "edge", "quiet"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
     this.stale = true;
   }
@@ -85,6 +90,7 @@ class Picture {
       pen.fillStyle = this.colours.paper;
       pen.fillRect(0, 0, w, h);
       this.rulers(pen);
+      this.blank(pen);
       if (this.contour) {
         this.contour.project(camera);
         pen.strokeStyle = this.colours.contour;
@@ -107,6 +113,15 @@ class Picture {
     top.drawImage(this.ground, 0, 0);
     top.drawImage(this.done, 0, 0);
     this.moment(this.pen(this.canvas), at);
+  }
+
+  blank(pen) {
+    pen.strokeStyle = this.colours.blank;
+    pen.lineWidth = 1;
+    pen.beginPath();
+    for (const edge of this.run.stock)
+      edge.forEach((point, k) => pen[k ? "lineTo" : "moveTo"](...this.camera.project(point)));
+    pen.stroke();
   }
 
   moment(pen, {row, tip, tool, side}) {

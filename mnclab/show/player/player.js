@@ -20,7 +20,7 @@ class PlayerPage {
     this.theme(this.root.dataset.theme);
     this.picture = new Picture(find("picture"), run);
     this.curve = new Curve(find("curve"), run);
-    this.listing = new Listing(find("listing"), run, (program, line) => this.goLine(program, line));
+    this.listing = new Listing(find("listing"), run, (program, line) => this.goLine(program, line), find("program"));
     this.board = new Board(run, find);
     this.buttons();
     this.alarms();
@@ -89,6 +89,7 @@ class PlayerPage {
     if (block < 0) return this.go(this.afterItem(-1));
     const step = this.run.execution(program, block, this.step);
     if (step >= 0) return this.go(this.afterStep(step));
+    this.listing.turnTo(program);
     this.listing.reveal(line);
     this.find("said").textContent = this.find("doing").textContent = `line ${line} is not executed`;
   }
@@ -139,8 +140,9 @@ class PlayerPage {
   now() {
     const {run, place, step} = this, {item, t, done} = place, rowsDone = run.rowsDone(item, done);
     const row = !run.items || this.atStart ? -1 : run.itemRow[item] >= 0 ? run.itemRow[item] : run.before[item] - 1;
-    const {point, speed} = done ? {point: run.path.vertex(rowsDone), speed: run.tool(item, t).speed} : run.tool(item, t);
-    return {step, item: this.atStart ? -1 : item, row, rowsDone, point, speed, t};
+    const {point, speed, share} = done ? {point: run.path.vertex(rowsDone), speed: run.tool(item, t).speed, share: 1} : run.tool(item, t);
+    const angles = run.angles(row, run.items && row === run.itemRow[item] ? share : 1);
+    return {step, item: this.atStart ? -1 : item, row, rowsDone, point, speed, angles, t};
   }
   show() {
     if (this.waiting) return;
@@ -159,7 +161,7 @@ class PlayerPage {
     if (now.step >= 0) {
       const program = run.program[now.step], block = run.block[now.step];
       this.listing.mark(program, run.lines[program][block], run.lasts[program][block]);
-    } else this.listing.mark(this.listing.program, 0, 0);
+    } else this.listing.mark(0, 0, 0);
   }
   draw() {
     const {run, picture} = this, now = this.now(), going = now.item >= 0 && run.itemRow[now.item] === now.row ? now.row : -1;
@@ -168,9 +170,11 @@ class PlayerPage {
     picture.draw({row: going, tip: now.point, tool, side}, now.rowsDone);
   }
   say() {
-    const {run, step} = this, {point} = this.now();
-    const text = step < 0 ? "start" : `line ${run.lineOf(step)}: ${run.texts[run.program[step]][run.lineOf(step) - 1].trim()}`;
+    const {run, step} = this, {point, angles} = this.now();
+    const of = step >= 0 && run.program[step] ? ` of ${this.listing.name(run.program[step])}` : "";
+    const text = step < 0 ? "start" : `line ${run.lineOf(step)}${of}: ${run.texts[run.program[step]][run.lineOf(step) - 1].trim()}`;
     const at = this.board.axes.map(axis => `${run.lathe && axis === 0 ? "diameter" : "XYZ"[axis]} ${this.board.shown(point, axis)}`);
+    if (angles) at.push(anglesText(angles, run.turned));
     this.find("said").textContent = `${text}; tool at ${at.join(", ")}`;
     const count = run.path.kind.reduce((n, kind) => n + (kind <= PROBE), 0);
     this.find("picture").setAttribute("aria-label", `tool path, ${count} moves; tool at ${at.join(", ")}`);
@@ -254,7 +258,7 @@ class PlayerPage {
     }
     const legend = document.createElement("p");
     for (const [name, text, dashes] of [["cut", "cut", "solid"], ["rapid", "rapid", "dashed"], ["probing", "probing", "dotted"],
-      ["contour", "programmed contour", "solid"], ["now", "this move", "solid"]]) {
+      ["contour", "programmed contour", "solid"], ["blank", "blank", "solid"], ["now", "this move", "solid"]]) {
       const word = document.createElement("span");
       word.textContent = text;
       word.style.cssText = `--colour: var(--${name}); --dashes: ${dashes}`;
@@ -278,8 +282,9 @@ class PlayerPage {
     box.hidden = false;
     box.className = first.severity;
     const more = alarms.length > 1 ? ` (and ${alarms.length - 1} more)` : "";
-    box.textContent = `${first.severity}${first.line ? ` in line ${first.line}` : ""}: ${first.message}${more}`;
-    box.addEventListener("click", () => first.line && this.goLine(0, first.line));
+    const where = first.line ? ` in line ${first.line}${first.program ? ` of ${this.listing.name(first.program)}` : ""}` : "";
+    box.textContent = `${first.severity}${where}: ${first.message}${more}`;
+    box.addEventListener("click", () => first.line && this.goLine(first.program, first.line));
   }
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;

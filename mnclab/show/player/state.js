@@ -26,6 +26,16 @@ function short(value) {
   return number(value, 4).replace(/\.?0+$/, "");
 }
 
+// Rotary axes in degrees, those that a run turns: "A 15° C −90°".
+function anglesText(angles, turned) {
+  return angles.map((angle, k) => turned[k] ? `${"ABC"[k]} ${short(angle)}°` : "").filter(Boolean).join("  ");
+}
+
+function stockText([axis, low, high]) {
+  const corner = point => point.map((value, k) => "XYZ"[k] + short(value)).join(" ");
+  return typeof axis === "string" && low ? `${corner(low)}${high ? " to " + corner(high) : ""}` : "turned body";
+}
+
 function toolText(tool) {
   if (!tool || (!tool.number && !tool.radius)) return "none";
   const size = tool.radius ? `R${short(tool.radius + (tool.dr || 0))}` : "";
@@ -36,6 +46,8 @@ function valueText(name, value) {
   if (value === null || value === undefined) return "none";
   if (name.startsWith("frame ")) return frameText(value);
   if (value && value.radius !== undefined) return toolText(value);
+  if (name === "rotary") return anglesText(value.map(angle => angle * 180 / Math.PI), value.map(angle => angle !== 0)) || "0°";
+  if (name === "stock") return stockText(value);
   if (name === "side") return ["right", "none", "left"][value + 1];
   if (typeof value === "number") return short(value);
   if (typeof value === "boolean") return value ? "on" : "off";
@@ -49,6 +61,7 @@ class Board {
     this.run = run;
     this.find = find;
     this.step = -2;
+    find("angles").hidden = !run.rotary;
     const axes = run.lathe ? ["⌀ X", "Z"] : ["X", "Y", "Z"];
     this.axes = run.lathe ? [0, 2] : [0, 1, 2];
     find("axes").replaceChildren(...axes.map((name, row) => {
@@ -77,7 +90,7 @@ class Board {
     const speed = 1000 * surface / (2 * Math.PI * Math.abs(point[0] - columns.spindle_x.value(row)));
     return Math.sign(told) * Math.min(speed, typeof limit === "number" ? limit : Infinity);
   }
-  show({step, row, point, speed, item}) {
+  show({step, row, point, speed, item, angles}) {
     const {run, find} = this, at = Math.max(row, 0);
     this.positions("tool", point);
     this.positions("machine", point.map((value, k) => value + run.origin[k]));
@@ -90,6 +103,7 @@ class Board {
     find("turning").textContent = spindle > 0 ? "clockwise" : spindle < 0 ? "counter-clockwise" : "stopped";
     const label = row >= 0 && own ? run.row.label.value(row) : "";
     find("doing").textContent = !own ? "" : label || KINDS[kind];
+    if (angles) find("rotary").textContent = anglesText(angles, run.turned);
     if (step === this.step) return;
     this.step = step;
     this.positions("program", step >= 0 ? run.position(step) : null);

@@ -26,6 +26,7 @@ from mnclab.show.plot.insert import insert_patches
 from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.strategy import area
 from mnclab.show.plot.strokes import Strokes
+from mnclab.workpiece.blank import Blank
 
 CUTS = (Kind.LINE, Kind.ARC)
 MOST = 2000  # cuts that are taken off a blank
@@ -41,9 +42,9 @@ class Turned(NamedTuple):
     tip: tuple[float, float] | None
 
 
-def turned(path: Toolpath, stock: Any, tools: Mapping[int, Tool], insert: bool | int) -> Turned:
-    """What is drawn beside the path; `stock` has two corners in machine coordinates, the insert stands after a row."""
-    blank = _blank(path, stock)
+def turned(path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], insert: bool | int) -> Turned:
+    """What is drawn beside the path; `stock` stands in the coordinates of the path, the insert stands after a row."""
+    blank = _blank(stock)
     tip, tool = None, Tool()
     if len(path) and insert is not False:
         row = len(path) - 1 if insert is True else range(len(path))[int(insert)]
@@ -51,18 +52,18 @@ def turned(path: Toolpath, stock: Any, tools: Mapping[int, Tool], insert: bool |
     return Turned(blank, silhouette(path, blank, tools) if blank else None, tool, tip)
 
 
-def _blank(path: Toolpath, stock: Any) -> tuple[float, float, float] | None:
-    if not isinstance(stock, tuple | list) or np.asarray(stock).shape != (2, 3):
+def _blank(stock: Blank | None) -> tuple[float, float, float] | None:
+    if stock is None:
         return None
-    corners = np.asarray(stock, dtype=float) - path.origin
-    return float(corners[:, 2].min()), float(corners[:, 2].max()), float(np.abs(corners[:, 0]).max())
+    low, high = stock.bounds
+    return float(low[2]), float(high[2]), float(max(abs(low[0]), abs(high[0])))
 
 
 def with_blank(
-    path: Toolpath, stock: Any, low: NDArray[np.float64], high: NDArray[np.float64]
+    path: Toolpath, stock: Blank | None, low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The box (3,) and (3,) of a picture with the blank of a lathe in it."""
-    blank = _blank(path, stock) if path.lathe else None
+    blank = _blank(stock) if path.lathe else None
     if blank is None:
         return low, high
     left, right, radius = blank

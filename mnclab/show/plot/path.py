@@ -30,6 +30,7 @@ from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, Picture, View, ar
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Strokes, corners, parted, strokes
 from mnclab.text.alarm import ALARM, Alarm
+from mnclab.workpiece.blank import Blank
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
 INSERT = 0.09  # edges of an insert, of the greatest side of the picture
@@ -50,6 +51,7 @@ class Drawing(NamedTuple):
     plunges: dict[View, Array]
     plunge: Mark
     arrows: bool
+    stock: Blank | None = None
     turned: Turned | None = None
 
 
@@ -66,7 +68,7 @@ def plot_path(
     programmed: Toolpath | None = None,
     alarms: Sequence[Alarm] = (),
     places: Sequence[Place] = (),
-    stock: Any = None,
+    stock: Blank | None = None,
     tools: Mapping[int, Tool] = MappingProxyType({}),
     insert: bool | int = True,
 ) -> Figure:
@@ -87,8 +89,9 @@ def plot_path(
     - ``programmed``: the contour before compensation, drawn thin and grey where it differs.
     - ``alarms``: the first that stopped the program is marked where the tool stands and named below.
     - ``places``: the crosses (see :func:`mnclab.show.plot.datums.places_of`).
-    - ``stock``, ``tools``, ``insert``: on a lathe the blank (two corners in machine coordinates) with what the cuts leave
-      of it, the tool table, and after which row the insert is drawn: True for the last one, False for none.
+    - ``stock``: a blank in the coordinates of the path: its outline, thin; on a lathe with what the cuts leave of it.
+    - ``tools``, ``insert``: on a lathe the tool table, and after which row the insert is drawn: True for the last one,
+      False for none.
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path)
@@ -104,11 +107,25 @@ def plot_path(
         room = 1.6 * INSERT * float((high - low).max())
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
     views = _views(view, path, low, high, single=ax is not None)
+    if stock is not None and not path.lathe and frame != "cuts":
+        low, high = np.fmin(low, stock.bounds[0]), np.fmax(high, stock.bounds[1])
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
     plunges = {each: _plunges(path, each) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
     lathe = turned(path, stock, tools, insert) if path.lathe and views == [VIEWS["ZX"]] else None
-    drawing = Drawing(path, drawn, found, lines, _marks(path, stop is not None), shown, plunges, plunge, arrows, lathe)
+    drawing = Drawing(
+        path,
+        drawn,
+        found,
+        lines,
+        _marks(path, stop is not None),
+        shown,
+        plunges,
+        plunge,
+        arrows,
+        None if lathe else stock,
+        lathe,
+    )
     if ax is not None:
         _draw(ax, views[0], drawing)
         dress(ax, views[0])
@@ -123,6 +140,7 @@ def plot_path(
         figure: Any = ax.get_figure(root=True)
         return figure
     names = [line.name for line, _ in lines] if not found.scale else [line.name for line, _ in lines if _fixed(line)]
+    names += [colours.BLANK.name] if drawing.stock is not None else []
     names += [mark.name for mark, _ in drawing.marks]
     if any(map(len, drawing.plunges.values())):
         names.append(colours.PLUNGE.name)
@@ -143,14 +161,17 @@ def plot_path(
     return picture
 
 
-def plot_run(run: Any, ax: Axes | None = None, view: str = "auto", *, marks: bool = True, **options: Any) -> Figure:
-    """Views of the path of a run, with its programmed contour, zero points, poles and the place of its alarm.
+def plot_run(
+    run: Any, ax: Axes | None = None, view: str = "auto", *, marks: bool = True, stock: bool = True, **options: Any
+) -> Figure:
+    """Views of the path of a run, with its programmed contour, blank, zero points, poles and the place of its alarm.
 
-    The options are those of :func:`plot_path`.
+    The options are those of :func:`plot_path`; ``stock=False`` leaves out the blank of the setup or the program.
     """
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
+    given["stock"] = run.stock if stock else None
     if run.toolpath.lathe:
-        given |= {"stock": run.setup.stock, "tools": run.tables.tools}
+        given["tools"] = run.tables.tools
     if marks:
         given["places"] = places_of(run)
     return plot_path(run.toolpath, ax, view, **{**given, **options}, marks=marks)
@@ -249,6 +270,9 @@ def _views(view: str, path: Toolpath, low: Array, high: Array, single: bool) -> 
 def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     """Add lines, marks and crosses to an axes; returns those that a legend names."""
     artists = [Line2D(xyz[:, view.right], xyz[:, view.up], **line.style()) for line, xyz in drawing.lines]
+    for outline in drawing.stock.outline(view.right, view.up) if drawing.stock else ():
+        line = np.maximum(outline, [-np.inf, 0]) if view.diameter else outline  # a lathe's picture ends at its axis
+        artists.append(Line2D(line[:, 0], line[:, 1], **colours.BLANK.style()))
     plunges = drawing.plunges[view]
     if len(plunges):
         artists.append(Line2D(plunges[:, 0], plunges[:, 1], **drawing.plunge.style()))

@@ -24,6 +24,7 @@ SIZE = (7.0, 6.0)  # inches
 FINE, MANY = 9, 20_000  # points of a piece, as long as all of them are not more than so many
 BAND, FEW = 500, 60  # steps of the band that says what holds the speed; boxes of it that are hatched
 MOST = 30  # lines of a program beside their bars
+RAPIDS = 3  # times the fastest cut, beyond which rapids are cut off
 PARTS = 3000  # of a path that is coloured by the speed reached
 
 Array = NDArray[np.float64]
@@ -95,6 +96,7 @@ def plot_profile(
     over: str = "time",
     axes: bool = False,
     limits: bool = True,
+    whole: bool = False,
     size: tuple[float, float] = SIZE,
 ) -> Figure:
     """Feed, acceleration and, under a limit, jerk along the path. Returns the figure, which Jupyter shows.
@@ -104,6 +106,8 @@ def plot_profile(
     - ``axes``: also the speed and acceleration of X, Y and Z.
     - ``limits``: dotted lines at the limits, and a band below the feed that says what holds the speed: the acceleration,
       the jerk, a corner, the turning on an arc, the speed of an axis, or nothing but the programmed feed.
+    - ``whole``: show the rapids up to their full speed. Otherwise the scale ends a little above the fastest cut where
+      rapids are more than three times as fast and would flatten it, and a note says how far they go.
     - ``size``: width and height in inches.
 
     Bars on the time axis are stops, triangles corners that slow the tool.
@@ -113,7 +117,7 @@ def plot_profile(
     drawn = curve(profile, over)
     x = drawn.t if over == "time" else drawn.s
     if ax is not None:
-        _feed(ax, profile, drawn, x, over, limits)
+        _feed(ax, profile, drawn, x, over, limits, whole)
         _label(ax, over)
         figure: Any = ax.get_figure(root=True)
         return figure
@@ -133,7 +137,7 @@ def plot_profile(
     rows += [picture.add_subplot(grid[k, 0], sharex=rows[0]) for k in range(1, len(titles))]
     for each, title in zip(rows, titles):
         _dress(each, title)
-    handles = _feed(rows[0], profile, drawn, x, over, limits)
+    handles = _feed(rows[0], profile, drawn, x, over, limits, whole)
     most = _of_rows(profile, profile.plan.rows.a).copy()
     most[profile.path.kind > Kind.PROBE] = np.nan
     if profile.plan.rapids is not None:
@@ -213,7 +217,7 @@ def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = MOST, wid
 # --- parts of the pictures -------------------------------------------------------------------------------------------
 
 
-def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits: bool) -> list[Any]:
+def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits: bool, whole: bool) -> list[Any]:
     """Programmed and reached feed, stops, corners, and the band of what holds the speed; returns legend entries."""
     feed = _of_pieces(profile, profile.plan.rows.feed)
     known = np.isfinite(feed) & (profile.path.kind[profile.move] <= Kind.PROBE)
@@ -225,6 +229,23 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
     top = 1.08 * max(float(drawn.v.max(initial=0.0)) * 60, float(np.nanmax(wanted, initial=0.0)), 1e-3)
     if not np.isfinite(top) or top > 40 * max(float(drawn.v.max(initial=0.0)) * 60, 1e-3):
         top = 1.08 * float(drawn.v.max(initial=0.0)) * 60  # a feed far beyond what is reached would flatten all else
+    fast, cut = (
+        float(drawn.v.max(initial=0.0)) * 60,
+        float(drawn.v[profile.path.kind[profile.move[drawn.piece]] != Kind.RAPID].max(initial=0.0)) * 60,
+    )
+    if not whole and fast > RAPIDS * cut > 0:
+        top = 1.15 * min(max(cut, float(np.nanmax(wanted, initial=0.0))), RAPIDS * cut)
+        note: dict[str, Any] = {"ha": "right", "va": "top", "fontsize": SMALL - 1, "color": colours.RAPID.colour}
+        ground = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
+        ax.text(
+            0.995,
+            0.98,
+            f"cut off: rapids reach {fast:.5g} mm/min",
+            transform=ax.transAxes,
+            bbox=ground,
+            zorder=5,
+            **note,
+        )
     p = profile.pieces
     at = p.t if over == "time" else p.s
     ax.set_xlim(0, max(float(at[-1]), 1e-9) if len(at) else 1.0)

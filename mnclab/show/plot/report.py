@@ -28,7 +28,7 @@ def write(found: Any, picture: Figure, path: Path) -> None:
         for lines in chunks([*front(found)]):
             pages.savefig(_page(lines))
         pages.savefig(picture)
-        for lines in chunks([("Program", True), ("", False), *((line, False) for line in listing(found))]):
+        for lines in chunks([*texts(found)]):
             pages.savefig(_page(lines))
     path.write_bytes(data.getvalue())
 
@@ -60,10 +60,19 @@ def table(rows: list[tuple[str, ...]]) -> Iterator[tuple[str, bool]]:
         yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip(), False
 
 
-def listing(found: Any) -> Iterator[str]:
-    """The program with its line numbers; a mark where an alarm stands, long lines folded."""
-    wide = len(str(len(found.listing)))
-    for number, text, faulty in found.listing:
+def texts(found: Any) -> Iterator[tuple[str, bool]]:
+    """All programs, each under its name."""
+    for k, (name, lines) in enumerate(found.programs):
+        yield from [("", False)] * (2 if k else 0)
+        yield name, True
+        yield "", False
+        yield from ((line, False) for line in listing(lines))
+
+
+def listing(program: Any) -> Iterator[str]:
+    """A program with its line numbers; a mark where an alarm stands, long lines folded."""
+    wide = len(str(len(program)))
+    for number, text, faulty in program:
         parts = textwrap.wrap(text.expandtabs(4), WIDTH - wide - 3, drop_whitespace=False) or [""]
         yield f"{number:{wide}d} {'!' if faulty else ' '} {parts[0]}"
         yield from (" " * (wide + 3) + part for part in parts[1:])

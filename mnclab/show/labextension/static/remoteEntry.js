@@ -16,34 +16,41 @@
     [/[~*@]/y, 'operator'],
     [/\/(?!\/)/y, 'meta'],
   ];
-  const KLARTEXT =
-    /(BEGIN|END) PGM|BLK FORM( 0\.[12])?|TOOL (CALL|DEF)|CYCL (DEF|CALL)( \d+(\.\d+)?)?|TCH PROBE( \d+(\.\d+)?)?|CALL (LBL|PGM)|LBL|REP|(APPR|DEP) (LT|LN|CT|LCT|PLT|PLN|PCT|PLCT)|FN ?\d+ ?:|F(LT|CT|L|C|POL)\b|(CTP|CC|CR|CT|CP|LP|LN|L|C|RND|CHF|STOP|PLANE( \w+)?|SEL \w+|PATTERN DEF|CONTOUR DEF|GLOBAL DEF|IF|GOTO|EQU|NE|GT|LT)(?![\w=])/iy;
+  /** Klartext: the words that begin a block, the longer before the shorter; C and L are axes and lengths elsewhere. */
+  const BLOCKS = new RegExp('(?<=^\\s*/?(\\d+\\s+)?/?)(' + [
+    '(BEGIN|END) +PGM', 'BLK +FORM( +(0\\.[12]|CYLINDER|ROTATION|FILE))?', 'TOOL +(CALL|DEF)', 'CYCL +DEF( +\\d+(\\.\\d+)?)?',
+    'CYCL +CALL( +(POS|PAT))?', 'TCH +PROBE( +\\d+(\\.\\d+)?)?', 'CALL +(LBL|PGM|SELECTED +PGM)', 'SEL +(PGM|PATTERN|CONTOUR|TABLE)',
+    'PATTERN +DEF', 'CONTOUR +DEF', 'GLOBAL +DEF( +\\d+)?', 'DECLARE +(STRING|CONTOUR)', 'TRANS +DATUM( +(AXIS|TABLE|RESET))?',
+    'FUNCTION( +[A-Z-]+)?', 'PLANE( +[A-Z]+)?', '(APPR|DEP) +(PLCT|PLT|PLN|PCT|LCT|LT|LN|CT)', 'FN *\\d+ *:?',
+    'FSELECT', 'FPOL', 'FLT', 'FCT', 'FL', 'FC', 'CTP', 'CC', 'CR', 'CT', 'CP', 'LP', 'LN', 'L', 'C', 'STOP',
+  ].join('|') + ')(?![A-Z_=])', 'iy');
+  const INSIDE = /(IF|GOTO|EQU|NE|GT|LT|(IS )?(UN)?DEFINED|PREDEF|SCREEN)(?![\w=])|(LBL|RND|CHF|REP)(?![A-Z_=])/iy;
+  const ISO = comment => [[comment, 'comment'], [/%\S*/y, 'meta'], ...WORDS];
   const LANGUAGES = [
-    {
-      name: 'MNC', mime: 'text/x-mnc', extensions: ['mnc', 'nc', 'ngc'],
-      rules: [[/\/\/.*|;.*|\(.*?\)/y, 'comment'], [/%\S*/y, 'meta'], ...WORDS],
-    },
-    {
-      name: 'NC-31 (lathe)', mime: 'text/x-nc31', extensions: ['nc31'],
-      rules: [[/;.*/y, 'comment'], ...WORDS],
-    },
+    { name: 'MNC', mime: 'text/x-mnc', extensions: ['mnc', 'nc', 'ngc'], rules: ISO(/\/\/.*|;.*|\(.*?\)/y) },
+    { name: 'ISO (G43)', mime: 'text/x-g43', extensions: ['g43', 'iso'], rules: ISO(/;.*|\(.*?\)/y) },
+    { name: 'NC-31 (lathe)', mime: 'text/x-nc31', extensions: ['nc31'], rules: [[/;.*/y, 'comment'], ...WORDS] },
+    { name: 'JNC-T01 (lathe)', mime: 'text/x-jnc', extensions: ['jnc'], rules: ISO(/'.*/y) },
     {
       name: 'Klartext (TNC)', mime: 'text/x-klartext', extensions: ['klartext'],
       rules: [
         [/\s+/y, null],
         [/;.*/y, 'comment'],
-        [/^\s*\*\s.*/y, 'heading'],
-        [/"[^"]*"/y, 'string'],
+        [/^\s*(\d+\s+)?\*\s.*/y, 'heading'],
+        [/"[^"]*"?|'[^']*'?|(?<=\bPGM\s+)(?!QS?\d)[^\s;"']+/iy, 'string'], // names of programs too
         [/^\s*\d+(?=\s)/y, 'labelName'],
-        [KLARTEXT, 'keyword'],
-        [/M\d+\b/iy, 'controlKeyword'],
-        [/Q[LRS]?\d+/iy, 'variableName.special'],
-        [/(FMAX|FAUTO|RL|RR|R0|DR[-+]|MM|INCH)(?![\w=])|[XYZ](?=\s|$)/iy, 'atom'],
-        [/(SIN|COS|TAN|ASIN|ACOS|ATAN|SQRT|SQ|LN|LOG|EXP|NEG|ABS|INT|FRAC|SGN|PI|DIV)\b/iy, 'operatorKeyword'],
-        [/[SF](?=\s*[-+Q\d.])/iy, 'typeName'],
-        [/I?[A-Z]+(?=\s*[-+Q\d.,])/iy, 'propertyName'],
+        [BLOCKS, 'keyword'],
+        [INSIDE, 'keyword'],
+        [/M\s?\d+\b/iy, 'controlKeyword'],
+        [/Q[LRS]?\s?\d+/iy, 'variableName.special'],
+        [/(FMAX|F\s?AUTO|F\s?MAX|RL|RR|R0|DR[-+]|CLSD[-+]|MM|INCH)(?![\w=.])|[XYZ](?=\s|$)/iy, 'atom'],
+        [/(SIN|COS|TAN|ASIN|ACOS|ATAN|SQRT|SQ|LN|LOG|EXP|NEG|ABS|INT|FRAC|SGN|PI|DIV|ANG)\b/iy, 'operatorKeyword'],
+        [/(LEN(?!\s*[-+]?\s?\d)|TOCHAR|TONUMB|SUBSTR|INSTR|STRLEN|STRCOMP|SYSSTR)\b/iy, 'operatorKeyword'],
+        [/(FU|FZ|[SF])(?=\s*[-+]?\s*(Q[LR]?\s?\d|[\d.]))/iy, 'typeName'],
+        [/I?(P[123][XY]|[A-Z]+)(?=[-+]?Q[LR]?\s?\d|\s*[-+]?\s?[.,]?\d|[-+])/iy, 'propertyName'],
         [NUMBER, 'number'],
-        [/[-+*/^()=~]/y, 'operator'],
+        [/[-+*/^()=~|]/y, 'operator'],
+        [/[A-Z_][\w.:-]*/iy, null], // a name, whole: no letter of it is a word
       ],
     },
   ];
@@ -67,8 +74,10 @@
     if (!/^%%mnc\b/.test(text)) return null;
     const control = (/--control[ =]+["']?([\w-]+)/.exec(text.split('\n', 1)[0]) || [])[1] || '';
     if (/^tnc/.test(control)) return 'text/x-klartext';
-    if (/^(nc-31|jnc)/.test(control)) return 'text/x-nc31';
-    return !control && /^\s*(\d+\s+)?BEGIN PGM\b/m.test(text) ? 'text/x-klartext' : 'text/x-mnc';
+    if (/^nc-31/.test(control)) return 'text/x-nc31';
+    if (/^jnc/.test(control)) return 'text/x-jnc';
+    if (/^g43/.test(control)) return 'text/x-g43';
+    return !control && /^\s*(\d+\s+)?BEGIN PGM\b/im.test(text) ? 'text/x-klartext' : 'text/x-mnc';
   };
 
   const watchCell = (model, notebook) => {

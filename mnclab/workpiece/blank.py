@@ -1,0 +1,144 @@
+"""The blank as its drawing gives it: a box between two corners, or a body turned about an axis. No mesh.
+
+A blank is for pictures; it stands in the coordinates of whoever gives it (machine coordinates in a Setup).
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+CORNERS = 96  # of a circle in a picture
+Array = NDArray[np.float64]
+
+
+class Box(NamedTuple):
+    """A box between two opposite corners (3,), mm."""
+
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+
+    def moved(self, by: ArrayLike) -> Box:
+        """The same box moved by a vector (3,), mm."""
+        low, high = (np.asarray(corner, dtype=np.float64) + np.asarray(by) for corner in self)
+        return Box(tuple(low.tolist()), tuple(high.tolist()))
+
+    @property
+    def bounds(self) -> Array:
+        """The corners with the least and the greatest coordinates (2, 3)."""
+        corners = np.array([self.low, self.high], dtype=np.float64)
+        return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+    def edges(self) -> list[Array]:
+        """The twelve edges, each (2, 3)."""
+        bounds = self.bounds
+        corners = [np.array([bounds[i, 0], bounds[j, 1], bounds[k, 2]]) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+        pairs = [(a, a | bit) for bit in (1, 2, 4) for a in range(8) if not a & bit]
+        return [np.stack([corners[a], corners[b]]) for a, b in pairs]
+
+    def outline(self, right: int, up: int) -> list[Array]:
+        """What a view along an axis shows: closed lines (k, 2) in the coordinates ``right`` and ``up`` (0 to 2)."""
+        (x0, y0), (x1, y1) = self.bounds[:, [right, up]]
+        return [np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)])]
+
+
+class Revolved(NamedTuple):
+    """A body turned about an axis parallel to X, Y or Z.
+
+    ``profile``: pairs of radius and place along the axis, mm, from one end to the other; ``at``: a point on the axis.
+    ``bore``: the radius of a hole all along it, for a tube.
+    """
+
+    profile: tuple[tuple[float, float], ...]
+    axis: str = "Z"
+    at: tuple[float, ...] = (0.0, 0.0, 0.0)
+    bore: float = 0.0
+
+    @property
+    def along(self) -> int:
+        """Which coordinate the axis runs along."""
+        return "XYZ".index(self.axis)
+
+    def moved(self, by: ArrayLike) -> Revolved:
+        """The same body moved by a vector (3,), mm."""
+        return self._replace(at=tuple((np.asarray(self.at, dtype=np.float64) + np.asarray(by)).tolist()))
+
+    @property
+    def bounds(self) -> Array:
+        """The corners with the least and the greatest coordinates (2, 3)."""
+        profile, centre = np.array(self.profile, dtype=np.float64), np.array(self.at, dtype=np.float64)
+        wide = profile[:, 0].max()
+        low, high = centre - wide, centre + wide
+        k = self.along
+        low[k], high[k] = centre[k] + profile[:, 1].min(), centre[k] + profile[:, 1].max()
+        return np.stack([low, high])
+
+    def rims(self) -> list[tuple[float, float]]:
+        """Radius and place along the axis of every edge that goes round; those of a bore too."""
+        ends = [self.profile[0][1], self.profile[-1][1]]
+        found = [*((radius, place) for radius, place in self.profile if radius > 0)]
+        return found + ([(self.bore, place) for place in ends] if self.bore > 0 else [])
+
+    def edges(self) -> list[Array]:
+        """The rims as closed lines (k, 3) and four lines along the surface (k, 3)."""
+        first, second = ((1, 2), (2, 0), (0, 1))[self.along]
+        angle = np.linspace(0, 2 * np.pi, CORNERS + 1)
+        found = []
+        for radius, place in self.rims():
+            ring = np.tile(np.array(self.at, dtype=np.float64), (len(angle), 1))
+            ring[:, first] += radius * np.cos(angle)
+            ring[:, second] += radius * np.sin(angle)
+            ring[:, self.along] += place
+            found.append(ring)
+        profile = np.array(self.profile, dtype=np.float64)
+        for a in (0, np.pi / 2, np.pi, 3 * np.pi / 2):
+            line = np.tile(np.array(self.at, dtype=np.float64), (len(profile), 1))
+            line[:, first] += profile[:, 0] * np.cos(a)
+            line[:, second] += profile[:, 0] * np.sin(a)
+            line[:, self.along] += profile[:, 1]
+            found.append(line)
+        return found
+
+    def outline(self, right: int, up: int) -> list[Array]:
+        """What a view along an axis shows: closed lines (k, 2) in the coordinates ``right`` and ``up`` (0 to 2)."""
+        profile, centre = np.array(self.profile, dtype=np.float64), np.array(self.at, dtype=np.float64)[[right, up]]
+        if self.along not in (right, up):  # seen along the axis: circles
+            angle = np.linspace(0, 2 * np.pi, CORNERS + 1)
+            ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+            return [centre + radius * ring for radius in (profile[:, 0].max(), self.bore) if radius > 0]
+        found = []
+        closed = np.concatenate([profile * [1, 1], profile[::-1] * [-1, 1], profile[:1]])
+        if self.bore > 0:
+            (a, b), r = profile[[0, -1], 1], self.bore
+            found.append(np.array([(r, a), (r, b), (-r, b), (-r, a), (r, a)]))
+        return [centre + (line if self.along == up else line[:, ::-1]) for line in [closed, *found]]
+
+
+Blank = Box | Revolved
+
+
+def cylinder(
+    radius: float, low: float, high: float, axis: str = "Z", at: tuple[float, ...] = (0.0, 0.0, 0.0), bore: float = 0.0
+) -> Revolved:
+    """A cylinder from ``low`` to ``high`` along an axis through ``at``, mm; a tube with a ``bore`` radius.
+
+    ValueError where that is no body.
+    """
+    if not radius > bore >= 0 or not high > low or axis not in ("X", "Y", "Z"):
+        raise ValueError(
+            f"a cylinder needs radius > bore >= 0, high > low and axis X, Y or Z; "
+            f"got radius {radius:g}, bore {bore:g}, {low:g} to {high:g}, axis {axis!r}"
+        )
+    return Revolved(((radius, low), (radius, high)), axis, at, bore)
+
+
+def blank(given: Any) -> Blank | None:
+    """What a Setup calls its stock: two corners (3,), or a blank; None for what is neither."""
+    if isinstance(given, Box | Revolved):
+        return given
+    if not isinstance(given, tuple | list | np.ndarray) or np.shape(given) != (2, 3):
+        return None
+    low, high = np.asarray(given, dtype=np.float64).tolist()
+    return Box(tuple(low), tuple(high))

@@ -1,0 +1,186 @@
+"""The player of runs that call other programs, turn rotary axes, change parameters, and of tools of every kind."""
+
+import re
+
+import pytest
+
+import mnclab
+from mnclab import Setup, Tool
+
+MAIN = """0 BEGIN PGM MAIN MM
+1 BLK FORM 0.1 Z X-50 Y-40 Z-20
+2 BLK FORM 0.2 X+50 Y+40 Z+0
+3 TOOL CALL 1 Z S3000 F500
+4 L X+0 Y+0 Z+50 R0 FMAX M3
+5 Q5 = 20.5
+6 L X+20 A+30 C-90 F1000
+7 CALL PGM PART.H
+8 L C+0
+9 CALL PGM PART.H
+10 L Z+60 FMAX
+11 END PGM MAIN MM
+"""
+PART = """0 BEGIN PGM PART MM
+1 Q5 = Q5 + 1
+2 L IY+10
+3 END PGM PART MM
+"""
+MINUS = "\N{MINUS SIGN}"
+
+
+def run_main(part=PART):
+    return mnclab.run(MAIN, "tnc-620", Setup(files={"PART.H": part}))
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    """opened(run) opens the saved page without a network; a fault of the page fails the test."""
+    faults, pages = [], []
+
+    def open_page(run):
+        page = browser.new_page(viewport={"width": 1000, "height": 700})
+        pages.append(page)
+        page.route(re.compile("^(?!file:)"), lambda route: faults.append(route.request.url) or route.abort())
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.goto(run.save(tmp_path / "part.html").as_uri())
+        page.wait_for_function("window.player")
+        return page
+
+    yield open_page
+    for page in pages:
+        page.close()
+    assert faults == []
+
+
+def marked(page):
+    return page.locator(".line.now code")
+
+
+def wait_for_text(locator, text):
+    """Wait until an element says a text, all of it."""
+    locator.filter(has_text=re.compile(rf"^\s*{re.escape(text)}\s*$")).wait_for(timeout=20_000)
+
+
+def test_the_text_follows_into_called_programs_and_back(opened):
+    run = run_main()
+    page = opened(run)
+    choice = page.get_by_role("combobox", name="program shown")
+    assert choice.locator("option").all_inner_texts() == ["program", "PART.H"]
+    names = [program.text.splitlines() for program in run.programs]
+    for step, program in enumerate(run.steps.program):
+        page.keyboard.press("ArrowRight")
+        wait_for_text(marked(page), names[program][int(run.lines()[step]) - 1])
+        assert choice.input_value() == str(program)
+    page.keyboard.press("Home")
+    page.get_by_role("option", name="line 1: 0 BEGIN PGM MAIN").wait_for()
+
+
+def test_another_program_can_be_looked_at_and_gone_to(opened):
+    run = run_main()
+    page = opened(run)
+    page.get_by_role("combobox", name="program shown").select_option("PART.H")
+    line = page.get_by_role("option", name="line 3: 2 L IY+10")
+    for times in (1, 2):
+        line.click()
+        step = run.at(line=3, pass_=times, program=1).step
+        page.wait_for_function(f"() => window.player.step === {step}")
+        wait_for_text(page.locator("#tool-Y"), f"{10 * times}.000")
+        page.get_by_role("status").filter(has_text="line 3 of PART.H: 2 L IY+10; tool at").wait_for(state="attached")
+
+
+def test_an_alarm_in_a_called_program_leads_there(opened):
+    page = opened(run_main(PART.replace("IY+10", "IY+10 F-1")))
+    page.get_by_role("button", name="alarm in line 3 of PART.H:").click()
+    page.wait_for_function("() => window.player.listing.program === 1")
+    wait_for_text(page.locator(".line.alarm code"), "2 L IY+10 F-1")
+
+
+def test_a_changed_parameter_is_marked_with_its_values(opened):
+    run = run_main()
+    page = opened(run)
+    for times, text in ((1, "20.5 → 21.5"), (2, "21.5 → 22.5")):
+        page.evaluate("step => window.player.go(window.player.afterStep(step))", run.at(2, times, program=1).step)
+        wait_for_text(page.locator("#modal .changed dd"), text)
+        wait_for_text(page.locator("#modal .changed dt"), "Q5")
+
+
+def test_rotary_axes_arrive_with_the_tip(opened):
+    run = run_main()
+    page = opened(run)
+    step = run.at(line=7).step  # from X0 A0 C0 to X20 A30 C-90: at X5 a quarter of each way
+    half = f"""() => {{
+        const p = window.player, i = p.run.first[{step}];
+        let low = p.run.begin[i], high = p.run.end[i];
+        for (let k = 0; k < 60; k++) {{
+            const t = (low + high) / 2;
+            if (p.run.tool(i, t).point[0] < 5) low = t; else high = t;
+        }}
+        p.go({{item: i, t: low, done: false}});
+        return p.now().angles;
+    }}"""
+    assert page.evaluate(half) == pytest.approx([7.5, 0, -22.5], abs=1e-3)
+    wait_for_text(page.locator("#rotary"), f"A 7.5°  C {MINUS}22.5°")
+    page.evaluate(f"() => window.player.go(window.player.afterStep({step}))")
+    wait_for_text(page.locator("#rotary"), f"A 30°  C {MINUS}90°")
+    wait_for_text(page.locator("#modal .changed dt"), "rotary")
+    alone = run.at(line=9).step  # C alone: it turns in time
+    turning = f"""() => {{
+        const p = window.player, i = p.run.first[{alone}];
+        return [0, 0.25, 1].map(s => {{
+            const t = p.run.begin[i] + s * (p.run.end[i] - p.run.begin[i]);
+            return p.run.angles(p.run.itemRow[i], p.run.tool(i, t).share)[2];
+        }});
+    }}"""
+    assert page.evaluate(turning) == pytest.approx([-90, -67.5, 0], abs=1e-3)
+
+
+def test_without_rotary_axes_and_called_programs_nothing_speaks_of_them(opened):
+    page = opened(mnclab.run("G90 G54\nG0 X5\n", "mnc"))
+    assert page.locator("#angles").is_hidden() and page.locator("#program").is_hidden()
+
+
+def test_the_blank_is_in_the_picture(opened):
+    page = opened(run_main())
+    assert page.evaluate("() => window.player.run.stock.length") == 12
+    box = page.evaluate("() => window.player.picture.box")
+    assert box == [[-50, -40, -20], [50, 40, 60]]
+
+
+#: kind of tool -> radius of its body at heights above the tip, from the drawings of such tools.
+TOOLS = {
+    "end mill": (Tool(radius=5, kind="mill"), {0: 5, 8: 5}),
+    "ball": (Tool(radius=5, corner=5, kind="mill"), {0: 0, 5: 5, 2.5: 4.3301270}),  # 5² - 2.5² = 4.33²
+    "bull": (Tool(radius=5, corner=2, kind="mill"), {0: 3, 2: 5}),
+    "drill": (Tool(radius=4, angle=90, kind="drill"), {0: 0, 2: 2, 4: 4}),  # 45° on either side
+    "tap": (Tool(radius=3, pitch=1, kind="tap"), {0: 3, 6: 3}),
+    "thread mill": (Tool(radius=6, pitch=1.5, kind="thread mill"), {0: 6, 6: 6}),
+    "probe": (Tool(radius=2, length=80, kind="probe"), {0: 0, 2: 2, 3: 1.7320508}),  # a ball: 2² - 1² = 1.73²
+}
+
+
+@pytest.mark.parametrize("name", TOOLS)
+def test_a_tool_has_the_shape_of_its_kind(opened, name):
+    tool, radii = TOOLS[name]
+    text = "BEGIN PGM A MM\nTOOL CALL 1 Z S100\nL X+10 Y+0 Z+5 FMAX\nEND PGM A MM\n"
+    page = opened(mnclab.run(text, "tnc-620", Setup(tools={1: tool})))
+    page.keyboard.press("End")
+    bodies = page.evaluate("() => parts(window.player.run.history.get('tool').value(2), 100)")
+    rings = [ring for body, _ in bodies for ring in body]
+    for height, radius in radii.items():
+        below = max((ring for ring in rings if ring[1] <= height + 1e-9), key=lambda ring: ring[1])
+        above = min((ring for ring in rings if ring[1] >= height - 1e-9), key=lambda ring: ring[1])
+        share = (height - below[1]) / (above[1] - below[1]) if above[1] > below[1] else 0.0
+        between = below[0] + share * (above[0] - below[0])
+        assert between == pytest.approx(radius, abs=0.05), (name, height)  # arcs are drawn with six corners
+
+
+def test_a_very_long_run_opens_and_moves(opened):
+    blocks = [f"L X+{k % 100} Y+{k // 1000}.{k % 10} F500" for k in range(200_000)]
+    text = "\n".join(["BEGIN PGM A MM", "TOOL CALL 1 Z S100", *blocks, "END PGM A MM"]) + "\n"
+    run = mnclab.run(text, "tnc-620")
+    page = opened(run)
+    page.keyboard.press("End")
+    page.wait_for_function(f"() => window.player.step === {len(run.steps.block) - 1}")
+    wait_for_text(marked(page), "END PGM A MM")
+    page.keyboard.press("ArrowLeft")
+    wait_for_text(marked(page), blocks[-1])

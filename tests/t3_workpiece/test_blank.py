@@ -1,0 +1,76 @@
+"""Blanks: a box and bodies turned about an axis, their outlines in views and their bodies in space."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mnclab
+from mnclab.show.solids import body_of
+from mnclab.workpiece.blank import CORNERS, Box, Revolved, blank, cylinder
+
+sizes = st.floats(0.5, 100)
+places = st.tuples(*[st.floats(-50, 50)] * 3)
+
+
+def test_two_corners_are_a_box_and_other_things_are_none():
+    assert blank(((0, 0, -5), (10, 20, 0))) == Box((0, 0, -5), (10, 20, 0))
+    assert blank(None) is None and blank("steel") is None and blank((1, 2, 3)) is None
+    rod = cylinder(10, -30, 2)
+    assert blank(rod) is rod
+
+
+@pytest.mark.parametrize("wrong", [(0, 0, 1), (5, 1, 1), (-5, 0, 1)])
+def test_a_cylinder_without_size_is_refused(wrong):
+    with pytest.raises(ValueError, match="a cylinder needs"):
+        cylinder(*wrong)
+
+
+@given(sizes, sizes, sizes, places)
+def test_a_box_has_its_volume_and_twelve_edges(x, y, z, at):
+    box = Box((0, 0, 0), (x, y, z)).moved(at)
+    assert body_of(box).volume == pytest.approx(x * y * z)
+    assert len(box.edges()) == 12
+    length = sum(float(np.linalg.norm(b - a)) for a, b in box.edges())
+    assert length == pytest.approx(4 * (x + y + z))
+    assert np.allclose(box.bounds, [at, np.add(at, (x, y, z))])
+
+
+@given(sizes, sizes, st.floats(0, 0.9), st.sampled_from("XYZ"), places)
+def test_a_tube_has_its_volume_along_every_axis(radius, length, share, axis, at):
+    tube = cylinder(radius, -length, 0, axis, at, radius * share)
+    body = body_of(tube)
+    prism = CORNERS / 2 * np.sin(2 * np.pi / CORNERS)  # area of the polygon that stands for a circle of radius 1
+    assert body.volume == pytest.approx(prism * length * radius**2 * (1 - share**2), rel=1e-9)
+    assert np.allclose([body.points.min(axis=0), body.points.max(axis=0)], tube.bounds)
+    along = "XYZ".index(axis)
+    low, high = np.array(at) - radius, np.array(at) + radius
+    low[along], high[along] = at[along] - length, at[along]
+    assert np.allclose(tube.bounds, [low, high])
+    for right, up in ((0, 1), (0, 2), (1, 2), (2, 0)):
+        points = np.concatenate(tube.outline(right, up))
+        assert np.allclose([points.min(axis=0), points.max(axis=0)], tube.bounds[:, [right, up]])
+    edges = np.concatenate(tube.edges())
+    assert np.allclose([edges.min(axis=0), edges.max(axis=0)], tube.bounds)
+
+
+def test_a_cone_is_a_third_of_its_cylinder():
+    cone = Revolved(((0.0, 0.0), (3.0, 5.0)))
+    prism = CORNERS / 2 * np.sin(2 * np.pi / CORNERS)
+    assert body_of(cone).volume == pytest.approx(prism * 9 * 5 / 3)
+    assert body_of(cone._replace(profile=cone.profile[::-1])).volume == pytest.approx(prism * 9 * 5 / 3)
+    assert np.allclose(cone.outline(0, 2)[0], [(0, 0), (3, 5), (-3, 5), (0, 0), (0, 0)])
+
+
+def test_the_blank_of_a_run_stands_in_the_coordinates_of_its_path():
+    setup = mnclab.Setup(stock=cylinder(5, 90, 100), datums={1: mnclab.Datum(10, 20, 100)})
+    run = mnclab.run("G90 G54\nG0 X1\n", "mnc", setup)
+    assert np.allclose(run.stock.bounds, [(-15, -25, -10), (-5, -15, 0)])
+    assert mnclab.run("G90 G54\nG0 X1\n", "mnc").stock is None
+
+
+def test_the_program_gives_one_where_the_setup_has_none():
+    text = "BEGIN PGM A MM\nBLK FORM 0.1 Z X-1 Y-2 Z-3\nBLK FORM 0.2 X4 Y5 Z0\nL Z5 FMAX\nEND PGM A MM\n"
+    assert mnclab.run(text, "tnc-620").stock == Box((-1, -2, -3), (4, 5, 0))
+    own = mnclab.Setup(stock=((0, 0, 0), (1, 1, 1)))
+    assert mnclab.run(text, "tnc-620", own).stock == Box((0, 0, 0), (1, 1, 1))
