@@ -1,9 +1,11 @@
 """A setup read from a file, and what is said about a faulty one."""
 
+from dataclasses import fields
+
 import pytest
 
 import mnclab
-from mnclab import Alarm, Datum, Limits
+from mnclab import Alarm, Datum, Limits, Tool
 from mnclab.machine.setup_file import FORMAT, load
 from mnclab.workpiece.blank import Box, cylinder
 
@@ -19,6 +21,11 @@ def test_the_example_of_the_help_can_be_read(tmp_path):
     assert setup.start == (0, 0, 300)
     assert (setup.tools[1].radius, setup.tools[1].length) == (5, 80)
     assert setup.datums == {1: Datum(100, 50, -200), 2: Datum(300, 50, -200, rotation=30)}
+
+
+def test_the_help_names_every_field_of_a_tool():
+    text = FORMAT.replace("\n", " ")
+    assert not [each.name for each in fields(Tool) if each.name != "number" and each.name not in text]
 
 
 def test_a_blank_is_a_box_or_a_cylinder(tmp_path):

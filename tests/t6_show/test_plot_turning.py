@@ -65,6 +65,14 @@ def test_what_the_cuts_leave_of_a_blank():
     ]
 
 
+def test_a_hole_on_the_axis_is_as_wide_as_its_drill():
+    """A drill of radius 3 goes 24 deep into a half section of 60 × 30."""
+    done = run("S600 M3\nG0 X0 Z2\nG94 F100 G1 Z-24\nG0 Z2\n", "jnc-t01")
+    number = int(done.toolpath.tool[-1])
+    part = silhouette(done.toolpath, (-60, 0, 30), {number: Tool(radius=3)})
+    assert part.area == pytest.approx(60 * 30 - 24 * 3, abs=1e-6)
+
+
 def test_an_insert_never_turns_inside_out():
     """The edge on the left stays on the left of the other one, whatever the table leaves out."""
     for tool in (

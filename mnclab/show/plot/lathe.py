@@ -73,25 +73,26 @@ def with_blank(
 def silhouette(path: Toolpath, blank: tuple[float, float, float], tools: Mapping[int, Tool]) -> Region | None:
     """What the cuts leave of a blank: its half section without what the edges of the tools sweep.
 
-    The table's angles and widths count. None for a path of too many cuts.
+    The table's angles and widths count, and the radius of a drill on the axis. None for a path of too many cuts.
     """
     cuts = np.flatnonzero(np.isin(path.kind, CUTS) & ~path.synchronous)
     if len(cuts) > MOST:
         return None
     left, right, radius = blank
     whole = Contour([(left, 0.0), (right, 0.0), (right, radius), (left, radius)])
-    gone = []
+    body = polygons(Region.of(whole))
     for row in cuts:
         start, end = path.start[row][[2, 0]], path.end[row][[2, 0]]
         if np.hypot(*(end - start)) < 1e-9 and not path.sweep[row]:
             continue
         tool = tools.get(int(path.tool[row]), Tool())
-        height = 1.01 * (abs(radius) + abs(float(min(start[1], end[1]))) + 1.0)
         bulge = float(np.tan(path.sweep[row] * path.axis[row, 1] / 4)) if path.kind[row] == Kind.ARC else 0.0
-        gone.append(swept(edges_of(tool, height), Contour([start, end], [bulge, 0.0], closed=False)))
-    body = polygons(Region.of(whole))
-    for each in gone:
-        body = body.difference(each)
+        way = Contour([start, end], [bulge, 0.0], closed=False)
+        if max(abs(start[1]), abs(end[1])) < 1e-6 and start[0] != end[0]:  # a hole on the axis
+            edges = np.array([(0.0, -tool.radius), (0.0, tool.radius)])
+        else:
+            edges = edges_of(tool, 1.01 * (abs(radius) + abs(float(min(start[1], end[1]))) + 1.0))
+        body = body.difference(swept(edges, way))
     return outlined(body)
 
 
