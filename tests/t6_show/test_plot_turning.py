@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.patches import Polygon
 
-from mnclab import Limits, Setup, Tool, run
+from mnclab import Alarm, Limits, Setup, Tool, run
 from mnclab.comparison.turning import compare, toolpath
 from mnclab.geometry.contours import Contour
 from mnclab.machining import thread_schemes as threads
@@ -130,3 +130,10 @@ def test_spindle_speed_over_the_path():
     assert speed == pytest.approx(np.minimum(2000, 1000 * 180 / (math.pi * diameter)))
     picture = plot_speed(path, 1200)
     assert [ax.get_ylabel() for ax in picture.axes] == ["spindle, rev/min", "X (diameter), mm"]
+
+
+def test_a_tool_that_cannot_be_is_named():
+    setup = Setup(tools={1: Tool(main_angle=120, auxiliary_angle=90)}, start=(30, 0, 10))
+    turned = run("G90 G94\nT1\nG00 X20 Z5\nG01 Z-10 F100\n", "jnc-t01", setup)
+    with pytest.raises(Alarm, match="T1 of the tool table: main and auxiliary angle"):
+        turned.plot()

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import outlined, polygons, swept
-from mnclab.machining.turning_profiles import edges_of
+from mnclab.machining.turning_profiles import angles_of, edges_of
 from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
@@ -26,6 +26,7 @@ from mnclab.show.plot.insert import insert_patches
 from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.strategy import area
 from mnclab.show.plot.strokes import Strokes
+from mnclab.text.alarm import Alarm
 from mnclab.workpiece.blank import Blank
 
 CUTS = (Kind.LINE, Kind.ARC)
@@ -43,7 +44,15 @@ class Turned(NamedTuple):
 
 
 def turned(path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], insert: bool | int) -> Turned:
-    """What is drawn beside the path; `stock` stands in the coordinates of the path, the insert stands after a row."""
+    """What is drawn beside the path; `stock` stands in the coordinates of the path, the insert stands after a row.
+
+    An Alarm names a tool of the path whose angles or width cannot be.
+    """
+    for number in np.unique(path.tool).tolist():
+        try:
+            angles_of(tools.get(number, Tool()))
+        except ValueError as error:
+            raise Alarm(f"T{number} of the tool table: {error}") from None
     blank = _blank(stock)
     tip, tool = None, Tool()
     if len(path) and insert is not False:
