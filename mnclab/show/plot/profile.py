@@ -119,6 +119,8 @@ def plot_profile(
     if ax is not None:
         _feed(ax, profile, drawn, x, over, limits, whole)
         _label(ax, over)
+        if not ax.get_ylabel():
+            ax.set_ylabel("feed, mm/min", fontsize=SMALL + 1)
         figure: Any = ax.get_figure(root=True)
         return figure
     titles = ["feed, mm/min", "acceleration, mm/s²"]
