@@ -100,7 +100,7 @@ def examples(folder, name, codes):
         for example in found[code].get("examples") or []:
             check = example.get("check", example.get("checks"))
             kept = {key: example[key] for key in ("title", "origin", "program", "expected") if key in example}
-            kept["title"] = re.sub(r" \(seed lines? [^)]*\)", "", kept["title"])
+            kept["title"] = re.sub(r" \(seed lines? [^)]*\)|, seed lines? [\d, -]+", "", kept["title"])
             if "program_adopted" in example:  # printed with a misprint
                 kept |= {"printed": example["program"], "program": example["program_adopted"]}
             yield {"code": code, **kept, "check": check}

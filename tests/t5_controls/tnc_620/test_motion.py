@@ -37,7 +37,7 @@ def test_circle_by_centre(inside) -> None:
 
 
 def test_axis_not_written_in_c_keeps_its_value(inside) -> None:
-    """Seed lines 6031-6032: C X+10 DR- after L X+10 Y+50 is a full circle."""
+    """As the manual prints it: C X+10 DR- after L X+10 Y+50 is a full circle."""
     run = inside("2 L X+10 Y+50\n3 CC X+35 Y+50\n4 C X+10 DR-")
     assert run.toolpath[-1].sweep == pytest.approx(-2 * math.pi)
 

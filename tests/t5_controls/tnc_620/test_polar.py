@@ -72,7 +72,7 @@ def test_polar_words_in_inches(tnc) -> None:
 
 
 def test_l_with_polar_words_is_read_as_lp(inside) -> None:
-    """Seed line 6857: L PR+25 PA+0 R0, with a warning."""
+    """As the manual prints it: L PR+25 PA+0 R0, with a warning."""
     run = inside("2 CC X+75 Y+50\n3 L PR+25 PA+0 R0")
     assert run.ok and ends(run) == [[100, 50]]
     assert [(a.span.line, a.span.column, a.message) for a in run.alarms] == [
@@ -150,7 +150,7 @@ def test_tangential_arcs(before: str, block: str, centre: tuple[float, float], s
 
 
 def test_the_tangential_arc_of_pgm_c25(inside) -> None:
-    """Seed line 6082: from (5, 20), travel at 45 degrees, to (5, 75): R = 55 / (2 sin 45), centre (-22.5, 47.5)."""
+    """From the manual: from (5, 20), travel at 45 degrees, to (5, 75): R = 55 / (2 sin 45), centre (-22.5, 47.5)."""
     arc = last(inside("2 L X+0 Y+15\n3 L X+5 Y+20\n4 CT X+5 Y+75"))
     assert np.hypot(*(arc.start - arc.centre)[:2]) == pytest.approx(55 / math.sqrt(2))
     assert arc.centre[:2].tolist() == pytest.approx([-22.5, 47.5]) and arc.sweep > 0

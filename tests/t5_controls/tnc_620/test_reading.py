@@ -136,7 +136,7 @@ def test_sub_blocks_become_one_block() -> None:
     "line", ["CONTUR1/2/3/4", "ETICH. CONTUR 1/2/3/4", "CONTOUR LABEL1 /2 /3 /4", "ETICH.\nCONTUR1/2/3/4"]
 )
 def test_contour_labels(line: str) -> None:
-    """Printed in many ways (seed lines 5107, 5108): the numbers count."""
+    """The manual prints them in many ways: the numbers count."""
     program = block(f"12 CYCL DEF 14.0 CONTUR\n13 CYCL DEF 14.1 {line}")
     assert program[0].keyword == "CYCL DEF 14"
     assert [(w.address, w.value) for w in program[0].words] == [("LBL", 1), ("LBL", 2), ("LBL", 3), ("LBL", 4)]
