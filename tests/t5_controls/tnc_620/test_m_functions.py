@@ -112,7 +112,6 @@ def test_a_tool_defined_without_a_table(tnc) -> None:
     assert run.ok and run.toolpath.motion.radius.tolist() == [3.5] and run.toolpath[0].end[2] == -10
 
 
-@pytest.mark.skipif("QS" in CONTROL.refused, reason="texts are not built yet")
 def test_a_tool_by_the_name_in_a_text_parameter(tnc) -> None:
     run = tnc('1 QS5 = "end mill 6"\n2 TOOL CALL QS5 Z S1 F1\n3 L X+1\n')
     assert run.ok and run.toolpath.motion.tool.tolist() == [3]

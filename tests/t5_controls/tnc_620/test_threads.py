@@ -114,7 +114,6 @@ def test_milling_type_0_is_climb(called, rows, number) -> None:
     assert steps(rows(called(number, Q351=0))) == steps(rows(called(number, Q351=1)))
 
 
-@pytest.mark.skipif("CYCL DEF 8" not in mnc.controls["tnc-620"].cycles, reason="needs cycle 8")
 @pytest.mark.parametrize("number", ALL)
 def test_mirrored_in_one_axis_the_thread_has_the_other_hand(called, rows, number) -> None:
     """The whole path is mirrored: the rotation turns over, the way along the axis does not."""

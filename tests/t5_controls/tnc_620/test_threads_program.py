@@ -17,8 +17,6 @@ PROGRAM, TABLE = (example["program"] for example in EXAMPLES if example["code"].
 HOLES = [(10, 10), (40, 30), (90, 10), (80, 30), (80, 65), (90, 90), (10, 90), (20, 55)]
 #: A centring drill of 90 degrees, a drill and a tap, whose pitch is that of 150 mm/min at 200 rev/min.
 TOOLS = {1: mnc.Tool(radius=4, angle=90), 2: mnc.Tool(radius=2.4, angle=118), 3: mnc.Tool(radius=3, pitch=0.75)}
-CONTROL = mnc.controls["tnc-620"]
-BUILT = "CYCL CALL PAT" not in CONTROL.refused and "CYCL DEF 240" in CONTROL.cycles
 
 
 def moves(path: mnc.Toolpath, number: int) -> list[mnc.Toolpath]:
@@ -37,7 +35,6 @@ def taps(path: mnc.Toolpath) -> None:
         assert cut.feed.tolist() == [150, 150] and cut.spindle.tolist() == [200, -200]
 
 
-@pytest.mark.skipif(not BUILT, reason="needs point tables and cycle 240")
 def test_pgm_1() -> None:
     run = mnc.run(PROGRAM, "tnc-620", mnc.Setup(tools=TOOLS, files={"TAB1.PNT": TABLE}, start=(0, 0, 200)))
     assert run.ok, run.alarms
