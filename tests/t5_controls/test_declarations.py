@@ -4,6 +4,7 @@ The tables stand in tests/authorities/catalogue/parameters-CONTROL.json (how the
 Every key of them must agree; where a declaration differs on purpose, :data:`EXPLAINED` says what it has and why.
 """
 
+import inspect
 import json
 import math
 import re
@@ -176,6 +177,12 @@ def rows(control, code):
             assert alike, f"{code} {parameter.address} has no row"
             taken.append(alike[0])
             yield parameter, alike[0]
+
+
+@pytest.mark.parametrize("control", mnclab.controls)
+def test_every_cycle_is_whole(control):
+    """What a shared class asks of each cycle, each cycle has."""
+    assert [code for code, cycle in mnclab.controls[control].cycles.items() if inspect.isabstract(cycle)] == []
 
 
 CASES = [

@@ -7,6 +7,7 @@ from the initial level and Z from level R. The steps are those of the cycles of 
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -51,7 +52,7 @@ def return_level(m: Machine, words: Words) -> None:
 
 
 @dataclass(frozen=True)
-class HoleCycle(Cycle):
+class HoleCycle(Cycle, ABC):
     """What all cycles share: the hole, its levels and the feed."""
 
     x: float | None = param("X", "hole position along X", default=None, default_means="the present point", example=20)
@@ -101,9 +102,9 @@ class HoleCycle(Cycle):
         perform(m, self.code, self.work(m))
         leave(m, self.code, self.r_level)
 
+    @abstractmethod
     def work(self, m: Machine) -> Iterable[Step]:
         """The steps from level R and back to it."""
-        return ()
 
 
 @CYCLES("G81", "Drilling", runs="position", source=ISO, triggers=POSITION)

@@ -7,6 +7,7 @@ roughing in layers, the walls if U is given, the floor if W is given; each cycle
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -32,7 +33,7 @@ PLUNGE: dict[float, str] = {0: "vertical", 1: "helical", 2: "reciprocating"}
 
 
 @dataclass(frozen=True)
-class Pocket(MillingCycle):
+class Pocket(MillingCycle, ABC):
     """What both pockets share: levels, allowances, feeds and how the tool goes down."""
 
     scope: float = param("M", "scope of work", "choice", default=0, choices=SCOPE, example=0)
@@ -65,13 +66,13 @@ class Pocket(MillingCycle):
 
     # --- what a shape says -------------------------------------------------------------------------------------------
 
+    @abstractmethod
     def clearing(self, radius: float, allowance: float) -> Clearing:
         """The passes that clear the pocket but for an allowance at its walls, about (0, 0)."""
-        raise NotImplementedError
 
+    @abstractmethod
     def room(self, radius: float, allowance: float) -> Room:
         """Where the tool centre may go."""
-        raise NotImplementedError
 
     # --- what follows from it ----------------------------------------------------------------------------------------
 
@@ -118,9 +119,9 @@ class Pocket(MillingCycle):
         deepest = max(min(self.infeed, -self.depth), self.floor_allowance)
         yield from too_many("plunge", lambda: self.down(m)(0.0, -deepest))
 
+    @abstractmethod
     def check_size(self, radius: float) -> Iterator[tuple[str, str]]:
         """Whether the tool and its allowance fit into the pocket."""
-        raise NotImplementedError
 
     def down(self, m: Machine) -> Down:
         """The way from one level to another, as J says."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterable, Iterator
 
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
@@ -26,9 +27,9 @@ class Hole(AtSurface):
         """Where the hole ends, counted from the surface, mm."""
         return self.depth
 
+    @abstractmethod
     def steps(self, m: Machine) -> Iterable[Step]:
         """From the set-up plane down, and back to it or to the second set-up clearance."""
-        raise NotImplementedError
 
     def bottom(self, m: Machine) -> float:
         """B, where the tip of the tool ends: with Q395 = 1 its cylindrical part reaches the depth."""

@@ -9,6 +9,7 @@ A cycle says where its figure lies and which passes make it; `to_start` and `to_
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -150,9 +151,9 @@ class FigureMilling(AtSurface):
         yield from too_many("infeed", lambda: self.levels(m.tool))
         yield from self.check_figure(m)
 
+    @abstractmethod
     def check_figure(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Whether the tool and its allowance fit, and what else a figure needs."""
-        raise NotImplementedError
 
     # --- the ways to it and away from it -----------------------------------------------------------------------------
 

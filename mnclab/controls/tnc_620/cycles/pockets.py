@@ -6,6 +6,7 @@ C is the centre of the pocket, R the tool radius, Room where the centre of the t
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -75,21 +76,21 @@ class Pocket(InsideMilling):
 
     # --- what a shape says -------------------------------------------------------------------------------------------
 
+    @abstractmethod
     def centre(self, m: Machine) -> tuple[float, float]:
         """C, in program coordinates."""
-        raise NotImplementedError
 
+    @abstractmethod
     def clearing(self, radius: float, allowance: float) -> Clearing:
         """The passes that clear the pocket but for an allowance at its walls, about (0, 0)."""
-        raise NotImplementedError
 
+    @abstractmethod
     def room(self, radius: float, allowance: float) -> Room:
         """Where the tool centre may go."""
-        raise NotImplementedError
 
+    @abstractmethod
     def ways(self, wall: Contour, size: float, side: int) -> Sequence[Contour]:
         """Up to the wall and off it."""
-        raise NotImplementedError
 
     def last_lift(self) -> float | None:
         """How high the tool lifts after the last layer, if not by the set-up clearance."""
@@ -117,9 +118,9 @@ class Pocket(InsideMilling):
         step = self.levels(m.tool)[0] - self.surface
         yield from too_many("plunging_strategy", lambda: self.way_in(m)(0.0, step))
 
+    @abstractmethod
     def check_size(self, radius: float) -> Iterator[tuple[str, str]]:
         """Whether the tool and its allowance fit into the pocket."""
-        raise NotImplementedError
 
     def way_in(self, m: Machine) -> Down:
         """The way from one level to another; straight down where a helix is as narrow as the tool."""

@@ -8,6 +8,7 @@ line alone, whatever Q368, down to Q369, and not finished.
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -62,18 +63,18 @@ class Slot(InsideMilling):
 
     # --- what a shape says -------------------------------------------------------------------------------------------
 
+    @abstractmethod
     def places(self, m: Machine) -> Iterator[Place]:
         """Each slot that is milled."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def line_length(self) -> float:
         """The length of the centre line."""
-        raise NotImplementedError
 
+    @abstractmethod
     def last(self, m: Machine) -> tuple[float, float] | None:
         """Where the tool goes at the end, in the second set-up plane; None: it stays."""
-        raise NotImplementedError
 
     # --- what follows from it ----------------------------------------------------------------------------------------
 

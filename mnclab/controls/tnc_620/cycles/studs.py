@@ -8,6 +8,7 @@ finishing feed of 0 is the milling feed: Q385 came later than the cycles.
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -57,13 +58,13 @@ class Stud(FigureMilling):
         """C, in program coordinates; the tool position."""
         return m.programmed[:2]
 
+    @abstractmethod
     def start(self, radius: float) -> tuple[float, float]:
         """S, counted from C."""
-        raise NotImplementedError
 
+    @abstractmethod
     def clearing(self, radius: float, allowance: float, blank: bool = True) -> Clearing:
         """The passes from the blank to the stud and an allowance, about (0, 0); without a blank the last one alone."""
-        raise NotImplementedError
 
     def off(self) -> float | None:
         """How far the tool leaves the stud to the side after a pass; None: as far as S."""
@@ -100,9 +101,9 @@ class Stud(FigureMilling):
         passes = self.clearing(m.radius, self.side_allowance).passes
         yield from few_passes("infeed", len(self.levels(m.tool)), sum(len(contour.starts) for contour in passes) // 4)
 
+    @abstractmethod
     def check_sizes(self) -> Iterator[tuple[str, str]]:
         """Whether the blank holds the stud, and the stud its corners."""
-        raise NotImplementedError
 
     def parts(self, m: Machine) -> Iterator[tuple[str, tuple[float, ...], Clearing, Feeds]]:
         """What is done: its name, levels, passes and feeds."""

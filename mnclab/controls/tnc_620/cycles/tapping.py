@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterator
 from typing import ClassVar
 
@@ -46,13 +47,13 @@ class Tapping(AtSurface):
             yield from self.signs(m)
             yield from self.needs(m)
 
+    @abstractmethod
     def needs(self, m: Machine) -> Iterator[tuple[str, str]]:
         """What one of the cycles needs to run."""
-        raise NotImplementedError
 
+    @abstractmethod
     def steps(self, m: Machine) -> Iterator[Step]:
         """From the set-up plane into the thread and back to it."""
-        raise NotImplementedError
 
     def moves(self, m: Machine) -> None:
         """Set-up plane, thread, end plane; a spindle that stands still turns again as it did before."""

@@ -8,6 +8,7 @@ are all 0 is refused where it has several; 262 is not executed, as its manual sa
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Iterator
 from typing import ClassVar
 
@@ -142,9 +143,9 @@ class ThreadMilling(AtSurface):
             yield Go("to the depth at front", self.surface + depth, plunge)
             yield from countersink(self.path(m), offset, sense=self.rotation, feed=feed, external=self.external)
 
+    @abstractmethod
     def steps(self, m: Machine) -> Iterator[Step]:
         """Between the set-up plane and the end plane."""
-        raise NotImplementedError
 
     def moves(self, m: Machine) -> None:
         """Set-up plane, the steps of the cycle, end plane."""
