@@ -18,13 +18,14 @@ from mnclab.comparison.strategies import Comparison, Trial
 from mnclab.geometry.regions import Region
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Mark
-from mnclab.show.plot.picture import SMALL, VIEWS, Picture, dress, write_legend
+from mnclab.show.plot.picture import SMALL, Picture, write_legend
+from mnclab.show.plot.trials import side_by_side
 
 ENTRY = Mark("entry", colours.INK, "v", 5, False, 4.0)
 REST, CORNER = "#b3261e", "#8c8c8c"
 STEPS = tuple(range(0, 181, 20))  # degrees, limits of the colours
 CHORD = 0.02
-TITLE, GAP, SCALE_ROOM, TOP = 0.26, 0.55, 0.62, 0.36  # inches
+GAP, SCALE_ROOM, TOP = 0.55, 0.62, 0.36  # inches
 
 
 def plot_strategies(found: Comparison | Trial, width: float = 9.0, columns: int | None = None) -> Picture:
@@ -38,28 +39,13 @@ def plot_strategies(found: Comparison | Trial, width: float = 9.0, columns: int 
     low, high = low - margin, high + margin
     wide, tall = (float(side) for side in high - low)
     count = columns or min(len(trials), max(1, min(3, round(2.4 / math.sqrt(wide / tall)) + (len(trials) > 4))))
-    lines = math.ceil(len(trials) / count)
-    left, right = 0.62, 0.12
-    box = (width - count * (left + right)) / count
-    if lines * box * tall / wide > 9:
-        box = 9 / lines * wide / tall
-    height = box * tall / wide
-    total = TOP + lines * (TITLE + height) + (lines - 1) * GAP + GAP + SCALE_ROOM
-    picture = Picture((width, total), alt="strategies: " + ", ".join(trial.name for trial in trials))
-    cell = width / count
-    for k, trial in enumerate(trials):
-        row, column = divmod(k, count)
-        x, y = column * cell + left, total - TOP - (row + 1) * (TITLE + height) - row * GAP
-        ax = picture.add_axes((x / width, y / total, box / width, height / total))
-        dress(ax, VIEWS["XY"], (box, height), 4)
-        ax.set_xlim(low[0], high[0])
-        ax.set_ylim(low[1], high[1])
-        if column:
-            ax.set_ylabel("")
-        if k + count < len(trials):
-            ax.set_xlabel("")
-        ax.set_title(trial.name, fontsize=SMALL + 1, loc="left", pad=4)
+    picture, axes = side_by_side(
+        [trial.name for trial in trials], "XY", low, high, what="strategies", columns=count, width=width, top=TOP, gap=GAP,
+        bottom=GAP + SCALE_ROOM,
+    )  # fmt: skip
+    for ax, trial in zip(axes, trials):
         draw(ax, trial)
+    total = float(picture.get_size_inches()[1])
     _scale(picture, width, total)
     marks: list[Any] = [Line2D([], [], **ENTRY.style())]
     if any(trial.rest.loops for trial in trials):

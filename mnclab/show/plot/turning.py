@@ -19,8 +19,9 @@ from mnclab.path.tool import Tool
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.insert import insert_outline, insert_patches
-from mnclab.show.plot.picture import SMALL, VIEWS, Picture, dress, write_legend
+from mnclab.show.plot.picture import SMALL, Picture, write_legend
 from mnclab.show.plot.strategy import CORNER, REST, area
+from mnclab.show.plot.trials import side_by_side
 
 LOOKS = {
     RAPID: colours.RAPID,
@@ -32,7 +33,7 @@ LOOKS = {
     THREAD: Line("thread", "#1259a8", (0, (4, 1, 1, 1)), 1.8, 2.6),
 }
 MATERIAL = "#f4f1e8"
-TITLE, GAP, TOP, LEFT, RIGHT, BOTTOM = 0.26, 0.5, 0.3, 0.62, 0.12, 0.46  # inches
+GAP, TOP, BOTTOM = 0.5, 0.3, 0.46  # inches
 CHORD = 0.01
 INSERT = 0.09  # length of the insert's edges, of the width of what is drawn
 
@@ -43,28 +44,12 @@ def plot_schemes(found: TurningComparison | TurningTrial, width: float = 9.0, co
     if not trials:
         raise ValueError("there is nothing to draw: no scheme was compared")
     low, high = _box(trials)
-    wide, tall = high - low
     count = columns or min(len(trials), 3 if len(trials) > 4 or len(trials) == 3 else 2)
-    lines = math.ceil(len(trials) / count)
-    box = (width - count * (LEFT + RIGHT)) / count
-    height = box * tall / wide
-    if lines * height > 9:
-        box, height = box * 9 / lines / height, 9 / lines
-    total = TOP + lines * (TITLE + height) + (lines - 1) * GAP + BOTTOM
-    picture = Picture((width, total), alt="roughing schemes: " + ", ".join(trial.name for trial in trials))
-    cell = width / count
-    for k, trial in enumerate(trials):
-        row, column = divmod(k, count)
-        x, y = column * cell + LEFT, total - TOP - (row + 1) * (TITLE + height) - row * GAP
-        ax = picture.add_axes((x / width, y / total, box / width, height / total))
-        dress(ax, VIEWS["ZX"], (box, height), 4)
-        ax.set_xlim(low[0], high[0])
-        ax.set_ylim(low[1], high[1])
-        if column:
-            ax.set_ylabel("")
-        if k + count < len(trials):
-            ax.set_xlabel("")
-        ax.set_title(trial.name, fontsize=SMALL + 1, loc="left", pad=4)
+    names = [trial.name for trial in trials]
+    picture, axes = side_by_side(
+        names, "ZX", low, high, what="roughing schemes", columns=count, width=width, top=TOP, gap=GAP, bottom=BOTTOM
+    )
+    for ax, trial in zip(axes, trials):
         draw(ax, trial)
     roles = [role for role in LOOKS if any(s.role == role for trial in trials for s in trial.plan.strokes)]
     marks: list[Any] = [Line2D([], [], **LOOKS[role].style()) for role in roles]
