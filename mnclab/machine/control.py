@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from mnclab.machine.settings import Setting, settings_html
+from mnclab.machine.settings import Setting, settings_html, with_every
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
 
@@ -176,6 +176,9 @@ class Control:
     preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
     local_variables: str = ""
     modern: Callable[[Program], Notation] | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "settings", with_every(self.settings))
 
     def power_on(self) -> dict[str, str]:
         """The modal state at the start: group -> code."""

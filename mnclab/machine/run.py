@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.machine import still_spindle
 from mnclab.machine.calls import Steps
 from mnclab.machine.control import Control
 from mnclab.machine.explanation import Explanation
@@ -75,13 +76,13 @@ class Run:
         self.program, self.setup, self.control = program, setup, control
         self.programs = tuple(machine.flow.programs)
         self.steps: Steps = machine.flow.steps()
-        self.alarms = by_place(alarms)
-        for alarm in self.alarms:
-            if alarm.source is None:
-                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         self.programmed: Toolpath
         self.toolpath: Toolpath
         self.programmed, self.toolpath = paths(machine)
+        self.alarms = by_place([*alarms, *still_spindle.remarks(machine, self.toolpath)])
+        for alarm in self.alarms:
+            if alarm.source is None:
+                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         if machine.cut is not None:
             self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
         self.history = History(machine.logs, len(self.steps.block))
