@@ -60,7 +60,9 @@ def after_each_hole(run: mnc.Run, way: str) -> list[np.ndarray]:
 def test_after_a_hole_the_tool_rises_to_the_clearance_height(code: str, levels: tuple[float, ...]) -> None:
     z, surface, second, at, high = levels
     points = f"PATTERN DEF POS1 (X+20 Y+10 Z{z:+g}) POS2 (X+60 Y+10 Z{z:+g}) POS3 (X+99 Y+50 Z{z:+g})"
-    run = mnc.run(program(code, f"{points}\nL Z{at:+g} R0 FMAX\nCYCL CALL PAT FMAX", Q203=surface, Q204=second, Q200=2), "tnc-620")
+    run = mnc.run(
+        program(code, f"{points}\nL Z{at:+g} R0 FMAX\nCYCL CALL PAT FMAX", Q203=surface, Q204=second, Q200=2), "tnc-620"
+    )
     visits = after_each_hole(run, "CYCL CALL PAT to the point")
     assert len(visits) == 3
     for heights in visits:
