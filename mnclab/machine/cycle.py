@@ -181,7 +181,10 @@ class Cycle:
         yield from ()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Faults of the values on this machine now: its tool, its spindle, its state; found where the cycle runs."""
+        """Faults of the values on this machine now: its tool, its spindle, its state; found where the cycle runs.
+
+        Without a name they are faults of the machine alone, which point at the call.
+        """
         yield from ()
 
     def moves(self, m: Machine) -> None:
@@ -229,9 +232,14 @@ class Definition:
 
 
 def bind(definition: Definition, m: Machine) -> Cycle:
-    """The frozen cycle with its values, or an Alarm at the word that is wrong (or at the cycle's own word)."""
+    """The frozen cycle with its values, or an Alarm at the word that is wrong.
+
+    What is wrong with the machine and no word of the definition stands where the cycle is called.
+    """
     bound = instance(definition)
     for name, sentence in bound.check(m):
+        if not name and definition.cycle.runs == "call":
+            m.alarm(f"{definition.code} {sentence}")
         raise fault(definition, named(definition, name), sentence)
     return bound
 

@@ -286,12 +286,19 @@ def verify(definition: Definition) -> None:
             raise fault(definition, parameter, "is missing")
 
 
-def run_cycle(machine: Machine, definition: Definition) -> None:
-    """Bind a definition with the values as they stand now, check it, and make its moves."""
+def run_cycle(machine: Machine, definition: Definition, **instead: float) -> None:
+    """Bind a definition with the values as they stand now, check it, and make its moves.
+
+    ``instead`` are values by name that count for this call in place of its own, where the cycle has such parameters.
+    """
     definition = as_it_stands(machine, definition)
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
     try:
-        bind(definition, machine).moves(machine)
+        bound = bind(definition, machine)
+        if instead:
+            names = {p.name for p in definition.cycle.parameters()} & instead.keys()
+            bound = replace(bound, **{name: instead[name] for name in names})
+        bound.moves(machine)
     except TooMany as error:
         raise fault(definition, None, str(error)) from None
     machine.label = label

@@ -254,6 +254,14 @@ class WalledFaceMilling(AtSurface):
 
     # --- steps -------------------------------------------------------------------------------------------------------
 
+    def scrapes(self, m: Machine) -> float:
+        """How far a line that still stands reaches above the rapid way back over it, mm; 0 where none does."""
+        lines = self.lines(m.radius)[1:] if self.one_way else ()
+        if not any(line.begins_outside for line in lines):
+            return 0.0
+        heights = (abs(top - level) for _, level, top, _ in self.parts(m))
+        return max(0.0, max(heights, default=0.0) - self.clearance)
+
     def start(self, m: Machine) -> tuple[float, float]:
         """Starting point 1."""
         if not (self.roughs or self.finishes_floor):
@@ -310,6 +318,12 @@ class WalledFaceMilling(AtSurface):
             return
         if self.has_corners and self.corner_radius < m.radius:
             m.warn(f"{self.code} Q220={self.corner_radius:g}: the corners get the radius of the tool, {m.radius:g}")
+        if (scrapes := self.scrapes(m)) > 1e-9:
+            m.warn(
+                f"{self.code} Q200={self.clearance:g}: the rapid way back to the next line passes {scrapes:.10g} mm below what "
+                "that line has still to take away",
+                hint="choose Q200 not smaller than the infeed",
+            )
         centre, (x, y) = self.centre(m), self.start(m)
         end = self.surface + max(self.second_clearance, self.clearance)
         go = [

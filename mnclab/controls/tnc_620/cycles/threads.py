@@ -92,7 +92,8 @@ class ThreadMilling(AtSurface):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Spindle, tool, pitch, signs, feeds, and room for the tool."""
         if not any(self.depths().values()):
-            yield "", f"has nothing to do: {' and '.join(self._address(name) for name in self.depths())} are 0"
+            every = " and ".join(self._address(name) for name in self.depths())
+            yield next(iter(self.depths())), f"leaves nothing to do: {every} are 0"
         if self.either_way and not m.turning:
             yield "", "needs a turning spindle: write M3 or M4 before"
         if not self.either_way and m.turning != 1:

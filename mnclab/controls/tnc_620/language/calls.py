@@ -112,7 +112,8 @@ def cycle_call_at(m: Machine, words: Words) -> None:
 def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:
     """Surface, set-up clearance and second set-up clearance of a cycle, mm: Q203, Q200, Q204.
 
-    A contour cycle has the surface Q5, the clearance Q6 and the absolute height Q7 instead; what a cycle lacks is 0.
+    Face milling has its surface in Q227; a contour cycle has the surface Q5, the clearance Q6 and the absolute height Q7
+    instead; what a cycle lacks is 0.
     """
     cycle = instance(as_it_stands(m, definition))
     found = {p.address: getattr(cycle, p.name) for p in cycle.parameters()}
@@ -120,14 +121,17 @@ def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:
         surface, first, height = (m.variables.get(q, 0.0) * m.variable_unit for q in ("Q5", "Q6", "Q7"))
         return surface, first, height - surface
     surface, first, second = (float(found.get(q) or 0.0) for q in ("Q203", "Q200", "Q204"))
-    return surface, first, second
+    return float(found.get("Q227", surface)), first, second
 
 
-def run_at(m: Machine, definition: Definition, x: float, y: float, z: float) -> None:
-    """Run a cycle where the tool stands, x y, its surface shifted by z; a contour cycle with its datum there."""
+def run_at(m: Machine, definition: Definition, x: float, y: float, z: float, **instead: float) -> None:
+    """Run a cycle where the tool stands, x y, its surface shifted by z; a contour cycle with its datum there.
+
+    ``instead`` are values that count in place of its own.
+    """
     shift = (x, y, z) if definition.cycle.code in PLACED_BY_DATUM else (0.0, 0.0, z)
     with shifted(m, shift):
-        run_cycle(m, definition)
+        run_cycle(m, definition, **instead)
 
 
 @contextmanager
