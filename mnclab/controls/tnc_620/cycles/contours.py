@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -16,6 +16,7 @@ from mnclab.machine.following import follow
 from mnclab.machine.interpreter import unit_of
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.recording import Recording
+from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.depths import infeeds
 from mnclab.machining.pockets import rings
 from mnclab.path.outline import outline
@@ -141,6 +142,8 @@ def contour_region(m: Machine) -> Region:
 class RoughOut(Cycle):
     """Clears the contour level by level, each from the inside outward, islands first."""
 
+    does: ClassVar[str] = MILLS
+
     infeed: float = param("Q10", "infeed per cut", modal=True, incremental=True, **WIDE)
     plunge_feed: float = param(
         "Q11", "feed rate for plunging", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True
@@ -198,13 +201,14 @@ class RoughOut(Cycle):
         data, region = contour_data(m), contour_region(m)
         down = -1 if data.depth < 0 else 1
         floor = data.surface + down * (abs(data.depth) - data.floor_allowance)
+        climb = data.sense > 0
         try:
             clearing = rings(
-                region, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=data.sense > 0,
+                region, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=climb,
                 corner_radius=data.corner,
             )  # fmt: skip
         except ValueError as error:
-            m.alarm(f"{self.code}: {error}", hint="take a smaller tool")
+            m.alarm(f"{self.code}: {error}{remark(m)}", hint="take a smaller tool")
         above, plunge = data.surface + data.clearance, self.swing_feed or self.plunge_feed
         levels = infeeds(data.surface, floor, abs(self.infeed))
         for number, level in enumerate(levels, 1):
