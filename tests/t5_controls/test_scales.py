@@ -345,6 +345,21 @@ def test_a_tap_under_a_scale_of_the_plane_has_its_pitch():
         assert set(path.end[1:, 0]) == {10.0}
 
 
+@pytest.mark.parametrize("axes", ["X", "Y", "XY"])
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_mirror_image_keeps_the_sense_of_sl_cycles(axes, sense, monkeypatch):
+    """8.3: climb milling with M3 goes round the wall of a pocket counter-clockwise on the machine, and its islands clockwise."""
+    monkeypatch.setitem(SL, "sense", sense)
+    frame = mirror("CYCL DEF 22", axes)
+    path = rows(run("CYCL DEF 22", program("CYCL DEF 22", values_of("CYCL DEF 22", {"swing_feed": 0}), frame), setup()))
+    cut = path[(path.kind == Kind.LINE) & (path.start[:, 2] == path.end[:, 2]) & (path.end[:, 2] == -5)]
+    x, y = cut.start[:, 0], cut.start[:, 1]
+    outermost = (np.abs(np.abs(x) - 34.5) < 1e-9) | (np.abs(np.abs(y) - 24.5) < 1e-9)  # 40 and 30 less R and Q3
+    ahead = cut.end - cut.start
+    turning = (x * ahead[:, 1] - y * ahead[:, 0])[outermost]
+    assert len(turning) and (np.sign(turning) == sense).all()
+
+
 def test_a_pattern_stops_before_it_moves_to_a_cycle_that_cannot_run():
     pocket = klartext("CYCL DEF 252", values_of("CYCL DEF 252", {}))
     holes = klartext("CYCL DEF 221", values_of("CYCL DEF 221", {}))

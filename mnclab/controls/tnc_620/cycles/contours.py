@@ -140,7 +140,7 @@ def contour_region(m: Machine) -> Region:
 
 @CYCLES("CYCL DEF 22", "Rough-out", runs="call", source="8.6")
 class RoughOut(Cycle):
-    """Clears the contour level by level, each from the inside outward, islands first."""
+    """Clears the contour level by level, each from the inside outward, islands first; a mirror image keeps its climb (8.3)."""
 
     does: ClassVar[str] = MILLS
 
@@ -201,7 +201,7 @@ class RoughOut(Cycle):
         data, region = contour_data(m), contour_region(m)
         down = -1 if data.depth < 0 else 1
         floor = data.surface + down * (abs(data.depth) - data.floor_allowance)
-        climb = data.sense > 0
+        climb = data.sense * m.orientation > 0  # on the machine: no mirror image changes it
         try:
             clearing = rings(
                 region, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=climb,
