@@ -78,7 +78,7 @@ def _angle(degrees: float, factor: float) -> float:
 
 def remark(m: Machine) -> str:
     """What to add to a sentence that names sizes of the tool: in which lengths they count."""
-    if m.scale == 1:
+    if abs(m.scale - 1) < SAME:
         return ""
     size = 2 * m.tool.effective_radius
     return f", in lengths of the program: under the scale {m.scale:g} the tool diameter {size:g} counts as {2 * m.radius:g}"
@@ -89,10 +89,10 @@ def with_the_spindle(m: Machine, steps: Iterable[Step], frame: Matrix = IDENTITY
 
     ``frame`` is the part of the frame that the direction follows; none of it: it is one of the machine.
     """
-    back = np.linalg.inv(m.frames.matrix[:3, :3])
+    whole = m.frames.matrix[:3, :3]
     for step in steps:
         if isinstance(step, Go) and step.x is not None and step.y is not None and (step.x or step.y):
-            way = frame[:3, :2] @ (step.x, step.y)
-            x, y, _ = (back @ way * (math.hypot(step.x, step.y) / np.linalg.norm(way))).tolist()
+            way = np.linalg.solve(whole, frame[:3, :2] @ (step.x, step.y))[:2]
+            x, y = (way * (math.hypot(step.x, step.y) / np.linalg.norm(whole[:, :2] @ way))).tolist()
             step = step._replace(x=x, y=y)
         yield step

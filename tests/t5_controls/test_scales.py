@@ -393,5 +393,5 @@ def test_an_alarm_says_in_which_lengths_the_tool_counts():
         found = run(code, program(code, values_of(code, small), equal(code, 2)), setup())
         told = "must be at least the tool diameter 4, got 3, in lengths of the program"
         assert_refused(found, code, told, "under the scale 2 the tool diameter 8 counts as 4")
-    plain = run("G306", program("G306", values_of("G306", {"diameter": 3}), ""), setup())
+    plain = run("G306", program("G306", values_of("G306", {"diameter": 3}), "G39 A77"), setup())
     assert plain.alarms[0].message.endswith("must be at least the tool diameter 8, got 3")
