@@ -18,6 +18,7 @@ from functools import cache
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
+from mnclab.machine import true_size
 from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Word
@@ -154,6 +155,8 @@ class Cycle:
     """Whether its Q parameters are variables of the program, on a control that has them."""
     own_spindle: ClassVar[bool] = False
     """Whether it turns the spindle itself, so that none need turn before it."""
+    does: ClassVar[str] = true_size.VISITS
+    """What decides whether it can run under a scale; see :mod:`mnclab.machine.true_size`."""
 
     @classmethod
     @cache
@@ -237,11 +240,19 @@ def bind(definition: Definition, m: Machine) -> Cycle:
     What is wrong with the machine and no word of the definition stands where the cycle is called.
     """
     bound = instance(definition)
+    refuse_frame(definition, m)
     for name, sentence in bound.check(m):
+        sentence += true_size.remark(m) if "the tool" in sentence else ""
         if not name and definition.cycle.runs == "call":
             m.alarm(f"{definition.code} {sentence}")
         raise fault(definition, named(definition, name), sentence)
     return bound
+
+
+def refuse_frame(definition: Definition, m: Machine) -> None:
+    """An Alarm at a cycle that cannot run under the frame of the machine."""
+    for sentence in true_size.faults(definition.cycle.does, m):
+        raise fault(definition, None, sentence)
 
 
 def instance(definition: Definition) -> Cycle:

@@ -19,8 +19,10 @@ from mnclab.machine.calls import Flow
 from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance, refuse_marks
 from mnclab.machine.machine import Machine
+from mnclab.machine.performing import in_plane
 from mnclab.machine.planner import Plan, Planner
 from mnclab.machine.programs import alarms_of
+from mnclab.machine.true_size import MILLS
 from mnclab.machine.waiting import determine
 from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
@@ -293,12 +295,14 @@ def run_cycle(machine: Machine, definition: Definition, **instead: float) -> Non
     """
     definition = as_it_stands(machine, definition)
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
+    plane = "XY" if definition.cycle.does == MILLS else machine.plane  # in which m.radius and m.scale count
     try:
-        bound = bind(definition, machine)
-        if instead:
-            names = {p.name for p in definition.cycle.parameters()} & instead.keys()
-            bound = replace(bound, **{name: instead[name] for name in names})
-        bound.moves(machine)
+        with in_plane(machine, plane):
+            bound = bind(definition, machine)
+            if instead:
+                names = {p.name for p in definition.cycle.parameters()} & instead.keys()
+                bound = replace(bound, **{name: instead[name] for name in names})
+            bound.moves(machine)
     except TooMany as error:
         raise fault(definition, None, str(error)) from None
     machine.label = label

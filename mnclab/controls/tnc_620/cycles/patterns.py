@@ -21,6 +21,7 @@ from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.interpreter import run_cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.pattern import at_each
+from mnclab.machine.true_size import faults, is_round
 from mnclab.machining import patterns
 
 CYCLES = CycleTable()
@@ -52,6 +53,8 @@ class PointPattern(Cycle):
                 yield "", sentence
             else:
                 m.warn(f"{self.code} {sentence}")
+        for sentence in faults(m.cycle.cycle.does, m):
+            yield "", f"cannot run {m.cycle.cycle.code} here, which {sentence}"
         if m.side:
             yield "", "cannot run under radius compensation: write R0 before it"
 
@@ -127,6 +130,8 @@ class PolarPattern(PointPattern):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """As both; and an arc to divide."""
         yield from super().check(m)
+        if self.type_of_traverse == 1 and not is_round(m):
+            yield "type_of_traverse", "must be 0 under unequal scales of the plane, got 1: the way would be an ellipse"
         if self.stepping_angle == 0 and self.stopping_angle == self.starting_angle:
             yield "stopping_angle", f"must differ from the starting angle Q245, got {self.stopping_angle:g}"
 

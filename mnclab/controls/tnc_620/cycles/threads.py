@@ -17,6 +17,7 @@ from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import MILLS_THREADS
 from mnclab.machining.steps import RAPID, Go, Step
 from mnclab.machining.thread_milling import Path, centre_feed, chamfer, countersink, helices, mill_thread, path_of
 
@@ -39,6 +40,7 @@ class ThreadMilling(AtSurface):
     milling_type: float
     milling_feed: float
 
+    does: ClassVar[str] = MILLS_THREADS
     external: ClassVar[bool] = False
     either_way: ClassVar[bool] = False
     """Whether the tool may turn left too."""

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from mnclab.controls.tnc_620.language.motion import coordinates, feed
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.cycle import Definition, instance
+from mnclab.machine.cycle import Definition, instance, refuse_frame
 from mnclab.machine.interpreter import as_it_stands, run_cycle
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
@@ -75,6 +75,7 @@ def ready(m: Machine, code: str, word: Word | None) -> Definition:
         m.warn(f"{code}: no tool was called", word)
     if not m.turning and not m.cycle.cycle.own_spindle:
         m.warn(f"{code}: the spindle does not turn", word, hint="write M3 or M4 before the call")
+    refuse_frame(m.cycle, m)
     return m.cycle
 
 
