@@ -11,6 +11,8 @@ from mnclab.geometry.offsets import Element, cross, dot, meetings
 
 Array = NDArray[np.float64]
 
+SLACK = 1e-9  # of a curve: beyond its ends a point is still on it
+
 
 class Curves(NamedTuple):
     """n lines and arcs: ``start``, ``end``, ``centre`` (n, 2) mm, radius ``r`` (n,), nan for lines, ``sweep`` (n,) rad."""
@@ -90,6 +92,19 @@ def gap(a: Curves, b: Curves) -> Array:
     return least
 
 
+def part(curve: Curves, begin: Array, end: Array) -> Curves:
+    """What lies between two shares (n,) of curves, 0 at their start and 1 at their end."""
+    travel, turn = curve.end - curve.start, np.where(curve.arc, curve.sweep, 0.0)
+
+    def at(where: Array) -> Array:
+        angle = turn * where
+        spoke, cos, sin = curve.start - curve.centre, np.cos(angle), np.sin(angle)
+        turned = np.stack([spoke[:, 0] * cos - spoke[:, 1] * sin, spoke[:, 0] * sin + spoke[:, 1] * cos], axis=1)
+        return np.where(curve.arc[:, None], curve.centre + turned, curve.start + travel * where[:, None])
+
+    return Curves(at(begin), at(end), curve.centre, curve.r, curve.sweep * (end - begin))
+
+
 def crossings(a: Curves, b: Curves) -> tuple[Array, Array]:
     """The common points (n, 2) of curves a and b, at most two of each pair; nan where there is none."""
     found = meetings(_whole(a), _whole(b))
@@ -107,7 +122,7 @@ def _whole(curve: Curves) -> Element:
 
 def _on(p: Array, curve: Curves) -> NDArray[np.bool_]:
     where = share(p, curve)
-    return np.asarray((where >= 0) & (where <= 1) & np.isfinite(p[:, 0]))
+    return np.asarray((where >= -SLACK) & (where <= 1 + SLACK) & np.isfinite(p[:, 0]))
 
 
 def _square(centre: Array, curve: Curves) -> tuple[Array, Array]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.geometry.curves import Curves, foot, gap, share
+from mnclab.geometry.curves import Curves, foot, gap, part, share
 from mnclab.geometry.offsets import cross, dot, meetings
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.rules import CLEAR
@@ -54,14 +54,9 @@ def in_a_cusp(el: Elements, c: Index, R: Array, s: Array) -> Array:
 
 def _on_the_side_of_the_tool(el: Elements, c: Index, R: Array, s: Array) -> Mask:
     """Whether the element after runs on the side of the tool of the one before, as far away as the tool is wide."""
-    d, before, after = c + 1, el.curves(c), el.curves(c + 1)
-    length = np.minimum(el.length(c), el.length(d))
-    part = np.minimum(R, length) / el.length(d)
-    angle = np.where(el.arc[d], el.sweep[d] * part, 0.0)
-    spoke = after.start - after.centre
-    cos, sin = np.cos(angle), np.sin(angle)
-    turned = after.centre + np.stack([spoke[:, 0] * cos - spoke[:, 1] * sin, spoke[:, 0] * sin + spoke[:, 1] * cos], 1)
-    p = np.where(el.arc[d, None], turned, after.start + (after.end - after.start) * part[:, None])
+    before, after = el.curves(c), el.curves(c + 1)
+    share_of_it = np.minimum(R, np.minimum(el.length(c), el.length(c + 1))) / el.length(c + 1)
+    p = part(after, np.zeros(len(c)), share_of_it).end
     at = foot(p, before)
     radial = (before.centre - at) / before.r[:, None]  # to the left of an arc that turns left
     to_the_left = np.where(el.arc[c, None], np.sign(before.sweep)[:, None] * radial, 0.0)

@@ -26,7 +26,7 @@ from mnclab.path.compensation import neighbours
 from mnclab.path.compensation.corners import ends, remaining
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.heights import at_height, meet
-from mnclab.path.compensation.neighbours import Pairs
+from mnclab.path.compensation.passes import led_through, run_past
 from mnclab.path.compensation.rules import CLEAR, Compensation, Gouge, Report
 from mnclab.path.compensation.tips import clearance, near_tips
 from mnclab.path.fault import PathFault
@@ -167,13 +167,12 @@ def _beside(found: Equidistant, contour: Index, lost: Index) -> Places:
     room = -CLEAR / 2 - slack[look.k] - slack[look.wall]
     bad = np.flatnonzero(neighbours.clearance(el, look, el.R[look.k], rules) < room)
     bad = bad[~np.isin(look.k[bad], lost) & ~np.isin(look.wall[bad], lost)]
-    look, room = Pairs(look.k[bad], look.corner[bad], look.wall[bad]), room[bad]
+    look, room = look.take(bad), room[bad]
     R = el.R[look.k]
     width = R + neighbours.clearance(el, look, R, rules)
 
     def clear(which: Index, radius: Array) -> Mask:
-        few = Pairs(look.k[which], look.corner[which], look.wall[which])
-        return neighbours.clearance(el, few, radius, rules) >= room[which]
+        return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
 
     largest = narrowed(clear, R)
     message = (
@@ -247,16 +246,18 @@ def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     curves = Curves(el.start[run], el.end[run], el.centre[run], el.r[run], el.sweep[run])
     walls = Walls(curves, n_in, n_out, joined, s, group)
     coarse = chunks(walls)
-    return [_bottlenecks(el, k, walls, coarse), *_ends(el, k, walls, coarse), *_tips(found, contour)]
+    return [_bottlenecks(el, contour, k, walls, coarse), *_ends(el, k, walls, coarse), *_tips(found, contour)]
 
 
-def _bottlenecks(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> Places:
+def _bottlenecks(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> Places:
     """Walls that face each other nearer than the tool is wide; the largest radius is half of what there is."""
     chords = facing(walls, 2 * el.R[k], coarse)
     if not len(chords.i):
         return Places("bottleneck", k[:0], k[:0], el.R[:0], el.R[:0], el.R[:0], "")
     i, j, slack = k[chords.i], k[chords.j], _misfit(el)
     bad = (chords.length < 2 * el.R[i] - EXACT - slack[i] - slack[j]) & meet(el, i, j)
+    bad[bad] = ~run_past(el, i[bad], j[bad])
+    bad[bad] = ~led_through(el, contour, i[bad], j[bad])
     i, j, width = i[bad], j[bad], chords.length[bad]
     message = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
     return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, message)
@@ -300,6 +301,7 @@ def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
             group = group[(walls.group[group] == walls.group[e]) & (group != e)]
             height = el.to_height[k[e]] if at_end else el.from_height[k[e]]
             group = group[at_height(el, float(height), k[group])]
+            group = group[~run_past(el, np.full(len(group), k[e]), k[group])]
             if not len(group):
                 continue
             c = walls.curves.take(group)
