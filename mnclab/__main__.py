@@ -7,7 +7,6 @@ line each, in the form that editors understand: ``FILE:LINE:COLUMN: alarm: messa
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import json
 import os
 import subprocess
@@ -22,6 +21,7 @@ from mnclab.machine.setup_file import FORMAT, load
 from mnclab.show import times
 from mnclab.show.export import save
 from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.extras import require
 
 Result = TypeVar("Result")
 CLEAN, ALARMS, USAGE, INTERRUPTED = 0, 1, 2, 130
@@ -251,9 +251,7 @@ def explain(chosen: argparse.Namespace) -> int:
 
 def lab(chosen: argparse.Namespace) -> int:
     """Start JupyterLab on the first lesson, with the Python that runs this."""
-    if importlib.util.find_spec("jupyterlab") is None:
-        print('mnclab: JupyterLab is not installed here; pip install "mnclab[lab]" brings it', file=sys.stderr)
-        return USAGE
+    sensible(require, "jupyterlab", "lessons")
     places = (Path(__file__).resolve().parent.parent, Path.cwd())
     home = next((place for place in places if (place / "notebooks" / FIRST_LESSON).is_file()), None)
     if home is None:

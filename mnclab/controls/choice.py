@@ -13,6 +13,7 @@ from mnclab.machine.run import Run, run_program
 from mnclab.machine.settings import Setting, settings_html, settings_table
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import read as read_file
 from mnclab.text.nearest import hint, nearest
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, decode
@@ -63,10 +64,7 @@ def _text_of(source: str | Path) -> tuple[str, str, str]:
         if "\n" in source or "\r" in source or len(source) > 4096 or "\0" in source or not _is_file(source):
             return source, "program", "str"
         source = Path(source)
-    try:
-        text, encoding = decode(source.read_bytes())
-    except OSError as error:
-        raise Alarm(f"{source} cannot be read: {error.strerror or error}") from None
+    text, encoding = decode(read_file(source, source))
     return text, str(source), encoding
 
 

@@ -67,14 +67,14 @@ def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str, 
             near = nearest(str(name), known, 1)
             listed = f"mnclab.help('settings', {control!r}) lists them" if known else "it has none"
             told = f"near: {near[0]}" if near else listed
-            place = source and source.place_of(name)
+            place = source and source.place_of("settings", name)
             raise Alarm(f"{control} has no setting {name!r}", place, hint=told, source=source)
     found = {}
     for name, setting in known.items():
         try:
             found[name] = setting.check(given.get(name, setting.default))
         except Alarm as alarm:
-            alarm.source, alarm.span = source, source and source.place_of(name)
+            alarm.source, alarm.span = source, source and source.place_of("settings", name)
             raise
     return found
 

@@ -24,6 +24,7 @@ from mnclab.show.export_gcode import write_gcode
 from mnclab.show.export_mesh import write_gltf, write_stl, write_vtk
 from mnclab.show.export_svg import write_true_size
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import replaced
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,10 +48,8 @@ def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = Non
         writer, options = write_figure, {"picture": picture, **options}
     if options and len(signature(writer).parameters) == 2:
         raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
-    try:
-        writer(run, path, **options)
-    except OSError as error:
-        raise Alarm(f"{path} cannot be written: {error.strerror or error}") from None
+    with replaced(path) as beside:
+        writer(run, beside, **options)
     return path
 
 
@@ -136,7 +135,7 @@ WRITERS: dict[str, Callable[..., None]] = {
     ".png": write_figure,
     ".csv": write_csv,
     ".json": write_json,
-    ".html": lambda run, path: run.player().save(path),
+    ".html": lambda run, path: run.player().write(path),
     ".dxf": write_dxf,
     ".ngc": write_gcode,
     ".stl": write_stl,

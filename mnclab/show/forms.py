@@ -26,6 +26,7 @@ from mnclab.machine.setup import Setup
 from mnclab.path.profile import Profile
 from mnclab.show import trial
 from mnclab.text.alarm import Alarm
+from mnclab.text.extras import require
 
 DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
 PLACE = re.compile(r"\{(\w+)\}")
@@ -41,6 +42,7 @@ def panel(
     ``numbers`` gives each place its first value, or ``(value, least, greatest)``; a whole number stays whole. The
     result has ``boxes`` (by name) and ``run``, the last run.
     """
+    require("ipywidgets", "forms")
     places = list(dict.fromkeys(PLACE.findall(template)))
     for one, other, what in ((places, numbers, "has no number"), (numbers, places, "has no place in the program")):
         for name in one:
@@ -61,6 +63,7 @@ def compensation_panel(run: Run, **options: Any) -> Any:
     ``options`` are those of :func:`mnclab.show.plot.compensation.compensation`. The result has ``boxes`` ("radius", and
     "corners" where the control has a choice) and ``run``, the last run.
     """
+    require("ipywidgets", "forms")
     import ipywidgets
 
     used = abs(run.programmed.radius[run.programmed.side != 0])
@@ -95,6 +98,7 @@ def form(code: str, control: str) -> Any:
     A parameter that may be left out has a box to tick before its word is written. The result has ``boxes`` (by name of
     the parameter), ``ticks`` and ``run``, the last run.
     """
+    require("ipywidgets", "forms")
     help_page = help_on(code, control)
     cycle = help_page.entry
     if not (isinstance(cycle, type) and issubclass(cycle, Cycle)):
@@ -129,6 +133,7 @@ def profile_panel(profile: Profile, **options: Any) -> Any:
     A jerk of 0 means no limit. ``options`` are those of :func:`mnclab.show.plot.profile.plot_profile`. The result has
     ``boxes`` (by name) and ``profile``, the last one planned.
     """
+    require("ipywidgets", "forms")
     import ipywidgets
 
     limits = profile.limits

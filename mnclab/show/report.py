@@ -17,6 +17,7 @@ from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
 from mnclab.show.times import clock
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import replaced
 
 Table = list[tuple[str, ...]]
 Listing = list[tuple[int, str, bool]]
@@ -112,10 +113,8 @@ def save_report(run: Any, path: str | Path, title: str | None = None, **options:
     writers = {".html": write_html, ".pdf": write_pdf}
     if path.suffix.lower() not in writers:
         raise Alarm(f"a report is an .html or a .pdf file, got {path.name!r}")
-    try:
-        writers[path.suffix.lower()](run, report(run, title), path, **options)
-    except OSError as error:
-        raise Alarm(f"{path} cannot be written: {error.strerror or error}") from None
+    with replaced(path) as beside:
+        writers[path.suffix.lower()](run, report(run, title), beside, **options)
     return path
 
 

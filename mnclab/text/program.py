@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -125,6 +126,11 @@ class Program:
     """Where the file lies that the program was read from; empty for a text. Programs that it calls are sought there."""
     labels: Mapping[str, int] = field(default_factory=dict)
     """Block index of each jump target, as the reader of the control found them."""
+
+    @property
+    def title(self) -> str:
+        """What the program is called, without its folders."""
+        return Path(self.name).name
 
     def __len__(self) -> int:
         return len(self.keyword)

@@ -151,7 +151,7 @@ def test_a_code_page_without_the_letter_does_not_stop_the_message(folder):
 
 
 def test_lab_needs_jupyterlab(capsys, monkeypatch):
-    monkeypatch.setattr(shell.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, "jupyterlab", None)
     assert mnclab("lab") == 2
     assert 'pip install "mnclab[lab]"' in capsys.readouterr().err
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from mnclab.path.profile import Profile
 from mnclab.show.player.payload import payload
+from mnclab.text.file import replaced
 
 SCRIPTS = ("data", "shapes", "camera", "strokes", "picture", "curve", "listing", "state", "player")
 THEMES = ("auto", "light", "dark")
@@ -70,11 +71,14 @@ class Player:
         return page
 
     def save(self, path: str | Path) -> Path:
-        """Write the page to a file and return its path."""
-        path = Path(path)
-        with path.open("w", encoding="utf-8", newline="\n") as file:
-            file.write(self.page)
-        return path
+        """Write the page to a file and return its path; an Alarm if it cannot be written."""
+        with replaced(path) as beside:
+            self.write(beside)
+        return Path(path)
+
+    def write(self, path: Path) -> None:
+        """Write the page into a file that is there."""
+        path.write_text(self.page, "utf-8", newline="\n")
 
     def _repr_html_(self) -> str:
         name = escape(f"player of {self.name}", quote=True)
