@@ -177,6 +177,12 @@ class Control:
     local_variables: str = ""
     modern: Callable[[Program], Notation] | None = None
 
+    def __copy__(self) -> Control:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Control:
+        return self
+
     def power_on(self) -> dict[str, str]:
         """The modal state at the start: group -> code."""
         return {f.group: f.code for f in self.functions.values() if f.group and f.power_on}

@@ -24,7 +24,7 @@ from mnclab.machine.interpreter import Interpreter, Stop
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
 from mnclab.machine.moments import Moments, when
-from mnclab.machine.settling import paths, shifted
+from mnclab.machine.settling import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
@@ -32,6 +32,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place
+from mnclab.text.columns import fixed
 from mnclab.text.program import Block, Program
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
@@ -74,7 +75,7 @@ class Run:
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
         self.program, self.setup, self.control = program, setup, control
         self.programs = tuple(machine.flow.programs)
-        self.steps: Steps = machine.flow.steps()
+        self.steps = Steps(*map(fixed, machine.flow.steps()))
         self.alarms = by_place(alarms)
         for alarm in self.alarms:
             if alarm.source is None:
@@ -275,7 +276,7 @@ class Run:
             cutting_time = np.where(~rapid & (lengths > 0), lengths / path.feed * 60, 0.0)
         dwell = np.nansum(np.where(path.kind == 4, path.time, 0.0))
         return {
-            "program": self.program.name,
+            "program": self.program.title,
             "control": self.control.title,
             "blocks": len(self.program),
             "moves": int(path.is_motion.sum()),
@@ -340,6 +341,10 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
         alarms.append(alarm)
     try:
         machine.settle(unfinished=broken)
+    except Alarm as alarm:
+        alarms.append(alarm)
+    try:
+        stop_at_travel(machine)
     except Alarm as alarm:
         alarms.append(alarm)
     result = Run(program, setup, control, machine, alarms + machine.alarms)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
@@ -62,7 +63,7 @@ class Probe(_Probe):
 
 
 #: A small magazine, so that a first program needs no table. Lengths are 0: the tip is the spindle reference.
-MAGAZINE: Mapping[int, Tool] = {
+MAGAZINE: Mapping[int, Tool] = MappingProxyType({
     0: Tool(number=0, name="none"),
     1: Tool(radius=5, number=1, name="end mill 10", plunge_angle=3, cutting_length=25, teeth=3, kind="mill"),
     2: Tool(radius=4, number=2, name="drill 8", angle=118, cutting_length=60, teeth=2, kind="drill"),
@@ -70,7 +71,7 @@ MAGAZINE: Mapping[int, Tool] = {
     4: Tool(radius=2, number=4, name="end mill 4", plunge_angle=3, cutting_length=12, teeth=2, kind="mill"),
     5: Tool(radius=8, number=5, name="end mill 16", plunge_angle=3, cutting_length=40, teeth=4, kind="mill"),
     6: Tool(radius=2, number=6, name="probe 4", kind="probe"),
-}
+})  # fmt: skip
 
 
 #: Tables by row, and by name: what is in them, and how to write one.

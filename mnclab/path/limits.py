@@ -76,7 +76,7 @@ class Limits:
             raise Alarm(f"limit {name} takes one number or three (X Y Z), got {len(values)}")
         for each in values:
             if above:
-                check_number(each, f"limit {name}", above=0, endless=True)
+                check_number(each, f"limit {name}", above=0, endless=name == "spindle")
             else:
                 check_number(each, f"limit {name}", at_least=0)
 

@@ -23,6 +23,7 @@ from mnclab.show.export_dxf import write_dxf
 from mnclab.show.export_gcode import write_gcode
 from mnclab.show.export_mesh import write_gltf, write_stl, write_vtk
 from mnclab.show.export_svg import write_true_size
+from mnclab.show.given_away import named
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
 
@@ -70,7 +71,7 @@ def write_csv(run: Any, path: Path) -> None:
     """The columns of the toolpath under their names; ``kind`` and ``label`` as text, numbers with all their digits."""
     columns = {name: _texts(column) for name, column in run.toolpath.columns().items()}
     columns |= {"kind": _kinds(run.toolpath), "label": _labels(run.toolpath)}
-    with path.open("w", encoding="utf-8", newline="") as file:
+    with path.open("w", encoding="utf-8", errors="replace", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         writer.writerows(zip(*columns.values()))
@@ -89,16 +90,21 @@ def document(run: Any) -> dict[str, Any]:
     columns: dict[str, Any] = {name: _plain(column) for name, column in path.columns().items()}
     columns |= {"kind": _kinds(path), "label": _labels(path)}
     return {
-        "summary": {
-            name: round(value, 6) if isinstance(value, float) else value for name, value in run.summary().items()
-        },
+        "summary": {name: _figure(value) for name, value in run.summary().items()},
         "ok": run.ok,
-        "alarms": [alarm.as_dict() for alarm in run.alarms],
+        "alarms": [named(alarm).as_dict() for alarm in run.alarms],
         "lathe": path.lathe,
         "origin": path.origin.tolist(),
         "meaning": {name: meaning for name, (_, _, _, meaning) in COLUMNS.items()},
         "columns": columns,
     }
+
+
+def _figure(value: Any) -> Any:
+    """A figure of the card: six decimals, null where it has no end."""
+    if not isinstance(value, float):
+        return value
+    return round(value, 6) if np.isfinite(value) else None
 
 
 def _kinds(path: Toolpath) -> list[str]:

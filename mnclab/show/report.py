@@ -15,6 +15,7 @@ import numpy as np
 from mnclab.path.kinds import Kind
 from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
+from mnclab.show.given_away import named
 from mnclab.show.times import clock
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
@@ -22,6 +23,8 @@ from mnclab.text.file import replaced
 Table = list[tuple[str, ...]]
 Listing = list[tuple[int, str, bool]]
 TOOL_HEAD = ("tool", "name", "kind", "radius", "corner", "length", "teeth", "time")
+
+POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 
 
 @dataclass(frozen=True)
@@ -78,14 +81,14 @@ def report(run: Any, title: str | None = None) -> Report:
     ]
     main, *others = (_numbered(run, index) for index in range(len(run.programs)))
     return Report(
-        title or Path(run.program.name).name,
+        title or run.program.title,
         run.control.title,
         facts,
         [_tool(number, run.tables.tools.get(number, Tool()), by_tool.get(number, 0.0)) for number in _used(run)],
         times,
-        run.alarms,
+        tuple(map(named, run.alarms)),
         main,
-        called=tuple((Path(p.name).name, lines) for p, lines in zip(run.programs[1:], others, strict=True)),
+        called=tuple((p.title, lines) for p, lines in zip(run.programs[1:], others, strict=True)),
     )
 
 
@@ -120,7 +123,7 @@ def save_report(run: Any, path: str | Path, title: str | None = None, **options:
 
 def write_html(run: Any, found: Report, path: Path, **options: Any) -> None:
     """Write the report as a page."""
-    path.write_text(html(run, found, **options), "utf-8", newline="\n")
+    path.write_text(html(run, found, **options), "utf-8", errors="replace", newline="\n")
 
 
 def write_pdf(run: Any, found: Report, path: Path, **options: Any) -> None:
@@ -146,7 +149,8 @@ def html(run: Any, found: Report, **options: Any) -> str:
         f"<h2>Alarms</h2>{alarms}",
     ]
     parts += [f'<h2>{escape(name)}</h2><pre class="listing">{_listing(lines)}</pre>' for name, lines in found.programs]
-    head = f'<meta charset="utf-8"><title>{escape(found.title)}</title><style>{style}</style>'
+    policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
+    head = f'<meta charset="utf-8">{policy}<title>{escape(found.title)}</title><style>{style}</style>'
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(parts) + "\n</body></html>\n"
 
 

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import Alarm, Span
+from mnclab.text.columns import fixed
 from mnclab.text.expression import Expression
 
 if TYPE_CHECKING:
@@ -126,6 +127,11 @@ class Program:
     """Where the file lies that the program was read from; empty for a text. Programs that it calls are sought there."""
     labels: Mapping[str, int] = field(default_factory=dict)
     """Block index of each jump target, as the reader of the control found them."""
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if isinstance(value, np.ndarray):
+                object.__setattr__(self, name, fixed(value))
 
     @property
     def title(self) -> str:

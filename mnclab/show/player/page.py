@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
+import re
 from functools import cached_property
 from html import escape
 from importlib.resources import files
@@ -29,6 +32,17 @@ if (!window.mnclabPlayers) {
 """
 
 
+#: What a browser lets the page do: run its own script in its own style, and ask nobody for anything.
+POLICY = (
+    "default-src 'none'; script-src 'sha256-{script}'; style-src 'sha256-{style}'; img-src data:; "
+    "base-uri 'none'; form-action 'none'"
+)
+
+
+def _digest(text: str) -> str:
+    return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
 class Player:
     """A run to be played; shows itself in a notebook, ``save`` writes it as a page of its own.
 
@@ -49,26 +63,26 @@ class Player:
     @property
     def name(self) -> str:
         """What the program is called, without its folders."""
-        return Path(self.run.program.name).name
+        return str(self.run.program.title)
 
     @cached_property
     def page(self) -> str:
         """The page: markup, style, data and scripts in one text."""
         here = files("mnclab.show.player")
         text = {name: here.joinpath(name).read_text("utf-8") for name in ("page.html", "page.css")}
-        script = "\n".join(here.joinpath(f"{name}.js").read_text("utf-8") for name in SCRIPTS)
+        scripts = "\n".join(here.joinpath(f"{name}.js").read_text("utf-8") for name in SCRIPTS)
+        script, style = f'\n"use strict";\n{scripts}\n', f"\n{text['page.css']}\n"
         parts = {
-            "@title@": escape(f"{self.name} on {self.run.control.title}"),
-            "@theme@": self.theme,
-            "@speed@": f"{self.speed:g}",
-            "@style@": text["page.css"],
-            "@data@": payload(self.run, self.profile),
-            "@script@": script,
+            "title": escape(f"{self.name} on {self.run.control.title}"),
+            "theme": self.theme,
+            "speed": f"{self.speed:g}",
+            "policy": POLICY.format(script=_digest(script), style=_digest(style)),
+            "style": style,
+            "data": payload(self.run, self.profile),
+            "script": script,
         }
-        page = text["page.html"]
-        for place, content in parts.items():
-            page = page.replace(place, content)
-        return page
+        page = re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"])
+        return page.encode("utf-8", "replace").decode()  # half a pair of surrogates is no letter
 
     def save(self, path: str | Path) -> Path:
         """Write the page to a file and return its path; an Alarm if it cannot be written."""

@@ -83,5 +83,6 @@ def _page(lines: list[tuple[str, bool]]) -> Figure:
     for k, (text, bold) in enumerate(lines):
         place = LEFT / A4[0], 1 - (TOP + k * LINE) / A4[1]
         weight = "bold" if bold else "normal"
+        text = text.encode("utf-8", "replace").decode()  # half a pair of surrogates is no letter
         page.text(*place, text, fontsize=9, family="DejaVu Sans Mono", weight=weight, va="top", parse_math=False)
     return page
