@@ -33,6 +33,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place
 from mnclab.text.columns import fixed
+from mnclab.text.given import check_number, shown
 from mnclab.text.program import Block, Program
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
@@ -75,7 +76,7 @@ class Run:
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
         self.program, self.setup, self.control = program, setup, control
         self.programs = tuple(machine.flow.programs)
-        self.steps = Steps(*map(fixed, machine.flow.steps()))
+        self.steps = Steps._make(fixed(column) for column in machine.flow.steps())
         self.alarms = by_place(alarms)
         for alarm in self.alarms:
             if alarm.source is None:
@@ -188,7 +189,10 @@ class Run:
         motion = str(self.settings.get("rapid_motion", "line"))
         if isinstance(limits, str):
             limits = load(limits).limits
-        limits = limits or self.setup.limits
+        limits = self.setup.limits if limits is None else limits
+        if not isinstance(limits, Limits):
+            raise Alarm(f"limits must be Limits or the name of a machine, got {shown(limits)}", hint='"small-mill"')
+        check_number(override, "the feed override")
         return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
 
     def again(self, setup: Setup) -> Run:
@@ -326,7 +330,9 @@ def collector_paused() -> Iterator[None]:
 
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
     """Run a program that was read; with ``strict`` the first alarm is raised instead of collected."""
-    setup = setup or Setup()
+    if not isinstance(setup, Setup | None):
+        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
+    setup = Setup() if setup is None else setup
     machine = Machine(control, setup)
     interpreter = Interpreter(control, machine, program)
     alarms = interpreter.alarms

@@ -150,7 +150,9 @@ class Setup:
                 _refuse(f"files[{name!r}]", "must be a text or a Path", file, NAMED["files"])
         for name, kind in (("probe", Probe), ("limits", Limits)):
             if not isinstance(getattr(self, name), kind):
-                _refuse(name, f"must be a {kind.__name__}", getattr(self, name), f"Setup({name}=mnclab.{kind.__name__}(…))")
+                _refuse(
+                    name, f"must be a {kind.__name__}", getattr(self, name), f"Setup({name}=mnclab.{kind.__name__}(…))"
+                )
         check_point(self.start, "start")
         object.__setattr__(self, "start", tuple(map(float, self.start)))
         self._check_workpiece()
@@ -167,7 +169,9 @@ class Setup:
         except (TypeError, ValueError, OverflowError):  # of numpy, of what is no number
             good = False
         if not good:
-            _refuse("stock", "must be two corners (x, y, z), or a blank", self.stock, "stock=((0, 0, -20), (60, 40, 0))")
+            _refuse(
+                "stock", "must be two corners (x, y, z), or a blank", self.stock, "stock=((0, 0, -20), (60, 40, 0))"
+            )
         if isinstance(self.part, str) and self.part == "cut":
             raise Alarm('Setup(part="cut") is not built yet: give what a probe touches as a part')
         if self.part is not None and not callable(self.part):

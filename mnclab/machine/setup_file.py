@@ -159,13 +159,15 @@ def _setup(table: Mapping[str, Any], file: File) -> Setup:
                 found[name] = _stock(_table(value, name), file)
             elif name in ROWS:
                 rows = _table(value, name)
-                found[name] = {_row(row, name, file): record(ROWS[name], each, file, name, row) for row, each in rows.items()}
+                found[name] = {
+                    _row(row, name, file): record(ROWS[name], each, file, name, row) for row, each in rows.items()
+                }
             elif name in RECORDS:
                 found[name] = record(RECORDS[name], value, file, name)
             elif name == "files":
                 found[name] = {key: _file(each, file, key) for key, each in _table(value, name).items()}
             elif name in NOT_BUILT:
-                Setup(**{name: value or True})
+                found[name] = value or True
             else:
                 found[name] = _table(value, name)
             Setup(**{name: found[name]})  # what is wrong with this part alone is shown at its place

@@ -56,7 +56,7 @@ class Limits:
 
     def __post_init__(self) -> None:
         for name in ("rapid", "acceleration", "jerk", "spindle", "spindle_acceleration"):
-            if getattr(self, name) is not None:
+            if getattr(self, name) is not None or name not in ("jerk", "spindle_acceleration"):
                 self._check(name, above=True)
         for name in ("corner_tolerance", "corner_jump", "tool_change"):
             self._check(name, above=False)

@@ -10,6 +10,7 @@ from mnclab.text.given import check_number, shown
 TEXTS = ("name", "kind")
 SIZES = ("radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle")  # never negative
 
+
 @dataclass(frozen=True)
 class Tool:
     """Dimensions in mm, angles in degrees.

@@ -278,7 +278,9 @@ class Toolpath:
 
 def _unpacked(n: int, columns: dict[str, NDArray[Any]], *more: Any) -> Toolpath:
     """A path of n rows again, from columns that may have one row for all."""
-    whole = {name: np.broadcast_to(each, (n, *each.shape[1:])) if len(each) != n else each for name, each in columns.items()}
+    whole = {
+        name: np.broadcast_to(each, (n, *each.shape[1:])) if len(each) != n else each for name, each in columns.items()
+    }
     return Toolpath(whole, *more)
 
 

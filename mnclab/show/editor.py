@@ -17,6 +17,7 @@ from mnclab.show.forms import DRAWING, picture_of, verdict
 from mnclab.text.alarm import Alarm
 from mnclab.text.extras import require
 from mnclab.text.file import read, replaced
+from mnclab.text.given import shown
 from mnclab.text.program import decode
 
 STYLE = "<style>.mnclab-editor textarea{font-family:monospace;font-size:13px;line-height:1.35;white-space:pre}</style>"
@@ -61,6 +62,8 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     ``run`` (the last run) and ``document``.
     """
     require("ipywidgets", "editors")
+    if not isinstance(path, str | Path):
+        raise Alarm(f"an editor is opened on the path of a file, got {shown(path)}")
     import ipywidgets
 
     document = Document(Path(path))

@@ -26,6 +26,7 @@ from mnclab.show.export_svg import write_true_size
 from mnclab.show.given_away import named
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
+from mnclab.text.given import shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,6 +38,8 @@ def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = Non
     Figures take the options of :meth:`Run.plot`; an svg also ``true_size=True``, a drawing in true millimetres.
     ``picture`` draws another figure of the run than the views of its path.
     """
+    if not isinstance(path, str | Path):
+        raise Alarm(f"a file is written to a path, got {shown(path)}")
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix not in WRITERS:

@@ -1,4 +1,4 @@
-"""What is written into a file that is given away names a program, but not the folders that it lies in here."""
+"""What a file that is given away says of a program: its name without the folders here, and whole letters alone."""
 
 from __future__ import annotations
 
@@ -18,6 +18,11 @@ class Named(NamedTuple):
     def line_text(self, line: int) -> str:
         """The characters of one line, without its end."""
         return self.source.line_text(line)
+
+
+def whole(text: str) -> str:
+    """A text that can be written: half a pair of surrogates, which is no letter, becomes a question mark."""
+    return text.encode("utf-8", "replace").decode()
 
 
 def named(alarm: Alarm) -> Alarm:

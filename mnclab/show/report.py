@@ -19,6 +19,7 @@ from mnclab.show.given_away import named
 from mnclab.show.times import clock
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
+from mnclab.text.given import shown
 
 Table = list[tuple[str, ...]]
 Listing = list[tuple[int, str, bool]]
@@ -112,6 +113,8 @@ def _tool(number: int, tool: Tool, seconds: float) -> tuple[str, ...]:
 
 def save_report(run: Any, path: str | Path, title: str | None = None, **options: Any) -> Path:
     """Write a report to one file, .html or .pdf; ``options`` are those of the picture (:meth:`Run.plot`)."""
+    if not isinstance(path, str | Path):
+        raise Alarm(f"a file is written to a path, got {shown(path)}")
     path = Path(path)
     writers = {".html": write_html, ".pdf": write_pdf}
     if path.suffix.lower() not in writers:

@@ -112,7 +112,7 @@ def ball(centre: ArrayLike, radius: float) -> Part:
 def cylinder(bottom: ArrayLike, top: ArrayLike, radius: float) -> Part:
     """A round bar between the centres of its two faces."""
     a, b = np.asarray(bottom, dtype=float), np.asarray(top, dtype=float)
-    along, middle, half = _unit(b - a, "the axis of a cylinder"), (a + b) / 2, np.linalg.norm(b - a) / 2
+    along, middle, half = _unit(b - a, "the axis of a cylinder"), (a + b) / 2, float(np.linalg.norm(b - a)) / 2
     return Part(partial(_cylinder, along, middle, half, radius))
 
 

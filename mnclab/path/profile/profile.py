@@ -96,7 +96,7 @@ class Profile:
     @cached_property
     def pieces(self) -> Pieces:
         """The columns, made when first asked for."""
-        return Pieces(*map(fixed, pieces(self.plan)))
+        return Pieces._make(fixed(each) for each in pieces(self.plan))
 
     @property
     def t(self) -> Array:

@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.show.given_away import whole
+
 LARGEST = 2**53 // 4  # what a number of a browser holds without loss, as a zigzag difference
 
 
@@ -51,6 +53,6 @@ class Packer:
     def text(self, header: dict[str, Any]) -> str:
         """Header and columns as base64: length of the header (4 bytes, low first), header as JSON, columns."""
         head = json.dumps({**header, "columns": self.sizes}, ensure_ascii=False, allow_nan=False)
-        start = head.encode("utf-8", "replace")  # half a pair of surrogates is no letter
-        whole = b"".join([len(start).to_bytes(4, "little"), start, *self._parts])
-        return base64.b64encode(zlib.compress(whole, 9)).decode("ascii")
+        start = whole(head).encode()
+        content = b"".join([len(start).to_bytes(4, "little"), start, *self._parts])
+        return base64.b64encode(zlib.compress(content, 9)).decode("ascii")

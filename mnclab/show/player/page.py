@@ -8,12 +8,15 @@ import re
 from functools import cached_property
 from html import escape
 from importlib.resources import files
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
 from mnclab.path.profile import Profile
+from mnclab.show.given_away import whole
 from mnclab.show.player.payload import payload
 from mnclab.text.file import replaced
+from mnclab.text.given import check_number
 
 SCRIPTS = ("data", "shapes", "camera", "strokes", "picture", "curve", "listing", "state", "player")
 THEMES = ("auto", "light", "dark")
@@ -55,15 +58,17 @@ class Player:
     ) -> None:
         if theme not in THEMES:
             raise ValueError(f"theme must be auto, light or dark, got {theme!r}")
-        if not speed > 0:
-            raise ValueError(f"speed must be greater than 0, got {speed:g}")
+        for name, number in (("speed", speed), ("height", height)):
+            if isinstance(number, Real) and not number > 0:
+                raise ValueError(f"{name} must be greater than 0, got {number:g}")
+            check_number(number, name)
         self.run, self.profile = run, profile
-        self.height, self.theme, self.speed = height, theme, speed
+        self.height, self.theme, self.speed = int(height), theme, speed
 
     @property
     def name(self) -> str:
         """What the program is called, without its folders."""
-        return str(self.run.program.title)
+        return whole(self.run.program.title)
 
     @cached_property
     def page(self) -> str:
@@ -81,8 +86,7 @@ class Player:
             "data": payload(self.run, self.profile),
             "script": script,
         }
-        page = re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"])
-        return page.encode("utf-8", "replace").decode()  # half a pair of surrogates is no letter
+        return whole(re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"]))
 
     def save(self, path: str | Path) -> Path:
         """Write the page to a file and return its path; an Alarm if it cannot be written."""

@@ -1,8 +1,9 @@
 """What the page needs of a run: both paths, what was active at each step, the feed-rate profile, the texts.
 
 Lengths are whole numbers of 1 / ``scale`` mm: the coarsest of 1e-3, 1e-4 and 1e-6 mm that loses nothing, so that the
-page says the digits that the run says. Times are whole microseconds, speeds whole micrometres per second; where numbers are
-too large for that, coarser by powers of ten. Arcs stay arcs. A *log* is a list of places where a value changes and the values from there on.
+page says the digits that the run says. Times are whole microseconds, speeds whole micrometres per second; where numbers
+are too large for that, the parts are coarser by powers of ten. Arcs stay arcs. A *log* is a list of places where a value
+changes and the values from there on.
 """
 
 from __future__ import annotations
