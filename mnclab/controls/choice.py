@@ -13,6 +13,8 @@ from mnclab.machine.run import Run, run_program
 from mnclab.machine.settings import Setting, settings_html, settings_table
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import read as read_file
+from mnclab.text.given import shown
 from mnclab.text.nearest import hint, nearest
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, decode
@@ -59,14 +61,13 @@ def modern(source: str | Path | Program | Run, control: str | None = None) -> No
 
 def _text_of(source: str | Path) -> tuple[str, str, str]:
     """Text, name and code page. A text with a line end is a program; one without is a path if such a file exists."""
+    if not isinstance(source, str | Path):
+        raise Alarm(f"a program is a text or a Path, got {shown(source)}", hint='mnclab.run("G0 X5\\n", "mnc")')
     if isinstance(source, str):
         if "\n" in source or "\r" in source or len(source) > 4096 or "\0" in source or not _is_file(source):
             return source, "program", "str"
         source = Path(source)
-    try:
-        text, encoding = decode(source.read_bytes())
-    except OSError as error:
-        raise Alarm(f"{source} cannot be read: {error.strerror or error}") from None
+    text, encoding = decode(read_file(source, source))
     return text, str(source), encoding
 
 
@@ -80,10 +81,10 @@ def _is_file(name: str) -> bool:
 def choose(control: str | None, name: str, text: str) -> Control:
     """The control that was named, or the one that the suffix or the text points to; an Alarm when none or two do."""
     if control is not None:
-        if control not in CONTROLS:
-            near = nearest(control, CONTROLS, 1)
+        if not isinstance(control, str) or control not in CONTROLS:
+            near = nearest(str(control)[:40], CONTROLS, 1)
             raise Alarm(
-                f"there is no control {control!r}",
+                f"there is no control {shown(control)}",
                 hint=f"known: {', '.join(CONTROLS)}" + (f"; near: {near[0]}" if near else ""),
             )
         return CONTROLS[control]
@@ -137,6 +138,8 @@ def help(code: str, control: str) -> Help:
     An Alarm with the nearest codes if there is none.
     """
     chosen = choose(control, "", "")
+    if not isinstance(code, str):
+        raise Alarm(f"help is about a code or a setting, got {shown(code)}", hint='mnclab.help("G83", "mnc")')
     settings = {setting.name: setting for setting in chosen.settings}
     if code.strip().lower() in ("settings", *settings):
         return Help(tuple(one for name, one in settings.items() if code.strip().lower() in ("settings", name)), chosen)

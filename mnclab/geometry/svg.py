@@ -16,6 +16,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from mnclab.geometry.contours import Contour, Floats
+from mnclab.text.file import read
 
 NUMBER = re.compile(r"\s*,?\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)")
 FLAG = re.compile(r"\s*,?\s*([01])")
@@ -32,7 +33,7 @@ def contours(source: str | Path, tolerance: float = 0.01) -> list[Contour]:
     """
     if not tolerance > 0:
         raise ValueError(f"the tolerance must be greater than 0, got {tolerance:g}")
-    text = source if isinstance(source, str) and "<" in source else Path(source).read_text("utf-8")
+    text = source if isinstance(source, str) and "<" in source else read(source, source).decode("utf-8")
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:

@@ -182,6 +182,12 @@ class Control:
     def __post_init__(self) -> None:
         object.__setattr__(self, "settings", with_every(self.settings))
 
+    def __copy__(self) -> Control:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Control:
+        return self
+
     def power_on(self) -> dict[str, str]:
         """The modal state at the start: group -> code."""
         return {f.group: f.code for f in self.functions.values() if f.group and f.power_on}

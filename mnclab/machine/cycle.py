@@ -252,6 +252,8 @@ def bind(definition: Definition, m: Machine) -> Cycle:
 def refuse_frame(definition: Definition, m: Machine) -> None:
     """An Alarm at a cycle that cannot run under the frame of the machine."""
     for sentence in true_size.faults(definition.cycle.does, m):
+        if definition.cycle.runs == "call":
+            m.alarm(f"{definition.code} {sentence}")
         raise fault(definition, None, sentence)
 
 

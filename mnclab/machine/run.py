@@ -25,7 +25,7 @@ from mnclab.machine.interpreter import Interpreter, Stop
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
 from mnclab.machine.moments import Moments, when
-from mnclab.machine.settling import paths, shifted
+from mnclab.machine.settling import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
@@ -33,6 +33,8 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place
+from mnclab.text.columns import fixed
+from mnclab.text.given import check_number, shown
 from mnclab.text.program import Block, Program
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
@@ -75,7 +77,7 @@ class Run:
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
         self.program, self.setup, self.control = program, setup, control
         self.programs = tuple(machine.flow.programs)
-        self.steps: Steps = machine.flow.steps()
+        self.steps = Steps._make(fixed(column) for column in machine.flow.steps())
         self.programmed: Toolpath
         self.toolpath: Toolpath
         self.programmed, self.toolpath = paths(machine)
@@ -199,7 +201,10 @@ class Run:
         motion = str(self.settings.get("rapid_motion", "line"))
         if isinstance(limits, str):
             limits = load(limits).limits
-        limits = limits or self.setup.limits
+        limits = self.setup.limits if limits is None else limits
+        if not isinstance(limits, Limits):
+            raise Alarm(f"limits must be Limits or the name of a machine, got {shown(limits)}", hint='"small-mill"')
+        check_number(override, "the feed override")
         return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
 
     def again(self, setup: Setup) -> Run:
@@ -287,7 +292,7 @@ class Run:
             cutting_time = np.where(~rapid & (lengths > 0), lengths / path.feed * 60, 0.0)
         dwell = np.nansum(np.where(path.kind == 4, path.time, 0.0))
         return {
-            "program": self.program.name,
+            "program": self.program.title,
             "control": self.control.title,
             "blocks": len(self.program),
             "moves": int(path.is_motion.sum()),
@@ -337,7 +342,9 @@ def collector_paused() -> Iterator[None]:
 
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
     """Run a program that was read; with ``strict`` the first alarm is raised instead of collected."""
-    setup = setup or Setup()
+    if not isinstance(setup, Setup | None):
+        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
+    setup = Setup() if setup is None else setup
     machine = Machine(control, setup)
     interpreter = Interpreter(control, machine, program)
     alarms = interpreter.alarms
@@ -352,6 +359,10 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
         alarms.append(alarm)
     try:
         machine.settle(unfinished=broken)
+    except Alarm as alarm:
+        alarms.append(alarm)
+    try:
+        stop_at_travel(machine)
     except Alarm as alarm:
         alarms.append(alarm)
     result = Run(program, setup, control, machine, alarms + machine.alarms)

@@ -14,14 +14,12 @@ from mnclab.text.alarm import WARNING, Alarm
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
-SAID = "the spindle stands"
-
 
 def remarks(m: Machine, path: Toolpath) -> Iterator[Alarm]:
     """A warning at the first block of a path that moves at feed without a turning spindle.
 
     A probe does not turn, a cycle may stop the spindle for a part of its way, and what a control has already said at
-    that block (JNC-T01 under G95) is not repeated.
+    that block (a call of the TNC 620, G95 of the JNC-T01) is not repeated.
     """
     if m.settings["stopped_spindle"] == "accept" or not len(path):
         return
@@ -32,7 +30,7 @@ def remarks(m: Machine, path: Toolpath) -> Iterator[Alarm]:
     if not still.any():
         return
     place = m.flow.span_of_step(int(path.step[np.argmax(still)]))
-    said = {(alarm.span.line, alarm.span.program) for alarm in m.alarms if alarm.span and SAID in alarm.message}
+    said = {(alarm.span.line, alarm.span.program) for alarm in m.alarms if alarm.span and "spindle" in alarm.message}
     if place and (place.line, place.program) not in said:
         hint = "a speed (S) and the sense of turning (M3 or M4) come before the first cut; setting stopped_spindle"
-        yield Alarm(f"the tool moves at feed while {SAID}", place, WARNING, hint)
+        yield Alarm("the tool moves at feed while the spindle stands", place, WARNING, hint)

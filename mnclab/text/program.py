@@ -13,12 +13,14 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import Alarm, Span
+from mnclab.text.columns import fixed
 from mnclab.text.expression import Expression
 
 if TYPE_CHECKING:
@@ -125,6 +127,16 @@ class Program:
     """Where the file lies that the program was read from; empty for a text. Programs that it calls are sought there."""
     labels: Mapping[str, int] = field(default_factory=dict)
     """Block index of each jump target, as the reader of the control found them."""
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if isinstance(value, np.ndarray):
+                object.__setattr__(self, name, fixed(value))
+
+    @property
+    def title(self) -> str:
+        """What the program is called, without its folders."""
+        return Path(self.name).name
 
     def __len__(self) -> int:
         return len(self.keyword)
