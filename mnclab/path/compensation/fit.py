@@ -174,7 +174,7 @@ def _beside(found: Equidistant, contour: Index, lost: Index) -> Places:
     def clear(which: Index, radius: Array) -> Mask:
         return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
 
-    largest = narrowed(clear, R)
+    largest = narrowed(clear, R, parts=4)
     message = (
         "the tool of radius {R:.4g} beside this element cuts into that of line {other}, {r:.6g} mm from its centre"
     )
@@ -246,7 +246,7 @@ def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     curves = Curves(el.start[run], el.end[run], el.centre[run], el.r[run], el.sweep[run])
     walls = Walls(curves, n_in, n_out, joined, s, group)
     coarse = chunks(walls)
-    return [_bottlenecks(el, contour, k, walls, coarse), *_ends(el, k, walls, coarse), *_tips(found, contour)]
+    return [_bottlenecks(el, contour, k, walls, coarse), *_ends(el, contour, k, walls, coarse), *_tips(found, contour)]
 
 
 def _bottlenecks(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> Places:
@@ -289,7 +289,7 @@ def _misfit(el: Elements) -> Array:
     return slack
 
 
-def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
+def _ends(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
     """Where the tool arrives at the first wall of a contour, and where it leaves the last, other walls must be clear."""
     slack, places = _misfit(el), []
     last = np.append(~walls.joined[1:], True)
@@ -301,7 +301,6 @@ def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
             group = group[(walls.group[group] == walls.group[e]) & (group != e)]
             height = el.to_height[k[e]] if at_end else el.from_height[k[e]]
             group = group[at_height(el, float(height), k[group])]
-            group = group[~run_past(el, np.full(len(group), k[e]), k[group])]
             if not len(group):
                 continue
             c = walls.curves.take(group)
@@ -311,6 +310,10 @@ def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
                 return distance(P + radius[:, None] * normal, c.take(which)) - radius
 
             bad = np.flatnonzero(clear(np.full(len(group), R), np.arange(len(group))) < -allowed)
+            if len(bad):
+                given_up = run_past(el, np.full(len(bad), k[e]), k[group[bad]])
+                given_up |= led_through(el, contour, k[group[bad]], np.full(len(bad), len(el.rows)))
+                bad = bad[~given_up]
             if not len(bad):
                 continue
             largest = narrowed(partial(_clears, clear, bad, allowed[bad]), np.full(len(bad), R))

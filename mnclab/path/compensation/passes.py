@@ -37,18 +37,15 @@ def led_through(el: Elements, contour: Index, i: Index, j: Index) -> Mask:
     if not len(i):
         return np.zeros(0, dtype=bool)
     k = np.flatnonzero(el.wall & np.isin(contour, contour[i]))
-    bulge = np.where(el.arc[k], 2 * np.nan_to_num(el.r[k]), 0.0)[:, None]
-    low, high = np.minimum(el.start[k], el.end[k]) - bulge, np.maximum(el.start[k], el.end[k]) + bulge
     asked = np.zeros(len(el.rows), dtype=bool)
     asked[i] = True
     earliest = np.full(len(el.rows), len(el.rows))
-    for one, two in near(low, high, 0.0):
+    for one, two in near(*el.boxes(k, contour), 0.0):
         a, b = k[one], k[two]
-        keep = asked[a] & (contour[a] == contour[b])
-        a, b = a[keep], b[keep]
+        a, b = a[asked[a]], b[asked[a]]
         through = _crosses(el, a, b) & meet(el, a, b)
         np.minimum.at(earliest, a[through], b[through])
-    return np.asarray(earliest[i] <= j)
+    return np.asarray((earliest[i] <= j) & (earliest[i] < len(el.rows)))
 
 
 def _crosses(el: Elements, a: Index, b: Index) -> Mask:
