@@ -61,27 +61,38 @@ def passes(rng):
     deep, past = rng.uniform(0.5, 3), p[: int(rng.integers(2, len(p)))]
     rounds = int(rng.integers(2, 6))
     if rng.random() < 0.5:
-        way = np.concatenate([at(-deep * k, np.concatenate([p, p[:1]])) for k in range(1, rounds)] + [at(-deep * rounds, past)])
+        way = np.concatenate(
+            [at(-deep * k, np.concatenate([p, p[:1]])) for k in range(1, rounds)] + [at(-deep * rounds, past)]
+        )
     else:
         way = np.concatenate([*[p] * rounds, past])
         way = np.column_stack([way, -deep * np.arange(len(way))])
     return (way, int(rng.choice([1, -1])), radius) if len(way) > 2 else passes(rng)
 
 
+def turned(way):
+    """The turns of a way of points, rad."""
+    step = np.diff(way, axis=0)
+    angle = np.arctan2(step[:, 1], step[:, 0])
+    return (np.diff(angle) + np.pi) % (2 * np.pi) - np.pi
+
+
 def crossing_in_the_air(rng):
-    """Part of a ring, a lift, straight over to another place, down, and on from there."""
-    p, radius, _ = ring(rng)
-    n, z = len(p), -rng.uniform(1, 5)
-    here = int(rng.integers(1, n - 1))
-    away = p[here] + rng.uniform(-40, 40, (int(rng.integers(1, 4)), 2))
-    air = np.concatenate([p[here : here + 1], away, p[:1] + rng.uniform(0.5, 5) * radius * rng.choice([1, -1], (1, 2))])
-    steps = np.diff(air, axis=0)
-    turn = [a[0] * b[1] - a[1] * b[0] for a, b in zip(np.r_[[p[here] - p[here - 1]], steps], np.r_[steps, [p[1] - p[0]]], strict=True)]
-    side = int(rng.choice([1, -1]))
-    if min(np.hypot(*steps.T)) < 8 * radius or max(side * t for t in turn) > -1:
-        return crossing_in_the_air(rng)  # an outside corner at each, so that no element is used up
-    down = np.concatenate([air[-1:], p[:here]])
-    return np.concatenate([at(z, p[: here + 1]), at(5.0, air), at(z, air[-1:]), at(z - 1, down)]), side, radius
+    """Part of a ring, a lift, across over other parts of it to a place farther on, down, and on from there at one depth."""
+    while True:
+        p, radius, _ = ring(rng)
+        here, there = np.sort(rng.choice(np.arange(1, len(p)), 2, replace=False))
+        air = np.concatenate(
+            [p[here : here + 1], rng.uniform(-60, 60, (int(rng.integers(1, 4)), 2)), p[there : there + 1]]
+        )
+        way = np.concatenate([p[: here + 1], air[1:-1], p[there:], p[:1]])
+        if np.abs(turned(way)).max() < 2.6 and np.hypot(*np.diff(air, axis=0).T).min() > 2 * radius:
+            down, z = np.concatenate([p[there:], p[:1]]), -rng.uniform(0.5, 4)
+            return (
+                np.concatenate([at(z, p[: here + 1]), at(5.0, air), at(z, down)]),
+                int(rng.choice([1, -1])),
+                radius / 8,
+            )
 
 
 def run_past_a_corner(rng):
@@ -105,25 +116,22 @@ def test_good_contours_are_accepted(closed, family):
     rng = np.random.default_rng(20261122)
     paths = [path_of(*family(rng)) for _ in range(200)]
     path, gouge = closed.compensated(closed.joined(paths))
-    assert gouge is None, (gouge, paths[gouge.step // 1000] if gouge else None)
+    assert gouge is None
     assert (path.side != 0).any()
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_true_gouges_are_refused(closed, seed):
-    """The same rings with a tool too wide for them, at one depth; from a pocket's corner; and the crossing not lifted."""
+    """Rings with a tool too wide for them, on the second level of three; and begun in a corner of a pocket."""
     rng = np.random.default_rng(seed)
-    for _ in range(20):
-        p, radius, _ = ring(rng)
-        sides = shapely.linestrings(np.stack([p, np.roll(p, -1, axis=0)], axis=1))
-        wide = shapely.maximum_inscribed_circle(shapely.Polygon(p)).length * 1.01  # of its radius
-        assert closed.compensated(path_of(at(-2.0, np.concatenate([p, p[:1]])), 1, wide))[1] is not None
-        corner = p[1:] if rng.random() < 0.5 else p[1:][::-1]
-        inside = 1 if corner is not None and shapely.Polygon(corner).exterior.is_ccw else -1
-        _, gouge = closed.compensated(path_of(at(-2.0, np.concatenate([corner, corner[:1]])), inside, radius))
-        convex = shapely.Polygon(corner).convex_hull.boundary.distance(shapely.Point(corner[0])) < 1e-6
-        assert gouge is not None or not convex
-        assert len(sides) == len(p)
+    for _ in range(30):
+        p, radius, turn = ring(rng)
+        wide = shapely.maximum_inscribed_circle(shapely.Polygon(p)).length * 1.01  # its radius and a little
+        levels = np.concatenate([at(z, np.concatenate([p, p[:1]])) for z in (-1.0, -2.0, -3.0)])
+        assert closed.compensated(path_of(levels, 1, radius))[1] is None
+        assert closed.compensated(path_of(levels, 1, wide))[1] is not None
+        if turn[1] > 0.05:
+            assert closed.compensated(path_of(at(-2.0, np.concatenate([p[1:], p[:2]])), 1, radius))[1] is not None
 
 
 # --- programs of the shape of a part that is milled from the outside in, level by level -------------------------------

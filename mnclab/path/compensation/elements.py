@@ -80,7 +80,9 @@ class Elements(NamedTuple):
 
     def boxes(self, k: Index, contour: Index) -> tuple[Array, Array]:
         """Low and high corners (m, 2) of boxes round elements k (m,); those of each contour (n,) lie far from all others."""
-        bulge = np.where(self.arc[k], np.nan_to_num(self.r[k]) * (1 - np.cos(np.minimum(np.abs(self.sweep[k]) / 2, np.pi))), 0)
+        bulge = np.where(
+            self.arc[k], np.nan_to_num(self.r[k]) * (1 - np.cos(np.minimum(np.abs(self.sweep[k]) / 2, np.pi))), 0
+        )
         low, high = np.minimum(self.start[k], self.end[k]), np.maximum(self.start[k], self.end[k])
         low, high = low - bulge[:, None], high + bulge[:, None]
         away = (high.max(axis=0) - low.min(axis=0) + 4 * self.R.max())[0] * (contour[k] - contour[k[0]])

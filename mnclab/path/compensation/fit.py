@@ -312,7 +312,7 @@ def _ends(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) 
             bad = np.flatnonzero(clear(np.full(len(group), R), np.arange(len(group))) < -allowed)
             if len(bad):
                 given_up = run_past(el, np.full(len(bad), k[e]), k[group[bad]])
-                given_up |= led_through(el, contour, k[group[bad]], np.full(len(bad), len(el.rows)))
+                given_up |= led_through(el, contour, np.full(len(bad), k[e]), k[group[bad]])
                 bad = bad[~given_up]
             if not len(bad):
                 continue
