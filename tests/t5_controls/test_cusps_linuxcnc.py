@@ -189,8 +189,11 @@ def has_a_path(record):
         begin, end = [0.0, *(y for _, y in way)], [*(x for x, _ in way), 1.0]
         if all(x - y > 1e-9 for x, y in zip(end, begin, strict=True)):
             rows = [beside(e, np.linspace(y, x, 101), shift) for e, x, y in zip(elements, end, begin, strict=True)]
-            joints = [around(np.array(e[2:4]), a[-1], b[0], side, 61) for e, (a, b) in zip(elements, itertools.pairwise(rows), strict=False)
-                      if np.hypot(*(a[-1] - b[0])) > CLEAR]  # fmt: skip
+            joints = [
+                around(np.array(e[2:4]), before[-1], after[0], side, 61)
+                for e, before, after in zip(elements, rows, rows[1:], strict=False)
+                if np.hypot(*(before[-1] - after[0])) > CLEAR
+            ]
             if clearance(np.concatenate(rows + joints), elements) > radius - CLEAR:
                 return True
     return False

@@ -1,10 +1,11 @@
 """Whether the tool fits: what it needs, what there is, and the largest radius for the whole contour.
 
-Four things are looked at. An *arc* on the inside must have a greater radius than the tool; an *element* must not be
+Five things are looked at. An *arc* on the inside must have a greater radius than the tool; an *element* must not be
 used up by its inside corners; a *bottleneck* is a pair of walls, any number of blocks apart, that face each other nearer
 than the tool is wide; at the *ends* of a contour, where the tool arrives and leaves, and at the points of straight
 outside *corners*, it must stand clear of all other walls. An *entry* (and an *exit*) must begin where the tool does not
-yet cut into the element it leads to.
+yet cut into the element it leads to. Close by along the contour, and behind a cusp, *neighbours* are measured one by one.
+Everywhere a tool cuts only into what is at its ``heights`` and into walls that the contour leaves standing (``passes``).
 
 Growing the tool from nothing, the first place that fails is one of these; so the largest radius is the least of their
 own, each from a closed form or, for elements between two corners, from narrowing an interval on the exact condition.
