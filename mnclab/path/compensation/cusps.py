@@ -18,22 +18,34 @@ from mnclab.path.compensation.rules import CLEAR
 
 def inside_cusps(el: Elements, c: Index, R: Array, s: Array) -> Mask:
     """Whether the cusps c (m,) between elements c and c + 1 are inside corners, for a radius and a side each."""
+    inside = _on_the_side_of_the_tool(el, c, R, s)
+    for this, other, is_inside in ((_goes_in, _rolls, True), (_rolls, _goes_in, False)):
+        k = np.flatnonzero(inside == is_inside)
+        k = k[~this(el, c[k], R[k], s[k])]
+        inside[k[other(el, c[k], R[k], s[k])]] ^= True
+    return inside
+
+
+def _rolls(el: Elements, c: Index, R: Array, s: Array) -> Mask:
+    """Whether a tool that rolls about corners c (m,) keeps clear of both elements."""
     d, P = c + 1, el.end[c]
-    first, second = el.moved(c, R, s), el.moved(d, R, s)
-    before, after = el.curves(c), el.curves(d)
+    first, second, before, after = el.moved(c, R, s), el.moved(d, R, s), el.curves(c), el.curves(d)
     turn = np.arctan2(cross(el.t_out[c], el.t_in[d]), dot(el.t_out[c], el.t_in[d]))
-    turn = np.where(s * turn > 0, turn - s * 2 * np.pi, turn)
-    about = Curves(first.end, second.start, P, R, turn)
-    room = R - CLEAR
-    rolls = (gap(first, after) > room) & (gap(second, before) > room)
-    rolls &= (gap(about, before) > room) & (gap(about, after) > room)
+    about = Curves(first.end, second.start, P, R, np.where(s * turn > 0, turn - s * 2 * np.pi, turn))
+    clear = (gap(first, after) > R - CLEAR) & (gap(second, before) > R - CLEAR)
+    return np.asarray(clear & (gap(about, before) > R - CLEAR) & (gap(about, after) > R - CLEAR))
+
+
+def _goes_in(el: Elements, c: Index, R: Array, s: Array) -> Mask:
+    """Whether a tool that goes to where the offsets at corners c (m,) meet keeps clear of both elements."""
+    d, P = c + 1, el.end[c]
+    first, second, before, after = el.moved(c, R, s), el.moved(d, R, s), el.curves(c), el.curves(d)
     corner = in_a_cusp(el, c, R, s)
     met = np.isfinite(corner[:, 0])
     corner = np.where(met[:, None], corner, P)
     first = first._replace(end=corner, sweep=el.sweep[c] * share(corner, before))
     second = second._replace(start=corner, sweep=el.sweep[d] * (1 - share(corner, after)))
-    fits = met & (gap(first, after) > room) & (gap(second, before) > room)
-    return np.where(fits == rolls, _on_the_side_of_the_tool(el, c, R, s), fits)
+    return np.asarray(met & (gap(first, after) > R - CLEAR) & (gap(second, before) > R - CLEAR))
 
 
 def in_a_cusp(el: Elements, c: Index, R: Array, s: Array) -> Array:

@@ -78,6 +78,18 @@ class Elements(NamedTuple):
         radius = self.r[k] - s * np.sign(self.sweep[k]) * shift
         return Element(p + (shift * s)[:, None] * left(t), t, self.centre[k], radius)
 
+    def boxes(self, k: Index, contour: Index) -> tuple[Array, Array]:
+        """Low and high corners (m, 2) of boxes round elements k (m,); those of each contour (n,) lie far from all others."""
+        bulge = np.where(
+            self.arc[k], np.nan_to_num(self.r[k]) * (1 - np.cos(np.minimum(np.abs(self.sweep[k]) / 2, np.pi))), 0
+        )
+        low, high = np.minimum(self.start[k], self.end[k]), np.maximum(self.start[k], self.end[k])
+        low, high = low - bulge[:, None], high + bulge[:, None]
+        away = (high.max(axis=0) - low.min(axis=0) + 4 * self.R.max())[0] * (contour[k] - contour[k[0]])
+        low[:, 0] += away
+        high[:, 0] += away
+        return low, high
+
     def length(self, k: Index | slice) -> Array:
         """How long elements k (m,) are, mm in the plane."""
         straight = np.hypot(*(self.end[k] - self.start[k]).T)

@@ -1,10 +1,11 @@
 """Whether the tool fits: what it needs, what there is, and the largest radius for the whole contour.
 
-Four things are looked at. An *arc* on the inside must have a greater radius than the tool; an *element* must not be
+Five things are looked at. An *arc* on the inside must have a greater radius than the tool; an *element* must not be
 used up by its inside corners; a *bottleneck* is a pair of walls, any number of blocks apart, that face each other nearer
 than the tool is wide; at the *ends* of a contour, where the tool arrives and leaves, and at the points of straight
 outside *corners*, it must stand clear of all other walls. An *entry* (and an *exit*) must begin where the tool does not
-yet cut into the element it leads to.
+yet cut into the element it leads to. Close by along the contour, and behind a cusp, *neighbours* are measured one by one.
+Everywhere a tool cuts only into what is at its ``heights`` and into walls that the contour leaves standing (``passes``).
 
 Growing the tool from nothing, the first place that fails is one of these; so the largest radius is the least of their
 own, each from a closed form or, for elements between two corners, from narrowing an interval on the exact condition.
@@ -174,7 +175,7 @@ def _beside(found: Equidistant, contour: Index, lost: Index) -> Places:
     def clear(which: Index, radius: Array) -> Mask:
         return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
 
-    largest = narrowed(clear, R)
+    largest = narrowed(clear, R, parts=4)
     message = (
         "the tool of radius {R:.4g} beside this element cuts into that of line {other}, {r:.6g} mm from its centre"
     )
@@ -246,7 +247,7 @@ def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     curves = Curves(el.start[run], el.end[run], el.centre[run], el.r[run], el.sweep[run])
     walls = Walls(curves, n_in, n_out, joined, s, group)
     coarse = chunks(walls)
-    return [_bottlenecks(el, contour, k, walls, coarse), *_ends(el, k, walls, coarse), *_tips(found, contour)]
+    return [_bottlenecks(el, contour, k, walls, coarse), *_ends(el, contour, k, walls, coarse), *_tips(found, contour)]
 
 
 def _bottlenecks(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> Places:
@@ -289,7 +290,7 @@ def _misfit(el: Elements) -> Array:
     return slack
 
 
-def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
+def _ends(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
     """Where the tool arrives at the first wall of a contour, and where it leaves the last, other walls must be clear."""
     slack, places = _misfit(el), []
     last = np.append(~walls.joined[1:], True)
@@ -301,7 +302,6 @@ def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
             group = group[(walls.group[group] == walls.group[e]) & (group != e)]
             height = el.to_height[k[e]] if at_end else el.from_height[k[e]]
             group = group[at_height(el, float(height), k[group])]
-            group = group[~run_past(el, np.full(len(group), k[e]), k[group])]
             if not len(group):
                 continue
             c = walls.curves.take(group)
@@ -311,6 +311,10 @@ def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
                 return distance(P + radius[:, None] * normal, c.take(which)) - radius
 
             bad = np.flatnonzero(clear(np.full(len(group), R), np.arange(len(group))) < -allowed)
+            if len(bad):
+                given_up = run_past(el, np.full(len(bad), k[e]), k[group[bad]])
+                given_up |= led_through(el, contour, np.full(len(bad), k[e]), k[group[bad]])
+                bad = bad[~given_up]
             if not len(bad):
                 continue
             largest = narrowed(partial(_clears, clear, bad, allowed[bad]), np.full(len(bad), R))

@@ -71,14 +71,10 @@ def _across(el: Elements, contour: Index, back: Mask) -> tuple[Index, Index, Arr
     """Walls i < j (m,) of one contour near each other, between which it turns ``back`` (n,)."""
     before: Index = np.cumsum(back, dtype=np.int64) - back  # cusps before each element
     k = np.flatnonzero(el.wall & np.isin(contour, contour[back]))
-    bulge = np.zeros(len(k))
-    a = np.flatnonzero(el.arc[k])
-    bulge[a] = el.r[k[a]] * (1 - np.cos(np.minimum(np.abs(el.sweep[k[a]]) / 2, np.pi)))
-    low, high = np.minimum(el.start[k], el.end[k]), np.maximum(el.start[k], el.end[k])
     i, j = [k[:0]], [k[:0]]
-    for one, other in near(low - bulge[:, None], high + bulge[:, None], 2 * float(el.R[k].max())):
+    for one, other in near(*el.boxes(k, contour), 2 * float(el.R[k].max())):
         one, other = k[one], k[other]
-        keep = (contour[one] == contour[other]) & (before[one] != before[other])
+        keep = before[one] != before[other]
         i, j = [*i, one[keep]], [*j, other[keep]]
     first = np.concatenate(i)
     return first, np.concatenate(j), np.full(len(first), np.inf)

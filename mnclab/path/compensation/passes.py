@@ -1,9 +1,9 @@
 """What a contour says about walls that it does not leave standing: contours run past their start, several passes at one level.
 
 A contour that is run past its start crosses its own beginning. Where it does so at an outside corner both tails lie in the
-air beside the part: a tool that cuts across a tail cuts nothing. And a wall through which the contour itself is led later
-stands no more, whatever the size of the tool: the next pass of a roughing, say, that leaves the last one by a loop and
-comes back through it.
+air beside the part: a tool that cuts across a tail cuts nothing. And a wall through which the contour itself leads does
+not stand, whatever the size of the tool: the next pass of a roughing, say, leaves the last one by a loop and comes back
+through it.
 """
 
 from __future__ import annotations
@@ -33,22 +33,22 @@ def run_past(el: Elements, i: Index, j: Index) -> Mask:
 
 
 def led_through(el: Elements, contour: Index, i: Index, j: Index) -> Mask:
-    """Whether the contour goes through wall i (m,) after it, up to wall j (m,) > i, where heights meet."""
+    """Whether between walls i and j (m,) of a contour it goes through one of the two itself, where heights meet."""
     if not len(i):
         return np.zeros(0, dtype=bool)
+    first, last, n = np.minimum(i, j), np.maximum(i, j), len(el.rows)
     k = np.flatnonzero(el.wall & np.isin(contour, contour[i]))
-    bulge = np.where(el.arc[k], 2 * np.nan_to_num(el.r[k]), 0.0)[:, None]
-    low, high = np.minimum(el.start[k], el.end[k]) - bulge, np.maximum(el.start[k], el.end[k]) + bulge
-    asked = np.zeros(len(el.rows), dtype=bool)
-    asked[i] = True
-    earliest = np.full(len(el.rows), len(el.rows))
-    for one, two in near(low, high, 0.0):
+    asked = np.zeros(n, dtype=bool)
+    asked[i] = asked[j] = True
+    after, before = np.full(n, n), np.full(n, -1)  # the next and the last one that goes through each wall
+    for one, two in near(*el.boxes(k, contour), 0.0):
         a, b = k[one], k[two]
-        keep = asked[a] & (contour[a] == contour[b])
-        a, b = a[keep], b[keep]
+        some = asked[a] | asked[b]
+        a, b = a[some], b[some]
         through = _crosses(el, a, b) & meet(el, a, b)
-        np.minimum.at(earliest, a[through], b[through])
-    return np.asarray(earliest[i] <= j)
+        np.minimum.at(after, a[through], b[through])
+        np.maximum.at(before, b[through], a[through])
+    return np.asarray((after[first] <= last) | (before[last] >= first))
 
 
 def _crosses(el: Elements, a: Index, b: Index) -> Mask:
@@ -69,6 +69,8 @@ def _crosses(el: Elements, a: Index, b: Index) -> Mask:
 def _tangent(curve: Curves, p: Array) -> Array:
     """Unit tangents (n, 2) of curves at points p (n, 2) on them."""
     travel, spoke = curve.end - curve.start, p - curve.centre
-    along = np.where(curve.arc[:, None], np.sign(curve.sweep)[:, None] * np.stack([-spoke[:, 1], spoke[:, 0]], 1), travel)
+    along = np.where(
+        curve.arc[:, None], np.sign(curve.sweep)[:, None] * np.stack([-spoke[:, 1], spoke[:, 0]], 1), travel
+    )
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.asarray(along / np.hypot(along[:, 0], along[:, 1])[:, None])
