@@ -179,6 +179,11 @@ class Flow:
         """The place of a block of the running program."""
         return self.program.span_of_block(block)._replace(program=self.running[-1])
 
+    @property
+    def begun(self) -> int:
+        """How many blocks were executed so far."""
+        return self._counted + len(self._blocks)
+
     def begin(self, block: int) -> int:
         """Note the execution of a block; the number of its step."""
         blocks = self._blocks

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from mnclab.machine.settings import Setting, settings_html
+from mnclab.machine.settings import Setting, settings_html, with_every
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
 
@@ -137,6 +137,7 @@ class Control:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
     ("G4 P").
+    ``to_turn`` says what makes the spindle turn, as a hint.
     ``names`` leads from other names of cycles (DIN/ISO) to their codes; help knows them.
     ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; ``predefined``
     what PREDEF stands for in a parameter of a cycle of a code; ``calls_again`` whether a modal call of a cycle (a modal
@@ -173,9 +174,13 @@ class Control:
     predefined: Callable[[Machine, str, Parameter, Word], float | str] | None = None
     calls_again: Callable[[Machine, str, list[Word]], bool] | None = None
     lathe: bool = False
+    to_turn: str = "write S and M3 before the move"
     preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
     local_variables: str = ""
     modern: Callable[[Program], Notation] | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "settings", with_every(self.settings))
 
     def __copy__(self) -> Control:
         return self

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.machine import still_spindle
 from mnclab.machine.calls import Steps
 from mnclab.machine.control import Control
 from mnclab.machine.explanation import Explanation
@@ -77,13 +78,13 @@ class Run:
         self.program, self.setup, self.control = program, setup, control
         self.programs = tuple(machine.flow.programs)
         self.steps = Steps._make(fixed(column) for column in machine.flow.steps())
-        self.alarms = by_place(alarms)
-        for alarm in self.alarms:
-            if alarm.source is None:
-                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         self.programmed: Toolpath
         self.toolpath: Toolpath
         self.programmed, self.toolpath = paths(machine)
+        self.alarms = by_place([*alarms, *still_spindle.remarks(machine, self.toolpath)])
+        for alarm in self.alarms:
+            if alarm.source is None:
+                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         if machine.cut is not None:
             self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
         self.history = History(machine.logs, len(self.steps.block))
@@ -115,11 +116,14 @@ class Run:
         return not any(alarm.severity == ALARM for alarm in self.alarms)
 
     def at(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Moment:
-        """The machine after the ``pass_``-th execution of a line (of one of ``programs``), or after a step."""
+        """The machine after the ``pass_``-th execution of a line (of one of ``programs``), or after a step.
+
+        A line within a block of several lines means the block.
+        """
         if step is None:
             if line is None:
                 raise ValueError("at() needs a line or a step")
-            found = np.flatnonzero((self.lines() == line) & (self.steps.program == program))
+            found = self._executions(line, program)
             if not 1 <= pass_ <= len(found):
                 raise ValueError(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
             step = int(found[pass_ - 1])
@@ -148,6 +152,14 @@ class Run:
         if not given or isinstance(given[-1], Revolved):
             return given[-1] if given else None
         return None if given[-1].maximum is None else Box(given[-1].minimum, given[-1].maximum)
+
+    def _executions(self, line: int, program: int) -> NDArray[np.intp]:
+        """The steps that executed the block of a line."""
+        if not 0 <= program < len(self.programs):
+            return np.empty(0, dtype=np.intp)
+        first, last = self.programs[program].lines()
+        blocks = np.flatnonzero((first <= line) & (line <= last))
+        return np.flatnonzero(np.isin(self.steps.block, blocks) & (self.steps.program == program))
 
     def lines(self) -> NDArray[np.integer[Any]]:
         """The line of each step (s,), in the program that ``steps.program`` names."""

@@ -57,6 +57,22 @@ class Setting(NamedTuple):
         return value
 
 
+#: What every control has, unless it declares the same name itself.
+EVERY = (
+    Setting(
+        "stopped_spindle", "warn", "moves at feed while the spindle stands", "every control",
+        {"warn": "one warning, at the first of them", "accept": "no word"},
+    ),
+)  # fmt: skip
+
+
+def with_every(declared: Iterable[Setting]) -> tuple[Setting, ...]:
+    """The settings of a control, and those that every control has."""
+    own = tuple(declared)
+    names = {setting.name for setting in own}
+    return own + tuple(setting for setting in EVERY if setting.name not in names)
+
+
 def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str, source: Any = None) -> dict[str, Any]:
     """Values by name: the defaults, and what a Setup gives instead. An Alarm names what is unknown or not allowed.
 

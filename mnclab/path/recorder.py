@@ -71,6 +71,11 @@ class Recorder:
         self._vertices = np.array([tuple(point)], dtype=np.float64)  # (room + 1, 3), of which the first are filled
         self._count = 0  # rows that have their vertices there
 
+    @property
+    def count(self) -> int:
+        """Rows not yet taken that are columns already; :attr:`rows` come on top."""
+        return self._count
+
     def expect(self, count: int) -> None:
         """So many rows are to come; room made once is not made anew."""
         self.expected = max(self.expected, self._count + len(self.rows) // len(ROW) + count)

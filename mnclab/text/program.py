@@ -188,6 +188,14 @@ class Program:
                 return np.arange(first, first + len(start), dtype=np.int32)
         return np.searchsorted(self.line_starts, start, "right")
 
+    def lines(self) -> tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]:
+        """The first and the last line (b,) of each block, which may go over several."""
+        first = np.asarray(self.line_of(slice(None)))
+        last, some = first.copy(), np.flatnonzero(np.diff(self.first) > 0)
+        word = self.offset[self.first[some + 1] - 1]
+        last[some] = np.maximum(first[some], np.searchsorted(self.line_starts, word, "right"))
+        return first, last
+
     def line_text(self, line: int) -> str:
         """The characters of one line, without its end; empty beyond the program."""
         if not 1 <= line <= len(self.line_starts):

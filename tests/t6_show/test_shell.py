@@ -10,8 +10,8 @@ import pytest
 
 from mnclab import __main__ as shell
 
-GOOD = "G90 G54\nG0 X0 Y0 Z5\nG1 X10.5 F100\n"
-COMMA = "G90 G54\nG0 X0 Y0 Z5\nG1 X10,5 F100\n"
+GOOD = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X10.5 F100\n"
+COMMA = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X10,5 F100\n"
 ALARM_LINE = re.compile(r"[^:]+:\d+:\d+: (alarm|warning): .+")
 
 
@@ -67,17 +67,17 @@ def test_check_as_json(folder, capsys):
 
 def test_run_prints_one_move_a_line(folder, capsys):
     assert mnclab("run", "good.mnc") == 0
-    first, second = capsys.readouterr().out.splitlines()
-    assert "rapid" in first and "X10.5" in second and "F100" in second
+    *before, second = capsys.readouterr().out.splitlines()
+    assert "spindle" in before[0] and "rapid" in before[1] and "X10.5" in second and "F100" in second
     assert mnclab("run", "comma.mnc") == 1
     out, err = capsys.readouterr()
-    assert out.splitlines() == [first] and ALARM_LINE.fullmatch(err.strip())
+    assert out.splitlines() == before and ALARM_LINE.fullmatch(err.strip())
 
 
 def test_run_as_json(folder, capsys):
     assert mnclab("run", "good.mnc", "--json", "--control", "mnc") == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["columns"]["end_x"] == [0, 10.5] and found["summary"]["cutting length"] == 10.5
+    assert found["columns"]["end_x"] == [0, 0, 10.5] and found["summary"]["cutting length"] == 10.5
 
 
 def test_a_setup_file_is_used(folder, capsys):
@@ -91,7 +91,7 @@ def test_plot_writes_the_file_that_was_asked_for(folder, capsys):
     assert mnclab("plot", "comma.mnc", "-o", "out.svg") == 1  # a picture up to the alarm
     assert (folder / "out.svg").read_text("utf-8").startswith("<?xml")
     assert mnclab("plot", "good.mnc", "--output", "out.csv") == 0
-    assert len((folder / "out.csv").read_text("utf-8").splitlines()) == 3
+    assert len((folder / "out.csv").read_text("utf-8").splitlines()) == 4
 
 
 def test_report_writes_a_page_and_keeps_the_status(folder, capsys):

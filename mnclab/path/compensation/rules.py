@@ -10,6 +10,8 @@ import numpy as np
 from mnclab.path.fault import PathFault
 
 TANGENT = np.radians(0.001)  # corners that turn less are none (setting tangent_tolerance of the MNC)
+CUSP = np.radians(170)  # where arcs turn back by more, not the turn but what the elements do beside it counts
+CLEAR = 1e-6  # mm: nearer to its neighbours than its radius less this the tool cuts into them
 ACUTE_TURN = np.pi / 2 + TANGENT  # a corner that turns more is acute
 SPIKE_TURN = np.radians(170)  # straight corners that turn more are worth a notice (MNC-G161-SPIKE)
 CORNER = "outside corner"  # label of inserted arcs
@@ -37,9 +39,9 @@ class Compensation:
 class Gouge(NamedTuple):
     """A place where the tool does not fit.
 
-    ``kind`` is "arc", "element", "bottleneck", "end", "corner", "entry" or "exit"; ``line`` and ``step`` are those of
-    the block in which the tool would cut into the contour, ``other`` is the line that it would cut into. ``place``
-    (x, y, z) is the point of the contour, mm; ``width`` mm is what there is and ``missing`` mm what it lacks;
+    ``kind`` is "arc", "element", "neighbour", "bottleneck", "end", "corner", "entry" or "exit"; ``line`` and ``step`` are
+    those of the block in which the tool would cut into the contour, ``other`` is the line that it would cut into.
+    ``place`` (x, y, z) is the point of the contour, mm; ``width`` mm is what there is and ``missing`` mm what it lacks;
     ``largest`` is the largest radius for the whole contour, from its entry to its exit or change of side.
     """
 

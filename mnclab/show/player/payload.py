@@ -182,11 +182,7 @@ def _lines(pack: Packer, programs: Sequence[Program]) -> tuple[list[int], list[i
     """For each program the first and the last line of its blocks."""
     lines, lasts = [], []
     for program in programs:
-        first = np.asarray(program.line_of(np.arange(len(program))), dtype=np.int64)
-        last = first.copy()
-        some = np.flatnonzero(np.diff(program.first) > 0)
-        word = program.offset[program.first[some + 1] - 1]
-        last[some] = np.maximum(first[some], np.searchsorted(program.line_starts, word, "right"))
+        first, last = (column.astype(np.int64) for column in program.lines())
         lines.append(pack.add(first))
         lasts.append(pack.add(last - first))
     return lines, lasts

@@ -17,6 +17,7 @@ from mnclab.controls.mnc.cycles.prepared import (
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes import drill, gun_drill
 from mnclab.machining.steps import Go, Wait
@@ -147,11 +148,13 @@ class Centring(PreparedCycle):
         """A diameter needs a point angle."""
         if self.mode and not 0 < m.tool.angle < 180:
             yield "mode", f"1 needs the point angle of tool {m.tool.number} in the tool table"
+        if self.mode and not is_round(m):
+            yield "mode", "1 cannot run under unequal scales of the plane: a diameter would be two"
 
     def moves(self, m: Machine) -> None:
         """Steps 1 to 4 of the manual; the cone of the point is as deep as half the diameter over its tangent."""
         if self.mode:
-            down = (self.diameter or 0.0) / 2 / math.tan(math.radians(m.tool.angle / 2))
+            down = (self.diameter or 0.0) / 2 / math.tan(math.radians(tool(m).angle / 2))
         else:
             down = self.depth or 0.0
         end = self.approach(m)

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.clearing import Clearing, numbered
 from mnclab.machining.depths import MOST
 from mnclab.machining.face_milling import Layer, face
@@ -47,6 +48,8 @@ def second_feed(meaning: str, example: float) -> Any:
 @dataclass(frozen=True)
 class MillingCycle(Cycle):
     """What all of them need of the machine: a tool with a radius, a feed, no radius compensation."""
+
+    does: ClassVar[str] = MILLS
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Tool, feed, compensation; and no machine coordinates."""
@@ -112,7 +115,7 @@ class LineMilling(Surface):
     def moves(self, m: Machine) -> None:
         """Steps 1 to 7 of the manual; the tool stays at the clearance level."""
         for sentence in self.remarks(m.radius):
-            m.warn(f"{self.code} {sentence}")
+            m.warn(f"{self.code} {sentence}{remark(m)}")
         if not self.passes:
             return
         left, right, above = (

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import ClassVar
 
 from mnclab.controls.mnc.cycles.prepared import PreparedCycle, depth
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import TAPS
 from mnclab.machining.tapping import tap
 
 CYCLES = CycleTable()
@@ -16,6 +18,8 @@ CYCLES = CycleTable()
 @CYCLES("G309", "Tapping with controlled spindle", runs="call", source="MNC 9.12")
 class RigidTapping(PreparedCycle):
     """Taps in one pass with the spindle locked to the feed; the spindle stands still afterwards."""
+
+    does: ClassVar[str] = TAPS
 
     depth: float = depth("depth of the thread from the surface")
     pitch: float = param("P", "pitch", "mm/rev", note="positive right-hand, negative left-hand", example=1.25)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -16,6 +16,7 @@ from mnclab.machine.following import follow
 from mnclab.machine.interpreter import unit_of
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.recording import Recording
+from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.depths import infeeds
 from mnclab.machining.pockets import rings
 from mnclab.path.outline import outline
@@ -139,7 +140,9 @@ def contour_region(m: Machine) -> Region:
 
 @CYCLES("CYCL DEF 22", "Rough-out", runs="call", source="8.6")
 class RoughOut(Cycle):
-    """Clears the contour level by level, each from the inside outward, islands first."""
+    """Clears the contour level by level, each from the inside outward, islands first; a mirror image keeps its climb (8.3)."""
+
+    does: ClassVar[str] = MILLS
 
     infeed: float = param("Q10", "infeed per cut", modal=True, incremental=True, **WIDE)
     plunge_feed: float = param(
@@ -198,13 +201,14 @@ class RoughOut(Cycle):
         data, region = contour_data(m), contour_region(m)
         down = -1 if data.depth < 0 else 1
         floor = data.surface + down * (abs(data.depth) - data.floor_allowance)
+        climb = data.sense * m.orientation > 0  # on the machine: no mirror image changes it
         try:
             clearing = rings(
-                region, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=data.sense > 0,
+                region, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=climb,
                 corner_radius=data.corner,
             )  # fmt: skip
         except ValueError as error:
-            m.alarm(f"{self.code}: {error}", hint="take a smaller tool")
+            m.alarm(f"{self.code}: {error}{remark(m)}", hint="take a smaller tool")
         above, plunge = data.surface + data.clearance, self.swing_feed or self.plunge_feed
         levels = infeeds(data.surface, floor, abs(self.infeed))
         for number, level in enumerate(levels, 1):
