@@ -191,6 +191,7 @@ class Tables:
     """The tables of one run: copies that the program may write to."""
 
     def __init__(self, setup: Setup) -> None:
+        setup = replace(setup)  # checked again: somebody may have written into its tables since
         numbered = {number: _numbered(tool, number) for number, tool in setup.tools.items()}
         self.tools: dict[int, Tool] = {0: MAGAZINE[0], **numbered}
         self.datums: dict[int, Datum] = {row: Datum(*datum) for row, datum in setup.datums.items()}

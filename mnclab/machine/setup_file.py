@@ -57,6 +57,7 @@ KNOWN = ("start", "stock", *ROWS, *RECORDS, "settings", "files", "variables")
 KEY = r"""(?:[\w-]+|"[^"]*"|'[^']*')"""
 PATH = rf"{KEY}(?:[ \t]*\.[ \t]*{KEY})*"
 WRITTEN = re.compile(rf"^[ \t]*\[\[?[ \t]*({PATH})[ \t]*\]|(?:^|[{{,])[ \t]*({PATH})[ \t]*=")
+DEEPEST = 50  # parts of a dotted key
 LARGEST = 1_000_000  # bytes of a setup file
 
 
@@ -137,7 +138,13 @@ def parse(path: Path, build: Callable[[dict[str, Any], File], Result], what: str
 
 
 def _table_of(text: str) -> dict[str, Any]:
-    """The table that a text writes; an Alarm for one that nobody could follow."""
+    """The table that a text writes; an Alarm for one that nobody could follow, and that Python would take hours for."""
+    for number, line in enumerate(text.splitlines() if text.count(".") > DEEPEST else (), 1):
+        deep = 0
+        for part in line.split("."):
+            deep = deep + 1 if part.strip().replace("-", "").replace("_", "").isalnum() else 0
+            if deep > DEEPEST:
+                raise Alarm(f"a key has more than {DEEPEST} parts", Span(number, 1))
     try:
         return tomllib.loads(text)
     except RecursionError:

@@ -133,6 +133,9 @@ def test_nothing_is_shared_between_setups_and_runs():
     setup, own = Setup(), {1: Tool(radius=7)}
     setup.tools[1] = Tool(radius=99)
     assert Setup().tools == magazine and mnclab.run("T1\nG0 X1\n", "mnc").toolpath.radius[-1] == 5
+    setup.tools[1] = 5
+    with pytest.raises(Alarm, match=r"tools\[1\] must be a Tool, got 5"):
+        mnclab.run("T1\nG0 X1\n", "mnc", setup)
     given_own = Setup(tools=own, files={"A": Path("a")})
     own[1] = Tool(radius=8)
     assert given_own.tools[1].radius == 7

@@ -145,7 +145,8 @@ def test_a_fault_is_shown_at_its_line(tmp_path, text, place, sentence):
 @pytest.mark.parametrize(
     "text",
     ["start = " + "[" * 5000 + "]" * 5000, "start" + ".a" * 900 + " = 1", "a = " + "{a=" * 3000 + "1" + "}" * 3000,
-     "start = " + "9" * 5000, "x" * 20_000 + " = 1", f"start = '{'x' * 20_000}'", "start = 1e999999"],
+     "start = " + "9" * 5000, "x" * 20_000 + " = 1", f"start = '{'x' * 20_000}'", "start = 1e999999",
+     "a" + ".a" * 400_000 + " = 1", "[" + "a . " * 200_000 + "]", "x = {" + "a.1-b_." * 100_000 + "c = 1}"],
     ids=lambda text: text[:8],
 )  # fmt: skip
 def test_no_text_of_a_setup_is_more_than_an_alarm(tmp_path, text):
