@@ -53,6 +53,11 @@ def is_upside_down(m: Machine) -> bool:
     return any(part[2, 2] < 0 and not (part - np.diag(part.diagonal())).any() for part in linear)
 
 
+def plane_scale(m: Machine) -> float:
+    """How long 1 mm of the program in the plane XY is on the machine; 1 where that depends on the direction."""
+    return math.hypot(*m.frames.matrix[:3, 0].tolist()) if is_round(m) else 1.0
+
+
 def depth_scale(m: Machine) -> float:
     """How long 1 mm of the program along Z is on the machine."""
     return math.hypot(*m.frames.matrix[:3, 2].tolist())
@@ -62,8 +67,8 @@ def tool(m: Machine) -> Tool:
     """The tool in lengths of the program: where Z has another scale than the plane, its angles are others there, too."""
     if is_shift(m.frames.matrix):
         return m.tool
-    plane, depth = m.scale, depth_scale(m)
-    own, steeper = m.tool, m.scale / depth
+    plane, depth = plane_scale(m), depth_scale(m)
+    own, steeper = m.tool, plane / depth
     return replace(
         own, radius=own.radius / plane, dr=own.dr / plane, corner=own.corner / plane,
         cutting_length=own.cutting_length / depth, plunge_angle=_angle(own.plunge_angle, steeper),
@@ -78,10 +83,12 @@ def _angle(degrees: float, factor: float) -> float:
 
 def remark(m: Machine) -> str:
     """What to add to a sentence that names sizes of the tool: in which lengths they count."""
-    if abs(m.scale - 1) < SAME:
+    if abs((scale := plane_scale(m)) - 1) < SAME:
         return ""
     size = 2 * m.tool.effective_radius
-    return f", in lengths of the program: under the scale {m.scale:g} the tool diameter {size:g} counts as {2 * m.radius:g}"
+    return (
+        f", in lengths of the program: under the scale {scale:g} the tool diameter {size:g} counts as {size / scale:g}"
+    )
 
 
 def with_the_spindle(m: Machine, steps: Iterable[Step], frame: Matrix = IDENTITY) -> Iterator[Step]:

@@ -34,7 +34,7 @@ class Hole(AtSurface):
 
     def bottom(self, m: Machine) -> float:
         """B, where the tip of the tool ends: with Q395 = 1 its cylindrical part reaches the depth."""
-        point = point_length(m.radius, tool(m).angle) if self.reference == 1 else 0.0
+        point = point_length(tool(m).effective_radius, tool(m).angle) if self.reference == 1 else 0.0
         return self.surface + self.reach(m) - self.down * point
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
