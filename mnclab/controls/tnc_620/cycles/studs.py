@@ -117,7 +117,7 @@ class Stud(FigureMilling):
 
     def moves(self, m: Machine) -> None:
         """To S, and from there roughing in layers, the side in infeeds, the floor."""
-        if self.depth == 0 or self.finishes_nothing(m):
+        if not self.executed(m) or self.finishes_nothing(m):
             return
         centre, start, side = self.centre(m), self.start(m.radius), 1 if self.climb else -1
         self.to_start(m, (centre[0] + start[0], centre[1] + start[1]))
