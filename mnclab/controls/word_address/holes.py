@@ -44,7 +44,12 @@ def initial_level(m: Machine, kept: dict[str, Any]) -> float:
 
 
 def approach(m: Machine, code: str, x: float | None, y: float | None, r_level: float) -> None:
-    """Movements 1 and 2: over the hole, then to level R."""
+    """Movements 1 and 2: over the hole, then to level R; from below R first up to it, for below it a rapid across would cut.
+
+    No source says what happens from below R; LinuxCNC does this.
+    """
+    if m.programmed[2] < r_level:
+        perform(m, code, [Go("to level R", r_level)])
     m.label = f"{code} to the hole"
     m.rapid(x=x, y=y)
     perform(m, code, [Go("to level R", r_level)])
