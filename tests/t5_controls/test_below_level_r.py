@@ -12,8 +12,11 @@ from mnclab import Kind, Setup
 
 CYCLES = {
     "mnc": ["G83 X10 Y5 Z-20 R2 K8", "G83 X10 Y5 W22 R2", "G84 X10 Y5 Z-20 R2 F100", "G85 X10 Y5 Z-20 R2"],
-    "g43": [f"{code} X10 Y5 Z-20 R2" for code in ("G81", "G82", "G83 Q8", "G73 Q8", "G84", "G74", "G85", "G89", "G86", "G76 Q.2")],
-}  # fmt: skip
+    "g43": [
+        f"{code} X10 Y5 Z-20 R2"
+        for code in ("G81", "G82", "G83 Q8", "G73 Q8", "G84", "G74", "G85", "G89", "G86", "G76 Q.2")
+    ],
+}
 CASES = [(control, cycle) for control, cycles in CYCLES.items() for cycle in cycles]
 
 
