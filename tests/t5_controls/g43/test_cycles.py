@@ -80,7 +80,14 @@ def test_every_code_of_another_chapter_is_remarked_once():
 
 # --- from one cycle to the next ---------------------------------------------------------------------------------------
 
-WORDS = {"G81": "", "G82": "P100", "G83": "Q5", "G73": "Q5", "G84": "", "G74": "", "G85": "", "G89": "P100", "G86": "", "G76": "Q.5"}
+WORDS = dict.fromkeys(("G81", "G84", "G74", "G85", "G86"), "")
+WORDS |= {"G82": "P100", "G89": "P100", "G83": "Q5", "G73": "Q5", "G76": "Q.5"}
+    "G82": "P100",
+    "G89": "P100",
+    "G83": "Q5",
+    "G73": "Q5",
+    "G76": "Q.5",
+}
 START = "G90 F120 S800 M3\nG0 X0 Y0 Z9\n"
 
 
@@ -93,7 +100,9 @@ def test_hole_data_hold_among_the_cycles(first, second, back, dimension):
     hole = "Z-20 R2" if dimension == "G90" else "Z-22 R-7"
     before = f"{START}{back} {dimension} {first} X10 Y5 {hole} F90 {WORDS[first]}\n"
     short = run(f"{before}{second} X40 {WORDS[second]}\nX50\nG80\n")
-    spelt = run(f"{before}G90 {second} X{40 if dimension == 'G90' else 50} Z-20 R2 F90 {WORDS[second]}\n{dimension} X50\nG80\n")
+    spelt = run(
+        f"{before}G90 {second} X{40 if dimension == 'G90' else 50} Z-20 R2 F90 {WORDS[second]}\n{dimension} X50\nG80\n"
+    )
     for name in ("kind", "end", "feed", "time", "spindle"):
         assert np.array_equal(getattr(short.toolpath, name), getattr(spelt.toolpath, name), equal_nan=True), name
     assert short.toolpath.motion.end[-1, 2] == (9 if back == "G98" else 2)
