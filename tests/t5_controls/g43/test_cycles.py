@@ -82,12 +82,6 @@ def test_every_code_of_another_chapter_is_remarked_once():
 
 WORDS = dict.fromkeys(("G81", "G84", "G74", "G85", "G86"), "")
 WORDS |= {"G82": "P100", "G89": "P100", "G83": "Q5", "G73": "Q5", "G76": "Q.5"}
-    "G82": "P100",
-    "G89": "P100",
-    "G83": "Q5",
-    "G73": "Q5",
-    "G76": "Q.5",
-}
 START = "G90 F120 S800 M3\nG0 X0 Y0 Z9\n"
 
 
