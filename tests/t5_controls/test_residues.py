@@ -103,6 +103,17 @@ def test_a_cone_is_not_wider_than_the_tool():
     assert centred(-9).toolpath.end[:, 2].min() == pytest.approx(-4.5 / math.tan(math.pi / 4))
 
 
+@pytest.mark.parametrize("diameter", [-8, -12.5])
+def test_a_cone_of_g305_is_not_wider_than_the_tool(diameter):
+    found = mnclab.run(
+        f"T1 S500 M3\nG0 Z20\nG305 Q2 L1 D{diameter} Z0 F90\nX5 M99\n",
+        "mnc",
+        Setup(tools={1: Tool(radius=4, angle=90)}),
+    )
+    wide = "G305 D-12.5 is wider than the tool, 8: the cone ends at the tool's diameter"
+    assert warnings(found) == [wide][: diameter < -8]
+
+
 # --- a depth of 0 -----------------------------------------------------------------------------------------------------
 
 DEEP = {code: [p for p in cycle.parameters() if p.name in ("depth", "thread_depth", "end_tool_axis", "end_3rd_axis")]

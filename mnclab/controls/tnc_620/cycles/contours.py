@@ -234,7 +234,11 @@ class RoughOut(Cycle):
             m.warn(f"{self.code} Q2={data.overlap:.10g} {sentence}", hint="Q2=1 leaves nothing")
 
     def enter(self, m: Machine, ring: Contour, height: float, above: float, level: float, plunge: float) -> None:
-        """Over the start of a ring, then down to its level."""
+        """Over the start of a ring, then down to its level.
+
+        It goes across at the clearance height Q7, from above as from below: that is the height for positioning (8.4), and
+        nothing stands in the way there, so that coming down to it at the old place is safe.
+        """
         m.rapid(z=height)
         m.rapid(*_start(ring))
         m.rapid(z=above)
