@@ -49,7 +49,8 @@ def test_rough_out_goes_across_at_its_clearance_height(height):
     contour = "LBL 1\nL X+0 Y+0 RL F100\nL X+80 Y+0\nL X+80 Y+60\nL X+0 Y+60\nL X+0 Y+0\nLBL 0\n"
     data = "CYCL DEF 20 C\nQ1=-5\nQ2=1\nQ3=0\nQ4=0\nQ5=0\nQ6=2\nQ7=30\nQ8=0\nQ9=1\n"
     rough = "CYCL DEF 22 R\nQ10=5\nQ11=100\nQ12=200\nQ18=0\nQ19=0\nQ208=FMAX\n"
-    text = f"TOOL CALL 1 Z S1000\nL X-9 Y-9 Z{height:+g} FMAX M3\nCYCL DEF 14.0 C\nCYCL DEF 14.1 LBL1\n{data}{rough}CYCL CALL\nM2\n"
+    head = f"TOOL CALL 1 Z S1000\nL X-9 Y-9 Z{height:+g} FMAX M3\nCYCL DEF 14.0 C\nCYCL DEF 14.1 LBL1\n"
+    text = f"{head}{data}{rough}CYCL CALL\nM2\n"
     found = mnclab.run(text + contour, "tnc-620", Setup(tools={1: Tool(radius=5)}, start=(-9, -9, height)))
     rows = found.toolpath.motion
     across = rows[(rows.kind == Kind.RAPID) & (rows.end != rows.start)[:, :2].any(axis=1)]
