@@ -153,6 +153,8 @@ class Cycle:
     """Addresses that run a "position" cycle in a later block."""
     in_variables: ClassVar[bool] = True
     """Whether its Q parameters are variables of the program, on a control that has them."""
+    shares: ClassVar[bool] = False
+    """Whether what is modal holds from one cycle to the next, until they are switched off, and not only for itself."""
     own_spindle: ClassVar[bool] = False
     """Whether it turns the spindle itself, so that none need turn before it."""
     does: ClassVar[str] = true_size.VISITS

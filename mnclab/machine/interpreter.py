@@ -191,7 +191,8 @@ class Interpreter:
         marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
         values, words = values | dict.fromkeys(marks, 1.0), words | marks
         again = machine.position_cycle
-        if again is not None and again.cycle is cycle:  # written again or not, what is modal holds
+        same = again is not None and (again.cycle is cycle or (cycle.shares and again.cycle.shares))
+        if again is not None and same:  # written again or not, what is modal holds
             modal = {p.name for p in cycle.parameters() if p.modal}
             values = {k: v for k, v in again.values.items() if k in modal} | values
             definition = Definition(cycle, code, values, words, head, again.extra)

@@ -18,6 +18,7 @@ from mnclab.machining.clearing import Clearing, numbered
 from mnclab.machining.depths import MOST
 from mnclab.machining.face_milling import Layer, face
 from mnclab.machining.facing import lines, rows
+from mnclab.machining.residue import within
 from mnclab.machining.steps import Go
 
 CYCLES = CycleTable()
@@ -187,6 +188,12 @@ class FaceMilling(Surface):
             near = far = self.start_x + self.length_x / 2
         return lines(across, left, right, radius, within=(near, far)), lines(across, near, far, radius)
 
+    def residue(self, radius: float) -> float:
+        """What of the finished surface lines that end within it leave, mm² (MNC-G321-L1END)."""
+        if self.strategy != 1:
+            return 0.0
+        return within(self.length_x, self.length_y, radius, self.across(radius), outside=len(self.levels()) == 1)
+
     def layers(self, radius: float) -> Iterator[Layer]:
         """Every second level backwards; the finishing infeed at its own feed."""
         first, other = self.clearings(radius)
@@ -204,6 +211,12 @@ class FaceMilling(Surface):
         if not self.levels():
             m.warn(f"{self.code} Z and W are the same height: nothing is milled")
             return
+        if (area := self.residue(m.radius) * m.scale**2) > 1e-9:
+            m.warn(
+                f"{self.code} L1 leaves {area:.3f} mm² of the surface uncut: the lines end within it, in the corners and between "
+                "two lines the tool is round",
+                hint="L0 and L2 mill all of it",
+            )
         above = self.level_from + self.clearance
         end = max(m.programmed[2], above)
         self.approach(m, above)

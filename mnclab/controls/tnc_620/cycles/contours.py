@@ -19,6 +19,7 @@ from mnclab.machine.recording import Recording
 from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.depths import infeeds
 from mnclab.machining.pockets import rings
+from mnclab.machining.residue import left_by
 from mnclab.path.outline import outline
 
 CYCLES = CycleTable()
@@ -209,6 +210,8 @@ class RoughOut(Cycle):
             )  # fmt: skip
         except ValueError as error:
             m.alarm(f"{self.code}: {error}{remark(m)}", hint="take a smaller tool")
+        if data.overlap > 1:
+            self.warn_of_residue(m, region, data)
         above, plunge = data.surface + data.clearance, self.swing_feed or self.plunge_feed
         levels = infeeds(data.surface, floor, abs(self.infeed))
         for number, level in enumerate(levels, 1):
@@ -226,8 +229,20 @@ class RoughOut(Cycle):
         feed = self.retract_feed
         m.line(z=data.height, f=INF if isinstance(feed, str) else feed or self.feed)
 
+    def warn_of_residue(self, m: Machine, region: Region, data: ContourData) -> None:
+        """Rings more than a radius apart may not meet in sharp corners."""
+        stepover = data.overlap * m.radius
+        area = left_by(rings(region, m.radius, stepover, allowance=data.side_allowance)) * m.scale**2
+        if area >= 0.001:
+            sentence = f"leaves {area:.3f} mm² of each level uncut, where the rings turn sharply"
+            m.warn(f"{self.code} Q2={data.overlap:.10g} {sentence}", hint="Q2=1 leaves nothing")
+
     def enter(self, m: Machine, ring: Contour, height: float, above: float, level: float, plunge: float) -> None:
-        """Over the start of a ring, then down to its level."""
+        """Over the start of a ring, then down to its level.
+
+        It goes across at the clearance height Q7, from above as from below: that is the height for positioning (8.4), and
+        nothing stands in the way there, so that coming down to it at the old place is safe.
+        """
         m.rapid(z=height)
         m.rapid(*_start(ring))
         m.rapid(z=above)

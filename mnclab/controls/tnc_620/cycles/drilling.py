@@ -53,6 +53,13 @@ class Centering(Hole):
                 yield "mode", "1 cannot run under unequal scales of the plane: a diameter would be two"
         yield from moving("feed", self.feed, "to drill with")
 
+    def moves(self, m: Machine) -> None:
+        """As every hole; a cone is not wider than the tool."""
+        if self.mode and abs(self.diameter) > 2 * m.radius > 0:
+            sentence = f"is wider than the tool, {2 * m.radius:.10g}: the cone ends at the tool's diameter"
+            m.warn(f"{self.code} Q344={self.diameter:.10g} {sentence}")
+        super().moves(m)
+
     def steps(self, m: Machine) -> Iterator[Step]:
         """Down, dwell, out."""
         yield Go("centre", self.bottom(m), self.feed)

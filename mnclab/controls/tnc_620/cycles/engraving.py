@@ -129,7 +129,7 @@ class Engraving(AtSurface):
 
     def moves(self, m: Machine) -> None:
         """Stroke by stroke; nothing where the depth is 0."""
-        if self.depth == 0:
+        if not self.executed(m):
             return
         found = self.tokens(m)
         height = self.height(found)

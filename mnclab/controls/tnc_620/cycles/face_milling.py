@@ -141,6 +141,7 @@ class FaceMilling(Cycle):
     def moves(self, m: Machine) -> None:
         """Steps 1 to 9 of the manual."""
         if self.height == 0:
+            m.warn(f"{self.code} Q386 makes a depth of 0: the cycle is not executed")
             return
         above = self.start_3rd_axis + self.clearance
         high = self.start_3rd_axis + max(self.second_clearance, self.clearance)

@@ -315,7 +315,7 @@ class WalledFaceMilling(AtSurface):
 
     def moves(self, m: Machine) -> None:
         """To the start, over all levels, to the second set-up clearance."""
-        if self.down == 0:
+        if not self.executed(m):
             return
         if not (self.roughs or self.finishes_side or self.finishes_floor):
             m.warn(f"{self.code} Q215=2 finishes nothing: neither Q369 nor Q368 with a limit is given")

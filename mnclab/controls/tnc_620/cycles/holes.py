@@ -46,7 +46,7 @@ class Hole(AtSurface):
 
     def moves(self, m: Machine) -> None:
         """To the set-up plane and then what the cycle does; nothing for a depth of 0."""
-        if self.down:  # with spindle and coolant as at the call
+        if self.executed(m):  # with spindle and coolant as at the call
             perform(m, self.code, [Go("to the set-up clearance", self.above), *self.steps(m)])
 
 

@@ -132,7 +132,7 @@ class Pocket(InsideMilling):
 
     def moves(self, m: Machine) -> None:
         """Roughing in layers, the walls in infeeds, the floor; then back to where the tool was called."""
-        if self.depth == 0 or self.finishes_nothing(m):
+        if not self.executed(m) or self.finishes_nothing(m):
             return
         called, centre, radius, side = m.programmed[:2], self.centre(m), m.radius, 1 if self.climb else -1
         room, whole = self.room(radius, self.side_allowance), self.room(radius, 0.0)

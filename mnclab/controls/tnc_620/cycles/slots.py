@@ -124,7 +124,7 @@ class Slot(InsideMilling):
 
     def moves(self, m: Machine) -> None:
         """Each slot from the second set-up plane: roughing, side, floor."""
-        if self.depth == 0 or self.finishes_nothing(m):
+        if not self.executed(m) or self.finishes_nothing(m):
             return
         fits = self.is_as_wide_as(m.radius)
         if fits and not self.roughs:

@@ -118,7 +118,7 @@ class Stud(FigureMilling):
 
     def moves(self, m: Machine) -> None:
         """To S, and from there roughing in layers, the side in infeeds, the floor."""
-        if self.depth == 0 or self.finishes_nothing(m):
+        if not self.executed(m) or self.finishes_nothing(m):
             return
         aside, side = ASIDE / m.scale, 1 if self.climb else -1
         centre, start, off = self.centre(m), self.start(m.radius, aside), self.off(aside)

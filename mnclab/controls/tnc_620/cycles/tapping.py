@@ -60,8 +60,8 @@ class Tapping(AtSurface):
 
     def moves(self, m: Machine) -> None:
         """Set-up plane, thread, end plane; a spindle that stands still turns again as it did before."""
-        if self.thread_depth == 0:
-            return  # not executed
+        if not self.executed(m):
+            return
         turning, speed = m.turning, m.speed
         perform(m, self.code, [Go("to the set-up clearance", self.above)])
         perform(m, self.code, self.steps(m))

@@ -191,7 +191,7 @@ class InnerThreadMilling(ThreadMilling):
 
     def moves(self, m: Machine) -> None:
         """Not executed with a depth of 0."""
-        if self.thread_depth:
+        if self.executed(m):
             super().moves(m)
 
 
