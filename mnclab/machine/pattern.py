@@ -107,7 +107,7 @@ def _state(m: Machine) -> tuple[Any, ...]:
     """What a visit must leave as it found it, so that the next one is the same."""
     return (
         m.programmed[2], m.cycle, dict(m.modal), dict(m.variables), m.feed, m.per_rev, m.speed, m.turning, m.tool, m.side,
-        m.plane, m.synchronous, len(m.alarms), m.ended, len(m.settled),
+        m.plane, m.synchronous, m.alarms.total, m.ended, len(m.settled),
     )  # fmt: skip
 
 
@@ -142,7 +142,7 @@ def _lasting(m: Machine) -> tuple[Any, ...]:
     modal = {p.name: definition.values.get(p.name) for p in definition.cycle.parameters() if p.modal}
     return (
         m.programmed[2], definition.cycle, modal, dict(definition.extra), dict(m.modal), m.feed, m.per_rev, m.speed, m.turning,
-        m.tool, m.side, m.plane, m.synchronous, len(m.alarms), m.ended,
+        m.tool, m.side, m.plane, m.synchronous, m.alarms.total, m.ended,
     )  # fmt: skip
 
 
