@@ -67,7 +67,10 @@ __all__ = [
 def compare(region: object, tool: object, *strategies: object, **options: object) -> object:
     """Strategies for clearing an area side by side, a table when shown (needs shapely): `comparison.strategies`."""
     from mnclab.comparison.strategies import compare as build
+    from mnclab.geometry.regions import Region
 
+    if not isinstance(region, Region):
+        raise TypeError(f"compare takes a Region first, got {type(region).__name__}")
     return build(region, tool, *strategies, **options)  # type: ignore[arg-type]
 
 
@@ -77,7 +80,10 @@ def compare_turning(profile: object, blank: float, *arguments: object, **options
     `profile` is an open contour of points (z, r) from the face to the chuck, `blank` the radius of the blank, mm.
     """
     from mnclab.comparison.turning import compare as build
+    from mnclab.geometry.contours import Contour
 
+    if not isinstance(profile, Contour):
+        raise TypeError(f"compare_turning takes a Contour first, got {type(profile).__name__}")
     return build(profile, blank, *arguments, **options)  # type: ignore[arg-type]
 
 

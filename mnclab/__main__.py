@@ -140,8 +140,10 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--machine", metavar="M", help="a named machine, or a .toml file (default: limits of the setup)")
     sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function")
-    sub.add_argument("code", nargs="+", metavar="CODE", help="such as G83 or CYCL DEF 200")
-    sub.add_argument("--control", choices=list(mnclab.controls), required=True)
+    sub.add_argument(
+        "code", nargs="+", metavar="CODE", help="such as G83 or CYCL DEF 200; the name of a control: all its codes"
+    )
+    sub.add_argument("--control", choices=list(mnclab.controls), help="default: the only one that has the code")
     command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow")
     return top
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
 from html import escape
-from pathlib import Path
+from itertools import islice
+from pathlib import Path, PurePath
 
 from mnclab.controls import CONTROLS
 from mnclab.machine.control import Control, Function
@@ -12,12 +14,15 @@ from mnclab.machine.cycle import Cycle, help_html, help_table
 from mnclab.machine.run import Run, run_program
 from mnclab.machine.settings import Setting, settings_html, settings_table
 from mnclab.machine.setup import Setup
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.file import read as read_file
 from mnclab.text.given import shown
 from mnclab.text.nearest import hint, nearest
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, decode
+
+LOOKED_AT = 20_000  # characters of a program that tell its control
+MOST_FILES = 1000  # of a folder, looked through for a name
 
 
 def run(
@@ -28,13 +33,20 @@ def run(
     ``source``: a text, or the path of a file. ``control``: a name of ``mnclab.controls``; None asks the file's suffix, then
     the text, and refuses to guess when two fit. Faults are collected in ``run.alarms``; ``strict`` raises the first.
     """
+    if setup is not None and not isinstance(setup, Setup):
+        raise TypeError(f"setup must be a Setup, got {type(setup).__name__}")
     program = source if isinstance(source, Program) else read(source, control)
-    return run_program(program, CONTROLS[program.control], setup, strict=strict)
+    result = run_program(program, CONTROLS[program.control], setup)
+    if not result.ok and not any(alarm.severity == ALARM for alarm in program.alarms):
+        _point_out_another(program, result.alarms)
+    if strict and not result.ok:
+        raise next(alarm for alarm in result.alarms if alarm.severity == ALARM)
+    return result
 
 
 def read(source: str | Path, control: str | None = None) -> Program:
     """Read a part program into blocks without running it; see :func:`run` for the arguments."""
-    text, name, encoding = _text_of(source)
+    text, name, encoding = _text_of(source, control)
     chosen = choose(control, name, text)
     program = chosen.read(text, name)
     object.__setattr__(program, "encoding", encoding)
@@ -42,7 +54,22 @@ def read(source: str | Path, control: str | None = None) -> Program:
         object.__setattr__(program, "folder", str(Path(name).parent))
     for alarm in program.alarms:
         alarm.source = program
+    _point_out_another(program, program.alarms)
     return program
+
+
+def _point_out_another(program: Program, alarms: tuple[Alarm, ...]) -> None:
+    """Say at the first alarm that a text with faults is plainly a program of another control."""
+    first = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
+    if first is None:
+        return
+    head = program.text[:LOOKED_AT]
+    if len(program.text) > LOOKED_AT:  # whole lines
+        head = head[: max(head.rfind("\n"), head.rfind("\r")) + 1]
+    alike = [one.name for one in CONTROLS.values() if one.looks_like and one.looks_like(head)]
+    if len(alike) == 1 and alike[0] != program.control:
+        said = f"this looks like a {alike[0]} program, and was read as one of {program.control}"
+        first.hint = f"{said}; {first.hint}" if first.hint else said
 
 
 def modern(source: str | Path | Program | Run, control: str | None = None) -> Notation:
@@ -59,16 +86,52 @@ def modern(source: str | Path | Program | Run, control: str | None = None) -> No
     return chosen.modern(program)
 
 
-def _text_of(source: str | Path) -> tuple[str, str, str]:
-    """Text, name and code page. A text with a line end is a program; one without is a path if such a file exists."""
-    if not isinstance(source, str | Path):
+def _text_of(source: str | Path, control: str | None) -> tuple[str, str, str]:
+    """Text, name and code page. A text with a line end is a program; one without is a path if there is such a file, or if
+    it looks like the name of one."""
+    if not isinstance(source, str | os.PathLike):
         raise Alarm(f"a program is a text or a Path, got {shown(source)}", hint='mnclab.run("G0 X5\\n", "mnc")')
+    path = Path(source)
     if isinstance(source, str):
-        if "\n" in source or "\r" in source or len(source) > 4096 or "\0" in source or not _is_file(source):
+        if "\n" in source or "\r" in source or len(source) > 4096 or "\0" in source:
             return source, "program", "str"
-        source = Path(source)
-    text, encoding = decode(read_file(source, source))
-    return text, str(source), encoding
+        if not _is_file(source) and not _names_a_file(source, control):
+            return source, "program", "str"
+    if isinstance(source, str) and not _is_file(source):
+        near = _files_near(path)
+        near = f"{near}; a text that is a program ends with a line end" if near else "a program ends with a line end"
+        raise Alarm(f"{path} cannot be read: there is no such file", hint=near)
+    text, encoding = decode(read_file(path, path))
+    return text, str(path), encoding
+
+
+def _names_a_file(text: str, control: str | None) -> bool:
+    """Whether a line is the name of a file that is not there, and no program.
+
+    One word with the suffix of a control (``part.mnc``) is a name. Words with such a suffix (``CALL PGM part.h``), or one
+    word with a path separator (``jobs/part``, ``/N10G0X5``), are a name where the control does not read them as blocks;
+    a slash that has no two letters beside one another (``X10/2``) divides.
+    """
+    name = text.strip()
+    suffixed = PurePath(name).suffix.lower() in {suffix for one in CONTROLS.values() for suffix in one.suffixes}
+    word = " " not in name and "\t" not in name
+    if suffixed and word:
+        return True
+    if not suffixed and not (word and re.search(r"[/\\]", name) and re.search(r"[^\W\d_]{2}", name)):
+        return False
+    try:
+        return any(alarm.severity == ALARM for alarm in choose(control, name, text).read(text, name).alarms)
+    except Alarm:  # no control is named, and nothing says which
+        return True
+
+
+def _files_near(path: Path) -> str:
+    """The names in a folder that are nearest to that of a file which is not there."""
+    try:
+        with os.scandir(path.parent) as entries:
+            return hint(path.name, [entry.name for entry in islice(entries, MOST_FILES)])
+    except OSError:
+        return f"there is no folder {path.parent}"
 
 
 def _is_file(name: str) -> bool:
@@ -105,13 +168,18 @@ def choose(control: str | None, name: str, text: str) -> Control:
 
 
 class Help:
-    """What a code or a setting means on a control: shown as text or as a table."""
+    """What a code or a setting means on a control, or all its codes: shown as text or as a table."""
 
-    def __init__(self, entry: Function | type[Cycle] | tuple[Setting, ...], control: Control) -> None:
+    def __init__(self, entry: Function | type[Cycle] | tuple[Setting, ...] | Control, control: Control) -> None:
         self.entry, self.control = entry, control
 
     def __str__(self) -> str:
         entry = self.entry
+        if isinstance(entry, Control):
+            rows = [(code, one.title) for code, one in entry.functions.items()]
+            rows += [(code, one.title) for code, one in entry.cycles.items()]
+            wide = max(len(code) for code, _ in rows)
+            return "\n".join([f"{entry.name}  {entry.title}", *(f"{code:{wide}}  {title}" for code, title in rows)])
         if isinstance(entry, tuple):
             return settings_table(entry)
         if isinstance(entry, Function):
@@ -124,6 +192,8 @@ class Help:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
+        if isinstance(self.entry, Control):
+            return self.entry._repr_html_()
         if isinstance(self.entry, tuple):
             return settings_html(self.entry)
         if isinstance(self.entry, Function):
@@ -132,14 +202,20 @@ class Help:
         return help_html(self.entry) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
 
 
-def help(code: str, control: str) -> Help:
-    """The parameter table of a cycle, the meaning of a function or setting; "settings" is the table of all settings.
+def help(code: str | Control = "", control: str | None = None) -> Help:
+    """The parameter table of a cycle, the meaning of a function or setting; "settings" is the table of all settings, and
+    the name of a control alone the table of its codes.
 
-    An Alarm with the nearest codes if there is none.
+    Without ``control`` that of the only control which has the code. An Alarm with the nearest codes if there is none.
     """
-    chosen = choose(control, "", "")
+    code = code.name if isinstance(code, Control) else code
     if not isinstance(code, str):
         raise Alarm(f"help is about a code or a setting, got {shown(code)}", hint='mnclab.help("G83", "mnc")')
+    if control is None and code in CONTROLS:
+        return Help(CONTROLS[code], CONTROLS[code])
+    chosen = choose(control, "", "") if control is not None else _only_one_with(code)
+    if code == chosen.name or not code.strip():
+        return Help(chosen, chosen)
     settings = {setting.name: setting for setting in chosen.settings}
     if code.strip().lower() in ("settings", *settings):
         return Help(tuple(one for name, one in settings.items() if code.strip().lower() in ("settings", name)), chosen)
@@ -152,6 +228,18 @@ def help(code: str, control: str) -> Help:
         raise Alarm(f"{wanted}: {chosen.refused[wanted]}")
     near = hint(wanted, (*chosen.functions, *chosen.cycles, "settings", *settings), 5)
     raise Alarm(f"{chosen.name} has no code {code!r}", hint=near)
+
+
+def _only_one_with(code: str) -> Control:
+    """The control that has a code; an Alarm where none or several have."""
+    having = [one for one in CONTROLS.values() if _normal(code, one) in {*one.functions, *one.cycles, *one.refused}]
+    if code.strip() and len(having) == 1:
+        return having[0]
+    whose = f"a code of {', '.join(one.name for one in having)}" if having else "no code of any control"
+    raise Alarm(
+        f"{code} is {whose}: name the control" if code.strip() else "help needs a code and a control",
+        hint=f'help("G83", "mnc"), or help("mnc") for all its codes; controls: {", ".join(CONTROLS)}',
+    )
 
 
 def _normal(code: str, control: Control) -> str:

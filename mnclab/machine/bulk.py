@@ -44,7 +44,10 @@ class PlainWords:
     ``motions`` maps the value of a G word to the code of its motion and its sense (0 rapid, 1 line, ±2 arcs, sign as in
     +2 counter-clockwise); a control without such words has one entry, None. ``ready`` says whether plain words mean
     plain motion now, ``absolute`` whether positions are absolute. Addresses other than :data:`LETTERS` change nothing in
-    a plain block (R0 of Klartext): its reader calls no other block plain.
+    a plain block (R0 of Klartext): its reader calls no other block plain. ``helices`` says whether arcs with a third
+    coordinate need no word of their own now, and hears how many more were made. ``letters`` are the addresses that the
+    control has; ``straight_arcs``: an arc without R and centre is a straight line, ``whole_circles``: one without
+    coordinates is a circle; where they are not, that is a fault.
     """
 
     motions: Mapping[float | None, tuple[str, int]]
@@ -52,6 +55,10 @@ class PlainWords:
     absolute: Callable[[Machine], bool] = lambda m: True
     keyword: str = ""
     tolerance: Callable[[Machine], float] = lambda m: 0.01
+    helices: Callable[[Machine, int], bool] = lambda m, count: False
+    letters: str = LETTERS
+    straight_arcs: bool = False
+    whole_circles: bool = True
 
 
 @dataclass
@@ -67,6 +74,7 @@ class _Run:
     arc: Mask
     centre: Array = field(default_factory=lambda: NOTHING)  # (n, 3) and angle (n,) where there is an arc
     angle: Array = field(default_factory=lambda: NOTHING)
+    helix: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))  # which blocks are
 
 
 class Bulk:
@@ -85,6 +93,9 @@ class Bulk:
         if self.rule.keyword and self.rule.keyword in program.keywords:
             plain &= program.keyword == program.keywords.index(self.rule.keyword)
         self.index = {name: k for k, name in enumerate(program.addresses) if len(name) == 1 and name in LETTERS}
+        strange = [k for name, k in self.index.items() if name not in self.rule.letters]
+        if strange and len(of_them := np.flatnonzero(np.isin(program.address, strange))):
+            plain[np.searchsorted(program.first, of_them, "right") - 1] = False
         self.breaks = np.append(np.flatnonzero(~plain), len(program))
         self.enabled = self.enabled and len(program) - len(self.breaks) + 1 >= SHORTEST
         self.codes = {value: code for value, (code, _) in self.rule.motions.items()}
@@ -176,7 +187,9 @@ class Bulk:
         if shaped.any():
             arc = (np.abs(motion) == 2) & shaped
             fault |= shaped & ~arc
+            fault |= arc & ~moves & (not rule.whole_circles)
             moves |= arc
+        fault |= moves & (np.abs(motion) == 2) & ~shaped & (not rule.straight_arcs)
         go = int(np.argmax(moves)) if moves.any() else n  # until then the tool stands where it stood
         begin = tuple(tips[0].tolist())
         if begin != machine.tip:  # a transformation was switched, or the register was turned there and back
@@ -233,7 +246,11 @@ class Bulk:
             c[by], shortage = centre_from_radius(s[by], e[by], radius, sense[by])
             fault[by] = (shortage > tolerance) | (chord < 1e-3) | (radius == 0) | ~np.isnan(to_centre[by]).all(axis=1)
         run.fault[k] |= fault
-        run.fault[k] |= run.points[k, normal] != run.points[k + 1, normal]  # a helix: the other tier remarks on it
+        rises = run.points[k, normal] != run.points[k + 1, normal]
+        if rises.any() and rule.helices(machine, 0):
+            run.helix = k[rises]
+        else:
+            run.fault[k] |= rises  # the other tier remarks on it
         angle = sweep(s, e, c, sense)
         centre = run.points[k].copy()
         centre[:, [first, second]] = c
@@ -252,6 +269,9 @@ class Bulk:
         steps = np.arange(step, step + count, dtype=np.int32)
         machine.step = step + count - 1
         self.log(run, steps, count)
+        if helices := int(np.searchsorted(run.helix, count)):
+            assert self.rule is not None
+            self.rule.helices(machine, helices)
         machine.programmed = tuple(run.points[count].tolist())
         machine.tip = tuple(run.tips[count].tolist())
         machine.source_line = int(self.program.line_of(first + count - 1))

@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
+from mnclab.machine.calls import Flow
 from mnclab.machine.control import Control, Function
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
 from mnclab.path.listing import figure, point, words
-from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.alarm import Alarm, quoted
 from mnclab.text.expression import Expression
 from mnclab.text.program import Word
 from mnclab.text.strings import NumberFromText, TextFormula
@@ -75,7 +76,7 @@ class Explanation:
     @property
     def title(self) -> str:
         """The line, and the block as written."""
-        text = self.program.line_text(self.moment.line).strip()
+        text = quoted(self.program.line_text(self.moment.line).strip())[0]
         times = _executions(self.run, self.moment.step)
         again = f" (execution {times})" if times > 1 else ""
         return f"line {self.moment.line}{again}: {text}"
@@ -84,7 +85,7 @@ class Explanation:
         lines = [self.title]
         if self.skipped:
             lines.append("  passed over: block skip is on")
-        lines += [f"  {alarm.severity}: {alarm.message}" for alarm in self.alarms]
+        lines += [f"  {alarm.severity}: {alarm.message}{alarm.others}" for alarm in self.alarms]
         wide = max((len(m.word) for m in self.meanings), default=0)
         for m in self.meanings:
             source = f"  [{m.source}]" if m.source else ""
@@ -196,10 +197,11 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
 def _plan(run: Run, moment: Moment) -> Plan | None:
     """How the words were handed out: planned anew in the state before the block; None where that is an alarm."""
     program = run.programs[run.steps.program[moment.step]]
-    if any(alarm.severity == ALARM and alarm.span and alarm.span.line == moment.line for alarm in program.alarms):
+    if run.steps.block[moment.step] in program.faulty_blocks():
         return None
     control, history, before = run.control, run.history, moment.step - 1
     machine = Machine(control, run.setup)
+    machine.flow = Flow(program, lambda block: None, lambda first, stop: 0, lambda index: None)  # where alarms stand
     groups = {function.group for function in control.functions.values() if function.group} | {control.motion}
     machine.modal.update(control.power_on())
     if before >= 0:

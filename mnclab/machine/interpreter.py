@@ -44,7 +44,8 @@ class Loaded:
     def __init__(self, control: Control, machine: Machine, program: Program, index: int) -> None:
         self.program, self.skips = program, bool(machine.settings.get("block_skip"))
         self.alarms = [self._passed_over(alarm) for alarm in alarms_of(program, index)]
-        self.faulty = {self._block_of(alarm) for alarm in self.alarms if alarm.severity == ALARM and alarm.span}
+        self.told = {self._block_of(alarm) for alarm in self.alarms if alarm.severity == ALARM and alarm.span}
+        self.faulty = set(program.faulty_blocks().tolist())
         self.bulk = Bulk(control, machine, program, self.faulty)
 
     def _block_of(self, alarm: Alarm) -> int:
@@ -57,7 +58,7 @@ class Loaded:
         """An alarm of the reader; no more than a warning in a block that is passed over."""
         if not (self.skips and alarm.span and len(self.program)) or not self.program.skip[self._block_of(alarm)]:
             return alarm
-        return Alarm(alarm.message, alarm.span, WARNING, alarm.hint, alarm.source)
+        return alarm.changed(severity=WARNING)
 
 
 class Interpreter:
@@ -114,7 +115,7 @@ class Interpreter:
         if skip and self.skips:
             return
         if index in self.faulty:
-            raise Stop
+            raise Stop if index in self.loaded[machine.program].told else untold_fault(machine, index)
         before = machine.programmed
         plan = self.plan_for(keyword, kinds, words)
         for which, sentence, hint in plan.remarks:
@@ -259,6 +260,12 @@ class Interpreter:
     def execute(self, definition: Definition) -> None:
         """Bind a definition and make its moves."""
         run_cycle(self.machine, definition)
+
+
+def untold_fault(machine: Machine, index: int) -> Alarm:
+    """What stops a run where the reader found so many faults of a kind that it only counts them."""
+    span = machine.flow.span_of_block(index)
+    return Alarm("this block is faulty: it has one of the many faults that are only counted", span)
 
 
 def unit_of(machine: Machine, parameter: Parameter) -> float:

@@ -47,7 +47,7 @@ def _level(m: Machine) -> tuple[Any, ...]:
 
 def _attributes(m: Machine, less: frozenset[str]) -> tuple[Any, ...]:
     return tuple(
-        (name, len(value) if name in GROWING else frozen(value, (m,)))
+        (name, getattr(value, "total", len(value)) if name in GROWING else frozen(value, (m,)))
         for name, value in vars(m).items()
         if not (name in MOVED or name in GIVEN or name in less)
     )

@@ -32,7 +32,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, Recorder, State
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.alarm import WARNING, Alarm, Span
+from mnclab.text.alarm import WARNING, Alarm, Alarms, Span
 from mnclab.text.expression import Expression
 from mnclab.text.program import Word
 from mnclab.text.strings import NumberFromText
@@ -54,7 +54,7 @@ class Machine:
         self.control, self.setup, self.tables = control, setup, Tables(setup)
         self.settings = chosen(control.settings, setup.settings, control.name, setup.source)
         self.flow: Flow  # set by the interpreter
-        self.alarms: list[Alarm] = []
+        self.alarms = Alarms()
         self.logs = Logs()
         self.step, self.source_line, self.program = -1, 0, 0
         self.ended = False

@@ -110,4 +110,4 @@ def alarms_of(program: Program, index: int) -> Iterator[Alarm]:
     """The alarms that a reader found in a program, at their places in a run."""
     for alarm in program.alarms:
         place = alarm.span._replace(program=index) if alarm.span else None
-        yield Alarm(alarm.message, place, alarm.severity, alarm.hint, program)
+        yield alarm.changed(span=place, source=program)

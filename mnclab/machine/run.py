@@ -32,7 +32,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.alarm import ALARM, Alarm, by_place
+from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of
 from mnclab.text.columns import fixed
 from mnclab.text.given import check_number, shown
 from mnclab.text.program import Block, Program
@@ -119,16 +119,17 @@ class Run:
         """The machine after the ``pass_``-th execution of a line (of one of ``programs``), or after a step.
 
         A line within a block of several lines means the block.
+        An Alarm if there is none.
         """
         if step is None:
             if line is None:
-                raise ValueError("at() needs a line or a step")
+                raise Alarm("at() needs a line or a step", hint="run.at(line=5)")
             found = self._executions(line, program)
             if not 1 <= pass_ <= len(found):
-                raise ValueError(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
+                raise Alarm(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
             step = int(found[pass_ - 1])
         if not 0 <= step < len(self.steps.block):
-            raise ValueError(f"step must be 0 … {len(self.steps.block) - 1}, got {step}")
+            raise Alarm(f"step must be 0 … {len(self.steps.block) - 1}, got {step}")
         which = int(self.steps.program[step])
         block = self.programs[which][int(self.steps.block[step])]
         block = replace(block, span=block.span._replace(program=which))
@@ -176,6 +177,8 @@ class Run:
         side, line. The place is exact, within lines and arcs too, unless coordinates are multiplied or in a function; see
         :mod:`mnclab.machine.moments`, and ``.exact`` of the result.
         """
+        if not isinstance(condition, str):
+            raise TypeError(f'a condition is a text such as "z < -5", got {type(condition).__name__}')
         return when(self, condition)
 
     def explain(
@@ -209,6 +212,8 @@ class Run:
 
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""
+        if not isinstance(setup, Setup):
+            raise TypeError(f"setup must be a Setup, got {type(setup).__name__}")
         return run_program(self.program, self.control, setup)
 
     # --- doors -------------------------------------------------------------------------------------------------------
@@ -299,8 +304,8 @@ class Run:
             "cutting length": float(lengths[~rapid].sum()),
             "rapid length": float(lengths[rapid].sum()),
             "time at feed": float(np.nansum(cutting_time) + dwell),
-            "alarms": sum(alarm.severity == ALARM for alarm in self.alarms),
-            "warnings": sum(alarm.severity != ALARM for alarm in self.alarms),
+            "alarms": sum(alarm.count for alarm in self.alarms if alarm.severity == ALARM),
+            "warnings": sum(alarm.count for alarm in self.alarms if alarm.severity != ALARM),
         }
 
     def __repr__(self) -> str:
@@ -309,7 +314,8 @@ class Run:
             f"<Run {s['program']} on {self.control.name}: {s['blocks']} blocks, {s['moves']} moves, "
             f"cutting {s['cutting length']:.3f} mm, rapid {s['rapid length']:.3f} mm, {s['time at feed']:.1f} s at feed>"
         )
-        return "\n".join([head, *map(str, self.alarms)])
+        shown, more = first_of(self.alarms)
+        return "\n".join([head, *map(str, shown), *filter(None, [more])])
 
     def _repr_html_(self) -> str:
         s = self.summary()
@@ -324,8 +330,7 @@ class Run:
         body = "".join(f"<td>{value}</td>" for value in cells.values())
         title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
         verdict = "" if self.alarms else "<p>no alarms</p>"
-        alarms = "".join(alarm._repr_html_() for alarm in self.alarms)
-        return f"<div>{title}<table><tr>{head}</tr><tr>{body}</tr></table>{verdict}{alarms}</div>"
+        return f"<div>{title}<table><tr>{head}</tr><tr>{body}</tr></table>{verdict}{card_html(self.alarms)}</div>"
 
 
 @contextmanager

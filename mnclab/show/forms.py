@@ -25,7 +25,7 @@ from mnclab.machine.run import Run
 from mnclab.machine.setup import Setup
 from mnclab.path.profile import Profile
 from mnclab.show import trial
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, card_html
 from mnclab.text.extras import require
 from mnclab.text.given import check_number, shown
 
@@ -319,5 +319,5 @@ def verdict(run: Run) -> str:
     figures = (
         f"cutting {s['cutting length']:.3f} mm, rapid {s['rapid length']:.3f} mm, {s['time at feed']:.1f} s at feed"
     )
-    alarms = "".join(alarm._repr_html_() for alarm in run.alarms)
+    alarms = card_html(run.alarms)
     return f'<div role="status">{"" if alarms else "no alarms; "}{figures}</div>{alarms}'

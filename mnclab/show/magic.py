@@ -23,7 +23,7 @@ from mnclab.machine.run import Run
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.path.tool import Tool
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, first_of
 
 
 class _Options(argparse.ArgumentParser):
@@ -91,7 +91,8 @@ def load_ipython_extension(shell: Any) -> None:
         name, run, chosen = run_cell(line, cell, shell.user_ns)
         shell.push({name: run})
         if chosen.quiet:
-            for alarm in run.alarms:
+            shown, more = first_of(run.alarms)
+            for alarm in (*shown, *filter(None, [more])):
                 display(alarm)
             return
         display(run)

@@ -2,14 +2,28 @@
 
 An alarm is worded as *code, address, meaning, what was allowed, what was found*, then a hint when the mistake
 is a known one. It prints like a compiler's message: place, sentence, the line, a caret under the word.
+
+A long program makes many alarms of one kind: :class:`Alarms` keeps the first and counts the others, and what is shown to
+people is the first of them and how many there are.
 """
 
 from __future__ import annotations
 
+import copy
+import re
+from array import array
+from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Any, NamedTuple, Protocol
 
 ALARM, WARNING = "alarm", "warning"
+WIDTH = 120  # characters of a line that an alarm quotes
+LONGEST = 600  # characters of a message or a hint: a word of the program may be as long as it likes
+SHOWN = 20  # alarms of a card
+PLACES = 5  # of alarms that are counted as one
+KEPT, KINDS = 1000, 100  # alarms of a kind; kinds that are told apart
+
+_WHAT_DIFFERS = re.compile(r"'[^']*'|\"[^\"]*\"|\S*[^\sa-z.,;:()]\S*")  # names and numbers in a sentence
 
 
 class Span(NamedTuple):
@@ -38,7 +52,8 @@ class Alarm(Exception):
     """A fault in the program, where it stands.
 
     ``span`` is None for a fault that is not in the text. ``source`` is the program it stands in; whoever reads or
-    runs a program fills it in, so that the alarm can show the line.
+    runs a program fills it in, so that the alarm can show the line. ``count`` is how many alarms it stands for, itself
+    and others like it, ``places`` where the first of them stand.
     """
 
     def __init__(
@@ -49,8 +64,33 @@ class Alarm(Exception):
         hint: str = "",
         source: Source | None = None,
     ) -> None:
+        message, hint = _shortened(message), _shortened(hint)
         super().__init__(message)
         self.message, self.span, self.severity, self.hint, self.source = message, span, severity, hint, source
+        self.count = 1
+        self.places: tuple[Span, ...] = (span,) if span else ()
+
+    def changed(self, **values: Any) -> Alarm:
+        """The same alarm with other values of its fields."""
+        other = copy.copy(self)
+        vars(other).update(values)
+        return other
+
+    def include(self, other: Alarm) -> None:
+        """Count another one with this."""
+        self.count += other.count
+        if len(self.places) < PLACES and other.span and other.span not in self.places:
+            self.places += (other.span,)
+
+    @property
+    def others(self) -> str:
+        """How many more alarms it stands for, and the first lines of those."""
+        if self.count == 1:
+            return ""
+        lines = dict.fromkeys(str(place.line) for place in self.places[1:] if not self.span or place.line != self.span.line)
+        listed = ", ".join(lines)
+        found = f" (line{'s' if len(lines) > 1 else ''} {listed}{', …' if self.count > len(self.places) else ''})"
+        return f"; {self.count - 1} more like it{found if lines else ' in this line'}"
 
     @property
     def place(self) -> str:
@@ -65,16 +105,18 @@ class Alarm(Exception):
         """The alarm in one line, as editors read it."""
         hint = f" ({self.hint})" if self.hint else ""
         place = f"{self.place}: " if self.place else ""
-        return f"{place}{self.severity}: {self.message}{hint}"
+        return f"{place}{self.severity}: {self.message}{self.others}{hint}"
 
     def lines(self) -> tuple[str, str]:
-        """The line of the program and the carets under the faulty characters; two empty strings if there is none."""
+        """The line of the program and the carets under the faulty characters; two empty strings if there is none.
+
+        Of a long line only what stands around them.
+        """
         if self.span is None or self.source is None:
             return "", ""
-        text = self.source.line_text(self.span.line)
-        before = text[: self.span.column - 1]
-        indent = "".join("\t" if c == "\t" else " " for c in before).ljust(self.span.column - 1)
-        return text, indent + "^" * max(1, min(self.span.length, max(1, len(text) - self.span.column + 1)))
+        text, at = quoted(self.source.line_text(self.span.line), self.span.column - 1)
+        indent = "".join("\t" if c == "\t" else " " for c in text[:at]).ljust(at)
+        return text, indent + "^" * max(1, min(self.span.length, max(1, len(text) - at)))
 
     def __str__(self) -> str:
         text, caret = self.lines()
@@ -93,7 +135,8 @@ class Alarm(Exception):
         text, caret = self.lines()
         colour = "#b3261e" if self.severity == ALARM else "#8a5a00"
         head = f'<span style="color:{colour};font-weight:600">{escape(self.severity)}</span> '
-        body = escape(f"{self.place}: {self.message}" if self.place else self.message)
+        said = self.message + self.others
+        body = escape(f"{self.place}: {said}" if self.place else said)
         hint = f"<br><em>{escape(self.hint)}</em>" if self.hint else ""
         shown = (
             f'<pre style="margin:.2em 0 .6em 1.5em;font-family:monospace">{escape(text)}\n{escape(caret)}</pre>'
@@ -113,7 +156,84 @@ class Alarm(Exception):
             "severity": self.severity,
             "message": self.message,
             "hint": self.hint,
+            "count": self.count,
+            "lines": [place.line for place in self.places],
         }
+
+
+class Alarms(list[Alarm]):
+    """Alarms as they come. A warning that was given before counts with the first; of alarms that differ in names and
+    numbers alone the first thousand are kept, and the last of these counts the others.
+
+    ``total`` is how many came, ``untold`` where those of severity "alarm" stand that were not kept: line * 2**32 + column.
+    """
+
+    def __init__(self, alarms: Iterable[Alarm] = ()) -> None:
+        super().__init__()
+        self.total, self.untold = 0, array("q")
+        self._first: dict[tuple[int, str, str], Alarm] = {}  # warnings, by program and text
+        self._kinds: dict[str, list[Any]] = {}  # kind -> how many are kept, the last of them
+        self.extend(alarms)
+
+    def append(self, alarm: Alarm) -> None:
+        """Keep an alarm, or count it with one that is kept."""
+        self.total += 1
+        key = alarm.span.program if alarm.span else 0, alarm.message, alarm.hint
+        if alarm.severity == WARNING and key in self._first:
+            self._first[key].include(alarm)
+            return
+        kind = alarm.severity + _WHAT_DIFFERS.sub("", alarm.message)
+        if kind not in self._kinds and len(self._kinds) >= KINDS:
+            kind = alarm.severity
+        kept = self._kinds.setdefault(kind, [0, alarm])
+        if kept[0] >= KEPT:
+            kept[1].include(alarm)
+            if alarm.severity == ALARM and alarm.span:
+                self.untold.append(alarm.span.line << 32 | alarm.span.column)
+            return
+        kept[:] = kept[0] + 1, alarm
+        if alarm.severity == WARNING:
+            self._first[key] = alarm
+        super().append(alarm)
+
+    def extend(self, alarms: Iterable[Alarm]) -> None:
+        """Keep or count several."""
+        for alarm in alarms:
+            self.append(alarm)
+
+    def warned(self, message: str, program: int = 0) -> Alarm | None:
+        """The warning of these words that was given before."""
+        return self._first.get((program, message, ""))
+
+
+def first_of(alarms: Sequence[Alarm]) -> tuple[list[Alarm], str]:
+    """Those that a card shows, alarms before warnings but in their order, and a sentence about the others."""
+    count = sum(alarm.count for alarm in alarms)
+    if len(alarms) <= SHOWN:
+        return list(alarms), ""
+    chosen = sorted(sorted(range(len(alarms)), key=lambda k: alarms[k].severity == WARNING)[:SHOWN])
+    rest = count - sum(alarms[k].count for k in chosen)
+    return [alarms[k] for k in chosen], f"… and {rest} more alarms and warnings, {count} in all"
+
+
+def card_html(alarms: Sequence[Alarm]) -> str:
+    """The first alarms as HTML, and how many more there are."""
+    shown, more = first_of(alarms)
+    return "".join(alarm._repr_html_() for alarm in shown) + (f"<p>{more}</p>" if more else "")
+
+
+def quoted(text: str, at: int = 0) -> tuple[str, int]:
+    """A line as people are shown it, at most a screen's width around a character, and where that stands in it."""
+    if len(text) <= WIDTH:
+        return text, at
+    begin = max(0, min(at, len(text)) - WIDTH // 3)
+    before, after = "… " if begin else "", " …" if begin + WIDTH < len(text) else ""
+    return f"{before}{text[begin : begin + WIDTH]}{after}", at - begin + len(before)
+
+
+def _shortened(text: str) -> str:
+    """A sentence without the middle of what makes it too long."""
+    return text if len(text) <= LONGEST else f"{text[: LONGEST * 2 // 3]} … {text[-LONGEST // 3 :]}"
 
 
 def by_place(alarms: list[Alarm]) -> tuple[Alarm, ...]:

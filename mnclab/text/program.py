@@ -10,6 +10,7 @@ be sorted in.
 from __future__ import annotations
 
 import re
+from array import array
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
@@ -19,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.text.alarm import Alarm, Span
+from mnclab.text.alarm import ALARM, Alarm, Alarms, Span, card_html
 from mnclab.text.columns import fixed
 from mnclab.text.expression import Expression
 
@@ -120,6 +121,8 @@ class Program:
     line_starts: NDArray[np.int32]
     payload: tuple[Any, ...] = ()
     alarms: tuple[Alarm, ...] = ()
+    untold: tuple[int, ...] | array[int] = ()
+    """Places of faults that ``alarms`` only counts: line * 2**32 + column."""
     comment_mark: str = "//"
     """What a comment begins with, as a regular expression."""
     encoding: str = "utf-8"
@@ -169,7 +172,7 @@ class Program:
 
     def span(self, offset: int, length: int = 1) -> Span:
         """Line and column of a place in the text."""
-        line = int(np.searchsorted(self.line_starts, offset, "right"))
+        line = int(self.line_starts.searchsorted(np.int32(offset), "right"))  # another type would copy them all
         return Span(line, offset - int(self.line_starts[line - 1]) + 1, length)
 
     def span_of_block(self, index: int) -> Span:
@@ -196,6 +199,13 @@ class Program:
         last[some] = np.maximum(first[some], np.searchsorted(self.line_starts, word, "right"))
         return first, last
 
+    def faulty_blocks(self) -> NDArray[np.int64]:
+        """The blocks in which the reader found faults, told one by one or not: a run stops there."""
+        told = [a.span.line << 32 | a.span.column for a in self.alarms if a.severity == ALARM and a.span]
+        place = np.concatenate([np.array(told, dtype=np.int64), np.array(self.untold, dtype=np.int64)])
+        offset = self.line_starts[(place >> 32) - 1] + (place & 0xFFFFFFFF) - 1
+        return np.unique(np.maximum(np.searchsorted(self.start, offset, "right") - 1, 0))
+
     def line_text(self, line: int) -> str:
         """The characters of one line, without its end; empty beyond the program."""
         if not 1 <= line <= len(self.line_starts):
@@ -215,7 +225,7 @@ class Program:
         return [self.line_text(line) for line in range(first, max(last, first + 1))]
 
     def __repr__(self) -> str:
-        return f"<Program {self.name}: {self.control}, {len(self)} blocks, {len(self.alarms)} alarms>"
+        return f"<Program {self.name}: {self.control}, {len(self)} blocks, {sum(a.count for a in self.alarms)} alarms>"
 
     def _repr_html_(self) -> str:
         rows = "".join(
@@ -225,9 +235,8 @@ class Program:
             for block in (self[i] for i in range(min(len(self), 40)))
         )
         more = f"<p>… {len(self) - 40} more blocks</p>" if len(self) > 40 else ""
-        alarms = "".join(alarm._repr_html_() for alarm in self.alarms)
         head = "<tr><th>line</th><th>block</th><th>words</th><th>comment</th></tr>"
-        return f"<table>{head}{rows}</table>{more}{alarms}"
+        return f"<table>{head}{rows}</table>{more}{card_html(self.alarms)}"
 
 
 def decode(data: bytes) -> tuple[str, str]:
@@ -274,12 +283,12 @@ class ProgramBuilder:
         self.words: list[tuple[int, float, int, int, int, int]] = []  # address, value, form, flag, offset, length
         self.blocks: list[tuple[int, int, bool, bool, int]] = []  # offset, keyword, skip, plain, first word
         self.payload: list[Any] = []
-        self.alarms: list[Alarm] = []
+        self.alarms = Alarms()
         self.labels: dict[str, int] = {}  # jump target -> offset of its block
 
     def span(self, offset: int, length: int = 1) -> Span:
         """Line and column of a place in the text."""
-        line = int(np.searchsorted(self.line_starts, offset, "right"))
+        line = int(self.line_starts.searchsorted(np.int32(offset), "right"))  # another type would copy them all
         return Span(line, offset - int(self.line_starts[line - 1]) + 1, length)
 
     def alarm(self, message: str, offset: int, length: int = 1, hint: str = "", severity: str = "alarm") -> None:
@@ -351,6 +360,7 @@ class ProgramBuilder:
             line_starts=self.line_starts,
             payload=tuple(self.payload),
             alarms=tuple(sorted(self.alarms, key=lambda alarm: (alarm.span or Span(0, 0))[:2])),
+            untold=self.alarms.untold,
             comment_mark=self.comment_mark,
             labels={name: int(np.searchsorted(heads[0], at)) for name, at in self.labels.items()},
         )

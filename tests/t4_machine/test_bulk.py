@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab.machine.bulk import SHORTEST
+from mnclab.machine.interpreter import Interpreter
+from mnclab.machine.machine import Machine
 
 HEAD = "G17 G90 G54 T1\nG92 X3 Y-2.5\nG1 X0 Y0 Z0 F100\n"
 
@@ -88,6 +90,51 @@ def test_the_tool_stands_where_it_was_until_a_block_moves(both, assert_equal, st
     assert_equal(bulk, single)
     assert (bulk.toolpath.end[-1] + bulk.toolpath.origin).tolist() == pytest.approx([-3, 2.5 + 10, 3])
     assert bulk.toolpath.kind[-2:].tolist() == [mnclab.Kind.LINE] * 2
+
+
+def round_blocks(first, second, third):
+    """Arcs of all kinds in a plane, some without a centre, some with a third coordinate, and words that may not be there."""
+    i, k = {"X": "I", "Y": "J", "Z": "K"}[first], {"X": "I", "Y": "J", "Z": "K"}[second]
+    ends = st.sampled_from([f"{first}20", f"{first}0 {second}0", f"{first}10 {second}10", ""])
+    centre = st.sampled_from(["R10", "R-40", f"{i}10", f"{i}-10", f"{i}3 {k}4", "", "R2"])
+    rise = st.sampled_from(["", f" {third}1", f" {third}-2.5"] if third else [""])
+    arc = st.tuples(st.sampled_from(["G2", "G3", ""]), ends, rise, centre).map(lambda t: f"{t[0]} {t[1]}{t[2]} {t[3]}")
+    odd = st.sampled_from(["Y3", "J4", "K1", f"{i}5", "F0"])
+    back = st.sampled_from([f"G1 {first}0 {second}0", f"G0 {first}20", f"G1 {first}3 {second}4 F90"])
+    return st.one_of(arc, arc, arc, back, back, odd)
+
+
+@given(
+    st.sampled_from([("mnc", "XYZ"), ("g43", "XYZ"), ("jnc-t01", "XZ")]).flatmap(
+        lambda t: st.tuples(st.just(t[0]), st.lists(round_blocks(*t[1], *[""] * (3 - len(t[1]))), min_size=30, max_size=45))
+    ),
+    st.sampled_from(["warn", "accept", "refuse"]),
+)  # fmt: skip
+def test_arcs_of_three_controls(both, assert_equal, program, choice):
+    """Without a centre MNC goes straight, the others refuse; JNC wants an end, and has no Y and no J."""
+    control, blocks = program
+    still = "\n".join(f"G1 X{k % 5}" for k in range(SHORTEST))
+    text = f"G1 X0 Z0 F100\n{still}\n" + "\n".join(blocks) + "\n"
+    assert_equal(*both(text, control, **({"helix": choice} if control == "mnc" else {})))
+
+
+@pytest.mark.parametrize(("control", "before"), [("mnc", ""), ("g43", "G2 I5\nG3 I5\n")])
+def test_helices_go_on_in_bulk_and_are_one_warning(both, assert_equal, control, before):
+    """Threads turned by the hundred, each of half a turn between X0 and X20: radius 10, pitch 1."""
+    turns = [f"G{2 + k % 2} X{20 * (1 - k % 2)} Y0 Z{-(k + 1) / 2} R10" for k in range(2000)]
+    text = HEAD.replace("G92 X3 Y-2.5\n", "") + before + "\n".join(turns) + "\n"
+    bulk, single = both(text, control)
+    assert [str(a) for a in bulk.alarms] == [str(a) for a in single.alarms] and bulk.ok
+    told = [alarm for alarm in bulk.alarms if "helix" in alarm.message]
+    first = 3 + before.count("\n")
+    assert [alarm.count for alarm in told] == [2000] and bulk.summary()["warnings"] >= 2000
+    assert [place.line for place in told[0].places] == [first + k for k in range(5)]
+    assert f"1999 more like it (lines {first + 1}, {first + 2}" in str(told[0])
+    assert np.array_equal(bulk.toolpath.end, single.toolpath.end) and len(bulk.toolpath) >= 2000
+    program = mnclab.read(text, control)
+    machine = Machine(mnclab.controls[control], mnclab.Setup())
+    Interpreter(mnclab.controls[control], machine, program).run()
+    assert len(machine.flow.steps().block) - machine.flow.in_bulk < 300
 
 
 def test_a_long_run_is_really_obeyed_in_bulk(both, assert_equal, executed):

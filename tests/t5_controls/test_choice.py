@@ -89,3 +89,101 @@ def test_every_parameter_is_declared_in_full():
                 assert parameter.meaning and parameter.unit, (code, parameter.address)
                 if isinstance(parameter.default, int | float) and abs(parameter.default) < 1e12:
                     assert not parameter.refuses(parameter.default), (code, parameter.address)
+
+
+NAMES = [
+    "nofile.mnc", "part.H", "jobs/part", "jobs\\part.nc31", "/home/me/part", "my part.jnc", "./a b/my part.g43", "x5.g43",
+    "C:\\jobs\\x.h", "TNC:\\A\\B.H",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("control", [None, *mnclab.controls])
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("door", [mnclab.run, mnclab.read])
+def test_the_name_of_a_missing_file_is_not_obeyed(tmp_path, monkeypatch, door, name, control):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(Alarm, match=r"cannot be read: No such file or directory \(.*a (text that is a )?program") as found:
+        door(name, control)
+    assert found.value.message.startswith(name.replace("./", ""))
+
+
+PROGRAMS = [
+    ("mnc", "G0 X10/2"), ("mnc", "X10/2"), ("mnc", "/N10G0X5"), ("mnc", "/N10 G0 X5"), ("mnc", "G0X10//at/last"),
+    ("mnc", "G0 X5 // see jobs/a.mnc"), ("mnc", "// a/b"), ("tnc-620", "Q1=3/4"), ("tnc-620", "Q1 = 3/4"),
+    ("tnc-620", "FN 4: Q4 = +Q2 DIV +Q1"), ("tnc-620", "/ 5 L X+1 FMAX"), ("tnc-620", "/5 L X+1 FMAX ; in/out"),
+    ("tnc-620", "CALL PGM part.h"), ("tnc-620", "7 CALL PGM TNC:\\A\\B.H"), ("tnc-620", "; part.h"), ("g43", "G0 X1 ; a/b"),
+    ("jnc-t01", "G0 X1 ' drawing 12/3.jnc"), ("nc-31", "N1 X100~ ; in/out"), ("mnc", "hello"), ("mnc", "X1.5"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("control", "line"), PROGRAMS)
+def test_a_line_with_a_slash_or_a_name_in_it_is_a_program(control, line):
+    assert mnclab.read(line, control).text == line and mnclab.run(line, control).program.name == "program"
+
+
+def test_a_missing_file_is_told_with_the_nearest_names(tmp_path):
+    for name in ("bracket.h", "bracelet.h", "plate.h"):
+        (tmp_path / name).write_text("1 L X+1 FMAX\n")
+    for source in (tmp_path / "braket.h", str(tmp_path / "braket.h")):
+        with pytest.raises(Alarm) as found:
+            mnclab.run(source)
+        assert found.value.hint.startswith("near: bracket.h") and "plate" not in found.value.hint
+    with pytest.raises(Alarm, match="there is no folder"):
+        mnclab.run(str(tmp_path / "jobs" / "braket.h"))
+    with pytest.raises(Alarm, match="null byte"):
+        mnclab.read(tmp_path / "a\0b")
+
+
+OTHERS = {
+    "mnc": "N10 G90 G54\nN20 G1 X40 Y2 F100 // a cut\n",
+    "tnc-620": "0 BEGIN PGM A MM\n1 L X+40 R0 FMAX\n2 END PGM A MM\n",
+    "nc-31": "N1 F20\nN2 X4000 ~ *\nN3 Z200 ~\n",
+    "jnc-t01": "G90 F100 ' a comment\nG01 X40. T01\n",
+    "g43": "G0 X1 ; above\nG43 Z10 H1\n",
+}
+
+
+@pytest.mark.parametrize("control", OTHERS)
+@pytest.mark.parametrize("other", OTHERS)
+def test_faults_in_a_program_of_another_control_say_so_once(control, other):
+    run = mnclab.run(OTHERS[other] * 30, control)
+    said = [alarm for alarm in run.alarms if "this looks like" in alarm.hint]
+    assert len(said) == (other != control)
+    assert all(f"looks like a {other} program" in alarm.hint for alarm in said)
+
+
+def test_help_without_a_control():
+    for name, control in mnclab.controls.items():
+        table = mnclab.help(name)
+        assert all(code in str(table) for code in (*control.functions, *control.cycles))
+        assert str(mnclab.help(name, name)) == str(mnclab.help(control)) == str(table) and "<table>" in table._repr_html_()
+    assert "Drilling" in str(mnclab.help("CYCL DEF 200"))  # only one control has it
+    for code, said in (("G1", "a code of mnc, g43, jnc-t01"), ("zzz", "no code of any control"), ("", "needs a code")):
+        with pytest.raises(Alarm, match=said) as found:
+            mnclab.help(code)
+        assert 'help("G83", "mnc")' in found.value.hint
+
+
+RUN = mnclab.run("G0 X1\n", "mnc")
+
+
+@pytest.mark.parametrize(
+    ("call", "kind"),
+    [
+        (lambda: mnclab.run(5), TypeError), (lambda: mnclab.run(b"G0 X1"), TypeError), (lambda: mnclab.run(None), TypeError),
+        (lambda: mnclab.run("G0 X1\n", 5), TypeError), (lambda: mnclab.run("G0 X1\n", "mnc", {}), TypeError),
+        (lambda: mnclab.read([]), TypeError), (lambda: mnclab.modern(5), TypeError),
+        (lambda: mnclab.modern("no.nc31"), Alarm), (lambda: mnclab.help(83, "mnc"), TypeError),
+        (lambda: mnclab.help("G83", 5), TypeError), (lambda: mnclab.help("G83", "mmc"), Alarm),
+        (lambda: mnclab.diff("a.mnc", RUN), TypeError), (lambda: mnclab.diff(RUN, 5), TypeError),
+        (lambda: mnclab.compare(5, 5), TypeError), (lambda: mnclab.compare_turning(5, 5), TypeError),
+        (lambda: mnclab.editor(5), TypeError), (lambda: mnclab.form("G999", "mnc"), Alarm),
+        (lambda: RUN.at(), TypeError), (lambda: RUN.at(99), Alarm), (lambda: RUN.at(step=99), Alarm),
+        (lambda: RUN.explain(99), Alarm), (lambda: RUN.when(5), TypeError), (lambda: RUN.profile(5), TypeError),
+        (lambda: RUN.profile("zz"), Alarm), (lambda: RUN.again({}), TypeError), (lambda: RUN.save("x.zzz"), Alarm),
+    ],
+)  # fmt: skip
+def test_a_wrong_use_is_an_alarm_or_says_which_type_is_meant(call, kind):
+    with pytest.raises(kind, match="[a-z]+ [a-z]+") as found:
+        call()
+    assert "object has no attribute" not in str(found.value)

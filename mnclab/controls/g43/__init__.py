@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.g43 import cycles, language, lengths
+from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -94,5 +95,6 @@ CONTROL = Control(
         ready=lambda m: not lengths.pending(m) and {"G2", "G3"} <= m.memory.get("told", set()),
         absolute=lambda m: m.modal["dimension"] == "G90",
         tolerance=lambda m: float(m.settings["arc_tolerance"]),
+        helices=more_helices,
     ),
 )

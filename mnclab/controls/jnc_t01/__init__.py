@@ -93,5 +93,7 @@ CONTROL = Control(
         ready=motion.plain,
         absolute=lambda m: m.modal["dimension"] == "G90",
         tolerance=lambda m: float(m.settings["arc_tolerance"]),
+        letters="GXZIKRF",
+        whole_circles=False,
     ),
 )

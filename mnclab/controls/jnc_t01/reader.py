@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from mnclab.controls.word_address import reader as words
 from mnclab.controls.word_address.formats import misformed
-from mnclab.text.alarm import WARNING, Alarm
+from mnclab.text.alarm import WARNING, Alarm, Alarms
 from mnclab.text.program import Program
 
 COMMENT = "'"
@@ -31,11 +31,12 @@ def read(text: str, name: str = "program") -> Program:
     """A program of blocks; faults are collected in its alarms."""
     folded, places = _fold(text)
     program = replace(_words(folded, name), text=text)
-    alarms = [*program.alarms, *misformed(replace(program, text=folded), FORMATS)]
+    alarms = Alarms([*program.alarms, *misformed(replace(program, text=folded), FORMATS)])
     for at in places:
         message = f"{text[at]!r} is a Cyrillic letter, read as {_LOOKS_LATIN[text[at]].upper()}"
         alarms.append(Alarm(message, program.span(at), WARNING))
-    return replace(program, alarms=tuple(sorted(alarms, key=lambda alarm: alarm.span or (0, 0, 0))))
+    untold = (*program.untold, *alarms.untold)
+    return replace(program, alarms=tuple(sorted(alarms, key=lambda alarm: alarm.span or (0, 0, 0))), untold=untold)
 
 
 def _fold(text: str) -> tuple[str, list[int]]:

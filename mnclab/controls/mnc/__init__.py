@@ -13,6 +13,7 @@ import re
 from mnclab.controls.mnc import auxiliary, compensation, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared, tapping
 from mnclab.controls.mnc.settings import SETTINGS
+from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
@@ -77,5 +78,7 @@ CONTROL = Control(
         ready=lambda m: m.modal.get("motion") in ("G0", "G1", "G2", "G3"),
         absolute=language.absolute,
         tolerance=lambda m: float(m.settings["arc_tolerance"]),
+        helices=more_helices,
+        straight_arcs=True,
     ),
 )

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.statements import KEYWORDS_ONLY, WORDS, Statement, cycle_parameters, recognize
 from mnclab.controls.tnc_620.words import FLAGS, INCH, LARGEST, Cursor, Fault
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import KEPT, Alarm
 from mnclab.text.program import NONE, BulkBlocks, Program, ProgramBuilder, first_words
 from mnclab.text.words import Scan, characters, scan
 
@@ -31,6 +31,7 @@ _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
 _SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
 _PLAIN = "FRXYZ"  # letters of plain lines
+MOST_LETTERS = 30  # of a word that may have been meant as a statement
 PIECE = 1 << 14  # lines whose words are looked at together
 
 # A hexadecimal digit for each letter: added over a line of so few words that none overflows, 1 says that a letter stands once.
@@ -216,9 +217,11 @@ class _Lines:
             return cursor.unexpected()
         if len(word) == 1:
             return Fault(f"{word} begins no statement", cursor.at, hint="a straight line begins with L")
-        first = " ".join(cursor.rest().upper().split()[:2])
-        near = get_close_matches(first, [*WORDS, *KEYWORDS_ONLY, "CYCL DEF", "TCH PROBE"], 1, 0.7)
-        near = near or get_close_matches(word, [*WORDS, *KEYWORDS_ONLY], 2, 0.6)
+        near: list[str] = []
+        if len(word) <= MOST_LETTERS and self.builder.alarms.total < KEPT:  # those that follow are only counted
+            first = " ".join(cursor.rest().upper().split(maxsplit=2)[:2])[: 2 * MOST_LETTERS]
+            near = get_close_matches(first, [*WORDS, *KEYWORDS_ONLY, "CYCL DEF", "TCH PROBE"], 1, 0.7)
+            near = near or get_close_matches(word, [*WORDS, *KEYWORDS_ONLY], 2, 0.6)
         return Fault(
             f"{word} is no statement of this control", cursor.at, len(word), f"near: {', '.join(near)}" if near else ""
         )

@@ -8,6 +8,7 @@ from typing import Any
 from mnclab.machine.control import Words
 from mnclab.machine.machine import PLANES, Machine
 from mnclab.path.tool import Tool
+from mnclab.text.alarm import PLACES
 from mnclab.text.program import Word
 
 AXES = "XYZ"
@@ -75,9 +76,23 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
 
 def helix(m: Machine, words: Words) -> None:
     """Say that an arc with a word of the third axis is a helix."""
+    remark(m, "helix", _helix(m), words, AXES[PLANES[m.plane][2]])
+
+
+def _helix(m: Machine) -> str:
     third = AXES[PLANES[m.plane][2]]
-    sentence = f"{third} in an arc of the plane {m.plane} makes a helix, which the manual does not describe"
-    remark(m, "helix", sentence, words, third)
+    return f"{third} in an arc of the plane {m.plane} makes a helix, which the manual does not describe"
+
+
+def more_helices(m: Machine, count: int) -> bool:
+    """Whether helices go on without a word of their own, since they are allowed or enough of them were named; then
+    ``count`` more are counted."""
+    choice, told = m.settings.get("helix", "warn"), m.alarms.warned(_helix(m), m.program)
+    if choice == "warn" and told and len(told.places) >= PLACES:
+        told.count += count
+        m.alarms.total += count
+        return True
+    return choice not in ("warn", "refuse")
 
 
 def remark(m: Machine, setting: str, sentence: str, words: Words, address: str = "") -> None:
