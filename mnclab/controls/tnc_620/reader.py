@@ -25,7 +25,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.program import NONE, BulkBlocks, Program, ProgramBuilder, first_words
 from mnclab.text.words import Scan, characters, scan
 
-_UNIT = re.compile(r"(?:^|[\r\n])[ \t\ufeff]*/?[ \t]*\d*[ \t]*BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
+_UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
 _PLAIN = "FRXYZ"  # letters of plain lines
