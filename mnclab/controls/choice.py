@@ -246,7 +246,7 @@ def _normal(code: str, control: Control) -> str:
     """A code as the tables spell it: upper case, one blank, no leading zeros; a bare cycle number finds its cycle, and so
     does another name of it."""
     code = " ".join(code.upper().split())
-    if re.fullmatch(r"G0*\d+", code) and (named := control.names.get(f"G{int(code[1:])}")):
+    if re.fullmatch(r"G\d{1,20}", code) and (named := control.names.get(f"G{int(code[1:])}")):
         return named
     if len(code) > 1 and code[0] in control.codes and code[1:].isdigit():
         return f"{code[0]}{int(code[1:])}"

@@ -31,7 +31,7 @@ NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
 FEW = 1000  # stretches of blocks that are copied one after the other
 INCREMENTAL, RAPID_MARK, GROUP_MARK = 1, 2, 4  # bits of column ``flag``
 
-_NUMBER_OF_BLOCK = re.compile(r"[ \t]*/?[ \t]*(N[ \t]*\+?\d+|\d+)", re.IGNORECASE)
+_NUMBER_OF_BLOCK = re.compile(r"\ufeff*[ \t]*(?:/[ \t]*)?(N[ \t]*\+?\d+|\d+)", re.IGNORECASE)
 
 
 def digits(value: float) -> str:
@@ -148,8 +148,7 @@ class Program:
         index = range(len(self))[index]
         words = tuple(self.word(i) for i in range(self.first[index], self.first[index + 1]))
         lines = self._lines_of(index)
-        text = self.text[self.start[index] :].lstrip("\ufeff")
-        number = _NUMBER_OF_BLOCK.match(text)
+        number = _NUMBER_OF_BLOCK.match(self.text, int(self.start[index]))
         comments = (self._parted(line)[1].strip() for line in lines)
         return Block(
             number=re.sub(r"[\s+]", "", number.group(1)).upper() if number else "",

@@ -26,7 +26,7 @@ from mnclab.text.alarm import KEPT, Alarm
 from mnclab.text.program import NONE, BulkBlocks, Program, ProgramBuilder, first_words
 from mnclab.text.words import Scan, characters, scan
 
-_UNIT = re.compile(r"(?:^|[\r\n])[ \t\ufeff]*/?[ \t]*\d*[ \t]*BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
+_UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
 _SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
