@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from mnclab.machine.settings import Setting, settings_html
+from mnclab.machine.settings import COMMON, Setting, settings_html
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
 
@@ -176,6 +176,11 @@ class Control:
     preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
     local_variables: str = ""
     modern: Callable[[Program], Notation] | None = None
+
+    def __post_init__(self) -> None:
+        names = {setting.name for setting in self.settings}
+        common = (setting for setting in COMMON if setting.name not in names)
+        object.__setattr__(self, "settings", (*self.settings, *common))
 
     def power_on(self) -> dict[str, str]:
         """The modal state at the start: group -> code."""

@@ -119,7 +119,7 @@ def when(run: Run, text: str) -> Moments:
     return found
 
 
-def _of_block(node: Node, first: Rows, last: Rows) -> Node:
+def _of_block(node: Node, first: NDArray[np.integer[Any]], last: NDArray[np.integer[Any]]) -> Node:
     """A condition in which a line within a block of several lines, compared with the line, is the first of the block."""
     sides = node.parts
     if node.what == "comparison" and any(side.name == "line" and side.what == "name" for side in sides):

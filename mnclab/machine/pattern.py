@@ -128,7 +128,7 @@ def visit(m: Machine, place: Array, make: Callable[[], None], state: Callable[[M
     if m.recorder.count != waiting or not len(rows) or state(m) != before:
         return None
     inside = frames.apply(frames.inverse(m.frames.matrix), rows[:, _END])[:, :2]
-    there = (np.abs(inside - place) < SAME).all(axis=1)
+    there: NDArray[np.bool_] = np.all(np.abs(inside - place) < SAME, axis=1)
     lead = int(np.argmax(there))
     if not there[lead] or not (np.abs(inside[:lead] - came) < SAME).all():
         return None

@@ -56,6 +56,15 @@ class Setting(NamedTuple):
         return value
 
 
+#: What every control has.
+COMMON = (
+    Setting(
+        "most_rows", 4_000_000, "rows of the path beyond which a run ends, with 20 more for each block of the text",
+        "the memory of the computer", unit="rows", at_least=1000,
+    ),
+)  # fmt: skip
+
+
 def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str, source: Any = None) -> dict[str, Any]:
     """Values by name: the defaults, and what a Setup gives instead. An Alarm names what is unknown or not allowed.
 
