@@ -79,6 +79,7 @@ class Interpreter:
         machine.recorder.expected = len(program)
         machine.flow = Flow(program, self.obey, main.bulk.obey, self.switch)
         machine.flow.machine = machine
+        machine.recorder.most, machine.recorder.refuse = machine.flow.most_rows, machine.flow.too_many_rows
 
     def switch(self, index: int) -> None:
         """Obey the blocks of another program from now on."""

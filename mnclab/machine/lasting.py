@@ -22,9 +22,10 @@ GIVEN = frozenset(("control", "setup", "settings", "flow"))
 #: What grows and is not changed: its length says enough, and a long path is not looked through at every pattern.
 GROWING = frozenset(("alarms", "programmed_pieces", "settled", "gouges"))
 #: Of the course of the program: the programs, and the log of steps, of which the machine has the last.
-OF_FLOW = frozenset(("programs", "obey", "bulk", "switch", "machine", "watched", "_chunks", "_blocks"))
+OF_FLOW = frozenset(("programs", "obey", "bulk", "switch", "machine", "watched", "loops", "_chunks", "_blocks"))
 #: What is another one in each block of a run of holes; what is modal of the cycle is compared.
 OF_BLOCK = frozenset(("step", "source_line", "position_cycle"))
+OF_PASS = frozenset(("step", "source_line"))
 
 
 def lasting(m: Machine) -> tuple[Any, ...]:
@@ -39,6 +40,11 @@ def lasting_over_blocks(m: Machine) -> tuple[Any, ...]:
     assert definition is not None
     modal = {p.name: definition.values.get(p.name) for p in definition.cycle.parameters() if p.modal}
     return _level(m), _attributes(m, OF_BLOCK), definition.cycle, frozen(modal), frozen(definition.extra)
+
+
+def lasting_over_passes(m: Machine) -> tuple[Any, ...]:
+    """The same for the passes of a repeat: where it is equal, the next pass does what this one did, elsewhere."""
+    return _attributes(m, OF_PASS)
 
 
 def _level(m: Machine) -> tuple[Any, ...]:

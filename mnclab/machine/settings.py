@@ -63,6 +63,10 @@ EVERY = (
         "stopped_spindle", "warn", "moves at feed while the spindle stands", "every control",
         {"warn": "one warning, at the first of them", "accept": "no word"},
     ),
+    Setting(
+        "most_rows", 4_000_000, "rows of the path beyond which a run ends, with 20 more for each block of the text",
+        "the memory of the computer", unit="rows", at_least=1000,
+    ),
 )  # fmt: skip
 
 
