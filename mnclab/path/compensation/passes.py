@@ -28,7 +28,8 @@ def run_past(el: Elements, i: Index, j: Index) -> Mask:
     for p in crossings(one, two):
         turn = cross(_tangent(two, p), _tangent(one, p))
         with np.errstate(invalid="ignore"):
-            result |= np.isfinite(p[:, 0]) & (el.s[first] * turn < -ALONG)
+            joint = (last == first + 1) & (np.hypot(*(p - el.end[first]).T) < ENDS)
+            result |= np.isfinite(p[:, 0]) & ~joint & (el.s[first] * turn < -ALONG)
     return result
 
 
