@@ -126,7 +126,8 @@ class Readings:
         data leave open, which comes first then; Exhausted where the search ends before.
         """
         self.conflict = None
-        waiting, done = self.readings[::-1], []
+        waiting = self.readings[::-1]
+        done: list[Reading] = []
         while waiting:
             reading = waiting.pop()
             try:
