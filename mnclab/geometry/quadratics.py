@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 NEAR = 1e-3  # mm: data that are rounded as drawings are may contradict each other by as much
 SAME = 1e-7  # solutions closer than this, in units of the size of the contour, are one
-STARTS = 300  # starts of Newton's method in one round
+FIRST_STARTS, STARTS = 60, 300  # starts of Newton's method in the first round, and in each that follows
 MOST_UNKNOWNS = 16
 MOST_OPEN = 2 * MOST_UNKNOWNS  # after the linear equations: half of them may follow from quadratic ones
 MOST_SOLUTIONS = 64
@@ -240,11 +240,11 @@ class System:
         """
         random = np.random.default_rng(len(self.unknowns))
         found: list[Array] = []
-        idle = 0
+        idle, count = 0, FIRST_STARTS
         while idle < 3 and len(found) < MOST_SOLUTIONS:
-            starts = (random.normal(0, 1.0, (STARTS, len(begin))) - begin) @ basis
+            starts = (random.normal(0, 1.0, (count, len(begin))) - begin) @ basis
             if found:
-                near = np.array(found)[random.integers(len(found), size=STARTS // 2)]
+                near = np.array(found)[random.integers(len(found), size=count // 2)]
                 starts[: len(near)] = near + random.normal(0, 1, near.shape) * 10 ** random.uniform(
                     -3, 0, (len(near), 1)
                 )
@@ -255,7 +255,7 @@ class System:
             for end in ends[single]:
                 if all(np.abs(end - other).max() > SAME for other in found):
                     found.append(end)
-            idle = 0 if len(found) > before else idle + 1
+            idle, count = 0 if len(found) > before else idle + 1, STARTS
         return found
 
     def gap(self, k: int, scaled: Array) -> float:
@@ -408,7 +408,8 @@ def newton_from(
     """Solutions (m, v) of xᵀAx + bx + c = 0 (k equations) reached from starts (n, v), and which of them are single (m,).
 
     Levenberg's damping fades with the residual, so that the last steps are Newton's. Of many starts, for which ``work``
-    is counted, those that have arrived rest.
+    is counted, those that have arrived rest; at a solution
+    that is not single steps stay long, and only many of them show what it is.
     """
     x, (k, v) = starts.copy(), b.shape
     eye = np.eye(v)
@@ -425,7 +426,7 @@ def newton_from(
             ax = (a @ x[:, None, :, None])[..., 0]
         return (ax * x[:, None]).sum(axis=2) + x @ b.T + c, 2 * ax + b
 
-    going = np.arange(len(x))
+    going, last = np.arange(len(x)), np.full(len(x), np.inf)
     for _ in range(rounds):
         f, slope = value_and_slope(x[going])
         arrived = np.abs(f).max(axis=1, initial=0) < 1e-14
@@ -433,12 +434,14 @@ def newton_from(
             break
         if work is not None:
             work.spend(50 + len(going) * (2 + k * v * v / 600))
-            going, f, slope = going[~arrived], f[~arrived], slope[~arrived]
+            on = ~arrived | (last[going] > 1e-10)
+            going, f, slope = going[on], f[on], slope[on]
         damping = np.minimum((f**2).sum(axis=1), 1.0)[:, None, None] * 0.1 + 1e-13
         matrix = slope.transpose(0, 2, 1) @ slope + damping * eye
         step = np.linalg.solve(matrix, (f[:, None] @ slope)[:, 0, :, None])[:, :, 0]
         length = np.linalg.norm(step, axis=1, keepdims=True)
         x[going] -= step * np.minimum(1.0, 3.0 / np.maximum(length, 1e-300))
+        last[going] = length[:, 0]
     f, slope = value_and_slope(x)
     good = (np.abs(f).max(axis=1) < 1e-11) & (np.abs(x).max(axis=1) < 1e4)
     steepness = np.linalg.svd(slope[good], compute_uv=False)[:, -1] if good.any() else np.empty(0)

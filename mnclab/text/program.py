@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from mnclab.text.strings import NumberFromText, TextFormula
 
 NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
+MOST_WORDS = 1000  # of a block: what has more is no block of any control, and a long line must not fill the memory
 FEW = 1000  # stretches of blocks that are copied one after the other
 INCREMENTAL, RAPID_MARK, GROUP_MARK = 1, 2, 4  # bits of column ``flag``
 
@@ -284,6 +285,7 @@ class ProgramBuilder:
         self.payload: list[Any] = []
         self.alarms = Alarms()
         self.labels: dict[str, int] = {}  # jump target -> offset of its block
+        self.full = 0  # the number of the block that was told to be too long
 
     def span(self, offset: int, length: int = 1) -> Span:
         """Line and column of a place in the text."""
@@ -300,7 +302,13 @@ class ProgramBuilder:
         self.blocks.append((offset, key, skip, plain, len(self.words)))
 
     def word(self, address: str, value: Any, offset: int, length: int, flag: int = 0) -> None:
-        """Add a word to the block begun last."""
+        """Add a word to the block begun last; an alarm at the first of too many, and none of them is kept."""
+        size = len(self.words) - (self.blocks[-1][4] if self.blocks else 0)
+        if size >= MOST_WORDS:
+            if self.full != len(self.blocks):
+                self.full = len(self.blocks)
+                self.alarm(f"a block holds at most {MOST_WORDS} words, this one has more", offset, length)
+            return
         index = self.addresses.setdefault(address, len(self.addresses))
         if isinstance(value, int | float):
             self.words.append((index, float(value), NUMBER, flag, offset, length))

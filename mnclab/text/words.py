@@ -51,6 +51,12 @@ class Scan:
     starts: NDArray[np.int32]
     indented: bool
 
+    def without(self, lines: NDArray[np.bool_]) -> Scan:
+        """The same with some lines (l,) that are not clean."""
+        keep = np.repeat(~lines, self.count)
+        columns = (column[keep] for column in (self.letter, self.value, self.offset, self.length))
+        return Scan(*columns, np.where(lines, 0, self.count), self.clean & ~lines, self.starts, self.indented)
+
     @property
     def line(self) -> NDArray[np.int64]:
         """The line (w,) of each word, from 0."""

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.nearest import DIGITS, LATIN
-from mnclab.text.program import BulkBlocks, Program, ProgramBuilder, first_words
+from mnclab.text.program import MOST_WORDS, BulkBlocks, Program, ProgramBuilder, first_words
 from mnclab.text.words import Scan, scan
 
 PIECE = 1 << 16
@@ -51,6 +51,8 @@ def reader(
         found = scan(text)
         builder = ProgramBuilder(text, name, control, found.starts, comment)
         labels: list[tuple[int, int]] = []  # offset and number of the N words
+        if (long := found.count > MOST_WORDS).any():
+            found = found.without(long)
         bulk = _clean_blocks(builder, found, labels, mark.labels)
         for line in np.flatnonzero(~found.clean):
             _read_line(builder, text, int(found.starts[line]), mark, labels)
@@ -131,7 +133,9 @@ def plain_blocks(
 
 def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labels: list[tuple[int, int]]) -> None:
     """One line that is not clean: comment, block skip, words, and the first fault."""
-    end = min((k for k in (text.find("\n", begin), text.find("\r", begin)) if k >= 0), default=len(text))
+    line = int(np.searchsorted(builder.line_starts, np.int32(begin), "right"))
+    end = int(builder.line_starts[line]) if line < len(builder.line_starts) else len(text)
+    end = begin + len(text[begin:end].rstrip("\r\n"))
     comment = mark.comment.search(text, begin, end)
     stop = comment.start() if comment else end
     at = _skip_blanks(text, begin + (text[begin : begin + 1] == "\ufeff"), stop)
@@ -169,6 +173,8 @@ def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labe
             if abs(number) >= LARGEST:
                 builder.alarm(f"a number must be smaller than {LARGEST:g}", at, length)
             builder.word(address, number, at, length)
+            if builder.full == len(builder.blocks):
+                return
         at, first = _skip_blanks(text, match.end(), stop), False
 
 

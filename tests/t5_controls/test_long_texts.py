@@ -1,0 +1,62 @@
+"""Long lines and long words: bounded in memory and time, and said in one alarm."""
+
+import time
+import tracemalloc
+
+import pytest
+
+import mnclab
+from mnclab.text.nearest import nearest
+
+CONTROLS = ["mnc", "jnc-t01", "g43", "tnc-620"]
+
+
+@pytest.mark.parametrize("end", ["", " ;", " //", " A", " \u0425"])
+@pytest.mark.parametrize("word", ["X1", "X1 ", "G1X2Y-3. "])
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_line_of_very_many_words_is_no_block(control, word, end):
+    size = 300_000
+    begin = "L " if control == "tnc-620" else ""
+    tracemalloc.start()
+    run = mnclab.run(begin + word * (size // len(word)) + end + "\nM2\n", control)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert not run.ok and len(run.alarms) < 4 and len(run.program.value) < 1100
+    assert most < 150 * size  # bytes
+    if control != "tnc-620":
+        assert any("at most 1000 words" in alarm.message for alarm in run.alarms)
+
+
+def test_a_word_that_is_far_too_long_is_near_nothing():
+    begin = time.thread_time()
+    assert nearest("z" * 100_000, ["feed", "tool", "x" * 30]) == []
+    run = mnclab.run("G0 X1\n", "mnc")
+    with pytest.raises(mnclab.Alarm):
+        run.when("z" * 100_000)
+    with pytest.raises(mnclab.Alarm):
+        run.when("1 " * 50_000)
+    assert time.thread_time() - begin < 2
+    assert nearest("feeed", ["feed", "tool"]) == ["feed"]
+
+
+def test_a_block_is_found_without_a_copy_of_the_rest():
+    text = "N1 G0 X1\n" * 3 + "/ N4 X1 // four\n" + "N5 X2 (\n" * 2 + "X1\n" * 400_000
+    program = mnclab.read(text, "mnc")
+    assert [program[k].number for k in (0, 3, 4)] == ["N1", "N4", "N5"]
+    begin = time.thread_time()
+    for index in range(2000):
+        program[index]
+    assert time.thread_time() - begin < 1  # 0.05 s; a copy of a million characters for each took seconds
+
+
+@pytest.mark.parametrize("control", ["mnc", "g43", "jnc-t01"])
+def test_lines_with_comments_are_read_in_proportion_to_their_number(control):
+    mark = {"mnc": "//", "g43": ";", "jnc-t01": "'"}[control]
+    text = f"X1 {mark} a\n" * 20_000
+    tail = text + "G0 X1\n" * 400_000
+    begin = time.thread_time()
+    mnclab.read(text, control)
+    alone = time.thread_time() - begin
+    begin = time.thread_time()
+    mnclab.read(tail, control)
+    assert time.thread_time() - begin < 4 * alone + 4  # each line looked for a carriage return to the end of the text
