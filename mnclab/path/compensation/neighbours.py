@@ -40,7 +40,7 @@ class Pairs(NamedTuple):
 
     def take(self, which: Index) -> Pairs:
         """Some of them."""
-        return Pairs(*(column[which] for column in self))
+        return Pairs(self.k[which], self.corner[which], self.wall[which], self.reach[which])
 
 
 def looked_at(found: Equidistant, contour: Index) -> Pairs:
