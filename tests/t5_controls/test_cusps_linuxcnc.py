@@ -221,3 +221,21 @@ def test_what_is_refused_has_no_path(found):
             refused += 1
             assert control != "mnc" or not has_a_path(record), record["mnc"]
     assert refused > 300
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize(
+    "second, meets",
+    [
+        ([20, 0, 40, 0, 30, 0, -1], (20, math.sqrt(12**2 - 10**2))),  # circles of radius 12 about X10 and X30
+        ([20, 0, 20, 40], (18, math.sqrt(12**2 - 8**2))),  # the parallel to the wall
+    ],
+)
+def test_a_bump_and_what_touches_it_is_an_inside_corner(control, second, meets):
+    """A half circle of radius 10, then another one or a wall, whose tangents are opposite; tool radius 2 to the left."""
+    write, call = CONTROLS[control]
+    record = {"elements": [[0, 0, 20, 0, 10, 0, -1], second], "radius": 2, "side": 1}
+    run = mnclab.run("\n".join(write(record, 1, call)) + "\n", control, Setup(tools={1: Tool(radius=2)}))
+    assert run.ok, run.alarms
+    path = run.toolpath[(run.toolpath.side != 0) & run.toolpath.is_motion]
+    assert path.end[1, :2].tolist() == pytest.approx(meets)

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 FAR = 4  # elements on each side that are looked at
 WITHIN = 3.0  # tool radii along the contour
+BATCH = 1 << 16  # pairs measured at once
 HALF_TURN = np.pi - 1e-6
 
 
@@ -102,6 +103,9 @@ def _near_each_other(el: Elements, contour: Index, bent: Array) -> list[tuple[In
 
 def clearance(el: Elements, look: Pairs, radius: Array, rules: Compensation) -> Array:
     """How far the rows stay from the walls, for a radius each (m,); mm beyond the radius, infinite without a row."""
+    if len(look.k) > BATCH:
+        pieces = [np.arange(k, min(k + BATCH, len(look.k))) for k in range(0, len(look.k), BATCH)]
+        return np.concatenate([clearance(el, look.take(k), radius[k], rules) for k in pieces])
     n, c = len(look.k), np.flatnonzero(look.corner)
     begin, end = np.empty((n, 2)), np.empty((n, 2))
     centre, sweep, r = el.centre[look.k], np.zeros(n), np.full(n, np.nan)
