@@ -173,7 +173,7 @@ def test_201_and_202_come_out_at_feed(clearance, surface, second, depth, out, co
         assert back.spindle == 0 and path.spindle[-1] == 1000
 
 
-@given(**COMMON, diameter=hundredths(0.1, 20), by_diameter=st.booleans())
+@given(**COMMON, diameter=hundredths(0.1, 8), by_diameter=st.booleans())
 def test_240_centres_as_deep_as_its_cone(clearance, surface, second, depth, diameter, by_diameter):
     planes = {"clearance": clearance, "surface": surface, "second": second}
     path = drilled(240, {343: int(by_diameter), 344: -diameter, 206: 100, 211: 0}, depth=depth, **planes)

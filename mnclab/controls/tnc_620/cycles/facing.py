@@ -80,7 +80,7 @@ class WalledFaceMilling(AtSurface):
     finishing_feed: float = addresses.finishing_feed(at_most=addresses.FAR, example=400)
     prepositioning_feed: float = addresses.positioning_feed(example=750)
     side_clearance: float = addresses.length("Q357", "clearance to the side", incremental=True, example=2)
-    clearance: float = addresses.clearance(predef=True, example=2)
+    clearance: float = addresses.clearance(predef=True, example=3)
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
     limit_1: float = addresses.choice("Q347", "first limit", WALLS, example=2)
     limit_2: float = addresses.choice("Q348", "second limit", WALLS, default=0, example=1)
