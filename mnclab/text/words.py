@@ -54,8 +54,9 @@ class Scan:
     def without(self, lines: NDArray[np.bool_]) -> Scan:
         """The same with some lines (l,) that are not clean."""
         keep = np.repeat(~lines, self.count)
-        columns = (column[keep] for column in (self.letter, self.value, self.offset, self.length))
-        return Scan(*columns, np.where(lines, 0, self.count), self.clean & ~lines, self.starts, self.indented)
+        letter, value, offset, length = self.letter[keep], self.value[keep], self.offset[keep], self.length[keep]
+        count = np.where(lines, 0, self.count)
+        return Scan(letter, value, offset, length, count, self.clean & ~lines, self.starts, self.indented)
 
     @property
     def line(self) -> NDArray[np.int64]:
