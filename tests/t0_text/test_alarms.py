@@ -106,6 +106,7 @@ def test_a_long_line_is_quoted_around_its_caret(length, at):
 def test_a_long_line_of_a_program_is_not_quoted_whole(control, piece):
     run = mnclab.run(piece * (5_000 // len(piece)) + "?\n", control)
     assert run.alarms
-    for text in (repr(run), run._repr_html_(), *map(str, run.alarms[:3]), *("".join(a._render_traceback_()) for a in run.alarms[:3])):
+    traces = ["".join(alarm._render_traceback_()) for alarm in run.alarms[:3]]
+    for text in (repr(run), run._repr_html_(), *map(str, run.alarms[:3]), *traces):
         assert len(text) < 4000 + 12 * 600
     assert all(len(alarm.headline) < 2000 for alarm in run.alarms)

@@ -87,6 +87,7 @@ CONTROL = Control(
     looks_like=looks_like,
     refused=REFUSED,
     meanings=MEANINGS,
+    marks=notation.marks,
     one_command=True,
     lathe=True,
     modern=lambda program: notation.modern(program, CYCLES),
