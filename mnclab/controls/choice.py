@@ -100,7 +100,9 @@ def _text_of(source: str | Path, control: str | None) -> tuple[str, str, str]:
     except FileNotFoundError as error:
         near = _files_near(path)
         if isinstance(source, str):
-            near = f"{near}; a text that is a program ends with a line end" if near else "a program ends with a line end"
+            near = (
+                f"{near}; a text that is a program ends with a line end" if near else "a program ends with a line end"
+            )
         raise Alarm(f"{path} cannot be read: {error.strerror or error}", hint=near) from None
     except (OSError, ValueError) as error:
         raise Alarm(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from None
@@ -180,7 +182,8 @@ class Help:
     def __str__(self) -> str:
         entry = self.entry
         if isinstance(entry, Control):
-            rows = [(code, one.title) for code, one in (*entry.functions.items(), *entry.cycles.items())]
+            rows = [(code, one.title) for code, one in entry.functions.items()]
+            rows += [(code, cycle.title) for code, cycle in entry.cycles.items()]
             wide = max(len(code) for code, _ in rows)
             return "\n".join([f"{entry.name}  {entry.title}", *(f"{code:{wide}}  {title}" for code, title in rows)])
         if isinstance(entry, tuple):
@@ -213,7 +216,7 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
     """
     code = code.name if isinstance(code, Control) else code
     if not isinstance(code, str):
-        raise TypeError(f"a code is a text such as \"G83\", got {type(code).__name__}")
+        raise TypeError(f'a code is a text such as "G83", got {type(code).__name__}')
     if control is None and code in CONTROLS:
         return Help(CONTROLS[code], CONTROLS[code])
     chosen = choose(control, "", "") if control is not None else _only_one_with(code)

@@ -67,7 +67,8 @@ class Alarm(Exception):
         message, hint = _shortened(message), _shortened(hint)
         super().__init__(message)
         self.message, self.span, self.severity, self.hint, self.source = message, span, severity, hint, source
-        self.count, self.places = 1, (span,) if span else ()
+        self.count = 1
+        self.places: tuple[Span, ...] = (span,) if span else ()
 
     def changed(self, **values: Any) -> Alarm:
         """The same alarm with other values of its fields."""
