@@ -30,6 +30,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
+from mnclab.text.given import shown
 from mnclab.text.program import Program
 
 if TYPE_CHECKING:
@@ -96,12 +97,12 @@ def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) 
 
     for each in (one, other):
         if not isinstance(each, Run | Toolpath):
-            raise TypeError(f"diff takes two runs or toolpaths, got {type(each).__name__}")
+            raise Alarm(f"two runs or two paths can be compared, got {shown(each)}", hint="diff(run(…), run(…))")
     times = None
     if isinstance(one, Run) and isinstance(other, Run):
         times = one.profile().time, other.profile().time
     paths = [each.toolpath if isinstance(each, Run) else each for each in (one, other)]
-    names = [each.program.name if isinstance(each, Run) else "path" for each in (one, other)]
+    names = [each.program.title if isinstance(each, Run) else "path" for each in (one, other)]
     if names[0] == names[1]:
         controls = [each.control.name if isinstance(each, Run) else "" for each in (one, other)]
         marks = ["first", "second"] if controls[0] == controls[1] else controls

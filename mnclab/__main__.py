@@ -13,6 +13,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -41,21 +42,43 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):  # a Windows code page lacks letters that an alarm may quote
             stream.reconfigure(errors="replace")
+    try:
+        try:
+            return obeyed(arguments)
+        finally:  # what is printed is printed here, or the reason why not is said, even after --help
+            if sys.stdout is not None:
+                sys.stdout.flush()
+    except BrokenPipeError:  # the reader (head, less) has seen enough
+        give_up_printing()
+        return CLEAN
+    except OSError as error:  # a full disk, of the output or of the alarms
+        give_up_printing()
+        with suppress(OSError):
+            print(f"mnclab: the output cannot be written: {error.strerror or error}", file=sys.stderr)
+        return USAGE
+    except KeyboardInterrupt:
+        print("mnclab: interrupted", file=sys.stderr)
+        return INTERRUPTED
+
+
+def obeyed(arguments: Sequence[str] | None) -> int:
+    """Do what a command line says."""
     commands = parser()
     chosen, rest = commands.parse_known_args(arguments)
     if rest and chosen.do is not lab:
         commands.error(f"unrecognized arguments: {' '.join(rest)}")
     chosen.rest = rest
-    try:
-        status: int = chosen.do(chosen)
-        sys.stdout.flush()
-        return status
-    except BrokenPipeError:  # the reader (head, less) has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return CLEAN
-    except KeyboardInterrupt:
-        print("mnclab: interrupted", file=sys.stderr)
-        return INTERRUPTED
+    status: int = chosen.do(chosen)
+    return status
+
+
+def give_up_printing() -> None:
+    """Send what is still to be printed nowhere, so that Python does not complain of it when it ends."""
+    for stream in filter(None, (sys.stdout, sys.stderr)):
+        try:
+            stream.flush()
+        except OSError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def parser() -> argparse.ArgumentParser:

@@ -7,6 +7,7 @@ May import everything below; a control imports ``word_address``, never another c
 
 from __future__ import annotations
 
+import copyreg
 from collections.abc import Iterator, Mapping
 from html import escape
 from importlib import import_module
@@ -70,3 +71,11 @@ class Controls(Mapping[str, Control]):
 
 
 CONTROLS = Controls()
+
+
+def _known(name: str) -> Control:
+    """The control of a name, in whatever process it is wanted."""
+    return CONTROLS[name]
+
+
+copyreg.pickle(Control, lambda control: (_known, (control.name,)))  # so that a run can go from one process to another

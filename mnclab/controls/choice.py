@@ -15,6 +15,8 @@ from mnclab.machine.run import Run, run_program
 from mnclab.machine.settings import Setting, settings_html, settings_table
 from mnclab.machine.setup import Setup
 from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.file import read as read_file
+from mnclab.text.given import shown
 from mnclab.text.nearest import hint, nearest
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, decode
@@ -31,8 +33,6 @@ def run(
     ``source``: a text, or the path of a file. ``control``: a name of ``mnclab.controls``; None asks the file's suffix, then
     the text, and refuses to guess when two fit. Faults are collected in ``run.alarms``; ``strict`` raises the first.
     """
-    if setup is not None and not isinstance(setup, Setup):
-        raise TypeError(f"setup must be a Setup, got {type(setup).__name__}")
     program = source if isinstance(source, Program) else read(source, control)
     result = run_program(program, CONTROLS[program.control], setup)
     if not result.ok and not any(alarm.severity == ALARM for alarm in program.alarms):
@@ -88,24 +88,19 @@ def _text_of(source: str | Path, control: str | None) -> tuple[str, str, str]:
     """Text, name and code page. A text with a line end is a program; one without is a path if there is such a file, or if
     it looks like the name of one."""
     if not isinstance(source, str | os.PathLike):
-        raise TypeError(f"a program is a text or the path of a file, got {type(source).__name__}")
+        raise Alarm(f"a program is a text or a Path, got {shown(source)}", hint='mnclab.run("G0 X5\\n", "mnc")')
     path = Path(source)
     if isinstance(source, str):
         if "\n" in source or "\r" in source or len(source) > 4096 or "\0" in source:
             return source, "program", "str"
         if not _is_file(source) and not _names_a_file(source, control):
             return source, "program", "str"
-    try:
-        text, encoding = decode(path.read_bytes())
-    except FileNotFoundError as error:
+    if "\0" not in str(path) and not os.path.lexists(path):
         near = _files_near(path)
         if isinstance(source, str):
-            near = (
-                f"{near}; a text that is a program ends with a line end" if near else "a program ends with a line end"
-            )
-        raise Alarm(f"{path} cannot be read: {error.strerror or error}", hint=near) from None
-    except (OSError, ValueError) as error:
-        raise Alarm(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from None
+            near = f"{near}; a program ends with a line end" if near else "a program ends with a line end"
+        raise Alarm(f"{path} cannot be read: there is no such file", hint=near)
+    text, encoding = decode(read_file(path, path))
     return text, str(path), encoding
 
 
@@ -148,12 +143,10 @@ def _is_file(name: str) -> bool:
 def choose(control: str | None, name: str, text: str) -> Control:
     """The control that was named, or the one that the suffix or the text points to; an Alarm when none or two do."""
     if control is not None:
-        if not isinstance(control, str):
-            raise TypeError(f"control must be the name of a control, got {type(control).__name__}")
-        if control not in CONTROLS:
-            near = nearest(control, CONTROLS, 1)
+        if not isinstance(control, str) or control not in CONTROLS:
+            near = nearest(str(control)[:40], CONTROLS, 1)
             raise Alarm(
-                f"there is no control {control!r}",
+                f"there is no control {shown(control)}",
                 hint=f"known: {', '.join(CONTROLS)}" + (f"; near: {near[0]}" if near else ""),
             )
         return CONTROLS[control]
@@ -216,7 +209,7 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
     """
     code = code.name if isinstance(code, Control) else code
     if not isinstance(code, str):
-        raise TypeError(f'a code is a text such as "G83", got {type(code).__name__}')
+        raise Alarm(f"help is about a code or a setting, got {shown(code)}", hint='mnclab.help("G83", "mnc")')
     if control is None and code in CONTROLS:
         return Help(CONTROLS[code], CONTROLS[code])
     chosen = choose(control, "", "") if control is not None else _only_one_with(code)
@@ -252,7 +245,7 @@ def _normal(code: str, control: Control) -> str:
     """A code as the tables spell it: upper case, one blank, no leading zeros; a bare cycle number finds its cycle, and so
     does another name of it."""
     code = " ".join(code.upper().split())
-    if re.fullmatch(r"G0*\d+", code) and (named := control.names.get(f"G{int(code[1:])}")):
+    if re.fullmatch(r"G\d{1,20}", code) and (named := control.names.get(f"G{int(code[1:])}")):
         return named
     if len(code) > 1 and code[0] in control.codes and code[1:].isdigit():
         return f"{code[0]}{int(code[1:])}"

@@ -1,4 +1,4 @@
-"""Lines and arcs as plain curves, and how far points are from them."""
+"""Lines and arcs as plain curves, and how far points and other curves are from them."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.offsets import cross, dot
+from mnclab.geometry.offsets import Element, cross, dot, meetings
 
 Array = NDArray[np.float64]
+
+SLACK = 1e-9  # of a curve: beyond its ends a point is still on it
 
 
 class Curves(NamedTuple):
@@ -71,3 +73,66 @@ def distance(p: Array, curve: Curves) -> Array:
     beside = np.hypot(*(p - foot(p, curve)).T)
     on = (where >= 0) & (where <= 1) & np.isfinite(beside)
     return np.asarray(np.where(on, np.minimum(beside, at_ends), at_ends))
+
+
+def gap(a: Curves, b: Curves) -> Array:
+    """The least distance (n,) between curves a and b, each from its own; 0 where they cross."""
+    least = np.minimum(distance(a.start, b), distance(a.end, b))
+    least = np.minimum(least, np.minimum(distance(b.start, a), distance(b.end, a)))
+    for p in crossings(a, b):
+        least[np.isfinite(p[:, 0])] = 0.0
+    for one, other in ((a, b), (b, a)):
+        k = np.flatnonzero(one.arc)
+        if len(k):  # square to both: through the centre of the arc
+            arc, curve = one.take(k), other.take(k)
+            for q in _square(arc.centre, curve):
+                p = _toward(arc, q)
+                there = _on(q, curve) & _on(p, arc)
+                least[k] = np.where(there, np.minimum(least[k], np.hypot(*(q - p).T)), least[k])
+    return least
+
+
+def part(curve: Curves, begin: Array, end: Array) -> Curves:
+    """What lies between two shares (n,) of curves, 0 at their start and 1 at their end."""
+    travel, turn = curve.end - curve.start, np.where(curve.arc, curve.sweep, 0.0)
+
+    def at(where: Array) -> Array:
+        angle = turn * where
+        spoke, cos, sin = curve.start - curve.centre, np.cos(angle), np.sin(angle)
+        turned = np.stack([spoke[:, 0] * cos - spoke[:, 1] * sin, spoke[:, 0] * sin + spoke[:, 1] * cos], axis=1)
+        return np.where(curve.arc[:, None], curve.centre + turned, curve.start + travel * where[:, None])
+
+    return Curves(at(begin), at(end), curve.centre, curve.r, curve.sweep * (end - begin))
+
+
+def crossings(a: Curves, b: Curves) -> tuple[Array, Array]:
+    """The common points (n, 2) of curves a and b, at most two of each pair; nan where there is none."""
+    found = meetings(_whole(a), _whole(b))
+    for p in found:
+        p[~(_on(p, a) & _on(p, b))] = np.nan
+    return found
+
+
+def _whole(curve: Curves) -> Element:
+    """The whole line or circle."""
+    travel = curve.end - curve.start
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return Element(curve.start, travel / np.hypot(travel[:, 0], travel[:, 1])[:, None], curve.centre, curve.r)
+
+
+def _on(p: Array, curve: Curves) -> NDArray[np.bool_]:
+    where = share(p, curve)
+    return np.asarray((where >= -SLACK) & (where <= 1 + SLACK) & np.isfinite(p[:, 0]))
+
+
+def _square(centre: Array, curve: Curves) -> tuple[Array, Array]:
+    """Where lines through ``centre`` (n, 2) meet the whole curves at a right angle: near points and far ones (n, 2)."""
+    near = foot(centre, curve)
+    return near, np.where(curve.arc[:, None], 2 * curve.centre - near, near)
+
+
+def _toward(arc: Curves, q: Array) -> Array:
+    """The points (n, 2) of the whole circles on the side of q (n, 2)."""
+    spoke = q - arc.centre
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(arc.centre + spoke * (arc.r / np.hypot(spoke[:, 0], spoke[:, 1]))[:, None])

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 
 from mnclab.geometry.contours import Contour
+from mnclab.text.extras import require
+from mnclab.text.file import read
 
 TO_MM = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 8: 2.54e-5, 9: 0.0254, 10: 914.4, 13: 1e-3, 14: 100.0}
 
@@ -20,12 +22,15 @@ TO_MM = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 8: 2.54e-5, 9: 0.0254, 1
 def contours(source: str | Path, tolerance: float = 0.01, layer: str | None = None) -> list[Contour]:
     """All contours of the model space of a file, or of one layer; pieces are not yet joined (`drawings.joined`).
 
-    Raises ValueError where the file is no DXF, ImportError without ezdxf.
+    Raises ValueError where the file is no DXF, Alarm without ezdxf.
     """
+    require("ezdxf", "DXF drawings", "dxf")
     import ezdxf
 
     if not tolerance > 0:
         raise ValueError(f"the tolerance must be greater than 0, got {tolerance:g}")
+    if Path(source).exists():
+        read(source, source)  # refuses what is no file, which would be waited for
     try:
         drawing = ezdxf.readfile(str(source))
     except FileNotFoundError:

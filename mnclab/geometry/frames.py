@@ -10,6 +10,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.text.columns import fixed
+
 Matrix = NDArray[np.float64]
 IDENTITY = np.eye(4)
 IDENTITY.flags.writeable = False
@@ -99,7 +101,7 @@ class FrameChain:
     def set(self, name: str, matrix: Matrix | None) -> None:
         """Put a frame in its slot; None takes it away."""
         if matrix is not None:
-            self._frames[name] = matrix
+            self._frames[name] = fixed(matrix)
         elif name in self.slots:
             self._frames[name] = IDENTITY
         else:

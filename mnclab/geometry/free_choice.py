@@ -48,18 +48,17 @@ def is_within(pieces: Sequence[Piece], low: Sequence[float], high: Sequence[floa
 def crosses_itself(pieces: Sequence[Piece]) -> bool:
     """Whether the path runs through itself or along itself; touching at a point is neither."""
     points = outline(pieces)
-    a, b = points[:, :-1].reshape(-1, 1, 2), points[:, 1:].reshape(-1, 1, 2)
-    c, d = a.reshape(1, -1, 2), b.reshape(1, -1, 2)
     apart = (1e-9 * max(1.0, float(np.ptp(points))) ** 2) ** 2
-    if ((_side(a, b, c) * _side(a, b, d) < -apart) & (_side(c, d, a) * _side(c, d, b) < -apart)).any():
-        return True
+    low, high = points.min(axis=1) - ALONG, points.max(axis=1) + ALONG
+    near = (low[:, None] <= high).all(axis=2) & (low <= high[:, None]).all(axis=2)  # boxes around the elements
     curves = _curves(pieces)
-    inner = points[:, 1:-1]
-    for k in range(len(pieces)):
-        for other in range(len(pieces)):
-            same = curves.take(np.full(STEPS - 1, other))
-            if k != other and (distance(inner[k], same) < ALONG).any():
-                return True
+    for k, other in np.argwhere(near & ~np.eye(len(points), dtype=bool)):
+        a, b = points[k, :-1, None], points[k, 1:, None]
+        c, d = points[other, :-1], points[other, 1:]
+        if ((_side(a, b, c) * _side(a, b, d) < -apart) & (_side(c, d, a) * _side(c, d, b) < -apart)).any():
+            return True
+        if (distance(points[k, 1:-1], curves.take(np.full(STEPS - 1, other))) < ALONG).any():
+            return True
     return False
 
 

@@ -52,43 +52,46 @@ def beside(p: Array, t: Array, shift: Array) -> Array:
 
 def meet(first: Element, second: Element, near: Array) -> Array:
     """The common point (n, 2) of two elements that lies nearer to ``near`` (n, 2); nan where there is none."""
-    found = np.full(near.shape, np.nan)
+    p, q = meetings(first, second)
+    closer = np.hypot(*(p - near).T) <= np.hypot(*(q - near).T)
+    return np.where(closer[:, None], p, q)
+
+
+def meetings(first: Element, second: Element) -> tuple[Array, Array]:
+    """Both common points (n, 2) of two elements, twice the same for two lines; nan where there is none."""
+    found = np.full((2, *first.q.shape), np.nan)
     circle1, circle2 = ~np.isnan(first.r), ~np.isnan(second.r)
     with np.errstate(divide="ignore", invalid="ignore"):
         for mask, solve in (
             (~circle1 & ~circle2, _lines),
             (~circle1 & circle2, _line_circle),
-            (circle1 & ~circle2, lambda a, b, p: _line_circle(b, a, p)),
+            (circle1 & ~circle2, lambda a, b: _line_circle(b, a)),
             (circle1 & circle2, _circles),
         ):
             if mask.any():
-                found[mask] = solve(first.only(mask), second.only(mask), near[mask])
-    return found
+                found[:, mask] = solve(first.only(mask), second.only(mask))
+    return found[0], found[1]
 
 
-def _lines(a: Element, b: Element, _: Array) -> Array:
-    return a.q + (cross(b.q - a.q, b.t) / cross(a.t, b.t))[:, None] * a.t
+def _lines(a: Element, b: Element) -> tuple[Array, Array]:
+    point = a.q + (cross(b.q - a.q, b.t) / cross(a.t, b.t))[:, None] * a.t
+    return point, point
 
 
-def _line_circle(line: Element, circle: Element, near: Array) -> Array:
+def _line_circle(line: Element, circle: Element) -> tuple[Array, Array]:
     # with h = t x (C - q) and l0 = (C - q) . t the points lie at q + (l0 ± sqrt(r² - h²)) t
     away = circle.c - line.q
     h, l0 = cross(line.t, away), dot(away, line.t)
     reach = np.sqrt((circle.r - h) * (circle.r + h))[:, None]
     foot = line.q + l0[:, None] * line.t
-    return _nearer(foot - reach * line.t, foot + reach * line.t, near)
+    return foot - reach * line.t, foot + reach * line.t
 
 
-def _circles(a: Element, b: Element, near: Array) -> Array:
+def _circles(a: Element, b: Element) -> tuple[Array, Array]:
     d = b.c - a.c
     distance = np.hypot(d[:, 0], d[:, 1])
     along = (distance + (a.r - b.r) * (a.r + b.r) / distance) / 2
     unit = d / distance[:, None]
     foot = a.c + along[:, None] * unit
     reach = np.sqrt((a.r - along) * (a.r + along))[:, None]
-    return _nearer(foot - reach * left(unit), foot + reach * left(unit), near)
-
-
-def _nearer(p: Array, q: Array, near: Array) -> Array:
-    closer = np.hypot(*(p - near).T) <= np.hypot(*(q - near).T)
-    return np.where(closer[:, None], p, q)
+    return foot - reach * left(unit), foot + reach * left(unit)

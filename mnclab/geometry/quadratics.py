@@ -23,7 +23,27 @@ NEAR = 1e-3  # mm: data that are rounded as drawings are may contradict each oth
 SAME = 1e-7  # solutions closer than this, in units of the size of the contour, are one
 STARTS = 300  # starts of Newton's method in one round
 MOST_UNKNOWNS = 16
+MOST_OPEN = 2 * MOST_UNKNOWNS  # after the linear equations: half of them may follow from quadratic ones
 MOST_SOLUTIONS = 64
+SMALL = 24  # rows or columns of a matrix that is decomposed; larger ones would wake the threads of BLAS, see AT_ONCE
+AT_ONCE = 100_000  # products in one multiplication of matrices: with more BLAS would wake its threads, which costs more
+
+
+class Exhausted(Exception):
+    """The search for solutions has cost as much as it may."""
+
+
+class Work:
+    """What a search may still cost: about a microsecond each, counted and not measured, so that it always ends alike."""
+
+    def __init__(self, left: float = 0.0) -> None:
+        self.left = left
+
+    def spend(self, amount: float) -> None:
+        """Count some work; Exhausted when none is left, until more is granted."""
+        self.left -= amount
+        if self.left < 0:
+            raise Exhausted
 
 
 class Form:
@@ -148,8 +168,12 @@ class System:
         else:
             c[row] += factor * self.values[i]
 
-    def solve(self, newton: bool = False) -> list[Array] | None:
-        """All real solutions (v,), in mm; None if there are infinitely many, or without ``newton`` if they would need it."""
+    def solve(self, work: Work | None = None, newton: bool = False) -> list[Array] | None:
+        """All real solutions (v,), in mm; None if there are infinitely many, or without ``newton`` if they would need it.
+
+        ``work`` is what the search may cost; nothing bounds it without.
+        """
+        self.work = work or Work(np.inf)
         a, b, c = self.a, self.b, self.c
         begin, basis = np.zeros(len(self.unknowns)), np.eye(len(self.unknowns))
         while True:
@@ -159,15 +183,15 @@ class System:
                 break
             steep = np.linalg.norm(rows, axis=1)
             rows, rest = rows / steep[:, None], rest / steep
-            u, s, vt = np.linalg.svd(rows, full_matrices=True)
-            rank = int((s > 1e-8 * s[0]).sum())
-            step = -(vt[:rank].T / s[:rank]) @ (u.T[:rank] @ rest)
+            self.work.spend(250 + a.size * a.shape[1] / 500)
+            step, null = _solved(rows, rest)
             if np.abs(rows @ step + rest).max() > self.near:
                 return []
-            null = vt[rank:].T
+            if null.shape[1] > MOST_OPEN:
+                return None
             c = c + b @ step + np.einsum("kij,i,j->k", a, step, step)
             b = (b + 2 * a @ step) @ null
-            a = np.einsum("ip,kij,jq->kpq", null, a, null)
+            a = null.T @ a @ null
             begin, basis = begin + basis @ step, basis @ null
             if not basis.shape[1]:
                 break
@@ -191,6 +215,7 @@ class System:
             other = next((k for k, part in zip(curved, parts, strict=True) if 1 - abs(part @ parts[0]) > 1e-9), None)
             if other is None:
                 return None
+            self.work.spend(3000)
             return conics((a[curved[0]], b[curved[0]], c[curved[0]]), (a[other], b[other], c[other]))
         if not newton or count > MOST_UNKNOWNS:
             return None
@@ -223,7 +248,7 @@ class System:
                 starts[: len(near)] = near + random.normal(0, 1, near.shape) * 10 ** random.uniform(
                     -3, 0, (len(near), 1)
                 )
-            ends, single = newton_from(a, b, c, starts)
+            ends, single = newton_from(a, b, c, starts, work=self.work)
             if len(ends) and not single.any():
                 return None
             before = len(found)
@@ -253,13 +278,67 @@ class System:
 
         At any other place equations that follow from each other would look independent. 0 where no solution is found.
         """
+        return min((free.shape[1] for free in self._free(Work(np.inf))), default=0)
+
+    def settled(self, work: Work) -> set[int]:
+        """The unknowns that cannot move at some solution; all of them where no solution is found."""
+        moving = [np.abs(directions).max(axis=1, initial=0) > 1e-6 for directions in self._free(work)]
+        return {i for k, i in enumerate(self.unknowns) if not moving or not all(moves[k] for moves in moving)}
+
+    def _free(self, work: Work) -> list[Array]:
+        """The directions (v, d) in which the unknowns can move at each of some solutions."""
         random = np.random.default_rng(len(self.unknowns))
         starts = random.normal(0, 1.0, (20, len(self.unknowns)))
         if not len(self.c):
-            return len(self.unknowns)
-        ends, _ = newton_from(self.a, self.b, self.c, starts, rounds=40)
-        ranks = [np.linalg.matrix_rank(2 * self.a @ end + self.b, 1e-7) for end in ends]
-        return len(self.unknowns) - int(max(ranks, default=len(self.unknowns)))
+            return [np.eye(len(self.unknowns))]
+        ends, _ = newton_from(self.a, self.b, self.c, starts, rounds=40, work=work)
+        work.spend(len(ends) * len(self.unknowns) * 30)
+        return [_directions(2 * self.a @ end + self.b, 1e-7) for end in ends]
+
+
+def _solved(rows: Array, rest: Array) -> tuple[Array, Array]:
+    """The shortest x (v,) with rows x + rest = 0, as nearly as it can be had, and orthonormal directions (v, d) left open."""
+    v = rows.shape[1]
+    if max(rows.shape) <= SMALL:
+        u, s, vt = np.linalg.svd(rows, full_matrices=True)
+        rank = int((s > 1e-8 * s[0]).sum())
+        return -(vt[:rank].T / s[:rank]) @ (u.T[:rank] @ rest), vt[rank:].T
+    step = np.zeros(v)
+    reduced, pivots, columns = _reduced(np.column_stack([rows, rest]), v, 1e-8)
+    step[columns] = -reduced[pivots, v]
+    null, _ = np.linalg.qr(_directions(rows, 1e-8))
+    return step - null @ (null.T @ step), null
+
+
+def _reduced(matrix: Array, v: int, tolerance: float) -> tuple[Array, list[int], list[int]]:
+    """Gauss and Jordan's elimination of the first ``v`` columns, with rows and columns of the pivots."""
+    matrix, left = matrix.copy(), np.abs(matrix[:, :v])
+    rows: list[int] = []
+    columns: list[int] = []
+    while len(rows) < min(left.shape):
+        i, j = divmod(int(left.argmax()), v)
+        if left[i, j] <= tolerance:
+            break
+        rows.append(i)
+        columns.append(j)
+        matrix[i] /= matrix[i, j]
+        factors = matrix[:, j].copy()
+        factors[i] = 0
+        matrix -= factors[:, None] * matrix[i]
+        left = np.abs(matrix[:, :v])
+        left[rows] = 0
+    return matrix, rows, columns
+
+
+def _directions(matrix: Array, tolerance: float) -> Array:
+    """Directions (v, d) that a matrix (k, v) takes to nothing, independent of each other."""
+    v = matrix.shape[1]
+    reduced, rows, columns = _reduced(matrix, v, tolerance)
+    open_ = np.setdiff1d(np.arange(v), columns)
+    found = np.zeros((v, len(open_)))
+    found[open_, np.arange(len(open_))] = 1
+    found[columns] = -reduced[np.ix_(rows, open_)]
+    return found
 
 
 def _linear_rows(a: Array, b: Array, c: Array, flat: NDArray[np.bool_]) -> tuple[Array, Array]:
@@ -272,8 +351,13 @@ def _linear_rows(a: Array, b: Array, c: Array, flat: NDArray[np.bool_]) -> tuple
         return b[:0], c[:0]
     parts = a[curved].reshape(len(curved), -1)
     norm = np.linalg.norm(parts, axis=1)
-    u, s, _ = np.linalg.svd(parts / norm[:, None], full_matrices=True)
-    mix = u.T[int((s > 1e-9 * s[0]).sum()) :] / norm
+    parts = parts / norm[:, None]
+    if len(curved) <= SMALL and a.shape[1] ** 2 <= SMALL**2 / 2:
+        u, s, _ = np.linalg.svd(parts, full_matrices=len(parts) > parts.shape[1])  # all of u, not of v
+        mix = u.T[int((s > 1e-9 * s[0]).sum()) :] / norm
+    else:
+        mix = _directions(parts.T, 1e-9).T
+        mix = mix / np.linalg.norm(mix, axis=1, keepdims=True) / norm
     rows, rest = mix @ b[curved], mix @ c[curved]
     real = np.linalg.norm(rows, axis=1) > 1e-7
     return rows[real], rest[real]
@@ -318,32 +402,44 @@ def _cross(s: Array, t: Array, u: Array, v: Array) -> Array:
     return np.asarray(np.convolve(s, v) - np.convolve(u, t))
 
 
-def newton_from(a: Array, b: Array, c: Array, starts: Array, rounds: int = 80) -> tuple[Array, NDArray[np.bool_]]:
+def newton_from(
+    a: Array, b: Array, c: Array, starts: Array, rounds: int = 80, work: Work | None = None
+) -> tuple[Array, NDArray[np.bool_]]:
     """Solutions (m, v) of xᵀAx + bx + c = 0 (k equations) reached from starts (n, v), and which of them are single (m,).
 
-    Levenberg's damping fades with the residual, so that the last steps are Newton's.
+    Levenberg's damping fades with the residual, so that the last steps are Newton's. Of many starts, for which ``work``
+    is counted, those that have arrived rest.
     """
     x, (k, v) = starts.copy(), b.shape
     eye = np.eye(v)
     scale = np.maximum(np.sqrt((a**2).sum(axis=(1, 2)) + (b**2).sum(axis=1)), 1e-300)
     a, b, c = a / scale[:, None, None], b / scale[:, None], c / scale
     flat = a.reshape(k * v, v).T
+    piece = max(1, AT_ONCE // max(1, k * v * v))
 
-    def value_and_slope() -> tuple[Array, Array]:
-        ax = (x @ flat).reshape(len(x), k, v)
+    def value_and_slope(x: Array) -> tuple[Array, Array]:
+        if piece > 1:
+            parts = [x[i : i + piece] @ flat for i in range(0, max(1, len(x)), piece)]
+            ax = np.concatenate(parts).reshape(len(x), k, v)
+        else:
+            ax = (a @ x[:, None, :, None])[..., 0]
         return (ax * x[:, None]).sum(axis=2) + x @ b.T + c, 2 * ax + b
 
+    going = np.arange(len(x))
     for _ in range(rounds):
-        f, slope = value_and_slope()
-        error = np.abs(f).max(axis=1, initial=0)
-        if (error < 1e-14).all():
+        f, slope = value_and_slope(x[going])
+        arrived = np.abs(f).max(axis=1, initial=0) < 1e-14
+        if arrived.all():
             break
+        if work is not None:
+            work.spend(50 + len(going) * (2 + k * v * v / 600))
+            going, f, slope = going[~arrived], f[~arrived], slope[~arrived]
         damping = np.minimum((f**2).sum(axis=1), 1.0)[:, None, None] * 0.1 + 1e-13
         matrix = slope.transpose(0, 2, 1) @ slope + damping * eye
         step = np.linalg.solve(matrix, (f[:, None] @ slope)[:, 0, :, None])[:, :, 0]
         length = np.linalg.norm(step, axis=1, keepdims=True)
-        x = x - step * np.minimum(1.0, 3.0 / np.maximum(length, 1e-300))
-    f, slope = value_and_slope()
+        x[going] -= step * np.minimum(1.0, 3.0 / np.maximum(length, 1e-300))
+    f, slope = value_and_slope(x)
     good = (np.abs(f).max(axis=1) < 1e-11) & (np.abs(x).max(axis=1) < 1e4)
     steepness = np.linalg.svd(slope[good], compute_uv=False)[:, -1] if good.any() else np.empty(0)
     return x[good], steepness > 1e-7

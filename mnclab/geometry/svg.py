@@ -16,10 +16,13 @@ from xml.etree import ElementTree
 import numpy as np
 
 from mnclab.geometry.contours import Contour, Floats
+from mnclab.text.file import read
 
-NUMBER = re.compile(r"\s*,?\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)")
-FLAG = re.compile(r"\s*,?\s*([01])")
-LETTER = re.compile(r"\s*,?\s*([MmLlHhVvCcSsQqTtAaZz])")
+FIGURE = re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?")
+NUMBER = re.compile(rf"\s*(?:,\s*)?({FIGURE.pattern})")
+SIZE = re.compile(rf"({FIGURE.pattern})\s*([a-z]*)")
+FLAG = re.compile(r"\s*(?:,\s*)?([01])")
+LETTER = re.compile(r"\s*(?:,\s*)?([MmLlHhVvCcSsQqTtAaZz])")
 COUNT = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 UNITS = {"": 1.0, "px": 1.0, "mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6}
 SKIPPED = {"defs", "clipPath", "mask", "symbol", "marker", "pattern"}
@@ -32,7 +35,7 @@ def contours(source: str | Path, tolerance: float = 0.01) -> list[Contour]:
     """
     if not tolerance > 0:
         raise ValueError(f"the tolerance must be greater than 0, got {tolerance:g}")
-    text = source if isinstance(source, str) and "<" in source else Path(source).read_text("utf-8")
+    text = source if isinstance(source, str) and "<" in source else read(source, source).decode("utf-8")
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
@@ -42,8 +45,8 @@ def contours(source: str | Path, tolerance: float = 0.01) -> list[Contour]:
 
 def _page(root: ElementTree.Element) -> Floats:
     """The 2×3 matrix from drawing units, Y down, to mm, Y up."""
-    box = [float(v) for v in NUMBER.findall(root.get("viewBox", ""))]
-    size = [re.fullmatch(r"\s*([\d.eE+-]+)\s*([a-z]*)\s*", root.get(name, "")) for name in ("width", "height")]
+    box = [float(v) for v in FIGURE.findall(root.get("viewBox", ""))]
+    size = [SIZE.fullmatch(root.get(name, "").strip()) for name in ("width", "height")]
     given = [float(m[1]) * UNITS[m[2]] if m and m[2] in UNITS else None for m in size]
     x, y, wide, tall = box if len(box) == 4 else (0.0, 0.0, given[0] or 0.0, given[1] or 0.0)
     scale = next((g / side for g, side in zip(given, (wide, tall)) if g and side), 1.0)
@@ -90,8 +93,8 @@ def _as_path(name: str, element: ElementTree.Element) -> str:
 
 def _transform(text: str) -> Floats:
     matrix = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    for name, inside in re.findall(r"(\w+)\s*\(([^)]*)\)", text):
-        v = [float(number) for number in NUMBER.findall(inside)]
+    for name, inside in re.findall(r"(?<!\w)(\w+)\s*\(([^()]*)\)", text):
+        v = [float(number) for number in FIGURE.findall(inside)]
         if name == "matrix" and len(v) == 6:
             step = np.array([[v[0], v[2], v[4]], [v[1], v[3], v[5]]])
         elif name == "translate" and v:

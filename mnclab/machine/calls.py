@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.machine.lasting import lasting_over_passes
+from mnclab.machine.loops import Loop, Loops
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.program import Program
 
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
 
 DEEPEST = 20  # nested calls
 LONGEST = 1_000_000  # blocks that repeats and calls may add, one by one
+CERTAIN = 4  # times the limit of blocks: more than what passes along the same way may differ by
+ROWS_A_BLOCK = 20  # of the text, beside the rows that the setting most_rows allows
 
 
 class Steps(NamedTuple):
@@ -55,6 +59,7 @@ class Flow:
         self.found: dict[tuple[str, str], int] = {}  # indices of programs by folder of the caller, and name
         self.running = [0]  # the main program and those called, the innermost last
         self.current = 0  # block being obeyed
+        self.loops = Loops()
         self._chunks: list[tuple[int, NDArray[np.int64] | range]] = []  # program, blocks
         self._blocks: list[int] = []
         self._counted = 0
@@ -89,7 +94,9 @@ class Flow:
         self.enter(span)
         here = self.current
         self.calls += 1
+        self.loops.running.append(Loop(self.running[-1], here, 0, self.machine.step))
         self.section(self.index_of(label, span) + 1, len(self.program))
+        self.loops.running.pop()
         self.calls -= 1
         self.depth, self.returning, self.current = self.depth - 1, False, here
 
@@ -102,8 +109,10 @@ class Flow:
         self.enter(span)
         kept = self.current, self.calls, machine.source_line, machine.label
         self.calls, machine.label = 0, ""
+        self.loops.running.append(Loop(self.running[-1], self.current, 0, machine.step))
         with self.inside(index):
             self.section(0, len(self.program))
+        self.loops.running.pop()
         self.current, self.calls, machine.source_line, machine.label = kept
         self.depth, self.over = self.depth - 1, False
 
@@ -130,6 +139,7 @@ class Flow:
         """Another program that may be called; its index."""
         self.programs.append(program)
         self.limit += len(program)
+        self.machine.recorder.most = self.most_rows
         return len(self.programs) - 1
 
     @property
@@ -144,15 +154,36 @@ class Flow:
     def jump(self, label: str, span: Span | None = None) -> None:
         """Go on at a label."""
         self.target = self.index_of(label, span)
+        if self.target <= self.current:
+            self.loops.back(self.machine, self.target, span)
+
+    def ask(self, *values: Any) -> None:
+        """A function is about to decide where the program goes on; the values of the words that it reads for that."""
+        self.loops.ask(self.machine.step, values)
 
     def repeat(self, first: int, stop: int, times: int, span: Span | None = None) -> None:
         """Run the blocks [first, stop) a number of times more; a jump out of them ends that."""
         self.enter(span)
-        here = self.current
-        for _ in range(times):
+        here, recorder, before = self.current, self.machine.recorder, None
+        loop = Loop(self.running[-1], here, times, self.machine.step)
+        self.loops.running.append(loop)
+        for loop.done in range(1, times + 1):
+            loop.begun, begin, made = self.machine.step, self.begun - self.in_bulk, recorder.made
             self.section(first, stop, least=first)
             if self.returning or self.over or self.target >= 0 or self.machine.ended:
                 break
+            if loop.done > 2:
+                continue
+            blocks, rows = (self.begun - self.in_bulk - begin) * times, made + (recorder.made - made) * (times - loop.done)
+            if blocks > CERTAIN * self.limit and not self.loops.asked_since(loop.begun):
+                self._too_long(self.begun - 1, here)
+            if rows > recorder.most:  # and will be, if this pass was like the one before
+                now = lasting_over_passes(self.machine)
+                if before == now:
+                    self.current = here
+                    self.too_many_rows(rows)
+                before = now
+        self.loops.running.pop()
         self.depth, self.current = self.depth - 1, here
 
     def enter(self, span: Span | None) -> None:
@@ -179,19 +210,47 @@ class Flow:
         """The place of a block of the running program."""
         return self.program.span_of_block(block)._replace(program=self.running[-1])
 
+    @property
+    def begun(self) -> int:
+        """How many blocks were executed so far."""
+        return self._counted + len(self._blocks)
+
     def begin(self, block: int) -> int:
         """Note the execution of a block; the number of its step."""
         blocks = self._blocks
         step = self._counted + len(blocks)
         if step - self.in_bulk >= self.limit:
-            raise Alarm(f"jumps, repeats and calls ran {LONGEST} blocks without an end", self.span_of_block(block))
+            self._too_long(step, block)
         if not step & 1023:
             self.watched(step)
         blocks.append(block)
         return step
 
+    def _too_long(self, step: int, block: int) -> NoReturn:
+        """Stop at a block: there are too many to obey."""
+        self.machine.step = step
+        message = f"jumps, repeats and calls ran {LONGEST} blocks without an end{self.loops.told(self.machine)}"
+        raise Alarm(message, self.span_of_block(block))
+
+    @property
+    def most_rows(self) -> int:
+        """How many rows a run may have."""
+        blocks = sum(len(program) for program in self.programs)
+        return int(self.machine.settings["most_rows"]) + ROWS_A_BLOCK * blocks
+
+    def too_many_rows(self, count: int) -> NoReturn:
+        """Stop where the path would have so many rows."""
+        allowed = int(self.machine.settings["most_rows"])
+        raise Alarm(
+            f"the path would have {count} rows, more than the setting most_rows ({allowed}) and {ROWS_A_BLOCK} for each "
+            f"block of the text allow{self.loops.told(self.machine)}",
+            self.span_of_block(self.current),
+        )
+
     def begin_many(self, first: int, count: int) -> int:
         """Note the execution of blocks in a row; the number of the first step."""
+        if self.begun + count > self.most_rows + self.limit:  # that move nothing
+            self._too_long(self.begun - 1, first)
         self._flush()
         self.watched(self._counted)
         self._chunks.append((self.running[-1], range(first, first + count)))

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from mnclab.machine.settings import Setting, settings_html
+from mnclab.machine.settings import Setting, settings_html, with_every
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
 
@@ -139,6 +139,7 @@ class Control:
     ("G4 P"). ``relative`` are words so written that count from the last position under G91, beside coordinates;
     ``absolute_with`` codes in whose block coordinates are absolute even then; ``marks`` says what the marks on a word of a
     function or cycle do (the last argument: whether the word calls it).
+    ``to_turn`` says what makes the spindle turn, as a hint.
     ``names`` leads from other names of cycles (DIN/ISO) to their codes; help knows them.
     ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; ``predefined``
     what PREDEF stands for in a parameter of a cycle of a code; ``calls_again`` whether a modal call of a cycle (a modal
@@ -178,9 +179,19 @@ class Control:
     predefined: Callable[[Machine, str, Parameter, Word], float | str] | None = None
     calls_again: Callable[[Machine, str, list[Word]], bool] | None = None
     lathe: bool = False
+    to_turn: str = "write S and M3 before the move"
     preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
     local_variables: str = ""
     modern: Callable[[Program], Notation] | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "settings", with_every(self.settings))
+
+    def __copy__(self) -> Control:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Control:
+        return self
 
     def power_on(self) -> dict[str, str]:
         """The modal state at the start: group -> code."""

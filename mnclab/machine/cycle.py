@@ -18,6 +18,7 @@ from functools import cache
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
+from mnclab.machine import true_size
 from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Word
@@ -152,8 +153,12 @@ class Cycle:
     """Addresses that run a "position" cycle in a later block."""
     in_variables: ClassVar[bool] = True
     """Whether its Q parameters are variables of the program, on a control that has them."""
+    shares: ClassVar[bool] = False
+    """Whether what is modal holds from one cycle to the next, until they are switched off, and not only for itself."""
     own_spindle: ClassVar[bool] = False
     """Whether it turns the spindle itself, so that none need turn before it."""
+    does: ClassVar[str] = true_size.VISITS
+    """What decides whether it can run under a scale; see :mod:`mnclab.machine.true_size`."""
 
     @classmethod
     @cache
@@ -181,7 +186,10 @@ class Cycle:
         yield from ()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Faults of the values on this machine now: its tool, its spindle, its state; found where the cycle runs."""
+        """Faults of the values on this machine now: its tool, its spindle, its state; found where the cycle runs.
+
+        Without a name they are faults of the machine alone, which point at the call.
+        """
         yield from ()
 
     def moves(self, m: Machine) -> None:
@@ -229,11 +237,26 @@ class Definition:
 
 
 def bind(definition: Definition, m: Machine) -> Cycle:
-    """The frozen cycle with its values, or an Alarm at the word that is wrong (or at the cycle's own word)."""
+    """The frozen cycle with its values, or an Alarm at the word that is wrong.
+
+    What is wrong with the machine and no word of the definition stands where the cycle is called.
+    """
     bound = instance(definition)
+    refuse_frame(definition, m)
     for name, sentence in bound.check(m):
+        sentence += true_size.remark(m) if "the tool" in sentence else ""
+        if not name and definition.cycle.runs == "call":
+            m.alarm(f"{definition.code} {sentence}")
         raise fault(definition, named(definition, name), sentence)
     return bound
+
+
+def refuse_frame(definition: Definition, m: Machine) -> None:
+    """An Alarm at a cycle that cannot run under the frame of the machine."""
+    for sentence in true_size.faults(definition.cycle.does, m):
+        if definition.cycle.runs == "call":
+            m.alarm(f"{definition.code} {sentence}")
+        raise fault(definition, None, sentence)
 
 
 def instance(definition: Definition) -> Cycle:

@@ -56,7 +56,9 @@ class Explanation:
         self.run, self.moment = run, moment
         span = moment.block.span
         self.program = run.programs[run.steps.program[moment.step]]
-        self.alarms = tuple(a for a in run.alarms if a.span and a.source is self.program and a.span.line == span.line)
+        last = int(self.program.lines()[1][run.steps.block[moment.step]])
+        here = [a for a in run.alarms if a.span and a.source is self.program]
+        self.alarms = tuple(a for a in here if a.span and span.line <= a.span.line <= last)
         history = run.history
         self.changed = [
             (name, _said(name, history.value(name, moment.step - 1)) if moment.step else "", _said(name, value))

@@ -19,8 +19,10 @@ from mnclab.machine.calls import Flow
 from mnclab.machine.control import Control, Function, Words
 from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance, refuse_marks
 from mnclab.machine.machine import Machine
+from mnclab.machine.performing import in_plane
 from mnclab.machine.planner import Plan, Planner
 from mnclab.machine.programs import alarms_of
+from mnclab.machine.true_size import MILLS
 from mnclab.machine.waiting import determine
 from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
@@ -77,6 +79,7 @@ class Interpreter:
         machine.recorder.expected = len(program)
         machine.flow = Flow(program, self.obey, main.bulk.obey, self.switch)
         machine.flow.machine = machine
+        machine.recorder.most, machine.recorder.refuse = machine.flow.most_rows, machine.flow.too_many_rows
 
     def switch(self, index: int) -> None:
         """Obey the blocks of another program from now on."""
@@ -190,7 +193,8 @@ class Interpreter:
         marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
         values, words = values | dict.fromkeys(marks, 1.0), words | marks
         again = machine.position_cycle
-        if again is not None and again.cycle is cycle:  # written again or not, what is modal holds
+        same = again is not None and (again.cycle is cycle or (cycle.shares and again.cycle.shares))
+        if again is not None and same:  # written again or not, what is modal holds
             modal = {p.name for p in cycle.parameters() if p.modal}
             values = {k: v for k, v in again.values.items() if k in modal} | values
             definition = Definition(cycle, code, values, words, head, again.extra)
@@ -293,12 +297,21 @@ def verify(definition: Definition) -> None:
             raise fault(definition, parameter, "is missing")
 
 
-def run_cycle(machine: Machine, definition: Definition) -> None:
-    """Bind a definition with the values as they stand now, check it, and make its moves."""
+def run_cycle(machine: Machine, definition: Definition, **instead: float) -> None:
+    """Bind a definition with the values as they stand now, check it, and make its moves.
+
+    ``instead`` are values by name that count for this call in place of its own, where the cycle has such parameters.
+    """
     definition = as_it_stands(machine, definition)
     label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
+    plane = "XY" if definition.cycle.does == MILLS else machine.plane  # in which m.radius and m.scale count
     try:
-        bind(definition, machine).moves(machine)
+        with in_plane(machine, plane):
+            bound = bind(definition, machine)
+            if instead:
+                names = {p.name for p in definition.cycle.parameters()} & instead.keys()
+                bound = replace(bound, **{name: instead[name] for name in names})
+            bound.moves(machine)
     except TooMany as error:
         raise fault(definition, None, str(error)) from None
     machine.label = label

@@ -108,8 +108,11 @@ class Machine:
         raise Alarm(message, self._span(word), hint=hint)
 
     def warn(self, message: str, word: Word | Span | None = None, hint: str = "") -> None:
-        """Note something doubtful and go on."""
-        self.alarms.append(Alarm(message, self._span(word), WARNING, hint))
+        """Note something doubtful and go on; the same at the same place is noted once, however often it is obeyed."""
+        span, noted = self._span(word), self.memory.setdefault("noted", set())
+        if (message, span) not in noted:
+            noted.add((message, span))
+            self.alarms.append(Alarm(message, span, WARNING, hint))
 
     def _span(self, word: Word | Span | None) -> Span | None:
         span = word.span if isinstance(word, Word) else word
@@ -277,7 +280,7 @@ class Machine:
             self.alarm("no feed rate was programmed before this move", word, hint="write F")
         if self.per_rev:
             if not self.spindle_speed:
-                self.alarm("a feed per revolution needs a turning spindle", word, hint="write S and M3 before the move")
+                self.alarm("a feed per revolution needs a turning spindle", word, hint=self.control.to_turn)
             return self.feed * abs(self.speed)
         return -self.feed if self.per_time else self.feed
 

@@ -46,11 +46,11 @@ def load(machine: str | Path) -> MachineFile:
 
 
 def _machine(table: dict[str, object], file: File) -> MachineFile:
-    check_names(table, ("title", "assumes", "limits"), "a machine")
+    check_names(table, ("title", "assumes", "limits"), "a machine", file)
     path = Path(file.name)
     title, assumes = table.get("title", path.stem), table.get("assumes", [])
     if not isinstance(title, str):
         raise Alarm(f"title must be a text, got {title!r}")
     if not isinstance(assumes, list) or not all(isinstance(line, str) for line in assumes):
         raise Alarm(f"assumes must be a list of texts, got {assumes!r}")
-    return MachineFile(path.stem, title, tuple(assumes), record(Limits, table.get("limits", {}), "limits"))
+    return MachineFile(path.stem, title, tuple(assumes), record(Limits, table.get("limits", {}), file, "limits"))

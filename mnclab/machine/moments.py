@@ -11,6 +11,7 @@ the result says so (``.exact``). So are spindle and feed at constant cutting spe
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -47,7 +48,7 @@ COLUMN = {
     "tool": "number of the tool in the spindle",
     "radius": "effective tool radius, mm",
     "side": "+1 compensated to the left, -1 to the right, 0 not",
-    "line": "line of the program",
+    "line": "line of the program; one within a block of several lines means the block",
 }
 
 
@@ -105,6 +106,8 @@ def when(run: Run, text: str) -> Moments:
     """Every moment at which a condition becomes true, also at the very start; see :data:`PLACE` and :data:`COLUMN`."""
     numeric = [name for name in run.history if name not in COLUMN and _is_number(run, name)]
     condition = parse(text, [*PLACE, *COLUMN, *numeric])
+    if "line" in condition.names:
+        condition = replace(condition, tree=_of_block(condition.tree, *run.program.lines()))
     search = _Search(run, condition)
     looks, place = search.looks()
     truth = condition.truth(search.values(looks))
@@ -114,6 +117,19 @@ def when(run: Run, text: str) -> Moments:
     found = Moments(search.moment(looks.take(place)[0:3], int(i)) for i in begins)
     found.condition, found.exact = text, not any(map(_mixed, condition.comparisons))
     return found
+
+
+def _of_block(node: Node, first: NDArray[np.integer[Any]], last: NDArray[np.integer[Any]]) -> Node:
+    """A condition in which a line within a block of several lines, compared with the line, is the first of the block."""
+    sides = node.parts
+    if node.what == "comparison" and any(side.name == "line" and side.what == "name" for side in sides):
+        blocks = [np.flatnonzero((first <= side.number) & (side.number <= last)) for side in sides]
+        parts = (
+            replace(side, number=float(first[found[0]])) if side.what == "number" and len(found) else side
+            for side, found in zip(sides, blocks, strict=True)
+        )
+        return replace(node, parts=tuple(parts))
+    return replace(node, parts=tuple(_of_block(part, first, last) for part in sides))
 
 
 def _is_number(run: Run, name: str) -> bool:

@@ -1,10 +1,10 @@
 """Holes at many places, repeated as columns.
 
 A program of a hundred thousand holes says the same hole a hundred thousand times: blocks of X and Y under a cycle that
-runs at each position. The first hole of such a run is made one by one, by the cycle itself. If it leaves the machine as
-it found it but for its place, every other hole is the same rows elsewhere, and only places are worked out here: rows,
-steps and history of all holes are the first one's, moved. The last hole goes one by one again, so that what the machine
-remembers of its last block is right without any bookkeeping here.
+runs at each position. The first two holes of such a run are made one by one, by the cycle itself. If they leave the machine
+as they found it but for its place, and the second is the first one moved, every other hole is the same rows elsewhere, and
+only places are worked out here: rows, steps and history of all holes are the second one's, moved. The last hole goes one by
+one again, so that what the machine remembers of its last block is right without any bookkeeping here.
 
 :func:`at_each` does the same for the points of a pattern in one block.
 """
@@ -12,12 +12,14 @@ remembers of its last block is right without any bookkeeping here.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
+from mnclab.machine.lasting import lasting, lasting_over_blocks
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import ROW
 
@@ -27,6 +29,21 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 FEWEST = 8  # points worth repeating as columns
+SAME = 1e-7  # mm; places nearer than this are one
+_END, _CENTRE = slice(ROW.index("x"), ROW.index("z") + 1), slice(ROW.index("cx"), ROW.index("cz") + 1)
+_ELSE = [ROW.index(name) for name in ("kind", "label", "sweep", "feed", "time", "state")]
+
+
+class Visit(NamedTuple):
+    """What was done at one place: rows (r, ...) as recorded, and their ends and centres (r, 3) from the place on the
+    machine; the first ``lead`` of them were made before the tool came there, and count from where it came from.
+    ``left`` is where it was left, from the place, on the machine (3,) and in the program (2,)."""
+
+    rows: Array
+    ends: Array
+    centres: Array
+    lead: int
+    left: tuple[Array, Array]
 
 
 def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
@@ -38,77 +55,99 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
     machine = bulk.machine
     places, alike = _places(bulk, first, end)
     good = len(alike) if alike.all() else int(np.argmin(alike))
-    if good < least or machine.pole is not None:
+    if good < least or machine.pole is not None or not _anywhere(machine):
         bulk.not_before = first + max(good, 1)
         return 0
-    before, recorder, flow = _lasting(machine), machine.recorder, machine.flow
-    recorder.room(0)  # the rows of the first hole will stand alone
-    flow.current = first
-    flow.obey(first)
-    rows = np.array(recorder.rows).reshape(-1, len(ROW))
-    hole = machine.to_machine((*machine.programmed[:2], before[0]))
-    if _lasting(machine) != before or not _begins_at(rows, hole):
-        bulk.not_before = first + least  # another hole each time: the other tier makes them
-        return 1
-    count = good - 2
-    recorder.expect(len(rows) * (bulk.next_break - first) + bulk.next_break - first)
+    visits: list[Visit | None] = []
+    for block in (first, first + 1):
+        step = machine.step
+        visits.append(visit(machine, places[block - first], partial(_obey, machine, block), lasting_over_blocks))
+        if visits[-1] is None or machine.step != step + 1:  # the other tier makes them
+            bulk.not_before = first + least
+            return block - first + 1
+    model = _model(visits, places[1:good])
+    if model is None or model.rows[0, 0] != Kind.RAPID:
+        bulk.not_before = first + least
+        return 2
+    count = good - 3
+    machine.recorder.expect(len(model.rows) * (bulk.next_break - first) + bulk.next_break - first)
     changed = {
         name: log.values[-1]
         for name, log in machine.logs.by_name.items()
         if log.steps and log.steps[-1] == machine.step and name != "position"
     }
-    step = flow.begin_many(first + 1, count)
-    steps = np.arange(step, step + count, dtype=np.int32)
-    points = np.column_stack([places[1:-1][:count], np.full(count, machine.programmed[2])])
-    machine.logs.extend("position", steps, points)
+    begun = machine.flow.begin_many(first + 2, count)
+    steps = np.arange(begun, begun + count, dtype=np.int32)
+    ends = places[2:][:count] + model.left[1]
+    machine.logs.extend("position", steps, np.column_stack([ends, np.full(count, machine.programmed[2])]))
     for name, value in changed.items():
         machine.logs.extend(name, steps, [value] * count)
-    tips = bulk.to_machine(np.column_stack([points[:, :2], np.full(count, before[0])]))
-    _moved(machine, rows, hole, tips, steps, np.asarray(bulk.program.line_of(slice(first + 1, first + 1 + count))))
-    x, y, z = points[-1].tolist()
-    machine.step = step + count - 1
-    machine.programmed, machine.tip = (x, y, z), machine.to_machine((x, y, z))
-    return count + 1
+    lines = np.asarray(bulk.program.line_of(slice(first + 2, first + 2 + count)))
+    _moved(machine, model, places[2:][:count], steps, lines)
+    machine.step = begun + count - 1
+    return count + 2
 
 
-def at_each(m: Machine, points: Array, visit: Callable[[float, float], None]) -> None:
-    """Call ``visit`` with x and y at each of the points (n, 2), in their order; what it does must depend on them alone.
+def _obey(m: Machine, block: int) -> None:
+    m.flow.current = block
+    m.flow.obey(block)
 
-    The first two and the last point are visited one by one. If the second visit leaves the machine as it found it but for
-    its place, the rows of those between are its rows, moved.
+
+def at_each(m: Machine, points: Array, make: Callable[[float, float], None]) -> None:
+    """Call ``make`` with x and y at each of the points (n, 2), in their order.
+
+    The first three and the last point are visited one by one. If the second and the third visit leave the machine as they
+    found it but for its place, and are the same but for it, the rows of those between are the same rows, moved.
     """
-    places = points.tolist()
-    several = len(points) >= FEWEST and not (np.diff(points, axis=0) == 0).all(axis=1).any()
-    for x, y in places[: 1 if several else len(places)]:
-        visit(x, y)
-    if not several:
-        return
-    before = _state(m)
-    m.recorder.room(0)  # the rows of the second visit will stand alone
-    waiting = m.recorder._count
-    visit(*places[1])
-    rows = np.array(m.recorder.rows).reshape(-1, len(ROW))
-    done = 2
-    if _state(m) == before and m.recorder._count == waiting and len(rows) and (rows[:, ROW.index("joint")] < 0).all():
-        level = m.programmed[2]
-        hole = m.to_machine((*places[1], level))
-        tips = frames.apply(m.frames.matrix, np.column_stack([points[2:-1], np.full(len(points) - 3, level)]))
-        n = len(tips)
-        m.recorder.expect(n * len(rows))
-        _moved(m, rows, hole, tips, np.full(n, m.step, dtype=np.int32), np.full(n, m.source_line))
-        (x, y), m.tip = places[-2], tuple(tips[-1].tolist())
-        m.programmed = (x, y, level)
-        done = len(places) - 1
+    places, done = points.tolist(), 0
+    if len(points) >= FEWEST and _anywhere(m):
+        make(*places[0])
+        visits = [visit(m, points[k], partial(make, *places[k]), lasting) for k in (1, 2)]
+        model, done = _model(visits, points[2:-1]), 3
+        if model is not None:
+            between = len(points) - 4
+            _moved(m, model, points[3:-1], np.full(between, m.step, np.int32), np.full(between, m.source_line))
+            done += between
     for x, y in places[done:]:
-        visit(x, y)
+        make(x, y)
 
 
-def _state(m: Machine) -> tuple[Any, ...]:
-    """What a visit must leave as it found it, so that the next one is the same."""
-    return (
-        m.programmed[2], m.cycle, dict(m.modal), dict(m.variables), m.feed, m.per_rev, m.speed, m.turning, m.tool, m.side,
-        m.plane, m.synchronous, m.alarms.total, m.ended, len(m.settled),
-    )  # fmt: skip
+def _anywhere(m: Machine) -> bool:
+    """Whether feed and speed of a move depend neither on its place nor on its length."""
+    return m.surface is None and not m.per_time
+
+
+def visit(m: Machine, place: Array, make: Callable[[], None], state: Callable[[Machine], Any]) -> Visit | None:
+    """Make a visit to a place (2,) of the program; None if it left the machine as another one, has rows that are gone or
+    wait for later ones, or does not come over the place."""
+    before, came, tip = state(m), m.programmed[:2], m.tip
+    m.recorder.room(0)  # its rows will stand alone
+    waiting = m.recorder.count
+    make()
+    rows = np.array(m.recorder.rows).reshape(-1, len(ROW))
+    if m.recorder.count != waiting or not len(rows) or state(m) != before:
+        return None
+    inside = frames.apply(frames.inverse(m.frames.matrix), rows[:, _END])[:, :2]
+    there = np.asarray((np.abs(inside - place) < SAME).all(axis=1))
+    lead = int(np.argmax(there))
+    if not there[lead] or not (np.abs(inside[:lead] - came) < SAME).all():
+        return None
+    hole = np.array(m.to_machine((place[0], place[1], m.programmed[2])))
+    base = np.where(np.arange(len(rows))[:, None] < lead, np.array(tip), hole)
+    left = np.subtract(m.tip, hole), np.subtract(m.programmed[:2], place)
+    return Visit(rows, rows[:, _END] - base, rows[:, _CENTRE] - base, lead, left)
+
+
+def _model(visits: list[Visit | None], places: Array) -> Visit | None:
+    """The second of two visits, if both are the same and so is every way to the places (n, 2) that follow it."""
+    one, two = visits
+    if one is None or two is None or one.lead != two.lead or len(one.rows) != len(two.rows):
+        return None
+    pairs = ((one.ends, two.ends), (one.centres, two.centres), (one.left[0], two.left[0]))
+    alike = all(np.allclose(a, b, rtol=0, atol=SAME, equal_nan=True) for a, b in pairs)
+    alike = alike and np.array_equal(one.rows[:, _ELSE], two.rows[:, _ELSE], equal_nan=True)
+    ways = places[1:] - (places[:-1] + two.left[1])
+    return two if alike and (np.abs(ways) > SAME).any(axis=1).all() else None
 
 
 def _places(bulk: Bulk, first: int, end: int) -> tuple[Array, NDArray[np.bool_]]:
@@ -135,33 +174,21 @@ def _places(bulk: Bulk, first: int, end: int) -> tuple[Array, NDArray[np.bool_]]
     return places[1:], alike
 
 
-def _lasting(m: Machine) -> tuple[Any, ...]:
-    """What a hole must leave as it found it, so that the next one is the same; first the level."""
-    definition = m.position_cycle
-    assert definition is not None
-    modal = {p.name: definition.values.get(p.name) for p in definition.cycle.parameters() if p.modal}
-    return (
-        m.programmed[2], definition.cycle, modal, dict(definition.extra), dict(m.modal), m.feed, m.per_rev, m.speed, m.turning,
-        m.tool, m.side, m.plane, m.synchronous, m.alarms.total, m.ended,
-    )  # fmt: skip
-
-
-def _begins_at(rows: Array, hole: tuple[float, float, float]) -> bool:
-    """Whether the rows of a hole begin with a rapid to its place."""
-    return bool(len(rows) > 1 and rows[0, 0] == Kind.RAPID and tuple(rows[0, 4:7]) == hole)
-
-
 def _moved(
-    m: Machine, rows: Array, hole: tuple[float, float, float], tips: Array, steps: NDArray[np.int32],
-    lines: NDArray[np.integer[Any]],
+    m: Machine, model: Visit, places: Array, steps: NDArray[np.int32], lines: NDArray[np.integer[Any]]
 ) -> None:  # fmt: skip
-    """Hand the rows (r, ...) of one hole, moved to the ``tips`` (n, 3), to the recorder."""
-    n, r = len(tips), len(rows)
-    column = {name: rows[:, k] for k, name in enumerate(ROW)}
-    place = np.array(hole)
+    """Hand the rows of a visit, repeated at the places (n, 2) of the program, to the recorder; the tool is at the last."""
+    level = m.programmed[2]
+    tips = frames.apply(m.frames.matrix, np.column_stack([places, np.full(len(places), level)]))
+    base = np.broadcast_to(tips[:, None, :], (len(tips), len(model.rows), 3))
+    if model.lead:
+        base = base.copy()
+        base[:, : model.lead] = np.concatenate([[m.tip], tips[:-1] + model.left[0]])[:, None, :]
+    n, r = base.shape[:2]
+    column = {name: model.rows[:, k] for k, name in enumerate(ROW)}
     room = m.recorder.room(n * r)[1:]
     ends = room.reshape(n, r, 3)
-    np.add(tips[:, None, :], rows[:, 4:7] - place, out=ends)
+    np.add(base, model.ends, out=ends)
     if m._shift is not None:
         ends[:, :, 2] = column["z"]  # exactly the levels of the first hole
     columns: dict[str, NDArray[Any]] = {
@@ -172,9 +199,11 @@ def _moved(
     }
     if (column["state"] == column["state"][0]).all():
         columns["state"] = column["state"][0]
-    if (column["kind"] == Kind.DWELL).any():
+    if not np.isnan(column["time"]).all():
         columns["time"] = np.broadcast_to(column["time"], (n, r))
     if (column["kind"] == Kind.ARC).any():
-        columns["centre"] = (tips[:, None, :] + (rows[:, 7:10] - place)).reshape(-1, 3)
+        columns["centre"] = (base + model.centres).reshape(-1, 3)
         columns["sweep"] = np.broadcast_to(column["sweep"], (n, r))
     m.recorder.bulk(columns, room)
+    (x, y), (u, v, w) = (places[-1] + model.left[1]).tolist(), (tips[-1] + model.left[0]).tolist()
+    m.programmed, m.tip = (x, y, level), (u, v, w)

@@ -5,7 +5,6 @@ The axis of the hole is where the tool stands in the plane XY, and the holes of 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -50,12 +49,12 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: tuple[float, fl
 
 @contextmanager
 def locked(m: Machine, pitch: float) -> Iterator[None]:
-    """Inside, moves run at ``pitch`` mm of the program for each revolution, spindle and feed locked.
+    """Inside, moves run at ``pitch`` mm for each revolution whatever the scale, spindle and feed locked.
 
     The history does not see it.
     """
     kept = m.feed, m.per_rev, m.synchronous
-    m.feed, m.per_rev, m.synchronous, m._state = pitch * math.hypot(*m.frames.matrix[:3, 2].tolist()), True, True, None
+    m.feed, m.per_rev, m.synchronous, m._state = pitch, True, True, None
     try:
         yield
     finally:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from mnclab.text.alarm import Alarm, Span
+from mnclab.text.file import read
 from mnclab.text.program import Program, decode
 
 if TYPE_CHECKING:
@@ -59,8 +60,11 @@ def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "prog
                 return Found(known, source, caller.folder)
             return Found(str(source), _text(source, what, span), str(source.parent))
     file = _beside(caller, _last(wanted))
+    if file is not None and _leads_out(file, caller.folder):
+        elsewhere = "it is a symbolic link to another folder, and files are taken from the folder of the program alone"
+        raise Alarm(f"{what} {name}: {elsewhere}", span, hint="Setup(files=…) names files that lie elsewhere")
     if file is None:
-        where = f"the folder of {caller.name}" if caller.folder else "a program without a file has no folder"
+        where = f"the folder of {caller.title}" if caller.folder else "a program without a file has no folder"
         names = ", ".join(sorted(m.setup.files)[:8])
         hint = f"Setup(files=…) has {names or 'no files'}; {where}{' has none' if caller.folder else ''}"
         raise Alarm(f"{what} {name}: there is no {kind} of this name", span, hint=hint)
@@ -78,11 +82,17 @@ def _beside(caller: Program, wanted: str) -> Path | None:
     return next((Path(caller.folder, name) for name in names if name.lower() == wanted), None)
 
 
+def _leads_out(file: Path, folder: str) -> bool:
+    """Whether a file in a folder is a symbolic link to another folder."""
+    return not Path(os.path.realpath(file)).is_relative_to(os.path.realpath(folder))
+
+
 def _text(path: Path, what: str, span: Span | None) -> str:
     try:
-        return decode(path.read_bytes())[0]
-    except OSError as error:
-        raise Alarm(f"{what}: {path} cannot be read: {error.strerror or error}", span) from None
+        return decode(read(path, f"{what}: {path.name}"))[0]
+    except Alarm as alarm:
+        alarm.span = span
+        raise
 
 
 def _spelt(name: str, suffixes: tuple[str, ...]) -> str:

@@ -17,7 +17,6 @@ from mnclab.geometry.frames import FrameChain, Matrix
 from mnclab.machine.waiting import determine
 from mnclab.path import corners
 from mnclab.path.fault import PathFault
-from mnclab.path.recorder import Recorder
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm, Span
 
@@ -48,7 +47,7 @@ def record(m: Machine, label: str, span: Span | None = None, after: Recording | 
     kept, outer = dict(vars(m)), m._matrix
     m.frames, m.memory = (after or m).frames.copy(), dict((after or m).memory)
     m.compose()
-    m.recorder, m.programmed_pieces, m.settled = Recorder(_NOWHERE), [], []
+    m.recorder, m.programmed_pieces, m.settled = m.recorder.another(_NOWHERE), [], []
     m.modal, m._state, m.recorded_only = dict(m.modal), None, True
     m.tip = m.programmed = _NOWHERE
     m.side, m.feed, m.exact_here = 0, m.feed or 1.0, False

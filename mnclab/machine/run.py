@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.machine import still_spindle
 from mnclab.machine.calls import Steps
 from mnclab.machine.control import Control
 from mnclab.machine.explanation import Explanation
@@ -24,7 +25,7 @@ from mnclab.machine.interpreter import Interpreter, Stop
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
 from mnclab.machine.moments import Moments, when
-from mnclab.machine.settling import paths, shifted
+from mnclab.machine.settling import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
 from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
@@ -32,6 +33,8 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of
+from mnclab.text.columns import fixed
+from mnclab.text.given import check_number, shown
 from mnclab.text.program import Block, Program
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
@@ -74,14 +77,14 @@ class Run:
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
         self.program, self.setup, self.control = program, setup, control
         self.programs = tuple(machine.flow.programs)
-        self.steps: Steps = machine.flow.steps()
-        self.alarms = by_place(alarms)
-        for alarm in self.alarms:
-            if alarm.source is None:
-                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
+        self.steps = Steps._make(fixed(column) for column in machine.flow.steps())
         self.programmed: Toolpath
         self.toolpath: Toolpath
         self.programmed, self.toolpath = paths(machine)
+        self.alarms = by_place([*alarms, *still_spindle.remarks(machine, self.toolpath)])
+        for alarm in self.alarms:
+            if alarm.source is None:
+                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
         if machine.cut is not None:
             self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
         self.history = History(machine.logs, len(self.steps.block))
@@ -115,12 +118,13 @@ class Run:
     def at(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Moment:
         """The machine after the ``pass_``-th execution of a line (of one of ``programs``), or after a step.
 
+        A line within a block of several lines means the block.
         An Alarm if there is none.
         """
         if step is None:
             if line is None:
-                raise TypeError("at() needs a line or a step")
-            found = np.flatnonzero((self.lines() == line) & (self.steps.program == program))
+                raise Alarm("at() needs a line or a step", hint="run.at(line=5)")
+            found = self._executions(line, program)
             if not 1 <= pass_ <= len(found):
                 raise Alarm(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
             step = int(found[pass_ - 1])
@@ -149,6 +153,14 @@ class Run:
         if not given or isinstance(given[-1], Revolved):
             return given[-1] if given else None
         return None if given[-1].maximum is None else Box(given[-1].minimum, given[-1].maximum)
+
+    def _executions(self, line: int, program: int) -> NDArray[np.intp]:
+        """The steps that executed the block of a line."""
+        if not 0 <= program < len(self.programs):
+            return np.empty(0, dtype=np.intp)
+        first, last = self.programs[program].lines()
+        blocks = np.flatnonzero((first <= line) & (line <= last))
+        return np.flatnonzero(np.isin(self.steps.block, blocks) & (self.steps.program == program))
 
     def lines(self) -> NDArray[np.integer[Any]]:
         """The line of each step (s,), in the program that ``steps.program`` names."""
@@ -192,9 +204,10 @@ class Run:
         motion = str(self.settings.get("rapid_motion", "line"))
         if isinstance(limits, str):
             limits = load(limits).limits
-        if not isinstance(limits, Limits | None):
-            raise TypeError(f"limits must be Limits or the name of a machine, got {type(limits).__name__}")
-        limits = limits or self.setup.limits
+        limits = self.setup.limits if limits is None else limits
+        if not isinstance(limits, Limits):
+            raise Alarm(f"limits must be Limits or the name of a machine, got {shown(limits)}", hint='"small-mill"')
+        check_number(override, "the feed override")
         return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
 
     def again(self, setup: Setup) -> Run:
@@ -284,7 +297,7 @@ class Run:
             cutting_time = np.where(~rapid & (lengths > 0), lengths / path.feed * 60, 0.0)
         dwell = np.nansum(np.where(path.kind == 4, path.time, 0.0))
         return {
-            "program": self.program.name,
+            "program": self.program.title,
             "control": self.control.title,
             "blocks": len(self.program),
             "moves": int(path.is_motion.sum()),
@@ -334,7 +347,9 @@ def collector_paused() -> Iterator[None]:
 
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
     """Run a program that was read; with ``strict`` the first alarm is raised instead of collected."""
-    setup = setup or Setup()
+    if not isinstance(setup, Setup | None):
+        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
+    setup = Setup() if setup is None else setup
     machine = Machine(control, setup)
     interpreter = Interpreter(control, machine, program)
     alarms = interpreter.alarms
@@ -349,6 +364,10 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
         alarms.append(alarm)
     try:
         machine.settle(unfinished=broken)
+    except Alarm as alarm:
+        alarms.append(alarm)
+    try:
+        stop_at_travel(machine)
     except Alarm as alarm:
         alarms.append(alarm)
     result = Run(program, setup, control, machine, alarms + machine.alarms)

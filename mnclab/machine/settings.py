@@ -14,6 +14,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from mnclab.text.alarm import Alarm
+from mnclab.text.given import shown
 from mnclab.text.nearest import hint, nearest
 
 
@@ -52,8 +53,28 @@ class Setting(NamedTuple):
             good = good and (self.at_least is None or float(value) >= self.at_least)
         if not good:
             near = hint(value, self.choices, 1) if isinstance(value, str) else ""
-            raise Alarm(f"setting {self.name} ({self.meaning}) must be {self.allowed}, got {value!r}", hint=near)
+            raise Alarm(f"setting {self.name} ({self.meaning}) must be {self.allowed}, got {shown(value)}", hint=near)
         return value
+
+
+#: What every control has, unless it declares the same name itself.
+EVERY = (
+    Setting(
+        "stopped_spindle", "warn", "moves at feed while the spindle stands", "every control",
+        {"warn": "one warning, at the first of them", "accept": "no word"},
+    ),
+    Setting(
+        "most_rows", 4_000_000, "rows of the path beyond which a run ends, with 20 more for each block of the text",
+        "the memory of the computer", unit="rows", at_least=1000,
+    ),
+)  # fmt: skip
+
+
+def with_every(declared: Iterable[Setting]) -> tuple[Setting, ...]:
+    """The settings of a control, and those that every control has."""
+    own = tuple(declared)
+    names = {setting.name for setting in own}
+    return own + tuple(setting for setting in EVERY if setting.name not in names)
 
 
 def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str, source: Any = None) -> dict[str, Any]:
@@ -64,17 +85,17 @@ def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str, 
     known = {setting.name: setting for setting in declared}
     for name in given:
         if name not in known:
-            near = nearest(str(name), known, 1)
+            near = nearest(str(name)[:40], known, 1)
             listed = f"mnclab.help('settings', {control!r}) lists them" if known else "it has none"
             told = f"near: {near[0]}" if near else listed
-            place = source and source.place_of(name)
-            raise Alarm(f"{control} has no setting {name!r}", place, hint=told, source=source)
+            place = source and source.place_of("settings", name)
+            raise Alarm(f"{control} has no setting {shown(name)}", place, hint=told, source=source)
     found = {}
     for name, setting in known.items():
         try:
             found[name] = setting.check(given.get(name, setting.default))
         except Alarm as alarm:
-            alarm.source, alarm.span = source, source and source.place_of(name)
+            alarm.source, alarm.span = source, source and source.place_of("settings", name)
             raise
     return found
 

@@ -14,6 +14,7 @@ from mnclab.path import compensation, corners, feed_rules, leads, rapids
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import join
 from mnclab.path.toolpath import Toolpath, concatenate
+from mnclab.path.travel import first_beyond
 from mnclab.text.alarm import WARNING, Alarm
 
 if TYPE_CHECKING:
@@ -51,6 +52,25 @@ def settle(m: Machine, unfinished: bool = False) -> None:
         m.alarms.append(Alarm(message, m.flow.span_of_step(step), WARNING, hint))
     m.altered |= passed is not piece
     m.settled.append(passed)
+
+
+def stop_at_travel(m: Machine) -> None:
+    """Cut the run at the first block that leads out of the travel of the machine, as its limit switch would: an Alarm."""
+    if m.setup.limits.travel is None or not m.settled:
+        return
+    path, travel = concatenate(m.settled), np.array(m.setup.limits.travel, dtype=np.float64)
+    found = first_beyond(path, np.array(m.setup.start), travel)
+    if found is None:
+        return
+    m.cut = int(path.step[found.row])
+    m.settled = [path[path.step < m.cut]]
+    axis, (low, high) = "XYZ"[found.axis], travel[found.axis].tolist()
+    raise Alarm(
+        f"{axis} leaves the travel of the machine: the spindle would be at {axis}{found.position:.3f} in machine "
+        f"coordinates, and goes from {low:g} to {high:g}",
+        m.flow.span_of_step(m.cut),
+        hint="Limits(travel=…) says how far the axes go, and counts the spindle reference, not the tip of the tool",
+    )
 
 
 def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.Report | None = None) -> Toolpath:

@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from types import MappingProxyType
+from typing import Any, NamedTuple, NoReturn
+
+import numpy as np
 
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, check_point, shown
+from mnclab.workpiece.blank import Revolved, blank
 
 
-class Datum(NamedTuple):
-    """A zero point: machine coordinates in mm, rotary axes and the turn of the plane in degrees."""
-
+class _Datum(NamedTuple):
     x: float = 0.0
     y: float = 0.0
     z: float = 0.0
@@ -23,20 +27,43 @@ class Datum(NamedTuple):
     rotation: float = 0.0
 
 
-class Probe(NamedTuple):
-    """A touch probe, lengths in mm and feeds in mm/min (TNC 620: columns of the touch probe table).
+class Datum(_Datum):
+    """A zero point: machine coordinates in mm, rotary axes and the turn of the plane in degrees; an Alarm if it is none."""
 
-    The radius of its ball is that of the tool in the spindle.
-    """
+    __slots__ = ()
 
+    def __new__(cls, *values: float, **named: float) -> Datum:
+        found = super().__new__(cls, *values, **named)
+        for name, value in zip(cls._fields, found):
+            check_number(value, f"{name} of a datum")
+        return found
+
+
+class _Probe(NamedTuple):
     clearance: float = 2.0  # SET_UP
     reach: float = 10.0  # DIST
     feed: float = 100.0  # F
     rapid: float = float("inf")  # FMAX
 
 
+class Probe(_Probe):
+    """A touch probe, lengths in mm and feeds in mm/min (TNC 620: columns of the touch probe table).
+
+    The radius of its ball is that of the tool in the spindle. An Alarm names a number that makes no sense.
+    """
+
+    __slots__ = ()
+
+    def __new__(cls, *values: float, **named: float) -> Probe:
+        found = super().__new__(cls, *values, **named)
+        check_number(found.clearance, "the clearance of a probe", at_least=0)
+        for name in ("reach", "feed", "rapid"):
+            check_number(getattr(found, name), f"the {name} of a probe", above=0, endless=name == "rapid")
+        return found
+
+
 #: A small magazine, so that a first program needs no table. Lengths are 0: the tip is the spindle reference.
-MAGAZINE: Mapping[int, Tool] = {
+MAGAZINE: Mapping[int, Tool] = MappingProxyType({
     0: Tool(number=0, name="none"),
     1: Tool(radius=5, number=1, name="end mill 10", plunge_angle=3, cutting_length=25, teeth=3, kind="mill"),
     2: Tool(radius=4, number=2, name="drill 8", angle=118, cutting_length=60, teeth=2, kind="drill"),
@@ -44,7 +71,29 @@ MAGAZINE: Mapping[int, Tool] = {
     4: Tool(radius=2, number=4, name="end mill 4", plunge_angle=3, cutting_length=12, teeth=2, kind="mill"),
     5: Tool(radius=8, number=5, name="end mill 16", plunge_angle=3, cutting_length=40, teeth=4, kind="mill"),
     6: Tool(radius=2, number=6, name="probe 4", kind="probe"),
+})  # fmt: skip
+
+
+#: Tables by row, and by name: what is in them, and how to write one.
+TABLES: Mapping[str, tuple[type, str]] = {
+    "tools": (Tool, "Setup(tools={1: mnclab.Tool(radius=5, length=80)})"),
+    "datums": (Datum, "Setup(datums={1: (100, 50, -200)})"),
+    "presets": (Datum, "Setup(presets={1: (100, 50, -200)})"),
+    "correctors": (Datum, "Setup(correctors={1: (0, 0, 80)})"),
 }
+NAMED: Mapping[str, str] = {
+    "files": 'Setup(files={"SUB.H": pathlib.Path("sub.h")})',
+    "settings": "Setup(settings={…}); mnclab.help('settings', control) lists them",
+    "variables": 'Setup(variables={"QR1": 2.5})',
+}
+NOT_BUILT: Mapping[str, str] = {
+    "kinematics": "the axes of the machine stand square to each other",
+    "true_tools": "the tools are as their table says",
+}
+
+
+def _refuse(what: str, must: str, value: Any, example: str) -> NoReturn:
+    raise Alarm(f"{what} {must}, got {shown(value)}", hint=example)
 
 
 @dataclass(frozen=True)
@@ -58,6 +107,7 @@ class Setup:
     ``variables`` have their values before the program begins: what another program left (``run.variables``).
     ``stock`` is the blank: two corners, or a body of revolution (``mnclab.workpiece.blank.cylinder``); pictures show it.
     ``source`` is the file that the setup was read from: an alarm about one of its settings shows its line.
+    ``kinematics`` and ``true_tools`` are not built yet. Tables are kept as copies; an Alarm names what cannot be.
     """
 
     tools: Mapping[int, Tool] = field(default_factory=lambda: MAGAZINE)
@@ -76,6 +126,57 @@ class Setup:
     variables: Mapping[str, float | str] = field(default_factory=dict)
     source: Any = field(default=None, compare=False, repr=False)
 
+    def __post_init__(self) -> None:
+        for name, (kind, example) in TABLES.items():
+            table = getattr(self, name)
+            if not isinstance(table, Mapping):
+                _refuse(name, "must be a dict", table, example)
+            for row, value in table.items():
+                check_number(row, f"a row of {name}", at_least=0)
+                if kind is Tool and not isinstance(value, Tool):
+                    _refuse(f"{name}[{row}]", "must be a Tool", value, example)
+                if kind is Datum and not (isinstance(value, tuple | list) and len(value) <= len(Datum._fields)):
+                    _refuse(f"{name}[{row}]", "must be a Datum or its numbers", value, example)
+                if kind is Datum:
+                    Datum(*value)
+            object.__setattr__(self, name, dict(table))
+        for name, example in NAMED.items():
+            table = getattr(self, name)
+            if not isinstance(table, Mapping) or not all(isinstance(key, str) for key in table):
+                _refuse(name, "must be a dict with names", table, example)
+            object.__setattr__(self, name, dict(table))
+        for name, file in self.files.items():
+            if not isinstance(file, str | Path):
+                _refuse(f"files[{name!r}]", "must be a text or a Path", file, NAMED["files"])
+        for name, kind in (("probe", Probe), ("limits", Limits)):
+            if not isinstance(getattr(self, name), kind):
+                _refuse(
+                    name, f"must be a {kind.__name__}", getattr(self, name), f"Setup({name}=mnclab.{kind.__name__}(…))"
+                )
+        check_point(self.start, "start")
+        object.__setattr__(self, "start", tuple(map(float, self.start)))
+        self._check_workpiece()
+        for name, says in NOT_BUILT.items():
+            if getattr(self, name) or (name == "kinematics" and self.kinematics is not None):
+                raise Alarm(f"Setup({name}=…) is not built yet: {says}")
+
+    def _check_workpiece(self) -> None:
+        """An Alarm unless ``stock`` is a blank and ``part`` something that a probe can touch."""
+        try:
+            body = None if self.stock is None else blank(self.stock)
+            good = self.stock is None or (body is not None and bool(np.isfinite(body.bounds).all()))
+            good = good and not (isinstance(body, Revolved) and any(radius < 0 for radius, _ in body.profile))
+        except (TypeError, ValueError, OverflowError):  # of numpy, of what is no number
+            good = False
+        if not good:
+            _refuse(
+                "stock", "must be two corners (x, y, z), or a blank", self.stock, "stock=((0, 0, -20), (60, 40, 0))"
+            )
+        if isinstance(self.part, str) and self.part == "cut":
+            raise Alarm('Setup(part="cut") is not built yet: give what a probe touches as a part')
+        if self.part is not None and not callable(self.part):
+            _refuse("part", "must be a part", self.part, "mnclab.workpiece.part has box, cylinder, ball and plane")
+
     def with_radius(self, radius: float) -> Setup:
         """The same machine with another radius, mm, in all its tools but the probes."""
         tools = {n: t if t.kind == "probe" else replace(t, radius=radius, dr=0.0) for n, t in self.tools.items()}
@@ -90,6 +191,7 @@ class Tables:
     """The tables of one run: copies that the program may write to."""
 
     def __init__(self, setup: Setup) -> None:
+        setup = replace(setup)  # checked again: somebody may have written into its tables since
         numbered = {number: _numbered(tool, number) for number, tool in setup.tools.items()}
         self.tools: dict[int, Tool] = {0: MAGAZINE[0], **numbered}
         self.datums: dict[int, Datum] = {row: Datum(*datum) for row, datum in setup.datums.items()}

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
-from mnclab.machine.setup import Datum, Probe, Setup
+from mnclab.machine.setup import NOT_BUILT, Datum, Probe, Setup
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm, Span
+from mnclab.text.file import read
+from mnclab.text.given import check_number, shown
 from mnclab.text.nearest import hint
 from mnclab.workpiece.blank import Blank, Box, cylinder
 
@@ -39,7 +42,8 @@ high = 2
 [presets]                      # written like datums, where a control has them
 [correctors]                   # offsets along the axes, written like datums, where words D or L name them
 [limits]                       # rapid, acceleration, jerk, corner_speed, corner_tolerance, corner_jump, rapid_motion,
-                               # spindle, spindle_acceleration, tool_change; a number, or [x, y, z] per axis
+                               # spindle, spindle_acceleration, tool_change; a number, or [x, y, z] per axis;
+                               # travel = [[0, 400], [0, 300], [-200, 0]]: how far the axes go, machine coordinates
 [probe]                        # clearance, reach, feed, rapid
 [settings]                     # choices of the control: mnclab help settings --control NAME lists them
 [files]                        # names that programs call -> files, seen from this one
@@ -50,6 +54,11 @@ ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum}
 RECORDS = {"limits": Limits, "probe": Probe}
 TEXTS = ("name", "kind", "corner_speed", "rapid_motion")  # of a tool; of the limits
 KNOWN = ("start", "stock", *ROWS, *RECORDS, "settings", "files", "variables")
+KEY = r"""(?:[\w-]+|"[^"]*"|'[^']*')"""
+PATH = rf"{KEY}(?:[ \t]*\.[ \t]*{KEY})*"
+WRITTEN = re.compile(rf"^[ \t]*\[\[?[ \t]*({PATH})[ \t]*\]|(?:^|[{{,])[ \t]*({PATH})[ \t]*=")
+DEEPEST = 50  # parts of a dotted key
+LARGEST = 1_000_000  # bytes of a setup file
 
 
 class File:
@@ -66,20 +75,43 @@ class File:
     def line_text(self, line: int) -> str:
         return self._lines[line - 1] if 0 < line <= len(self._lines) else ""
 
-    def place_of(self, key: str) -> Span | None:
-        """Where a key gets its value; None where it stands in a form of TOML that is not looked for."""
-        written = re.compile(rf"""(?:^|[\s.{{,])(["']?{re.escape(key)}["']?)\s*=""")
+    def place_of(self, *keys: str) -> Span | None:
+        """Where a value is written that keys lead to, else the table that it is in; None if neither is found."""
+        found = [(len(path), span) for path, span in self._written() if path == list(keys[: len(path)])]
+        return max(found, key=lambda each: each[0])[1] if found else None
+
+    def _written(self) -> Iterator[tuple[list[str], Span]]:
+        """The keys of every table and value, the outer ones before it, and the place of the last of them."""
+        table: list[str] = []
         for number, line in enumerate(self._lines, 1):
-            if found := written.search(line.partition("#")[0]):
-                return Span(number, found.start(1) + 1, len(found[1]))
-        return None
+            outer = table
+            for found in WRITTEN.finditer(line):
+                header, key = found.groups()
+                keys = [*re.finditer(KEY, header or key)]
+                path = [each[0].strip("\"'") for each in keys]
+                if header:
+                    table = path
+                else:
+                    path = [*outer, *path]
+                    outer = path if outer is table else outer  # keys after the first are those of a table in the line
+                column = found.start(1 if header else 2) + keys[-1].start() + 1
+                yield path, Span(number, column, len(keys[-1][0]))
+
+    @contextmanager
+    def at(self, *keys: str) -> Iterator[None]:
+        """Alarms raised here show where keys get their value."""
+        try:
+            yield
+        except Alarm as alarm:
+            alarm.span = alarm.span or self.place_of(*keys)
+            raise
 
 
 def load(path: str | Path) -> Setup:
     """The setup of a file; an Alarm names what is wrong in it."""
 
     def build(table: dict[str, Any], file: File) -> Setup:
-        return replace(_setup(table, Path(file.name).parent), source=file)
+        return replace(_setup(table, file), source=file)
 
     return parse(Path(path), build, "setup")
 
@@ -87,13 +119,15 @@ def load(path: str | Path) -> Setup:
 def parse(path: Path, build: Callable[[dict[str, Any], File], Result], what: str) -> Result:
     """What ``build`` makes of the table in a TOML file; alarms show the line of the file."""
     try:
-        text = path.read_text("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-        raise Alarm(f"the {what} cannot be read: {reason}", source=File(str(path), "")) from None
+        text = read(path, f"the {what}", LARGEST).decode("utf-8")
+    except UnicodeDecodeError:
+        raise Alarm(f"the {what} cannot be read: it is not UTF-8", source=File(str(path), "")) from None
+    except Alarm as alarm:
+        alarm.source = File(str(path), "")
+        raise
     file = File(str(path), text)
     try:
-        return build(tomllib.loads(text), file)
+        return build(_table_of(text), file)
     except tomllib.TOMLDecodeError as error:
         place = re.search(r"line (\d+), column (\d+)", str(error))
         span = Span(int(place[1]), int(place[2])) if place else file.end
@@ -103,91 +137,136 @@ def parse(path: Path, build: Callable[[dict[str, Any], File], Result], what: str
         raise
 
 
-def _setup(table: Mapping[str, Any], folder: Path) -> Setup:
-    check_names(table, KNOWN, "a setup")
+def _table_of(text: str) -> dict[str, Any]:
+    """The table that a text writes; an Alarm for one that nobody could follow, and that Python would take hours for."""
+    for number, line in enumerate(text.splitlines() if text.count(".") > DEEPEST else (), 1):
+        deep = 0
+        for part in line.split("."):
+            deep = deep + 1 if part.strip().replace("-", "").replace("_", "").isalnum() else 0
+            if deep > DEEPEST:
+                raise Alarm(f"a key has more than {DEEPEST} parts", Span(number, 1))
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise Alarm("tables or lists are nested too deeply") from None
+    except tomllib.TOMLDecodeError:
+        raise
+    except ValueError as error:  # of a number of some thousand digits
+        raise Alarm(f"a value cannot be read: {error}") from None
+
+
+def _setup(table: Mapping[str, Any], file: File) -> Setup:
+    check_names(table, (*KNOWN, *NOT_BUILT), "a setup", file)
     found: dict[str, Any] = {}
-    if "start" in table:
-        found["start"] = _point(table["start"], "start")
-    if "stock" in table:
-        found["stock"] = _stock(_table(table["stock"], "stock"))
-    for name, kind in ROWS.items():
-        if name in table:
-            rows = _table(table[name], name)
-            found[name] = {_row(number, name): record(kind, row, f"{name}.{number}") for number, row in rows.items()}
-    for name, kind in RECORDS.items():
-        if name in table:
-            found[name] = record(kind, table[name], name)
-    if "variables" in table:
-        found["variables"] = _table(table["variables"], "variables")
-    if "settings" in table:
-        found["settings"] = _table(table["settings"], "settings")
-    if "files" in table:
-        found["files"] = {name: folder / str(file) for name, file in _table(table["files"], "files").items()}
+    for name, value in table.items():
+        with file.at(name):
+            if name == "start":
+                found[name] = _point(value, name)
+            elif name == "stock":
+                found[name] = _stock(_table(value, name), file)
+            elif name in ROWS:
+                rows = _table(value, name)
+                found[name] = {
+                    _row(row, name, file): record(ROWS[name], each, file, name, row) for row, each in rows.items()
+                }
+            elif name in RECORDS:
+                found[name] = record(RECORDS[name], value, file, name)
+            elif name == "files":
+                found[name] = {key: _file(each, file, key) for key, each in _table(value, name).items()}
+            elif name in NOT_BUILT:
+                found[name] = value or True
+            else:
+                found[name] = _table(value, name)
+            Setup(**{name: found[name]})  # what is wrong with this part alone is shown at its place
     return Setup(**found)
 
 
-def _stock(table: Mapping[str, Any]) -> Blank:
+def _stock(table: Mapping[str, Any], file: File) -> Blank:
     """The blank: a cylinder where it has a radius, else a box."""
     if "radius" not in table:
-        check_names(table, ("low", "high"), "stock without a radius")
-        return Box(_point(table.get("low"), "stock.low"), _point(table.get("high"), "stock.high"))
-    check_names(table, ("radius", "low", "high", "bore", "axis", "at"), "stock")
-    numbers = {name: _number(table.get(name, 0.0), f"stock.{name}") for name in ("radius", "low", "high", "bore")}
-    at = _point(table.get("at", [0.0, 0.0, 0.0]), "stock.at")
+        check_names(table, ("low", "high"), "stock without a radius", file, "stock")
+        corners = []
+        for name in ("low", "high"):
+            with file.at("stock", name):
+                corners.append(_point(table.get(name), f"stock.{name}"))
+        return Box(*corners)
+    check_names(table, ("radius", "low", "high", "bore", "axis", "at"), "stock", file, "stock")
+    numbers = {name: table.get(name, 0.0) for name in ("radius", "low", "high", "bore")}
+    for name, number in numbers.items():
+        with file.at("stock", name):
+            check_number(number, f"stock.{name}")
+    with file.at("stock", "at"):
+        at = _point(table.get("at", [0.0, 0.0, 0.0]), "stock.at")
     try:
         return cylinder(**numbers, axis=table.get("axis", "Z"), at=at)
     except ValueError as fault:
         raise Alarm(f"stock: {fault}") from None
 
 
-def record(kind: Any, value: Any, where: str) -> Any:
-    """A Tool, Datum, Limits or Probe from a table of its fields, or a datum from a list."""
-    if kind is Datum and isinstance(value, list):
-        return Datum(*_point(value, where))
-    names = kind._fields if hasattr(kind, "_fields") else [field.name for field in fields(kind)]
-    check_names(_table(value, where), names, where)
-    return kind(**{name: _field(item, f"{where}.{name}", name) for name, item in value.items()})
+def record(kind: Any, value: Any, file: File, *keys: str) -> Any:
+    """A Tool, Datum, Limits or Probe from a table of its fields, or a datum from a list; ``keys`` lead to it in the file."""
+    where = ".".join(keys)
+    with file.at(*keys):
+        if kind is Datum and isinstance(value, list):
+            return Datum(*_point(value, where))
+        names = kind._fields if hasattr(kind, "_fields") else [field.name for field in fields(kind)]
+        check_names(_table(value, where), names, where, file, *keys)
+        found = {name: _field(item) for name, item in value.items()}
+        for name, item in found.items():
+            with file.at(*keys, name):
+                _check_kind(value[name], f"{where}.{name}", name)
+                kind(**{name: item})
+        return kind(**found)
 
 
-def _field(value: Any, where: str, name: str) -> Any:
-    if name in TEXTS:
-        if not isinstance(value, str):
-            raise Alarm(f"{where} must be a text, got {value!r}")
-        return value
-    if isinstance(value, list):
-        return tuple(
-            _number(item, where) if not isinstance(item, list) else _field(item, where, name) for item in value
-        )
-    return _number(value, where)
+def _field(value: Any) -> Any:
+    """Lists as tuples."""
+    return tuple(map(_field, value)) if isinstance(value, list) else value
 
 
-def _number(value: Any, where: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise Alarm(f"{where} must be a number, got {value!r}")
-    return value
+def _check_kind(value: Any, where: str, name: str) -> None:
+    """An Alarm unless a field is a text where it must be one, else a number or a list of them."""
+    if name in TEXTS and not isinstance(value, str):
+        raise Alarm(f"{where} must be a text, got {shown(value)}")
+    for each in value if isinstance(value, list) else [value]:
+        if name not in TEXTS and not isinstance(each, list):
+            check_number(each, where, endless=True)
 
 
 def _point(value: Any, where: str) -> tuple[float, float, float]:
     if not isinstance(value, list) or len(value) != 3:
-        raise Alarm(f"{where} must be three numbers [x, y, z], got {value!r}")
-    x, y, z = (float(_number(item, where)) for item in value)
+        raise Alarm(f"{where} must be three numbers [x, y, z], got {shown(value)}")
+    for item in value:
+        check_number(item, where)
+    x, y, z = map(float, value)
     return x, y, z
 
 
-def _row(number: str, where: str) -> int:
-    if not number.isdigit():
-        raise Alarm(f"a row of {where} must be a whole number, got {number!r}")
+def _file(name: Any, file: File, key: str) -> Path:
+    """A file, seen from the one that names it."""
+    with file.at("files", key):
+        if not isinstance(name, str):
+            raise Alarm(f"files.{key} must be a text, got {shown(name)}")
+    return Path(file.name).parent / name
+
+
+def _row(number: str, where: str, file: File) -> int:
+    with file.at(where, number):
+        if not (number.isascii() and number.isdigit() and len(number) < 10):
+            raise Alarm(f"a row of {where} must be a whole number, got {shown(number)}")
     return int(number)
 
 
 def _table(value: Any, where: str) -> Mapping[str, Any]:
     if not isinstance(value, dict):
-        raise Alarm(f"{where} must be a table, got {value!r}", hint=f"write [{where}] on a line of its own")
+        raise Alarm(f"{where} must be a table, got {shown(value)}", hint=f"write [{where}] on a line of its own")
     return value
 
 
-def check_names(table: Mapping[str, Any], known: Any, where: str) -> None:
-    """An Alarm for the first name that is not known."""
+def check_names(table: Mapping[str, Any], known: Any, where: str, file: File, *keys: str) -> None:
+    """An Alarm for the first name that is not known; ``keys`` lead to the table in the file."""
     for name in table:
         if name not in known:
-            raise Alarm(f"{where} has no {name!r}", hint=hint(name, known, 1) or f"known: {', '.join(known)}")
+            with file.at(*keys, name):
+                near = hint(name[:40], known, 1) or f"known: {', '.join(known)}"
+                raise Alarm(f"{where} has no {shown(name)}", hint=near)

@@ -33,6 +33,7 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if m.setup.part is None:
         m.alarm("there is no part to touch", word, hint="give one: Setup(part=…)")
     m.settle()
+    m.variables.state_read = m.step
     start, goal = np.array(m.tip), np.array(m.to_machine(target))
     reach = float(np.linalg.norm(goal - start))
     if reach == 0:

@@ -20,12 +20,15 @@ class Variables(dict[str, Any]):
     def __init__(self, machine: Machine) -> None:
         super().__init__()
         self._machine = machine
+        self.state_read = -1
+        """The step at which the state of the machine was read last, in a variable that the control keeps or otherwise."""
 
     def __setitem__(self, name: str, value: Any) -> None:
         super().__setitem__(name, value)
         self._machine.log(name, value)
 
     def __missing__(self, name: str) -> Any:
+        self.state_read = self._machine.step
         preassigned = self._machine.control.preassigned.get(name)
         value = None if preassigned is None else preassigned(self._machine)
         if value is None:

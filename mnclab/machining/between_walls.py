@@ -140,16 +140,15 @@ class Heights(NamedTuple):
 def over_lines(name: str, lines: Sequence[Line], at: Heights, feeds: Feeds, *, one_way: bool) -> Iterator[Step]:
     """From the first line, at its level, over all of them.
 
-    One way, the tool lifts after a line and goes back over it, as the next one may still stand; where that begins at a
-    wall it lifts higher than all that stands.
+    One way, the tool lifts after a line and goes straight back to the start of the next one; where that begins at a wall
+    it lifts higher than all that stands.
     """
     before = None
     for label, line in zip(numbered("line", len(lines)), lines, strict=True):
         if before and one_way:
             high = at.level + at.lift if line.begins_outside else at.top + at.lift
             yield Go(f"{name}, lift", high)
-            yield Go(f"{name}, back", None, RAPID, *before.begin)
-            yield Go(f"{name}, over the next line", None, RAPID, *line.begin)
+            yield Go(f"{name}, back", None, RAPID, *line.begin)
             yield Go(f"{name}, down", at.level, feeds.position if line.begins_outside else feeds.mill)
         elif before:
             clear = before.ends_outside and line.begins_outside

@@ -239,10 +239,9 @@ def _plunge(pen: Pen, groove: Groove, z: float, number: int, role: str = PLUNGE,
 def _along_bottom(
     pen: Pen, groove: Groove, tool: float, begin: float, end: float, number: int, slope: float = 0.0
 ) -> None:
-    """Down at one place, along the bottom to another, up there."""
+    """Down at one place, along the bottom to another, up there; outside the rim already at feed, on the line of the wall."""
     pen.number = number
-    pen.rapid(begin + groove.wall(slope, groove.rim), groove.rim + OUT)
-    pen.rapid(begin + groove.wall(slope, groove.rim), groove.rim)
+    pen.rapid(begin + groove.wall(slope, groove.rim + OUT), groove.rim + OUT)
     pen.feed(begin, groove.bottom, FINISH)
     pen.feed(end, groove.bottom, FINISH)
     pen.rapid(end, groove.rim + OUT)
@@ -251,11 +250,12 @@ def _along_bottom(
 def _slope(
     pen: Pen, groove: Groove, z: float, slope: float, side: float, number: int, along_to: float | None = None
 ) -> None:
-    """Down a sloping wall; up again in the middle of the groove, or at the other end of the bottom."""
+    """Down a sloping wall; up again in the middle of the groove, or at the other end of the bottom.
+
+    The stroke begins outside the rim, on the line of the wall.
+    """
     pen.number = number
-    over = z + side * groove.wall(slope, groove.rim)
-    pen.rapid(over, groove.rim + OUT)
-    pen.rapid(over, groove.rim)
+    pen.rapid(z + side * groove.wall(slope, groove.rim + OUT), groove.rim + OUT)
     pen.feed(z, groove.bottom, FINISH)
     if along_to is not None:
         pen.feed(along_to, groove.bottom, FINISH)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown
 
 PerAxis = float | tuple[float, ...]
 
@@ -22,6 +24,7 @@ RAPIDS = {
     "proportional": "speeds in the ratio of the distances, each axis with its own acceleration",
     "line": "along the straight line, as a feed move at the greatest speed",
 }
+TRAVEL = "travel=((0, 400), (0, 300), (-200, 0)): from and to of X, Y and Z, machine coordinates of the spindle, mm"
 
 
 @dataclass(frozen=True)
@@ -32,7 +35,8 @@ class Limits:
     taken, ``corner_tolerance`` mm how far it may be cut (0 stops wherever an axis would jump), ``corner_jump`` mm/min by
     how much the speed of an axis may jump under "jump". ``rapid_motion`` (:data:`RAPIDS`) is how a rapid goes, None: as
     the control has it. ``spindle`` is the greatest speed, rev/min; ``spindle_acceleration`` rev/min in a second, None: at
-    once; ``tool_change`` seconds. ``travel`` holds the lower and upper machine position of each axis, mm, or None.
+    once; ``tool_change`` seconds. ``travel`` holds how far each axis goes, ``((x0, x1), (y0, y1), (z0, z1))`` mm, in machine
+    coordinates of the spindle reference (a lathe's X as radius; inf: without an end): a run stops where it is left.
     The defaults are those of a small machining centre whose spindle and tool changer take no time.
 
     An Alarm names a limit that makes no sense.
@@ -52,14 +56,16 @@ class Limits:
 
     def __post_init__(self) -> None:
         for name in ("rapid", "acceleration", "jerk", "spindle", "spindle_acceleration"):
-            if getattr(self, name) is not None:
+            if getattr(self, name) is not None or name not in ("jerk", "spindle_acceleration"):
                 self._check(name, above=True)
         for name in ("corner_tolerance", "corner_jump", "tool_change"):
             self._check(name, above=False)
         for name, known in (("corner_speed", (*CORNERS,)), ("rapid_motion", (*RAPIDS, None))):
             if getattr(self, name) not in known:
                 names = ", ".join(each for each in known if each)
-                raise Alarm(f"limit {name} must be one of {names}, got {getattr(self, name)!r}")
+                raise Alarm(f"limit {name} must be one of {names}, got {shown(getattr(self, name))}")
+        if self.travel is not None:
+            self._check_travel(self.travel)
 
     def _check(self, name: str, above: bool) -> None:
         """An Alarm unless each value is a number greater than 0, or not below it."""
@@ -69,10 +75,22 @@ class Limits:
         if len(values) not in ((1, 3) if many else (1,)) and many:
             raise Alarm(f"limit {name} takes one number or three (X Y Z), got {len(values)}")
         for each in values:
-            if isinstance(each, bool) or not isinstance(each, int | float | np.number):
-                raise Alarm(f"limit {name} must be a number, got {each!r}")
-            if not (each > 0 if above else 0 <= each < math.inf):
-                raise Alarm(f"limit {name} must be {'greater than' if above else 'at least'} 0, got {each:g}")
+            if above:
+                check_number(each, f"limit {name}", above=0, endless=name == "spindle")
+            else:
+                check_number(each, f"limit {name}", at_least=0)
+
+    def _check_travel(self, travel: Any) -> None:
+        """An Alarm unless each axis has a lower position and a higher one."""
+        if not isinstance(travel, tuple | list) or len(travel) != 3:
+            raise Alarm(f"limit travel takes a pair for each of X, Y and Z, got {shown(travel)}", hint=TRAVEL)
+        for axis, pair in zip("XYZ", travel):
+            if not isinstance(pair, tuple | list) or len(pair) != 2:
+                raise Alarm(f"limit travel takes two positions for {axis}, got {shown(pair)}", hint=TRAVEL)
+            for each in pair:
+                check_number(each, f"limit travel of {axis}", endless=True)
+            if not pair[0] < pair[1]:
+                raise Alarm(f"limit travel of {axis} must go up, got {pair[0]:g} to {pair[1]:g}", hint=TRAVEL)
 
     def axes(self, name: str) -> NDArray[np.float64]:
         """A limit (3,) for X, Y, Z in mm and s; infinite where there is none."""

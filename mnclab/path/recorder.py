@@ -7,8 +7,8 @@ tuple. Rows made in bulk arrive as columns.
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +44,7 @@ PLAIN: dict[str, Any] = {
     "label": 0, "sweep": 0.0, "feed": NAN, "time": NAN, "joint": -1, "state": 0, "centre": np.array([NAN] * 3),
 }  # fmt: skip
 STATE = (np.int64,)
+TOGETHER = 1 << 16  # single rows that are made columns at once: they take less room then
 ROW = ("kind", "line", "step", "label", "x", "y", "z", "cx", "cy", "cz", "sweep", "feed", "time", "joint", "state")
 
 
@@ -57,6 +58,10 @@ class Recorder:
         self.labels: dict[str, int] = {"": 0}
         self.joints: list[Any] = []
         self._done: list[dict[str, NDArray[Any]]] = []  # column chunks not yet taken
+        self.taken = 0  # rows handed over
+        self._count = 0
+        self.most = INF
+        self.refuse: Callable[[int], NoReturn] = _refuse
         self.expected = 0
         """How many rows there will be, roughly: room that is never used costs nothing, room made anew costs much."""
         self.start = start
@@ -71,6 +76,36 @@ class Recorder:
         self._vertices = np.array([tuple(point)], dtype=np.float64)  # (room + 1, 3), of which the first are filled
         self._count = 0  # rows that have their vertices there
 
+    @property
+    def count(self) -> int:
+        """Rows not yet taken that are columns already; :attr:`rows` come on top."""
+        return self._count
+
+    @property
+    def most(self) -> float:
+        """How many rows there may be; :attr:`refuse` is called before there are more."""
+        return self._most
+
+    @most.setter
+    def most(self, most: float) -> None:
+        self._most = most
+        self._look_out()
+
+    def _look_out(self) -> None:
+        """Set how many single rows may come before something is to be done about them."""
+        self._full = int(min(TOGETHER, max(self._most - self.taken - self._count, 0) + 1)) * len(ROW)
+
+    @property
+    def made(self) -> int:
+        """All rows so far."""
+        return self.taken + self._count + len(self.rows) // len(ROW)
+
+    def another(self, start: tuple[float, float, float]) -> Recorder:
+        """An empty one, for a path apart from this one, with what room is left here."""
+        other = Recorder(start)
+        other.most, other.refuse = self.most - self.made, self.refuse
+        return other
+
     def expect(self, count: int) -> None:
         """So many rows are to come; room made once is not made anew."""
         self.expected = max(self.expected, self._count + len(self.rows) // len(ROW) + count)
@@ -82,8 +117,11 @@ class Recorder:
 
     def _room(self, count: int) -> NDArray[np.float64]:
         needed = self._count + count + 1
+        if self.taken + needed - 1 > self.most:
+            self.refuse(self.taken + needed - 1)
         if needed > len(self._vertices):
-            more = np.empty((max(needed, 2 * len(self._vertices), self.expected + 1), 3))
+            most = max(needed, int(min(self.most, 1 << 60)) + 1 - self.taken)
+            more = np.empty((min(most, max(needed, 2 * len(self._vertices), self.expected + 1)), 3))
             more[: self._count + 1] = self._vertices[: self._count + 1]
             self._vertices = more
         return self._vertices[self._count : needed]
@@ -106,6 +144,11 @@ class Recorder:
     def add(self, row: tuple[Any, ...]) -> None:
         """One row, the values in the order of :data:`ROW`."""
         self.rows.extend(row)
+        if len(self.rows) >= self._full:
+            if self.made > self.most:
+                del self.rows[-len(ROW) :]
+                self.refuse(self.made + 1)
+            self._flush()
 
     def bulk(self, columns: dict[str, NDArray[Any]], ends: NDArray[np.float64]) -> None:
         """Rows (n,) as columns: ``kind`` and what differs from :data:`PLAIN`; one value stands for all.
@@ -122,6 +165,7 @@ class Recorder:
             room[:] = ends
         self._done.append({**columns, "end": room})
         self._count += len(ends)
+        self._look_out()
 
     def _last_motion(self) -> tuple[dict[str, NDArray[Any]], int] | None:
         """The columns and the row in them of the last line, arc or rapid not yet taken."""
@@ -179,9 +223,13 @@ class Recorder:
         if not self.rows:
             return
         table = np.frombuffer(self.rows).reshape(-1, len(ROW))
-        named = {name: _plain(name, table[:, i]) for i, name in enumerate(ROW) if len(name) > 2}
         self.rows = array("d")
-        centre = PLAIN["centre"] if np.isnan(table[:, 7]).all() else table[:, 7:10]
+        named = {
+            name: _plain(name, table[:, i]).astype(COLUMNS.get(name, STATE)[0])
+            for i, name in enumerate(ROW)
+            if len(name) > 2
+        }
+        centre = PLAIN["centre"] if np.isnan(table[:, 7]).all() else table[:, 7:10].copy()
         self._append({**named, "centre": centre}, table[:, 4:7])
 
     def take(self) -> Toolpath:
@@ -191,6 +239,7 @@ class Recorder:
         if not chunks:
             return self._path({}, self.start[None])
         sizes = [len(chunk["kind"]) for chunk in chunks]
+        self.taken += sum(sizes)
         columns = {  # each part is let go when its column is made
             name: _column([chunk.pop(name, PLAIN.get(name)) for chunk in chunks], sizes, COLUMNS.get(name, STATE)[0])
             for name in list(dict.fromkeys(name for chunk in chunks for name in chunk))
@@ -217,6 +266,10 @@ class Recorder:
         else:
             columns = {"kind": np.empty(0, dtype=np.uint8)}
         return Toolpath.chain(vertices, columns, labels=tuple(self.labels), joints=tuple(self.joints))
+
+
+def _refuse(count: int) -> NoReturn:
+    raise ValueError(f"there would be {count} rows")
 
 
 def _plain(name: str, column: NDArray[np.float64]) -> NDArray[Any]:

@@ -6,6 +6,7 @@ of the first work offset a program selects); a lathe's X is a radius.
 
 A column that is constant is a stride-0 broadcast and costs nothing. ``start`` and ``end`` of a whole path are two views
 of one array of vertices, so that every row begins where the one before ended; a selection of rows has arrays of its own.
+Columns are read-only: what is to be changed is copied first (:meth:`Toolpath.replace` takes other columns).
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from mnclab.path.kinds import MOTION_KINDS, Kind
+from mnclab.text.columns import fixed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -139,9 +141,9 @@ class Toolpath:
                 column = np.broadcast_to(np.asarray(default, dtype=dtype), (self._n, *shape))
             elif column.dtype != dtype and self._n and column.strides[0] == 0:  # keep a constant column constant
                 column = np.broadcast_to(column[0].astype(dtype), (self._n, *shape))
-            setattr(self, name, np.asarray(column, dtype=dtype))
+            setattr(self, name, fixed(np.asarray(column, dtype=dtype)))
         self.labels, self.joints = tuple(labels), tuple(joints)
-        self.origin = np.asarray(tuple(origin), dtype=np.float64)
+        self.origin = fixed(np.asarray(tuple(origin), dtype=np.float64))
         self.lathe = lathe
 
     @classmethod
@@ -182,6 +184,12 @@ class Toolpath:
         kept = {"labels": self.labels, "joints": self.joints, "origin": self.origin, "lathe": self.lathe}
         return Toolpath({name: getattr(self, name) for name in COLUMNS}, **{**kept, **more})
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copies and pickles: a constant column stays one row."""
+        columns = {name: getattr(self, name) for name in COLUMNS}
+        kept = {name: each[:1] if self._n and each.strides[0] == 0 else each for name, each in columns.items()}
+        return _unpacked, (self._n, kept, self.labels, self.joints, self.origin, self.lathe)
+
     @property
     def is_motion(self) -> NDArray[np.bool_]:
         """Which rows move the tool (n,)."""
@@ -205,7 +213,7 @@ class Toolpath:
             spoke = self.start[arc] - self.centre[arc]
             spoke = spoke - np.einsum("ij,ij->i", spoke, self.axis[arc])[:, None] * self.axis[arc]
             straight[arc] = np.hypot(np.linalg.norm(spoke, axis=1) * self.sweep[arc], along)
-        return np.where(self.is_motion, straight, 0.0)
+        return fixed(np.where(self.is_motion, straight, 0.0))
 
     @property
     def length(self) -> float:
@@ -266,6 +274,14 @@ class Toolpath:
         from mnclab.show.plot.path import plot_path
 
         return plot_path(self, **options)
+
+
+def _unpacked(n: int, columns: dict[str, NDArray[Any]], *more: Any) -> Toolpath:
+    """A path of n rows again, from columns that may have one row for all."""
+    whole = {
+        name: np.broadcast_to(each, (n, *each.shape[1:])) if len(each) != n else each for name, each in columns.items()
+    }
+    return Toolpath(whole, *more)
 
 
 def concatenate(pieces: Sequence[Toolpath]) -> Toolpath:

@@ -6,7 +6,6 @@ to the same text draws nothing. Figures are drawn in the one drawing thread of :
 
 from __future__ import annotations
 
-import os
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,9 @@ from mnclab.controls.choice import run as run_text
 from mnclab.machine.setup import Setup
 from mnclab.show.forms import DRAWING, picture_of, verdict
 from mnclab.text.alarm import Alarm
+from mnclab.text.extras import require
+from mnclab.text.file import read, replaced
+from mnclab.text.given import shown
 from mnclab.text.program import decode
 
 STYLE = "<style>.mnclab-editor textarea{font-family:monospace;font-size:13px;line-height:1.35;white-space:pre}</style>"
@@ -27,12 +29,9 @@ class Document:
     def __init__(self, path: Path) -> None:
         self.path, self.encoding, self.ends, self.content = path, "utf-8", "\n", b""
         self.text = ""
-        try:
-            self.content = path.read_bytes()
-        except FileNotFoundError:
+        if not path.exists():
             return
-        except OSError as error:
-            raise Alarm(f"{path} cannot be read: {error.strerror or error}") from None
+        self.content = read(path, path)
         text, self.encoding = decode(self.content)
         if self.content.startswith(b"\xef\xbb\xbf"):
             self.encoding = "utf-8-sig"  # with its byte order mark
@@ -41,15 +40,11 @@ class Document:
 
     def save(self, text: str) -> None:
         """Write the text; an Alarm if the file was changed since, or holds no such letters."""
-        try:
-            if (self.path.read_bytes() if self.path.exists() else b"") != self.content:
-                raise Alarm(f"{self.path} was changed by somebody else since it was opened: not saved")
-            content = self._encoded(text.replace("\n", self.ends))
-            beside = self.path.with_name(self.path.name + ".part")
+        if (read(self.path, self.path) if self.path.exists() else b"") != self.content:
+            raise Alarm(f"{self.path} was changed by somebody else since it was opened: not saved")
+        content = self._encoded(text.replace("\n", self.ends))
+        with replaced(self.path) as beside:
             beside.write_bytes(content)
-            os.replace(beside, self.path)
-        except OSError as error:
-            raise Alarm(f"{self.path} cannot be written: {error.strerror or error}") from None
         self.content, self.text = content, text
 
     def _encoded(self, text: str) -> bytes:
@@ -66,6 +61,9 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     A file that does not exist yet is made when it is saved. The result has ``text``, ``button`` and ``status`` (boxes),
     ``run`` (the last run) and ``document``.
     """
+    require("ipywidgets", "editors")
+    if not isinstance(path, str | Path):
+        raise Alarm(f"an editor is opened on the path of a file, got {shown(path)}")
     import ipywidgets
 
     document = Document(Path(path))

@@ -23,7 +23,10 @@ from mnclab.show.export_dxf import write_dxf
 from mnclab.show.export_gcode import write_gcode
 from mnclab.show.export_mesh import write_gltf, write_stl, write_vtk
 from mnclab.show.export_svg import write_true_size
+from mnclab.show.given_away import named
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import replaced
+from mnclab.text.given import shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -35,6 +38,8 @@ def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = Non
     Figures take the options of :meth:`Run.plot`; an svg also ``true_size=True``, a drawing in true millimetres.
     ``picture`` draws another figure of the run than the views of its path.
     """
+    if not isinstance(path, str | Path):
+        raise Alarm(f"a file is written to a path, got {shown(path)}")
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix not in WRITERS:
@@ -47,10 +52,8 @@ def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = Non
         writer, options = write_figure, {"picture": picture, **options}
     if options and len(signature(writer).parameters) == 2:
         raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
-    try:
-        writer(run, path, **options)
-    except OSError as error:
-        raise Alarm(f"{path} cannot be written: {error.strerror or error}") from None
+    with replaced(path) as beside:
+        writer(run, beside, **options)
     return path
 
 
@@ -71,7 +74,7 @@ def write_csv(run: Any, path: Path) -> None:
     """The columns of the toolpath under their names; ``kind`` and ``label`` as text, numbers with all their digits."""
     columns = {name: _texts(column) for name, column in run.toolpath.columns().items()}
     columns |= {"kind": _kinds(run.toolpath), "label": _labels(run.toolpath)}
-    with path.open("w", encoding="utf-8", newline="") as file:
+    with path.open("w", encoding="utf-8", errors="replace", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         writer.writerows(zip(*columns.values()))
@@ -90,16 +93,21 @@ def document(run: Any) -> dict[str, Any]:
     columns: dict[str, Any] = {name: _plain(column) for name, column in path.columns().items()}
     columns |= {"kind": _kinds(path), "label": _labels(path)}
     return {
-        "summary": {
-            name: round(value, 6) if isinstance(value, float) else value for name, value in run.summary().items()
-        },
+        "summary": {name: _figure(value) for name, value in run.summary().items()},
         "ok": run.ok,
-        "alarms": [alarm.as_dict() for alarm in run.alarms],
+        "alarms": [named(alarm).as_dict() for alarm in run.alarms],
         "lathe": path.lathe,
         "origin": path.origin.tolist(),
         "meaning": {name: meaning for name, (_, _, _, meaning) in COLUMNS.items()},
         "columns": columns,
     }
+
+
+def _figure(value: Any) -> Any:
+    """A figure of the card: six decimals, null where it has no end."""
+    if not isinstance(value, float):
+        return value
+    return round(value, 6) if np.isfinite(value) else None
 
 
 def _kinds(path: Toolpath) -> list[str]:
@@ -136,7 +144,7 @@ WRITERS: dict[str, Callable[..., None]] = {
     ".png": write_figure,
     ".csv": write_csv,
     ".json": write_json,
-    ".html": lambda run, path: run.player().save(path),
+    ".html": lambda run, path: run.player().write(path),
     ".dxf": write_dxf,
     ".ngc": write_gcode,
     ".stl": write_stl,

@@ -28,8 +28,8 @@ STYLE = (
 
 def write_true_size(run: Any, path: Path, view: str = "auto") -> None:
     """Write the toolpath of a run as a drawing in true size."""
-    with path.open("w", encoding="utf-8", newline="\n") as file:
-        file.writelines(line + "\n" for line in lines(run.toolpath, view, run.program.name))
+    with path.open("w", encoding="utf-8", errors="replace", newline="\n") as file:
+        file.writelines(line + "\n" for line in lines(run.toolpath, view, run.program.title))
 
 
 def lines(path: Toolpath, view: str = "auto", title: str = "tool path") -> Iterator[str]:

@@ -26,6 +26,8 @@ from mnclab.machine.setup import Setup
 from mnclab.path.profile import Profile
 from mnclab.show import trial
 from mnclab.text.alarm import Alarm, card_html
+from mnclab.text.extras import require
+from mnclab.text.given import check_number, shown
 
 DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
 PLACE = re.compile(r"\{(\w+)\}")
@@ -41,6 +43,13 @@ def panel(
     ``numbers`` gives each place its first value, or ``(value, least, greatest)``; a whole number stays whole. The
     result has ``boxes`` (by name) and ``run``, the last run.
     """
+    require("ipywidgets", "forms")
+    if not isinstance(template, str):
+        raise Alarm(
+            f"a panel is made of the text of a program, got {shown(template)}", hint='panel("G0 X{x}\\n", "mnc", x=5)'
+        )
+    for name, number in numbers.items():
+        _check_number(name, number)
     places = list(dict.fromkeys(PLACE.findall(template)))
     for one, other, what in ((places, numbers, "has no number"), (numbers, places, "has no place in the program")):
         for name in one:
@@ -61,6 +70,7 @@ def compensation_panel(run: Run, **options: Any) -> Any:
     ``options`` are those of :func:`mnclab.show.plot.compensation.compensation`. The result has ``boxes`` ("radius", and
     "corners" where the control has a choice) and ``run``, the last run.
     """
+    require("ipywidgets", "forms")
     import ipywidgets
 
     used = abs(run.programmed.radius[run.programmed.side != 0])
@@ -95,6 +105,7 @@ def form(code: str, control: str) -> Any:
     A parameter that may be left out has a box to tick before its word is written. The result has ``boxes`` (by name of
     the parameter), ``ticks`` and ``run``, the last run.
     """
+    require("ipywidgets", "forms")
     help_page = help_on(code, control)
     cycle = help_page.entry
     if not (isinstance(cycle, type) and issubclass(cycle, Cycle)):
@@ -129,6 +140,7 @@ def profile_panel(profile: Profile, **options: Any) -> Any:
     A jerk of 0 means no limit. ``options`` are those of :func:`mnclab.show.plot.profile.plot_profile`. The result has
     ``boxes`` (by name) and ``profile``, the last one planned.
     """
+    require("ipywidgets", "forms")
     import ipywidgets
 
     limits = profile.limits
@@ -161,6 +173,17 @@ def profile_panel(profile: Profile, **options: Any) -> Any:
 
 
 # --- boxes -----------------------------------------------------------------------------------------------------------
+
+
+def _check_number(name: str, number: Any) -> None:
+    """An Alarm unless a place has a number, or a number and its limits."""
+    parts = number if isinstance(number, tuple) else (number,)
+    if len(parts) not in (1, 3):
+        raise Alarm(f"{name} takes a number, or (value, least, greatest), got {shown(number)}")
+    for part in parts:
+        check_number(part, name)
+    if len(parts) == 3 and not parts[1] <= parts[0] <= parts[2]:
+        raise Alarm(f"{name} must lie between its least and its greatest value, got {shown(number)}")
 
 
 def _number_box(name: str, number: Number) -> Any:

@@ -15,12 +15,17 @@ import numpy as np
 from mnclab.path.kinds import Kind
 from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
+from mnclab.show.given_away import named
 from mnclab.show.times import clock
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import replaced
+from mnclab.text.given import shown
 
 Table = list[tuple[str, ...]]
 Listing = list[tuple[int, str, bool]]
 TOOL_HEAD = ("tool", "name", "kind", "radius", "corner", "length", "teeth", "time")
+
+POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 
 
 @dataclass(frozen=True)
@@ -77,14 +82,14 @@ def report(run: Any, title: str | None = None) -> Report:
     ]
     main, *others = (_numbered(run, index) for index in range(len(run.programs)))
     return Report(
-        title or Path(run.program.name).name,
+        title or run.program.title,
         run.control.title,
         facts,
         [_tool(number, run.tables.tools.get(number, Tool()), by_tool.get(number, 0.0)) for number in _used(run)],
         times,
-        run.alarms,
+        tuple(map(named, run.alarms)),
         main,
-        called=tuple((Path(p.name).name, lines) for p, lines in zip(run.programs[1:], others, strict=True)),
+        called=tuple((p.title, lines) for p, lines in zip(run.programs[1:], others, strict=True)),
     )
 
 
@@ -108,20 +113,20 @@ def _tool(number: int, tool: Tool, seconds: float) -> tuple[str, ...]:
 
 def save_report(run: Any, path: str | Path, title: str | None = None, **options: Any) -> Path:
     """Write a report to one file, .html or .pdf; ``options`` are those of the picture (:meth:`Run.plot`)."""
+    if not isinstance(path, str | Path):
+        raise Alarm(f"a file is written to a path, got {shown(path)}")
     path = Path(path)
     writers = {".html": write_html, ".pdf": write_pdf}
     if path.suffix.lower() not in writers:
         raise Alarm(f"a report is an .html or a .pdf file, got {path.name!r}")
-    try:
-        writers[path.suffix.lower()](run, report(run, title), path, **options)
-    except OSError as error:
-        raise Alarm(f"{path} cannot be written: {error.strerror or error}") from None
+    with replaced(path) as beside:
+        writers[path.suffix.lower()](run, report(run, title), beside, **options)
     return path
 
 
 def write_html(run: Any, found: Report, path: Path, **options: Any) -> None:
     """Write the report as a page."""
-    path.write_text(html(run, found, **options), "utf-8", newline="\n")
+    path.write_text(html(run, found, **options), "utf-8", errors="replace", newline="\n")
 
 
 def write_pdf(run: Any, found: Report, path: Path, **options: Any) -> None:
@@ -147,7 +152,8 @@ def html(run: Any, found: Report, **options: Any) -> str:
         f"<h2>Alarms</h2>{alarms}",
     ]
     parts += [f'<h2>{escape(name)}</h2><pre class="listing">{_listing(lines)}</pre>' for name, lines in found.programs]
-    head = f'<meta charset="utf-8"><title>{escape(found.title)}</title><style>{style}</style>'
+    policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
+    head = f'<meta charset="utf-8">{policy}<title>{escape(found.title)}</title><style>{style}</style>'
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(parts) + "\n</body></html>\n"
 
 

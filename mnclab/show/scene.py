@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import base64
 import ctypes.util
-import importlib.util
 import os
 import sys
 from functools import cache
@@ -25,6 +24,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show import solids
 from mnclab.show.export_mesh import CHORD, FEED, PROBING, RAPID, STOCK, TOOL
 from mnclab.text.alarm import Alarm
+from mnclab.text.extras import require
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.blank import blank as as_blank
 
@@ -92,8 +92,7 @@ def scene(
 
 def check_drawing() -> None:
     """Choose what VTK draws with; an Alarm where it would find nothing, since VTK itself would end the process."""
-    if importlib.util.find_spec("pyvista") is None:
-        raise Alarm("3D scenes need pyvista", hint='pip install "mnclab[lab]"; run.plot() and run.player() do without')
+    require("pyvista", "3D scenes", instead="run.plot() and run.player() do without")
     if not sys.platform.startswith("linux") or os.environ.get("DISPLAY") or os.environ.get(WINDOW):
         return
     for library, window in OFF_SCREEN.items():
@@ -118,7 +117,8 @@ def _class() -> Any:
 
         def show(self, *arguments: Any, **options: Any) -> Any:
             """Show the scene; in Jupyter as a still picture unless ``jupyter_backend`` says otherwise."""
-            options.setdefault("jupyter_backend", "static")
+            if options.setdefault("jupyter_backend", "static") in ("html", "client", "server", "trame"):
+                require("trame_pyvista", "scenes that turn", "html", 'jupyter_backend="static" does without')
             return super().show(*arguments, **options)
 
         def png(self) -> bytes:

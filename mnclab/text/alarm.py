@@ -237,6 +237,7 @@ def _shortened(text: str) -> str:
 
 
 def by_place(alarms: list[Alarm]) -> tuple[Alarm, ...]:
-    """Alarms in the order of programs and lines; those without a place come last."""
+    """Alarms in the order of programs and lines, each once; those without a place come last."""
     far = Span(2**31, 0, 0, 2**15)
-    return tuple(sorted(alarms, key=lambda alarm: ((alarm.span or far).program, *(alarm.span or far)[:2])))
+    once = {(alarm.message, alarm.severity, alarm.span): alarm for alarm in reversed(alarms)}.values()
+    return tuple(sorted(reversed(once), key=lambda alarm: ((alarm.span or far).program, *(alarm.span or far)[:2])))

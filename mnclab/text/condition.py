@@ -23,7 +23,7 @@ DEEPEST = 50
 Values = Mapping[str, NDArray[np.float64]]
 Array = NDArray[Any]
 
-_TOKEN = re.compile(r"\s*(?:(\d+\.?\d*|\.\d+)|([A-Za-z_#]\w*)|(<=|>=|==|!=|[-+*/^()<>=]))", re.ASCII)
+_TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d*)?|\.\d+)|([A-Za-z_#]\w*)|(<=|>=|==|!=|[-+*/^()<>=]))", re.ASCII)
 FUNCTIONS: dict[str, Callable[[Array], Array]] = {
     "abs": np.abs,
     "sqrt": np.sqrt,
@@ -160,8 +160,8 @@ class _Reader:
         self.known = {name.lower(): name for name in known}
         self.tokens: list[tuple[str, str, Span]] = []
         self.at = self.depth = 0
-        at = 0
-        while at < len(text.rstrip()):
+        at, end = 0, len(text.rstrip())
+        while at < end:
             match = _TOKEN.match(text, at)
             if match is None:
                 blank = len(text[at:]) - len(text[at:].lstrip())
@@ -170,7 +170,7 @@ class _Reader:
             part = match[match.lastindex or 1]
             self.tokens.append((kind, part, Span(1, match.end() - len(part) + 1, len(part))))
             at = match.end()
-        self.end = Span(1, max(1, len(text.rstrip())))
+        self.end = Span(1, max(1, end))
 
     def whole(self) -> Node:
         tree = self.either()

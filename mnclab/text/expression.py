@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 from mnclab.text.alarm import Alarm, Span
 
-_TOKEN = re.compile(r"\s*(?:(\d+[.,]?\d*|[.,]\d+)|(Q[LR]?\d+)|(DIV|[A-Z]+)|([-+*/^()%]))", re.IGNORECASE | re.ASCII)
+_TOKEN = re.compile(r"\s*(?:(\d+(?:[.,]\d*)?|[.,]\d+)|(Q[LR]?\d+)|(DIV|[A-Z]+)|([-+*/^()%]))", re.IGNORECASE | re.ASCII)
 
 #: Functions of one argument, angles in degrees.
 FUNCTIONS: dict[str, Callable[[float], float]] = {
@@ -64,8 +64,8 @@ class Expression:
 
 def parse(text: str, span: Span) -> Expression:
     """Read an expression that starts at ``span``; an Alarm at the first character that is no part of one."""
-    tokens, at = [], 0
-    while at < len(text.rstrip()):
+    tokens, at, end = [], 0, len(text.rstrip())
+    while at < end:
         match = _TOKEN.match(text, at)
         if match is None:
             blank = len(text[at:]) - len(text[at:].lstrip())

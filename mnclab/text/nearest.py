@@ -24,6 +24,8 @@ def nearest(word: str, known: Iterable[str], most: int = 3, slips: float | None 
     allowed = slips if slips is not None else 1 + max(len(word) - 1, 0) // 5
     found = []
     for place, candidate in enumerate(known):
+        if abs(len(word) - len(candidate)) > allowed:  # as many characters are too many or missing
+            continue
         distance = slips_between(word, candidate)
         if distance <= allowed:
             shared = next((k for k, (a, b) in enumerate(zip(word, candidate, strict=False)) if a != b), len(word))

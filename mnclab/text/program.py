@@ -14,12 +14,14 @@ from array import array
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import ALARM, Alarm, Alarms, Span, card_html
+from mnclab.text.columns import fixed
 from mnclab.text.expression import Expression
 
 if TYPE_CHECKING:
@@ -29,7 +31,7 @@ NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
 FEW = 1000  # stretches of blocks that are copied one after the other
 INCREMENTAL, RAPID_MARK, GROUP_MARK, AT_MARK = 1, 2, 4, 8  # bits of column ``flag``; the last: written as @
 
-_NUMBER_OF_BLOCK = re.compile(r"[ \t]*/?[ \t]*(N[ \t]*\+?\d+|\d+)", re.IGNORECASE)
+_NUMBER_OF_BLOCK = re.compile(r"\ufeff*[ \t]*(?:/[ \t]*)?(N[ \t]*\+?\d+|\d+)", re.IGNORECASE)
 
 
 def digits(value: float) -> str:
@@ -130,6 +132,16 @@ class Program:
     labels: Mapping[str, int] = field(default_factory=dict)
     """Block index of each jump target, as the reader of the control found them."""
 
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if isinstance(value, np.ndarray):
+                object.__setattr__(self, name, fixed(value))
+
+    @property
+    def title(self) -> str:
+        """What the program is called, without its folders."""
+        return Path(self.name).name
+
     def __len__(self) -> int:
         return len(self.keyword)
 
@@ -137,8 +149,7 @@ class Program:
         index = range(len(self))[index]
         words = tuple(self.word(i) for i in range(self.first[index], self.first[index + 1]))
         lines = self._lines_of(index)
-        text = self.text[self.start[index] :].lstrip("\ufeff")
-        number = _NUMBER_OF_BLOCK.match(text)
+        number = _NUMBER_OF_BLOCK.match(self.text, int(self.start[index]))
         comments = (self._parted(line)[1].strip() for line in lines)
         return Block(
             number=re.sub(r"[\s+]", "", number.group(1)).upper() if number else "",
@@ -179,6 +190,14 @@ class Program:
             if len(lines) > len(start) and (start >= lines[:-1]).all() and (start < lines[1:]).all():
                 return np.arange(first, first + len(start), dtype=np.int32)
         return np.searchsorted(self.line_starts, start, "right")
+
+    def lines(self) -> tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]:
+        """The first and the last line (b,) of each block, which may go over several."""
+        first = np.asarray(self.line_of(slice(None)))
+        last, some = first.copy(), np.flatnonzero(np.diff(self.first) > 0)
+        word = self.offset[self.first[some + 1] - 1]
+        last[some] = np.maximum(first[some], np.searchsorted(self.line_starts, word, "right"))
+        return first, last
 
     def faulty_blocks(self) -> NDArray[np.int64]:
         """The blocks in which the reader found faults, told one by one or not: a run stops there."""

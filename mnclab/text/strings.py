@@ -23,7 +23,7 @@ _LITERAL = re.compile(r'"([^"]*)"')
 _VARIABLE = re.compile(r"QS[ \t]?(\d{1,6})(?!\d)", _FLAGS)
 _FUNCTION = re.compile(r"(TOCHAR|SUBSTR|TONUMB|STRLEN|INSTR|STRCOMP|SYSSTR|CFGREAD)(?![A-Z])[ \t]*\(", _FLAGS)
 _ARGUMENT = re.compile(r"(?:(SRC|SEA)_[ \t]*|(BEG|LEN|DAT|DECIMALS)[ \t]*)", _FLAGS)
-_NUMBER = re.compile(r"[+-]?[ \t]*(?:\d+[.,]?\d*|[.,]\d+|Q[LR]?\d+)", _FLAGS)
+_NUMBER = re.compile(r"[+-]?[ \t]*(?:\d+(?:[.,]\d*)?|[.,]\d+|Q[LR]?\d+)", _FLAGS)
 
 #: Functions and their arguments, those that may be left out in small letters.
 TEXTS = {"TOCHAR": ("DAT", "decimals"), "SUBSTR": ("SRC", "BEG", "LEN")}
@@ -228,7 +228,7 @@ def _substr(part: Part, variables: Mapping[str, Any]) -> str:
 
 def _tonumb(part: Part, variables: Mapping[str, Any]) -> float:
     source = _text(part.arguments["SRC"], variables).strip()
-    if not re.fullmatch(r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)", source, re.ASCII) or len(source) > 40:
+    if not re.fullmatch(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)", source, re.ASCII) or len(source) > 40:
         raise Alarm(f'TONUMB needs a text that is one number, got "{source[:40]}"', part.span)
     return float(source.replace(",", "."))
 

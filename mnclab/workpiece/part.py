@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,13 +37,13 @@ class Part:
         return self.distance(np.asarray(points, dtype=float).reshape(-1, 3))
 
     def __or__(self, other: Part) -> Part:
-        return Part(lambda p: np.minimum(self(p), other(p)))
+        return Part(partial(_either, self, other))
 
     def __and__(self, other: Part) -> Part:
-        return Part(lambda p: np.maximum(self(p), other(p)))
+        return Part(partial(_both, self, other))
 
     def __sub__(self, other: Part) -> Part:
-        return Part(lambda p: np.maximum(self(p), -other(p)))
+        return Part(partial(_less, self, other))
 
     def placed(self, frame: ArrayLike) -> Part:
         """The same part put elsewhere by a 4×4 frame that turns and shifts."""
@@ -50,43 +51,69 @@ class Part:
         turn, shift = matrix[:3, :3], matrix[:3, 3]
         if not np.allclose(turn @ turn.T, np.eye(3), rtol=0, atol=1e-9):
             raise ValueError("a part is placed by turning and shifting alone, not by scaling")
-        return Part(lambda p: self((p - shift) @ turn))
+        return Part(partial(_placed, self, turn, shift))
+
+
+# Distances of points p (n, 3); functions of the file, so that a part can go from one process to another.
+
+
+def _either(one: Part, other: Part, p: Floats) -> Floats:
+    return np.asarray(np.minimum(one(p), other(p)))
+
+
+def _both(one: Part, other: Part, p: Floats) -> Floats:
+    return np.asarray(np.maximum(one(p), other(p)))
+
+
+def _less(one: Part, other: Part, p: Floats) -> Floats:
+    return np.asarray(np.maximum(one(p), -other(p)))
+
+
+def _placed(part: Part, turn: Floats, shift: Floats, p: Floats) -> Floats:
+    return part((p - shift) @ turn)
+
+
+def _plane(through: Floats, out: Floats, p: Floats) -> Floats:
+    return np.asarray((p - through) @ out)
+
+
+def _box(middle: Floats, half: Floats, p: Floats) -> Floats:
+    return _from_faces(np.abs(p - middle) - half)
+
+
+def _ball(middle: Floats, radius: float, p: Floats) -> Floats:
+    return np.asarray(np.linalg.norm(p - middle, axis=1) - radius)
+
+
+def _cylinder(along: Floats, middle: Floats, half: float, radius: float, p: Floats) -> Floats:
+    height = (p - middle) @ along
+    aside = np.linalg.norm(p - middle - height[:, None] * along, axis=1) - radius
+    return _from_faces(np.stack([aside, np.abs(height) - half], axis=1))
 
 
 def plane(point: ArrayLike, normal: ArrayLike) -> Part:
     """Half of space, bounded by the plane through `point`; the normal points away from the material."""
     through, out = np.asarray(point, dtype=float), _unit(normal, "the normal of a plane")
-    return Part(lambda p: (p - through) @ out)
+    return Part(partial(_plane, through, out))
 
 
 def box(corner: ArrayLike, opposite: ArrayLike) -> Part:
     """A cuboid along the axes, from one corner to the opposite one."""
     a, b = np.asarray(corner, dtype=float), np.asarray(opposite, dtype=float)
-    middle, half = (a + b) / 2, np.abs(b - a) / 2
-
-    def distance(p: Floats) -> Floats:
-        return _from_faces(np.abs(p - middle) - half)
-
-    return Part(distance)
+    return Part(partial(_box, (a + b) / 2, np.abs(b - a) / 2))
 
 
 def ball(centre: ArrayLike, radius: float) -> Part:
     """A ball."""
     middle = np.asarray(centre, dtype=float)
-    return Part(lambda p: np.linalg.norm(p - middle, axis=1) - radius)
+    return Part(partial(_ball, middle, radius))
 
 
 def cylinder(bottom: ArrayLike, top: ArrayLike, radius: float) -> Part:
     """A round bar between the centres of its two faces."""
     a, b = np.asarray(bottom, dtype=float), np.asarray(top, dtype=float)
-    along, middle, half = _unit(b - a, "the axis of a cylinder"), (a + b) / 2, np.linalg.norm(b - a) / 2
-
-    def distance(p: Floats) -> Floats:
-        height = (p - middle) @ along
-        aside = np.linalg.norm(p - middle - height[:, None] * along, axis=1) - radius
-        return _from_faces(np.stack([aside, np.abs(height) - half], axis=1))
-
-    return Part(distance)
+    along, middle, half = _unit(b - a, "the axis of a cylinder"), (a + b) / 2, float(np.linalg.norm(b - a)) / 2
+    return Part(partial(_cylinder, along, middle, half, radius))
 
 
 def contact(part: Part, start: ArrayLike, direction: ArrayLike, radius: float, reach: float) -> float | None:

@@ -63,8 +63,13 @@ def main():
     )
     for (family, answer), count in sorted(tally.items()):
         print(f"{count:5} {family:10} {answer}")
-    text = json.dumps({"authority": version(), "seed": SEED, "records": records}, separators=(",", ":"))
-    file = HERE / "contours.json.gz"
+    write("contours.json.gz", SEED, records)
+
+
+def write(name, seed, records):
+    """Write a packed file of records beside this one."""
+    text = json.dumps({"authority": version(), "seed": seed, "records": records}, separators=(",", ":"))
+    file = HERE / name
     with open(file, "wb") as raw, gzip.GzipFile(filename="", mode="wb", fileobj=raw, mtime=0) as packed:
         packed.write(text.encode())
     print(f"{file.name}: {len(records)} records, {len(text)} bytes, {file.stat().st_size} packed")

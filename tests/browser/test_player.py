@@ -376,3 +376,29 @@ def export_html(notebook, folder):
     path = folder / "export.html"
     path.write_text(text, "utf-8")
     return path
+
+
+REFUSED = """() => new Promise(told => {
+    document.addEventListener("securitypolicyviolation", event => told(event.effectiveDirective));
+    const script = document.createElement("script");
+    script.textContent = "window.foreign = 1";
+    document.body.append(script);
+})"""
+
+
+def test_the_page_runs_no_other_script_and_asks_for_nothing(browser, tmp_path):
+    path = mnclab.run(PROGRAM, "mnc").save(tmp_path / "part.html")
+    page = browser.new_page()
+    page.goto(path.as_uri())
+    page.wait_for_function("window.player")
+    assert page.evaluate(REFUSED) == "script-src-elem" and page.evaluate("window.foreign") is None
+    assert page.evaluate("fetch('data:,x').then(() => 'fetched', () => 'refused')") == "refused"
+    page.close()
+
+
+def test_a_time_of_years_is_shown(open_file):
+    """900 km at a tenth of a millimetre in a minute: 9e8 mm / 0.1 mm/min = 5.4e11 s."""
+    page = open_file(mnclab.run("G0 X1\nG1 X900000001 F0.1\n", "mnc"))
+    page.keyboard.press("End")
+    assert page.evaluate("window.player.run.time") == pytest.approx(5.4e11, rel=1e-6)
+    assert shown(page, "tool") == [900000001, 0, 0]

@@ -106,7 +106,7 @@ def test_a_long_line_is_quoted_around_its_caret(length, at):
 def test_a_long_line_of_a_program_is_not_quoted_whole(control, piece):
     run = mnclab.run(piece * (5_000 // len(piece)) + "?\n", control)
     assert run.alarms
-    traces = ["".join(alarm._render_traceback_()) for alarm in run.alarms[:3]]
-    for text in (repr(run), run._repr_html_(), *map(str, run.alarms[:3]), *traces):
+    first = run.alarms[:3]
+    for text in (repr(run), run._repr_html_(), *map(str, first), *("".join(a._render_traceback_()) for a in first)):
         assert len(text) < 4000 + 12 * 600
     assert all(len(alarm.headline) < 2000 for alarm in run.alarms)

@@ -1,13 +1,14 @@
 """Contours drawn first, described by part of what can be measured on them, and found again."""
 
 import math
+import time
 
 import numpy as np
 import pytest
 
 from mnclab.geometry.free_contour import FreeContour, known, normal_of
-from mnclab.geometry.quadratics import Form, System, conics
-from mnclab.geometry.readings import Contradiction
+from mnclab.geometry.quadratics import Exhausted, Form, System, conics
+from mnclab.geometry.readings import Contradiction, TooManyReadings
 
 START = (3.0, -2.0)
 
@@ -189,3 +190,57 @@ def test_a_circle_touched_within_the_precision_of_drawings_is_touched():
         x, y = (Form(0.0, {i: 1.0}) for i in range(2))
         forms = [x * x + y * y - 100.0, y - 10 - gap]
         assert len(System(forms, [0, 1], np.full(2, np.nan), [1, 1], 10.0).solve()) == count
+
+
+def chain(elements):
+    """Elements one after the other as a program tells them: "l" and "a", capital where they join tangentially."""
+    contour = FreeContour((0, 0), heading=0.0)
+    for letter in elements:
+        k = contour.arc(letter.isupper()) if letter in "aA" else contour.line(letter.isupper())
+        if letter == "A":
+            contour.radius(k, 7.0, 0, "radius")
+        contour.follow()
+    return contour
+
+
+UNFINISHED = ["aL" * 6, "AL" * 6, "AAAAAA", "aAAAaL", "lA" * 4, "A" * 3, "l" * 12, "aAlAaLAa"]
+
+
+@pytest.mark.parametrize("elements", UNFINISHED)
+def test_a_contour_that_is_not_finished_is_given_up_soon_and_without_threads(elements):
+    contour = chain("l")
+    contour.follow(thoroughly=True)  # what is loaded once
+    all_threads, mine = time.process_time(), time.thread_time()
+    contour = chain(elements)
+    contour.follow(thoroughly=True)
+    mine, all_threads = time.thread_time() - mine, time.process_time() - all_threads
+    assert contour.missing(contour.readings[0]) > 0
+    assert contour.work.left > 0 and mine < 10  # tens of milliseconds; it was up to a minute
+    assert all_threads - mine < 0.5 * mine + 0.1
+
+
+def test_the_search_is_bounded():
+    contour = FreeContour((0, 0))
+    with pytest.raises(TooManyReadings):
+        for k in range(1, 12):  # each pair of lines bends to the left or to the right
+            for length in (30, 40):
+                contour.length(contour.line(), length, "length")
+            contour.same(contour.end(), known(50 * k, 0), "end")
+            contour.follow()
+    contour = FreeContour((0, 0))
+    for _ in range(3):
+        contour.arc(tangent=bool(contour.elements))
+    contour.work.left = 1000.0
+    with pytest.raises(Exhausted):
+        contour.follow(thoroughly=True)
+    assert contour.open_unknowns(contour.readings[0]) and contour.missing(contour.readings[0]) == 7
+
+
+def test_a_long_contour_of_known_elements_is_followed_to_its_end():
+    contour = FreeContour((0, 0))
+    for k in range(1, 400):
+        contour.line()
+        contour.same(contour.end(), known(k, k % 7), "end")
+        contour.follow()
+    contour.follow(thoroughly=True)
+    assert len(contour.readings) == 1 and not contour.open_unknowns(contour.readings[0])

@@ -33,7 +33,7 @@ def program(points, side="G41", spin=0.0):
 
 
 def compensated(text, radius=R):
-    run = mnclab.run(text, "mnc", Setup(tools={1: Tool(radius=radius)}))
+    run = mnclab.run(text, "mnc", Setup(tools={1: Tool(radius=max(radius, 0), dr=min(radius, 0))}))
     assert run.ok, run.alarms
     return run
 

@@ -11,7 +11,7 @@ from mnclab.comparison.turning import compare
 from mnclab.machining import groove_schemes as grooves
 from mnclab.machining import thread_schemes as threads
 from mnclab.machining.groove_schemes import CONTOUR_TOOL, SHOULDER_TOOL, Groove
-from mnclab.machining.strokes import FINISH, THREAD
+from mnclab.machining.strokes import FINISH, RAPID, THREAD
 
 RING = Groove(right=0, width=5, bottom=25, rim=30)
 
@@ -40,6 +40,26 @@ def test_strokes_are_as_many_as_stated_and_the_groove_is_whole(plan, strokes):
     width = {1: 5 if strokes == 1 else 3, 2: 3 if strokes == 2 else 2, 3: 2, 4: 2, 5: 3}[int(plan.name[-1])]
     trial = cut(RING, plan, Tool(width=width))
     assert trial.removed == pytest.approx(25, abs=1e-6) and trial.gouged == trial.struck == 0
+
+
+@pytest.mark.parametrize("slope", [0.0, 17.0])
+@pytest.mark.parametrize("width", [4.0, 5.0])
+def test_every_approach_keeps_its_clearance(width, slope):
+    """A rapid ends outside the rim by 1 mm, never on it; what goes down from there is at feed, along the wall's own line."""
+    groove = Groove(0, width, 24, 30, slope, slope)
+    plans = [grooves.scheme_1(groove, width), grooves.scheme_1(groove, 3), grooves.scheme_4(groove, 3)]
+    if not slope:
+        plans += [grooves.scheme_2(groove, 3, bottom=True), grooves.scheme_3(groove, 3)]
+        plans += [grooves.scheme_5(groove, 3, finish, bottom) for finish in (False, True) for bottom in (False, True)]
+    for plan in plans:
+        before = plan.start
+        for stroke in plan.strokes:
+            if stroke.role == RAPID:
+                assert stroke.r == 31
+            elif before[1] > stroke.r:  # down
+                sideways = 7 * math.tan(math.radians(slope))
+                assert before[1] == 31 and abs(before[0] - stroke.z) in (0, pytest.approx(sideways))
+            before = stroke.z, stroke.r
 
 
 def test_sloping_walls():

@@ -273,7 +273,6 @@ def test_a_shaft_with_a_step_and_a_groove():
         (lambda: compare(SEMI_OPEN, 30, Tool(main_angle=95, auxiliary_angle=90)), "180 degrees at most"),
         (lambda: schemes.loop(SEMI_OPEN, 30, 4, Tool(main_angle=-5)), "main angle of a tool .* got -5"),
         (lambda: schemes.loop(SEMI_OPEN, 30, 4, Tool(auxiliary_angle=180)), "auxiliary angle of a tool .* got 180"),
-        (lambda: schemes.loop(SEMI_OPEN, 30, 4, Tool(width=-1)), "width of a tool"),
     ],
 )
 def test_refused(call, message):

@@ -101,3 +101,60 @@ def test_a_file_that_cannot_be_read_is_an_alarm(tmp_path, data):
         path.write_bytes(data)
     with pytest.raises(Alarm, match="the setup cannot be read"):
         load(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "sentence"),
+    [
+        (
+            "[settings]\n[limits]\n[tools.1]\nradius = 5\n\n[tools.2]\nlength = 1\nradius = -5\n",
+            "8:1",
+            "at least 0, got -5",
+        ),
+        ("tools.1.radius = 5\ntools.2.radius = nan\n", "2:9", "must be a finite number, got nan"),
+        ("[tools]\n1 = { radius = 5 }\n2 = { length = 1, radius = inf }\n", "3:19", "must be a finite number, got inf"),
+        ("[tools.1]\nname = 3\n", "2:1", "tools.1.name must be a text"),
+        ("[tools.1]\nnane = 'a'\n", "2:1", "tools.1 has no 'nane'"),
+        ('[tools."²"]\nradius = 5\n', "1:8", "a row of tools must be a whole number, got '²'"),
+        ('[tools]\n1 = {}\n"²" = { radius = 5 }\n', "3:1", "a row of tools must be a whole number, got '²'"),
+        ("[tools.99999999999999]\n", "1:8", "a row of tools must be a whole number"),
+        ("\nstart=[nan,0,0]\n", "2:1", "start must be a finite number, got nan"),
+        ("start = [0, 0]\n", "1:1", "start must be three numbers"),
+        ("[datums]\n1 = [0, 0, 0]\n2 = [\n 0, 0, inf]\n", "3:1", "datums.2 must be a finite number, got inf"),
+        ("[datums.7]\nx = 1\n'y' = nan\n", "3:1", "datums.7.y must be a finite number, got nan"),
+        ("[presets]\n3 = { rotation = -inf }\n", "2:7", "rotation of a datum must be a finite number"),
+        ("[limits]\nrapid = [9000, -1, 9000]\n", "2:1", "limit rapid must be greater than 0, got -1"),
+        ("[limits]\ntravel = [[0, 400], [300, 0], [-200, 0]]\n", "2:1", "limit travel of Y must go up, got 300 to 0"),
+        ("[limits]\nacceleration = inf\n", "2:1", "limit acceleration must be a finite number"),
+        ("[limits]\ncorner_speed = 'fast'\n", "2:1", "limit corner_speed must be one of"),
+        ("[probe]\nreach = 0\n", "2:1", "the reach of a probe must be greater than 0"),
+        ("[stock]\nlow = [0, 0, 0]\nhigh = [0, nan, 0]\n", "3:1", "stock.high must be a finite number"),
+        ("[stock]\nradius = 5\nhigh = inf\n", "3:1", "stock.high must be a finite number"),
+        ("[kinematics]\nA = 1\n", "1:2", "Setup(kinematics=…) is not built yet"),
+        ("true_tools = {}\n", "1:1", "Setup(true_tools=…) is not built yet"),
+        ("[files]\nSUB = 3\n", "2:1", "files.SUB must be a text, got 3"),
+        ("[tools.1]\nradius = " + "9" * 400 + "\n", "2:1", "must be a finite number, got inf"),
+    ],
+)
+def test_a_fault_is_shown_at_its_line(tmp_path, text, place, sentence):
+    with pytest.raises(Alarm) as caught:
+        load(written(tmp_path, text))
+    assert f"machine.toml:{place}: alarm: " in caught.value.headline and sentence in caught.value.message
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["start = " + "[" * 5000 + "]" * 5000, "start" + ".a" * 900 + " = 1", "a = " + "{a=" * 3000 + "1" + "}" * 3000,
+     "start = " + "9" * 5000, "x" * 20_000 + " = 1", f"start = '{'x' * 20_000}'", "start = 1e999999",
+     "a" + ".a" * 400_000 + " = 1", "[" + "a . " * 200_000 + "]", "x = {" + "a.1-b_." * 100_000 + "c = 1}"],
+    ids=lambda text: text[:8],
+)  # fmt: skip
+def test_no_text_of_a_setup_is_more_than_an_alarm(tmp_path, text):
+    with pytest.raises(Alarm) as caught:
+        load(written(tmp_path, text + "\n"))
+    assert len(caught.value.message) < 400 and str(caught.value)
+
+
+def test_a_setup_has_a_bound(tmp_path):
+    with pytest.raises(Alarm, match="the setup cannot be read: it has more than 1 MB"):
+        load(written(tmp_path, "# " + "x" * 1_000_001))

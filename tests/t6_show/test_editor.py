@@ -21,7 +21,7 @@ def test_typing_draws_and_checks(file):
     assert "X 0 to 33" in box.picture.value and "changed" in box.status.value
     box.text.value = "G90\nG1 X5\n"
     assert 'role="alert"' in box.alarms.value and "no feed rate" in box.alarms.value and "^^" in box.alarms.value
-    box.text.value = "G90\nG1 X5 F100\n"
+    box.text.value = "G90 S500 M3\nG1 X5 F100\n"
     assert "no alarms" in box.alarms.value
 
 

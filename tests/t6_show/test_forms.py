@@ -14,7 +14,7 @@ from mnclab import Alarm
 from mnclab.show import forms
 from mnclab.show.plot import path as plot_of_path
 
-TEMPLATE = "G90 G54\nG0 X0 Y0 Z5\nG1 X{side} F{feed}\nY{side}\nX0\nY0\n"
+TEMPLATE = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X{side} F{feed}\nY{side}\nX0\nY0\n"
 
 
 def picture(live):

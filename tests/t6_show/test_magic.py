@@ -5,7 +5,7 @@ import pytest
 import mnclab
 
 shells = pytest.importorskip("IPython.core.interactiveshell")
-PROGRAM = "G90 G54 T1\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX20\n"
+PROGRAM = "G90 G54 T1 S500 M3\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX20\n"
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 import base64
 import dataclasses
+import hashlib
 import json
 import random
 import re
@@ -276,3 +277,81 @@ def test_options_are_checked(wrong):
 def test_a_page_that_cannot_be_written_is_an_alarm(tmp_path):
     with pytest.raises(Alarm, match="cannot be written"):
         mnclab.run("G0 X1\n", "mnc").save(tmp_path / "no" / "part.html")
+
+
+@pytest.mark.parametrize(
+    ("program", "start", "seconds"),
+    [
+        ("G0 X1\nG1 X900000001 F0.0000001\n", 0.0, 9e8 * 60e7),
+        ("G0 X1\nG1 X5 F0.00000000000000000001\n", 0.0, 4 * 60e20),  # 4 mm at 1e-20 mm/min
+        ("G0 X1\nG1 X5 F1\n", 1e20, None),
+        ("G0 X1\n", 1e200, None),
+    ],
+    ids=["time", "feed", "way", "no end"],
+)
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_what_is_too_large_for_the_page_is_sent_coarser(program, start, seconds):
+    """Of 2^53 whole numbers all are exact in a browser; the parts of a unit grow until the largest one fits."""
+    run = mnclab.run(program, "mnc", Setup(start=(start, 0, 0)))
+    profile = run.profile()
+    data = Data(payload(run, profile))
+    packed = data.header["profile"]
+    assert all(np.abs(column).max(initial=0) < 2**53 for column in data.columns)
+    for name, parts, values in (("t", "seconds", profile.t), ("v", "speeds", profile.v)):
+        found, step = data.columns[packed[name]] / packed[parts], 1 / packed[parts]
+        assert np.allclose(found[np.isfinite(values)], values[np.isfinite(values)], rtol=1e-9, atol=step)
+    vertices = np.concatenate([run.toolpath.start[:1], run.toolpath.end])
+    assert np.allclose(data.vertices / data.scale, vertices, rtol=1e-9, atol=1 / data.scale)
+    assert seconds is None or profile.time == pytest.approx(seconds, rel=1e-6)
+
+
+def test_numbers_that_no_browser_holds_are_refused():
+    for wrong in ([2**62], [-(2**63)], [0, -(2**63)], [2**51 + 1]):
+        with pytest.raises(ValueError, match="too large"):
+            Packer().add(np.array(wrong, dtype=np.int64))
+
+
+def policy_of(page):
+    """What the page allows by name, and the digests of its scripts and styles."""
+    (content,) = re.findall(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)">', page)
+    allowed = {name: rest for name, _, rest in (each.strip().partition(" ") for each in content.split(";"))}
+
+    def digests(kind):
+        return [
+            "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
+            for text in re.findall(f"<{kind}>(.*?)</{kind}>", page, re.S)
+        ]
+
+    return allowed, digests("script"), digests("style")
+
+
+def test_a_page_lets_its_own_script_run_and_asks_for_nothing():
+    allowed, scripts, styles = policy_of(mnclab.run("G0 X1\nG1 X5 F100\n", "mnc").player().page)
+    assert allowed["default-src"] == "'none'" and allowed["base-uri"] == allowed["form-action"] == "'none'"
+    assert [allowed["script-src"]] == scripts and [allowed["style-src"]] == styles and allowed["img-src"] == "data:"
+
+
+def test_a_report_runs_nothing_and_asks_for_nothing(tmp_path):
+    page = mnclab.run("G0 X1\nG1 X5 K3\n", "mnc").report(tmp_path / "a.html").read_text("utf-8")
+    allowed, scripts, _ = policy_of(page)
+    assert allowed["default-src"] == "'none'" and "script-src" not in allowed and scripts == []
+    assert page.index("Content-Security-Policy") < page.index("<style>")
+
+
+def test_the_name_of_a_program_is_no_place_of_the_page(tmp_path):
+    path = tmp_path / "@data@ @script@.mnc"
+    path.write_text("G0 X1\n")
+    run = mnclab.run(path)
+    page = run.player().page
+    assert page.count("<title>@data@ @script@.mnc on") == 1 and policy_of(page)[1] == [policy_of(page)[0]["script-src"]]
+    data = Data(payload(run, run.profile()))
+    assert data.header["title"] == "@data@ @script@.mnc" == data.header["programs"][0]["name"]
+
+
+def test_half_a_letter_does_not_stop_the_page():
+    run = mnclab.run("G0 X1 // \ud800\nG1 X5 K\udfff\n", "mnc")
+    object.__setattr__(run.program, "name", "\udc80.mnc")
+    page = run.player()._repr_html_().encode("utf-8").decode()
+    assert "?.mnc" in page and Data(payload(run, run.profile())).header["programs"][0]["text"].startswith(
+        "G0 X1 // ?\n"
+    )

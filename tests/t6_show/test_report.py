@@ -72,7 +72,7 @@ def test_a_long_program_goes_on_over_pages():
 
 def test_called_programs_rotary_axes_and_the_blank_are_told(tmp_path):
     main = "BEGIN PGM A MM\nBLK FORM 0.1 Z X-1 Y-2 Z-3\nBLK FORM 0.2 X9 Y8 Z0\nTOOL CALL 2 Z S100\n"
-    main += "L X+5 A+30 FMAX\nCALL PGM SUB\nEND PGM A MM\n"
+    main += "L X+5 A+30 FMAX M3\nCALL PGM SUB\nEND PGM A MM\n"
     sub = "BEGIN PGM SUB MM\nL X+1 A-90 R0 F100\nL X+2 F-1\nEND PGM SUB MM\n"
     run = mnclab.run(main, "tnc-620", mnclab.Setup(files={"SUB.H": sub}))
     found = report(run)

@@ -10,8 +10,8 @@ import pytest
 
 from mnclab import __main__ as shell
 
-GOOD = "G90 G54\nG0 X0 Y0 Z5\nG1 X10.5 F100\n"
-COMMA = "G90 G54\nG0 X0 Y0 Z5\nG1 X10,5 F100\n"
+GOOD = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X10.5 F100\n"
+COMMA = "G90 G54 S500 M3\nG0 X0 Y0 Z5\nG1 X10,5 F100\n"
 ALARM_LINE = re.compile(r"[^:]+:\d+:\d+: (alarm|warning): .+")
 
 
@@ -67,17 +67,17 @@ def test_check_as_json(folder, capsys):
 
 def test_run_prints_one_move_a_line(folder, capsys):
     assert mnclab("run", "good.mnc") == 0
-    first, second = capsys.readouterr().out.splitlines()
-    assert "rapid" in first and "X10.5" in second and "F100" in second
+    *before, second = capsys.readouterr().out.splitlines()
+    assert "spindle" in before[0] and "rapid" in before[1] and "X10.5" in second and "F100" in second
     assert mnclab("run", "comma.mnc") == 1
     out, err = capsys.readouterr()
-    assert out.splitlines() == [first] and ALARM_LINE.fullmatch(err.strip())
+    assert out.splitlines() == before and ALARM_LINE.fullmatch(err.strip())
 
 
 def test_run_as_json(folder, capsys):
     assert mnclab("run", "good.mnc", "--json", "--control", "mnc") == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["columns"]["end_x"] == [0, 10.5] and found["summary"]["cutting length"] == 10.5
+    assert found["columns"]["end_x"] == [0, 0, 10.5] and found["summary"]["cutting length"] == 10.5
 
 
 def test_a_setup_file_is_used(folder, capsys):
@@ -91,7 +91,7 @@ def test_plot_writes_the_file_that_was_asked_for(folder, capsys):
     assert mnclab("plot", "comma.mnc", "-o", "out.svg") == 1  # a picture up to the alarm
     assert (folder / "out.svg").read_text("utf-8").startswith("<?xml")
     assert mnclab("plot", "good.mnc", "--output", "out.csv") == 0
-    assert len((folder / "out.csv").read_text("utf-8").splitlines()) == 3
+    assert len((folder / "out.csv").read_text("utf-8").splitlines()) == 4
 
 
 def test_report_writes_a_page_and_keeps_the_status(folder, capsys):
@@ -171,3 +171,78 @@ def test_lab_starts_on_the_first_lesson_with_this_python(monkeypatch):
     ((command, cwd),) = started
     assert command[:3] == [sys.executable, "-m", "jupyterlab"] and command[-2:] == ["--port", "9000"]
     assert (cwd / "notebooks" / command[3].rsplit("/", 1)[1]).is_file()
+
+
+FULL = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no such device here")
+MODULE = [sys.executable, "-m", "mnclab"]
+HERE = Path(shell.__file__).parent.parent
+
+
+@FULL
+@pytest.mark.parametrize(
+    "arguments",
+    [["run", "long.mnc"], ["check", "comma.mnc", "--json"], ["help", "G83", "--control", "mnc"]],
+    ids=" ".join,
+)  # fmt: skip
+def test_a_full_disk_is_one_sentence(folder, arguments):
+    (folder / "long.mnc").write_text("G90 F100\n" + "".join(f"G1 X{k}\n" for k in range(1, 5_000)))
+    files = [str(folder / each) if each.endswith(".mnc") else each for each in arguments]
+    with Path("/dev/full").open("w") as full:
+        told = subprocess.run([*MODULE, *files], cwd=HERE, stdout=full, stderr=subprocess.PIPE, text=True)
+        assert told.returncode == 2 and told.stderr.startswith("mnclab: the output cannot be written: No space left")
+        assert told.stderr.count("\n") == 1
+
+
+@FULL
+def test_a_full_disk_of_the_alarms_is_a_status(folder):
+    with Path("/dev/full").open("w") as full:
+        command = [*MODULE, "check", str(folder / "comma.mnc")]
+        told = subprocess.run(command, cwd=HERE, stdout=subprocess.PIPE, stderr=full)
+        assert (told.returncode, told.stdout) == (2, b"")
+        assert subprocess.run(command, cwd=HERE, stdout=full, stderr=full).returncode == 2
+
+
+@FULL
+def test_a_file_that_cannot_be_written_is_one_sentence(folder, capsys):
+    (folder / "full.csv").symlink_to("/dev/full")
+    for output in ("full.csv", "none/a.svg", "none/a.html"):
+        assert mnclab("plot", "good.mnc", "-o", output) == 2
+        told = capsys.readouterr().err
+        assert told.count("\n") == 1 and f"{output} cannot be written: " in told
+    assert mnclab("report", "good.mnc", "-o", "none/a.html") == 2
+    assert Path("/dev/full").is_char_device() and (folder / "full.csv").is_symlink()
+
+
+def test_an_output_that_was_closed_is_no_fault(folder, monkeypatch):
+    monkeypatch.setattr(sys, "stdout", None)
+    assert mnclab("check", "good.mnc") == 0 and mnclab("run", "good.mnc") == 0
+
+
+SETUPS = {
+    "deep": "start = " + "[" * 5000 + "]" * 5000, "digit": '[tools."²"]\nradius = 5\n', "nan": "start=[nan,0,0]\n",
+    "negative": "[tools.1]\nradius = -5\n", "long": "start = " + "9" * 5000, "kinematics": "[kinematics]\n",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SETUPS)
+def test_a_faulty_setup_is_one_sentence_with_its_line(folder, capsys, name):
+    (folder / "s.toml").write_text(SETUPS[name], "utf-8")
+    for command in ("check", "run", "time"):
+        assert mnclab(command, "good.mnc", "--setup", "s.toml") == 2
+        out, err = capsys.readouterr()
+        assert out == "" and err.count("\n") == 1 and "s.toml" in err and len(err) < 300
+        assert name in ("deep", "long") or ALARM_LINE.fullmatch(err.strip())
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "-5", "0"])
+def test_an_override_that_cannot_be_is_one_sentence(folder, capsys, value):
+    assert mnclab("time", "good.mnc", f"--override={value}") == 2
+    assert capsys.readouterr().err.startswith("mnclab: alarm: the feed override must be")
+
+
+def test_a_radius_that_cannot_be_is_one_sentence(folder, capsys):
+    for radius in ("nan", "-5", "inf"):
+        assert mnclab("plot", "good.mnc", "-o", "a.svg", f"--radii={radius}") == 2
+        err = capsys.readouterr().err
+        assert err.startswith("mnclab: alarm: ") and "radius" in err and radius in err and err.count("\n") == 1
+    assert not (folder / "a.svg").exists()

@@ -42,6 +42,7 @@ def cutting_feed(m: Machine, word: Word | None) -> float | None:
 
     An Alarm if there is no feed, no speed, or if a spindle that stands is to be refused.
     """
+    need_cutting_speed(m)
     if m.feed is not None and m.per_rev and not m.turning and m.speed:
         motion.remark_at(
             m, "stopped_spindle", f"G95: the spindle stands, the feed is that of {m.speed:g} rev/min", word
@@ -68,6 +69,7 @@ def speed_mode(m: Machine, words: Words) -> None:
     """
     m.change("surface", m.memory.get("cutting speed", 0.0) if words.code == "G96" else None)
     if words.code == "G96":
+        m.memory["G96"] = first_word(words)
         m.change("speed_limit", float(m.settings["max_spindle_speed"]))
     if "S" in words:
         speed(m, words)
@@ -87,6 +89,16 @@ def speed(m: Machine, words: Words) -> None:
     m.memory["cutting speed"] = value
     m.change("surface", value)
     follow_speed(m)
+
+
+def need_cutting_speed(m: Machine) -> None:
+    """An Alarm at G96 where it has no cutting speed by the time of a cut: S may stand in a block between."""
+    if m.surface == 0:
+        m.alarm(
+            "G96 S (cutting speed, m/min) is missing: none was programmed before the first cut",
+            m.memory["G96"],
+            hint="write G96 S100, for example; S under G97 is a spindle speed and does not count here",
+        )
 
 
 def follow_speed(m: Machine) -> None:

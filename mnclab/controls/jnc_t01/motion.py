@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from mnclab.controls.jnc_t01.feeds import cutting_feed, follow_speed
+from mnclab.controls.jnc_t01.feeds import cutting_feed, follow_speed, need_cutting_speed
 from mnclab.controls.word_address.motion import first_word
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
@@ -148,6 +148,7 @@ def thread(m: Machine, words: Words) -> None:
     pitch = m.value(words["F"])
     if not pitch > 0:
         m.alarm(f"G32 F (thread pitch) must be greater than 0, got {pitch:g}", words["F"])
+    need_cutting_speed(m)
     if not m.spindle_speed:
         m.alarm("G32 needs a turning spindle", head, hint="write S and M3 before the move")
     if m.surface is not None:

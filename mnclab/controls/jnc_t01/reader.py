@@ -22,7 +22,7 @@ FORMATS = {
 _LOOKS_LATIN = dict(zip("ХхМмТтКкІі", "XxMmTtKkIi", strict=True))
 _CODE = re.compile(rf"^[^{COMMENT}\r\n]*", re.MULTILINE)
 _LETTERS = re.compile(f"[{''.join(_LOOKS_LATIN)}]")
-_LINE = re.compile(r"[ \t]*(?:[DFGIKLMRSTUWXZ][+-]?(?:\d+\.?\d*|\.\d+)[ \t]*)*", re.IGNORECASE)
+_LINE = re.compile(r"[ \t]*(?:[DFGIKLMRSTUWXZ][+-]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)*", re.IGNORECASE)
 
 _words = words.reader("jnc-t01", COMMENT, labels=False, skip=False, headers="%")
 

@@ -59,7 +59,7 @@ def spindle_speed(m: Machine, words: Words) -> None:
 
 @FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source="9")
 def spindle(m: Machine, words: Words) -> None:
-    """Before the motion of the block; M5 by the setting spindle_stop after it."""
+    """M3 and M4 before the motion of the block, M5 after it; by the setting spindle_stop before it too."""
     if words.code == "M5" and m.settings["spindle_stop"] == "after":
         m.at_block_end(lambda: m.spindle(turning=0))
         return

@@ -118,8 +118,8 @@ TECHNOLOGY = (
     Setting("corrector_length", False, "D takes the length of its row too, not the corrections and radius alone", "MNC-D"),
     Setting("spindle_run_up", 0.0, "wait for the spindle at a new speed under G26", "MNC-G26-TIME", {}, "s", 0),
     Setting(
-        "spindle_stop", "before", "when M5 acts", "MNC-M-ORDER, MNC-BLOCK-ORDER",
-        {"before": "before the motion of its block", "after": "after it"},
+        "spindle_stop", "after", "when M5 acts", "MNC-M-ORDER, MNC-BLOCK-ORDER",
+        {"after": "after the motion of its block", "before": "before it"},
     ),
     Setting("peck_clearance", 1.0, "above the last depth to which G83 returns at rapid", "MNC-G83-CLEARANCE", {}, "mm", 0),
 )  # fmt: skip

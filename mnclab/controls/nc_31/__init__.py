@@ -90,5 +90,6 @@ CONTROL = Control(
     marks=notation.marks,
     one_command=True,
     lathe=True,
+    to_turn="write S before the move, and M3 or M4 where M5 was written",
     modern=lambda program: notation.modern(program, CYCLES),
 )

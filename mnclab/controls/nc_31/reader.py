@@ -31,9 +31,9 @@ BLANKS = " \t\ufeff"
 
 _LOOKS_LATIN = dict(zip("ХМРТСЗхмртсз", "XMPTCZ" * 2, strict=True))
 _FOLD = str.maketrans(_LOOKS_LATIN | {c: c.upper() for c in ascii_lowercase})
-_WORD = re.compile(r"([A-Z])[ \t]*(@?)[ \t]*([+-]?[0-9]+)")
+_WORD = re.compile(r"([A-Z])[ \t]*(?:(@)[ \t]*)?([+-]?[0-9]+)")
 _CHAMFER = re.compile(r"[+-][ \t]*45(?![0-9])")
-_FRAME = re.compile(rf"\s*(N\s*[0-9]+)?\s*[{ADDRESSES}]\s*@?\s*[+-]?[0-9]+((?:\s*[*~@])*)\s*(;.*)?")
+_FRAME = re.compile(rf"\s*(N\s*[0-9]+\s*)?[{ADDRESSES}]\s*(?:@\s*)?[+-]?[0-9]+((?:\s*[*~@])*)\s*(;.*)?")
 
 
 def read(text: str, name: str = "program") -> Program:

@@ -138,7 +138,7 @@ MEANINGS = {
 }  # fmt: skip
 
 _KLARTEXT = re.compile(
-    r"^[ \t\ufeff]*\d*[ \t]*(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M
+    r"^[ \t\ufeff]*(?:\d+[ \t]*)?(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M
 )
 
 CONTROL = Control(

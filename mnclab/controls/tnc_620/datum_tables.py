@@ -30,7 +30,7 @@ TABLE = "datum table"  # in the memory: its name and rows
 
 Rows = Mapping[int, Mapping[str, float]]
 
-_NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)", re.ASCII)
+_NUMBER = re.compile(r"[+-]?(\d+(?:[.,]\d*)?|[.,]\d+)", re.ASCII)
 _FIELD = re.compile(r"\S+")
 
 

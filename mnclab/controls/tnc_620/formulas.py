@@ -18,8 +18,8 @@ Read = Callable[[Cursor], None]
 
 GREATEST = {"": 1999, "L": 499, "R": 499, "S": 1999}
 
-OPERAND = re.compile(rf"[ \t]*[+-]?[ \t]*(?:{NUMBER}|Q[LR]?\d+)", FLAGS)
-_OPERAND = rf"[+-]?\s*(?:{NUMBER}|Q[LR]?\d+)"
+OPERAND = re.compile(rf"[ \t]*(?:[+-][ \t]*)?(?:{NUMBER}|Q[LR]?\d+)", FLAGS)
+_OPERAND = rf"(?:[+-]\s*)?(?:{NUMBER}|Q[LR]?\d+)"
 _TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})(?!\d)[ \t]*", FLAGS)
 _EQUALS = re.compile(r"=[ \t]*", FLAGS)
 _UNDEFINED = re.compile(r"SET[ \t]+UNDEFINED", FLAGS)

@@ -15,7 +15,7 @@ _WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 _TEXT_PARAMETER = re.compile(r"[ \t]*QS[ \t]?\d{1,6}(?!\d)", FLAGS)
 _REPEAT = re.compile(r"REP[ \t]*(\d{1,9})(?:[ \t]*/[ \t]*\d{1,9})?", FLAGS)
 _IF = re.compile(r"[ \t]*IF(?![A-Z])", FLAGS)
-_DEFINED = re.compile(r"[ \t]*[+]?[ \t]*(Q[LRS]?\d{1,6})[ \t]+IS[ \t]+(UNDEFINED|DEFINED)(?![A-Z])", FLAGS)
+_DEFINED = re.compile(r"[ \t]*(?:[+][ \t]*)?(Q[LRS]?\d{1,6})[ \t]+IS[ \t]+(UNDEFINED|DEFINED)(?![A-Z])", FLAGS)
 _GOTO = re.compile(r"[ \t]*GOTO[ \t]+LBL(?![A-Z])", FLAGS)
 _PGM = re.compile(r"[ \t]*PGM(?![A-Z])", FLAGS)
 

@@ -1,12 +1,13 @@
-"""Q parameters of cycles that are not built yet: one that a cycle does not have is named beside the refusal of the cycle.
+"""Q parameters that a cycle does not have; of one that is not built yet they are named beside its refusal.
 
 Once a cycle is built, its own declaration counts and its entry here no more.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container
+from collections.abc import Callable, Mapping
 
+from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
 
@@ -76,13 +77,23 @@ PARAMETERS = {
 }
 
 
-def strange_parameters(built: Container[str]) -> Callable[[Machine, str, list[Word]], None]:
-    """Warns about parameters that a cycle, known and not built, does not have."""
+#: A line ``Q1=-9`` without a number below a definition is one of its lines (3.1): they carry no numbers of their own.
+_BELONGS = "a line Q… without a block number belongs to the definition above it: number it to assign a variable"
+
+
+def strange_parameters(built: Mapping[str, type[Cycle]]) -> Callable[[Machine, str, list[Word]], None]:
+    """Refuses parameters that a cycle does not have; of a cycle that is not built they are only named."""
 
     def check(m: Machine, code: str, words: list[Word]) -> None:
         if code in PARAMETERS and code not in built:
             for word in words:
                 if word.address not in PARAMETERS[code]:
                     m.warn(f"{code} has no parameter {word.address}", word)
+        if code not in built:
+            return
+        taken = {address for p in built[code].parameters() for address in (p.address, *p.aliases)}
+        for word in words:
+            if word.address[0] == "Q" and word.address not in taken:
+                m.alarm(f"{word} has no meaning in this block ({code} does not take {word.address})", word, _BELONGS)
 
     return check

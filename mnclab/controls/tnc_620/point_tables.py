@@ -25,7 +25,7 @@ SUFFIX = ".PNT"
 UNITS = {"MM": 1.0, "INCH": INCH}
 HIDDEN = {"Y": True, "YES": True, "1": True, "N": False, "NO": False, "0": False, "": False}
 
-_NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)", re.ASCII)
+_NUMBER = re.compile(r"[+-]?(\d+(?:[.,]\d*)?|[.,]\d+)", re.ASCII)
 _FIELD = re.compile(r"\S+")
 
 

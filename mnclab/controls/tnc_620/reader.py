@@ -4,7 +4,8 @@ A block is a number, a statement and its words; ``/`` before or after the number
 ``;`` begins a comment, ``*`` a structure block. A block goes on over several lines when a line ends in ``~``, in a
 definition whose further lines carry no number, and in the sub-blocks n.0, n.1, … of older cycles, which become one block.
 So ``Q200=5`` without a number below a definition is a parameter of it; with a number it is an assignment, and so it is
-where the lines of the definition were joined by ~ and the last one has none.
+where the lines of the definition were joined by ~ and the last one has none. ``Q1 = -5``, the way an assignment is
+written, below parameters that are written ``Q200=5``: a parameter too, for the manual numbers assignments, with a warning.
 
 Plain straight lines (``12 L X+1.5 Y-2 F500 R0``) are found for the whole text at once; every other line is read one by
 one, and a fault ends the reading of its block alone.
@@ -25,8 +26,9 @@ from mnclab.text.alarm import KEPT, Alarm
 from mnclab.text.program import NONE, BulkBlocks, Program, ProgramBuilder, first_words
 from mnclab.text.words import Scan, characters, scan
 
-_UNIT = re.compile(r"(?:^|[\r\n])[ \t\ufeff]*/?[ \t]*\d*[ \t]*BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
+_UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
+_SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
 _PLAIN = "FRXYZ"  # letters of plain lines
 MOST_LETTERS = 30  # of a word that may have been meant as a statement
@@ -76,6 +78,7 @@ class _Lines:
         self.tilde = False  # the line before ended in ~
         self.over = False  # the last line of a block was joined by a ~ and has none itself
         self.skip = self.faulty = self.begun = False
+        self.tight = False  # a parameter of the block is written without blanks
         self.end: int | None = None  # place of END PGM
 
     def read(self, line: int) -> None:
@@ -142,13 +145,20 @@ class _Lines:
         """A further line of the block before."""
         if self.statement is None or self.faulty:
             return
+        if self.statement.more is cycle_parameters:
+            spaced = _SPACED.match(self.text, cursor.at, cursor.stop)
+            if spaced and self.tight:
+                message = f"Q{spaced.group(1)} is read as a parameter of the {self.statement.keyword} above it"
+                hint = "an assignment has a block number, for example 5 Q1 = -9"
+                self.builder.alarm(message, cursor.at, cursor.stop - cursor.at, hint, "warning")
+            self.tight = self.tight or not spaced
         (self.statement.more or self.statement.read)(cursor)
         self.close(cursor)
 
     def block(self, start: int, skip: bool, cursor: Cursor) -> None:
         """A line that begins a block, or is the next sub-block of one."""
         before, self.statement = self.statement, None
-        was_faulty, self.faulty = self.faulty, False
+        was_faulty, self.faulty, self.tight = self.faulty, False, False
         if cursor.done or self.text[cursor.at] == "*":
             self.builder.block(start, skip=skip)
             return

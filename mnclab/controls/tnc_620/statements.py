@@ -241,7 +241,7 @@ _FN = re.compile(r"FN[ \t]*(\d{1,3})[ \t]*:?", FLAGS)
 _TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})[ \t]*=", FLAGS)
 _M = re.compile(r"M[ \t]*\d", FLAGS)
 _WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
-_PARAMETER_HEAD = re.compile(r"[ \t]*\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
+_PARAMETER_HEAD = re.compile(r"\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
 _FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
 _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 #: A coordinate, another number with a sign, an M function, a feed, a speed.

@@ -19,7 +19,7 @@ _CENTRE = re.compile(r"I?CC", FLAGS)
 _DIALOG = re.compile(r"(?:(?!Q[LR]?\d)[^\d\s;~+.,=-])*(?:[ \t]+(?:(?!Q[LR]?\d)[^\d\s;~+.,=-])+)*", FLAGS)
 _EQUALS = re.compile(r"[ \t]*=", FLAGS)
 _TOLERANCE = re.compile(r"T(?![A-Z])", FLAGS)
-_MODE = re.compile(r"HSC[ \t]*-?[ \t]*MODE[ \t]*:?", FLAGS)
+_MODE = re.compile(r"HSC[ \t]*(?:-[ \t]*)?MODE[ \t]*:?", FLAGS)
 _ANGLE = re.compile(r"TA", FLAGS)
 
 

@@ -23,9 +23,9 @@ INCH = 25.4  # mm
 FLAGS = re.IGNORECASE | re.ASCII
 BLANKS = " \t"
 
-NUMBER = r"(?:\d+[.,]?\d*|[.,]\d+)"
-SIGNED = re.compile(rf"[ \t]*([+-]?)[ \t]*({NUMBER})", FLAGS)
-PARAMETER = re.compile(r"[ \t]*[+-]?[ \t]*Q[LR]?\d+", FLAGS)
+NUMBER = r"(?:\d+(?:[.,]\d*)?|[.,]\d+)"
+SIGNED = re.compile(rf"[ \t]*(?:([+-])[ \t]*)?({NUMBER})", FLAGS)
+PARAMETER = re.compile(r"[ \t]*(?:[+-][ \t]*)?Q[LR]?\d+", FLAGS)
 TEXT = re.compile(r'[ \t]*"([^"]*)"')
 
 FEEDS = ("FMAX", "FAUTO")

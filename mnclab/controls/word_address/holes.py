@@ -44,15 +44,24 @@ def initial_level(m: Machine, kept: dict[str, Any]) -> float:
 
 
 def approach(m: Machine, code: str, x: float | None, y: float | None, r_level: float) -> None:
-    """Movements 1 and 2: over the hole, then to level R."""
+    """Movements 1 and 2: over the hole, then to level R; from below R first up to it, for below it a rapid across would cut.
+
+    No source says what happens from below R; LinuxCNC does this.
+    """
+    if m.programmed[2] < r_level:
+        perform(m, code, [Go("to level R", r_level)])
     m.label = f"{code} to the hole"
     m.rapid(x=x, y=y)
     perform(m, code, [Go("to level R", r_level)])
 
 
 def leave(m: Machine, code: str, r_level: float) -> None:
-    """Movements 5 and 6: to level R, and with G98 to the initial level."""
+    """Movements 5 and 6: to level R, and with G98 to the initial level.
+
+    An initial level below R is none to return to: R is where nothing is in the way, and a rapid down from it would end in
+    the hole, the next one lead through the workpiece. So the tool stays at R, as ISO controls have it.
+    """
     steps = [Go("retract", r_level)]
     if m.modal["return"] == "G98" and m.position_cycle:
-        steps.append(Go("to the initial level", initial_level(m, m.position_cycle.extra)))
+        steps.append(Go("to the initial level", max(r_level, initial_level(m, m.position_cycle.extra))))
     perform(m, code, steps)

@@ -25,7 +25,7 @@ ALPHABET = tuple(chr(c) for c in range(65, 91))
 _BITS = np.zeros(128, dtype=np.int32)
 _BITS[65:91] = 1 << np.arange(26)
 
-_WORD = re.compile(r"([A-Za-z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))?")
+_WORD = re.compile(r"([A-Za-z])[ \t]*([+-]?(?:\d+(?:\.\d*)?|\.\d+))?")
 
 
 class Marks(NamedTuple):

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import beside, cross, dot, meet
+from mnclab.path.compensation.cusps import in_a_cusp, inside_cusps
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
-from mnclab.path.compensation.rules import ACUTE_TURN, ROUND, STRAIGHT, TANGENT, Compensation
+from mnclab.path.compensation.rules import ACUTE_TURN, CUSP, ROUND, STRAIGHT, TANGENT, Compensation
 from mnclab.path.kinds import Rule
 
 
@@ -44,6 +45,10 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     reversal = small & (along < 0)  # straight back: an outside corner of half a turn
     bent = on & ~(small & (along > 0))
     out = reversal | (s * across < 0)
+    cusp = bent & (along < np.cos(CUSP)) & (el.arc[b] | el.arc[a]) & el.wall[b] & el.wall[a]
+    if cusp.any():
+        k = np.flatnonzero(cusp)
+        out[k] = ~inside_cusps(el, c[k], R[k], s[k])
     lead, leave, change = el.entry[b] | el.change[b], el.exit[a], el.change[a]
     rule = np.where(on, Rule.SIDE, Rule.NONE).astype(np.uint8)
     outside = bent & out & ~change
@@ -58,13 +63,22 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
         S[to_first] = beside(P[to_first], t1[to_first], shift[to_first])
 
     corner = el.corner[a]
-    straight = outside & ~reversal & (corner != ROUND) & ((corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN)))
+    straight = (
+        outside
+        & ~reversal
+        & (s * across < 0)
+        & (corner != ROUND)
+        & ((corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN)))
+    )
     inside = bent & ~out & ~change & ~lead & ~leave
     apart = np.zeros(len(c), dtype=bool)
     for which, code in ((straight, Rule.OUTSIDE_STRAIGHT), (inside, Rule.INSIDE)):
         k = np.flatnonzero(which)
         if len(k):
             found = _meet(el, c[k], d[k], P[k], R[k], s[k], t1[k] + t2[k], along[k])
+            sharp = np.flatnonzero(cusp[k] & ~straight[k])
+            if len(sharp):
+                found[sharp] = in_a_cusp(el, c[k][sharp], R[k][sharp], s[k][sharp])
             met = np.isfinite(found[:, 0])
             E[k[met]] = S[k[met]] = found[met]
             rule[k[met]] = code
@@ -74,6 +88,8 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     turn = np.zeros(len(c))
     k = np.flatnonzero(outside | apart)
     turn[k] = np.where(reversal[k], -s[k] * np.pi, np.arctan2(across[k], along[k]))
+    k = np.flatnonzero(outside & (s * turn > 0))  # a cusp whose walls part only beside it
+    turn[k] -= s[k] * 2 * np.pi
     return Corners(E, S, (outside & ~straight) | apart, turn, rule, apart)
 
 

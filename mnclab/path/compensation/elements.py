@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.offsets import Element, left
+from mnclab.geometry.curves import Curves
+from mnclab.geometry.offsets import Element, beside, left
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
@@ -22,7 +23,8 @@ class Elements(NamedTuple):
     ``rows`` (n,) are their rows in the path; ``start``, ``end``, ``centre`` (n, 2); ``t_in``, ``t_out`` (n, 2) unit
     tangents; ``r`` (n,) radii of arcs, nan for lines; ``sweep`` (n,). ``on`` (n,): compensated; ``s``, ``R`` (n,) side
     and radius there, 0 elsewhere. ``entry``, ``exit``, ``change`` (n,): first element, the one after the last, and the
-    one that leads to the other side. ``corner`` (n,) is the rule for the corner before the element.
+    one that leads to the other side. ``corner`` (n,) is the rule for the corner before the element; ``from_height``,
+    ``to_height`` (n,) mm is where the tip of the tool is at both ends, along the normal of the plane.
     """
 
     rows: Index
@@ -41,6 +43,8 @@ class Elements(NamedTuple):
     exit: Mask
     change: Mask
     corner: NDArray[np.uint8]
+    from_height: Array
+    to_height: Array
 
     @classmethod
     def of(cls, path: Toolpath, view: PlaneView, rows: Index) -> Elements:
@@ -55,6 +59,7 @@ class Elements(NamedTuple):
             rows, view.start[take, :2], view.end[take, :2], view.centre[take], view.tangent_start[take],
             view.tangent_end[take], view.radius[take], view.sweep[take], view.arc[take],
             on, s, np.where(on, np.abs(radius), 0.0), on & ~before, before & ~on, turned, path.corner_rule[take],
+            view.start[take, 2], view.end[take, 2],
         )  # fmt: skip
 
     @property
@@ -72,3 +77,30 @@ class Elements(NamedTuple):
         t, p = (self.t_out[k], self.end[k]) if at_end else (self.t_in[k], self.start[k])
         radius = self.r[k] - s * np.sign(self.sweep[k]) * shift
         return Element(p + (shift * s)[:, None] * left(t), t, self.centre[k], radius)
+
+    def boxes(self, k: Index, contour: Index) -> tuple[Array, Array]:
+        """Low and high corners (m, 2) of boxes round elements k (m,); those of each contour (n,) lie far from all others."""
+        bulge = np.where(
+            self.arc[k], np.nan_to_num(self.r[k]) * (1 - np.cos(np.minimum(np.abs(self.sweep[k]) / 2, np.pi))), 0
+        )
+        low, high = np.minimum(self.start[k], self.end[k]), np.maximum(self.start[k], self.end[k])
+        low, high = low - bulge[:, None], high + bulge[:, None]
+        away = (high.max(axis=0) - low.min(axis=0) + 4 * self.R.max())[0] * (contour[k] - contour[k[0]])
+        low[:, 0] += away
+        high[:, 0] += away
+        return low, high
+
+    def length(self, k: Index | slice) -> Array:
+        """How long elements k (m,) are, mm in the plane."""
+        straight = np.hypot(*(self.end[k] - self.start[k]).T)
+        return np.where(self.arc[k], np.abs(self.sweep[k]) * self.r[k], straight)
+
+    def curves(self, k: Index | slice) -> Curves:
+        """Elements k (m,) as they are programmed."""
+        return Curves(self.start[k], self.end[k], self.centre[k], self.r[k], self.sweep[k])
+
+    def moved(self, k: Index, shift: Array, s: Array) -> Curves:
+        """Elements k (m,) moved by ``shift`` mm to the side ``s`` (m,), from end to end."""
+        start, end = beside(self.start[k], self.t_in[k], shift * s), beside(self.end[k], self.t_out[k], shift * s)
+        radius = np.abs(self.r[k] - s * np.sign(self.sweep[k]) * shift)
+        return Curves(start, end, self.centre[k], radius, self.sweep[k])

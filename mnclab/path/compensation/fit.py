@@ -1,10 +1,11 @@
 """Whether the tool fits: what it needs, what there is, and the largest radius for the whole contour.
 
-Four things are looked at. An *arc* on the inside must have a greater radius than the tool; an *element* must not be
+Five things are looked at. An *arc* on the inside must have a greater radius than the tool; an *element* must not be
 used up by its inside corners; a *bottleneck* is a pair of walls, any number of blocks apart, that face each other nearer
 than the tool is wide; at the *ends* of a contour, where the tool arrives and leaves, and at the points of straight
 outside *corners*, it must stand clear of all other walls. An *entry* (and an *exit*) must begin where the tool does not
-yet cut into the element it leads to.
+yet cut into the element it leads to. Close by along the contour, and behind a cusp, *neighbours* are measured one by one.
+Everywhere a tool cuts only into what is at its ``heights`` and into walls that the contour leaves standing (``passes``).
 
 Growing the tool from nothing, the first place that fails is one of these; so the largest radius is the least of their
 own, each from a closed form or, for elements between two corners, from narrowing an interval on the exact condition.
@@ -22,9 +23,12 @@ from numpy.typing import NDArray
 from mnclab.geometry.curves import Curves, distance
 from mnclab.geometry.facing import Chunks, Walls, around, chunks, facing
 from mnclab.geometry.offsets import beside
+from mnclab.path.compensation import neighbours
 from mnclab.path.compensation.corners import ends, remaining
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
-from mnclab.path.compensation.rules import Compensation, Gouge, Report
+from mnclab.path.compensation.heights import at_height, meet
+from mnclab.path.compensation.passes import led_through, run_past
+from mnclab.path.compensation.rules import CLEAR, Compensation, Gouge, Report
 from mnclab.path.compensation.tips import clearance, near_tips
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Rule
@@ -77,6 +81,7 @@ def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, repor
 
 def _places(found: Equidistant, contour: Index) -> list[Places]:
     places = _local(found)
+    places.append(_beside(found, contour, np.concatenate([place.k for place in places])))
     if found.rules.look_ahead:
         places += [*_leads(found.el), *_global(found, contour)]
     return [place for place in places if len(place.k)]
@@ -155,6 +160,28 @@ def _local(found: Equidistant) -> list[Places]:
     return result
 
 
+def _beside(found: Equidistant, contour: Index, lost: Index) -> Places:
+    """Rows that come too near to an element close by; what is ``lost`` has no row."""
+    el, rules = found.el, found.rules
+    look = neighbours.looked_at(found, contour)
+    slack = _misfit(el) if len(look.k) else el.R
+    room = -CLEAR / 2 - slack[look.k] - slack[look.wall]
+    bad = np.flatnonzero(neighbours.clearance(el, look, el.R[look.k], rules) < room)
+    bad = bad[~np.isin(look.k[bad], lost) & ~np.isin(look.wall[bad], lost)]
+    look, room = look.take(bad), room[bad]
+    R = el.R[look.k]
+    width = R + neighbours.clearance(el, look, R, rules)
+
+    def clear(which: Index, radius: Array) -> Mask:
+        return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
+
+    largest = narrowed(clear, R, parts=4)
+    message = (
+        "the tool of radius {R:.4g} beside this element cuts into that of line {other}, {r:.6g} mm from its centre"
+    )
+    return Places("neighbour", look.k, look.wall, width, R - width, largest, message)
+
+
 def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
     """Whether the corners of elements k (m,) leave something of them, for a radius each."""
     begin, end, apart = ends(el, k, radius, rules)
@@ -192,7 +219,7 @@ def _leads(el: Elements) -> list[Places]:
         k = k[(k + step >= 0) & (k + step < n)]
         k = k[el.wall[k + step]]
         R, width = el.R[k + step], np.hypot(*(el.end[k] - el.start[k]).T)
-        bad = width < R - EXACT
+        bad = (width < R - EXACT) & meet(el, k, k + step)
         verb = "begins" if step > 0 else "ends"
         message = (
             f"the {kind} {verb} {{r:.4g}} mm from the contour, where the tool of radius {{R:.4g}} cuts into it already"
@@ -220,16 +247,18 @@ def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     curves = Curves(el.start[run], el.end[run], el.centre[run], el.r[run], el.sweep[run])
     walls = Walls(curves, n_in, n_out, joined, s, group)
     coarse = chunks(walls)
-    return [_bottlenecks(el, k, walls, coarse), *_ends(el, k, walls, coarse), *_tips(found, contour)]
+    return [_bottlenecks(el, contour, k, walls, coarse), *_ends(el, contour, k, walls, coarse), *_tips(found, contour)]
 
 
-def _bottlenecks(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> Places:
+def _bottlenecks(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> Places:
     """Walls that face each other nearer than the tool is wide; the largest radius is half of what there is."""
     chords = facing(walls, 2 * el.R[k], coarse)
     if not len(chords.i):
         return Places("bottleneck", k[:0], k[:0], el.R[:0], el.R[:0], el.R[:0], "")
     i, j, slack = k[chords.i], k[chords.j], _misfit(el)
-    bad = chords.length < 2 * el.R[i] - EXACT - slack[i] - slack[j]
+    bad = (chords.length < 2 * el.R[i] - EXACT - slack[i] - slack[j]) & meet(el, i, j)
+    bad[bad] = ~run_past(el, i[bad], j[bad])
+    bad[bad] = ~led_through(el, contour, i[bad], j[bad])
     i, j, width = i[bad], j[bad], chords.length[bad]
     message = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
     return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, message)
@@ -241,6 +270,8 @@ def _tips(found: Equidistant, contour: Index) -> list[Places]:
     if not (found.rule == Rule.OUTSIDE_STRAIGHT).any():
         return []
     c, w = near_tips(found, contour)
+    same = meet(el, c, w)
+    c, w = c[same], w[same]
     if not len(c):
         return []
     lack = -clearance(el, c, w, el.R[c], rules)
@@ -259,7 +290,7 @@ def _misfit(el: Elements) -> Array:
     return slack
 
 
-def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
+def _ends(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
     """Where the tool arrives at the first wall of a contour, and where it leaves the last, other walls must be clear."""
     slack, places = _misfit(el), []
     last = np.append(~walls.joined[1:], True)
@@ -269,6 +300,8 @@ def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
             R = el.R[k[e]]
             group = around(coarse, P + R * normal, R, len(k))
             group = group[(walls.group[group] == walls.group[e]) & (group != e)]
+            height = el.to_height[k[e]] if at_end else el.from_height[k[e]]
+            group = group[at_height(el, float(height), k[group])]
             if not len(group):
                 continue
             c = walls.curves.take(group)
@@ -278,6 +311,10 @@ def _ends(el: Elements, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
                 return distance(P + radius[:, None] * normal, c.take(which)) - radius
 
             bad = np.flatnonzero(clear(np.full(len(group), R), np.arange(len(group))) < -allowed)
+            if len(bad):
+                given_up = run_past(el, np.full(len(bad), k[e]), k[group[bad]])
+                given_up |= led_through(el, contour, np.full(len(bad), k[e]), k[group[bad]])
+                bad = bad[~given_up]
             if not len(bad):
                 continue
             largest = narrowed(partial(_clears, clear, bad, allowed[bad]), np.full(len(bad), R))

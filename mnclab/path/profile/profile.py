@@ -15,6 +15,7 @@ from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.pieces import Pieces, pieces
 from mnclab.path.profile.planner import Plan, plan
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.columns import fixed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -68,7 +69,7 @@ class Profile:
         self.source = source  # the Program, for pictures that show its lines
         self._more: dict[str, Any] = {"rapid_motion": rapid_motion, "waits": waits, "source": source}
         self.plan: Plan = plan(path, self.limits, override, rapid_motion, waits)
-        self.seconds: Array = self._of_rows(self.plan.seconds)
+        self.seconds: Array = fixed(self._of_rows(self.plan.seconds))
 
     def again(self, limits: Limits | None = None, override: float | None = None) -> Profile:
         """The same path planned under other limits, or with another feed override."""
@@ -83,7 +84,7 @@ class Profile:
     @cached_property
     def starts(self) -> Array:
         """When each row begins (n + 1,), s; the last is the end."""
-        return running_sum(self.seconds)
+        return fixed(running_sum(self.seconds))
 
     @property
     def time(self) -> float:
@@ -95,7 +96,7 @@ class Profile:
     @cached_property
     def pieces(self) -> Pieces:
         """The columns, made when first asked for."""
-        return pieces(self.plan)
+        return Pieces._make(fixed(each) for each in pieces(self.plan))
 
     @property
     def t(self) -> Array:

@@ -93,8 +93,8 @@ class Path {  // kinds, vertices and arcs; positions in mm
 class Course {  // nodes of the feed-rate profile: when, how fast, and where in a row
   constructor(columns, packed, scale) {
     this.row = columns[packed.row];
-    this.t = columns[packed.t].map(v => v / 1e6);
-    this.v = columns[packed.v].map(v => v / 1e3);  // mm/s
+    this.t = columns[packed.t].map(v => v / packed.seconds);
+    this.v = columns[packed.v].map(v => v / packed.speeds);  // mm/s
     this.n = this.row.length;
     this.way = new Float64Array(this.n);
     const s = packed.s === undefined ? null : columns[packed.s];
@@ -112,7 +112,7 @@ class Course {  // nodes of the feed-rate profile: when, how fast, and where in 
       const {piece, p0, p1, v0, v1} = packed.loose;
       const at = (ids, k, parts) => ids.map(id => columns[id][k] / parts);
       columns[piece].forEach((i, k) =>
-        this.loose.set(i, [at(p0, k, scale), at(v0, k, 1e3), at(p1, k, scale), at(v1, k, 1e3)]));
+        this.loose.set(i, [at(p0, k, scale), at(v0, k, packed.speeds), at(p1, k, scale), at(v1, k, packed.speeds)]));
     }
   }
   get time() {

@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.show.given_away import whole
+
 LARGEST = 2**53 // 4  # what a number of a browser holds without loss, as a zigzag difference
 
 
@@ -42,7 +44,7 @@ class Packer:
     def add(self, values: ArrayLike) -> int:
         """A column of whole numbers (n,); returns its index."""
         column = np.asarray(values, dtype=np.int64)
-        if len(column) and int(np.abs(column).max()) > LARGEST:
+        if len(column) and not -LARGEST <= int(column.min()) <= int(column.max()) <= LARGEST:
             raise ValueError("a number is too large for the page")
         self._parts.append(varints(np.diff(column, prepend=0)))
         self.sizes.append(len(column))
@@ -50,6 +52,7 @@ class Packer:
 
     def text(self, header: dict[str, Any]) -> str:
         """Header and columns as base64: length of the header (4 bytes, low first), header as JSON, columns."""
-        head = json.dumps({**header, "columns": self.sizes}, ensure_ascii=False, allow_nan=False).encode()
-        whole = b"".join([len(head).to_bytes(4, "little"), head, *self._parts])
-        return base64.b64encode(zlib.compress(whole, 9)).decode("ascii")
+        head = json.dumps({**header, "columns": self.sizes}, ensure_ascii=False, allow_nan=False)
+        start = whole(head).encode()
+        content = b"".join([len(start).to_bytes(4, "little"), start, *self._parts])
+        return base64.b64encode(zlib.compress(content, 9)).decode("ascii")

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
+import re
 from functools import cached_property
 from html import escape
 from importlib.resources import files
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
 from mnclab.path.profile import Profile
+from mnclab.show.given_away import whole
 from mnclab.show.player.payload import payload
+from mnclab.text.file import replaced
+from mnclab.text.given import check_number
 
 SCRIPTS = ("data", "shapes", "camera", "strokes", "picture", "curve", "listing", "state", "player")
 THEMES = ("auto", "light", "dark")
@@ -28,6 +35,17 @@ if (!window.mnclabPlayers) {
 """
 
 
+#: What a browser lets the page do: run its own script in its own style, and ask nobody for anything.
+POLICY = (
+    "default-src 'none'; script-src 'sha256-{script}'; style-src 'sha256-{style}'; img-src data:; "
+    "base-uri 'none'; form-action 'none'"
+)
+
+
+def _digest(text: str) -> str:
+    return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
 class Player:
     """A run to be played; shows itself in a notebook, ``save`` writes it as a page of its own.
 
@@ -40,41 +58,45 @@ class Player:
     ) -> None:
         if theme not in THEMES:
             raise ValueError(f"theme must be auto, light or dark, got {theme!r}")
-        if not speed > 0:
-            raise ValueError(f"speed must be greater than 0, got {speed:g}")
+        for name, number in (("speed", speed), ("height", height)):
+            if isinstance(number, Real) and not number > 0:
+                raise ValueError(f"{name} must be greater than 0, got {number:g}")
+            check_number(number, name)
         self.run, self.profile = run, profile
-        self.height, self.theme, self.speed = height, theme, speed
+        self.height, self.theme, self.speed = int(height), theme, speed
 
     @property
     def name(self) -> str:
         """What the program is called, without its folders."""
-        return Path(self.run.program.name).name
+        return whole(self.run.program.title)
 
     @cached_property
     def page(self) -> str:
         """The page: markup, style, data and scripts in one text."""
         here = files("mnclab.show.player")
         text = {name: here.joinpath(name).read_text("utf-8") for name in ("page.html", "page.css")}
-        script = "\n".join(here.joinpath(f"{name}.js").read_text("utf-8") for name in SCRIPTS)
+        scripts = "\n".join(here.joinpath(f"{name}.js").read_text("utf-8") for name in SCRIPTS)
+        script, style = f'\n"use strict";\n{scripts}\n', f"\n{text['page.css']}\n"
         parts = {
-            "@title@": escape(f"{self.name} on {self.run.control.title}"),
-            "@theme@": self.theme,
-            "@speed@": f"{self.speed:g}",
-            "@style@": text["page.css"],
-            "@data@": payload(self.run, self.profile),
-            "@script@": script,
+            "title": escape(f"{self.name} on {self.run.control.title}"),
+            "theme": self.theme,
+            "speed": f"{self.speed:g}",
+            "policy": POLICY.format(script=_digest(script), style=_digest(style)),
+            "style": style,
+            "data": payload(self.run, self.profile),
+            "script": script,
         }
-        page = text["page.html"]
-        for place, content in parts.items():
-            page = page.replace(place, content)
-        return page
+        return whole(re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"]))
 
     def save(self, path: str | Path) -> Path:
-        """Write the page to a file and return its path."""
-        path = Path(path)
-        with path.open("w", encoding="utf-8", newline="\n") as file:
-            file.write(self.page)
-        return path
+        """Write the page to a file and return its path; an Alarm if it cannot be written."""
+        with replaced(path) as beside:
+            self.write(beside)
+        return Path(path)
+
+    def write(self, path: Path) -> None:
+        """Write the page into a file that is there."""
+        path.write_text(self.page, "utf-8", newline="\n")
 
     def _repr_html_(self) -> str:
         name = escape(f"player of {self.name}", quote=True)

@@ -1,8 +1,9 @@
 """What the page needs of a run: both paths, what was active at each step, the feed-rate profile, the texts.
 
 Lengths are whole numbers of 1 / ``scale`` mm: the coarsest of 1e-3, 1e-4 and 1e-6 mm that loses nothing, so that the
-page says the digits that the run says. Times are whole microseconds, speeds whole micrometres per second. Arcs stay
-arcs. A *log* is a list of places where a value changes and the values from there on.
+page says the digits that the run says. Times are whole microseconds, speeds whole micrometres per second; where numbers
+are too large for that, the parts are coarser by powers of ten. Arcs stay arcs. A *log* is a list of places where a value
+changes and the values from there on.
 """
 
 from __future__ import annotations
@@ -17,13 +18,16 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
-from mnclab.show.player.packing import Packer
+from mnclab.show.given_away import named
+from mnclab.show.player.packing import LARGEST, Packer
 from mnclab.text.program import Program
 
 SCALES = (1e3, 1e4, 1e6)  # parts of a millimetre
 ANGLES = 1e9  # parts of a radian
 DEGREES = 1e6  # parts of a degree, of rotary axes
+ROOM = LARGEST // 4  # of what the page holds: places are sent as differences
 SHOWN = ("feed", "per_rev", "surface", "speed_limit", "spindle_x", "spindle", "side")  # columns that the page has as logs
+SECONDS, SPEEDS = 1e6, 1e3  # parts of a second, of a millimetre in a second
 OFF = 0.02  # mm that a rapid leaves its straight line before its true course is sent
 
 Array = NDArray[np.float64]
@@ -34,25 +38,27 @@ def payload(run: Any, profile: Profile) -> str:
     pack = Packer()
     path, programmed = run.toolpath, run.programmed
     positions = _points(run.history.changed("position"))
-    scale = _scale([path, programmed], positions)
+    scale = _scale([path, programmed], positions, profile.pieces.s)
+    angles, turned = _parts(ANGLES, path.sweep, programmed.sweep), np.degrees(path.rotary)
+    degrees = _parts(DEGREES, turned)
     lines, lasts = _lines(pack, run.programs)
     header = {
-        "title": run.program.name,
+        "title": run.program.title,
         "control": run.control.title,
         "lathe": path.lathe,
         "alarms": [
             alarm.as_dict() | {"text": str(alarm), "program": alarm.span.program if alarm.span else 0}
-            for alarm in run.alarms
+            for alarm in map(named, run.alarms)
         ],
-        "programs": [{"name": program.name, "text": program.text} for program in run.programs],
+        "programs": [{"name": program.title, "text": program.text} for program in run.programs],
         "lines": lines,
         "lasts": lasts,
         "steps": {"block": pack.add(run.steps.block), "program": pack.add(run.steps.program)},
         "scale": scale,
-        "angles": ANGLES,
+        "angles": angles,
         "origin": path.origin.tolist(),
-        "path": _geometry(pack, path, scale),
-        "programmed": None if programmed is path else _geometry(pack, programmed, scale),
+        "path": _geometry(pack, path, scale, angles),
+        "programmed": None if programmed is path else _geometry(pack, programmed, scale, angles),
         "row": {"step": pack.add(path.step)}
         | {name: _log(pack, getattr(path, name)) for name in SHOWN}
         | {"label": _log(pack, np.array(path.labels, dtype=object)[path.label] if len(path) else [])},
@@ -60,8 +66,8 @@ def payload(run: Any, profile: Profile) -> str:
             "at": pack.add([step for step, _ in run.history.changed("position")]),
             "from": _columns(pack, _whole(positions, scale) - _tips(run, scale)),
         },
-        "rotary": _columns(pack, _whole(np.degrees(path.rotary), DEGREES)) if path.rotary.any() else None,
-        "degrees": DEGREES,
+        "rotary": _columns(pack, _whole(turned, degrees)) if path.rotary.any() else None,
+        "degrees": degrees,
         "stock": [np.round(edge, 4).tolist() for edge in run.stock.edges()] if run.stock else [],
         "history": {name: _changes(pack, run.history.changed(name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
@@ -90,25 +96,36 @@ def _points(changes: list[tuple[int, Any]]) -> Array:
     return np.array([value for _, value in changes], dtype=np.float64).reshape(-1, 3)
 
 
-def _scale(paths: list[Toolpath], positions: Array) -> float:
+def _scale(paths: list[Toolpath], positions: Array, ways: Array) -> float:
     """Parts of a millimetre that lengths are counted in."""
     arcs = [path.centre[path.kind == Kind.ARC] for path in paths]
     lengths = np.concatenate([each for path in paths for each in (path.start[:1], path.end)] + arcs + [positions])
+    most = _parts(SCALES[-1], lengths, ways)
     for scale in SCALES[:-1]:
+        if scale > most:
+            break
         if np.abs(np.round(lengths * scale) / scale - lengths).max(initial=0.0) < 1e-9:
             return scale
-    return SCALES[-1]
+    return most
+
+
+def _parts(finest: float, *columns: Array) -> float:
+    """How many parts a unit is counted in: ``finest``, or the power of ten at which no value is too large for the page."""
+    most = max((float(np.abs(column[np.isfinite(column)]).max(initial=0.0)) for column in columns), default=0.0)
+    return finest if most * finest <= ROOM else 10.0 ** np.floor(np.log10(ROOM / most))
 
 
 def _whole(values: ArrayLike, scale: float) -> NDArray[np.int64]:
-    return np.round(np.asarray(values, dtype=np.float64) * scale).astype(np.int64)
+    """Whole numbers of the parts of a unit; what has no end is as large as can be."""
+    found = np.nan_to_num(np.round(np.asarray(values, dtype=np.float64) * scale), posinf=ROOM, neginf=-ROOM)
+    return found.clip(-ROOM, ROOM).astype(np.int64)
 
 
 def _columns(pack: Packer, values: NDArray[np.int64]) -> list[int]:
     return [pack.add(values[:, k]) for k in range(values.shape[1])]
 
 
-def _geometry(pack: Packer, path: Toolpath, scale: float) -> dict[str, Any]:
+def _geometry(pack: Packer, path: Toolpath, scale: float, angles: float) -> dict[str, Any]:
     """Kinds and vertices of a path (n + 1), and centre and sweep of its arcs."""
     arc = path.kind == Kind.ARC
     vertices = np.concatenate([path.start[:1], path.end]) if len(path) else np.zeros((1, 3))
@@ -116,7 +133,7 @@ def _geometry(pack: Packer, path: Toolpath, scale: float) -> dict[str, Any]:
         "kind": pack.add(path.kind),
         "vertex": _columns(pack, _whole(vertices, scale)),
         "centre": _columns(pack, _whole(path.centre[arc], scale)),
-        "sweep": pack.add(_whole(path.sweep[arc], ANGLES)),
+        "sweep": pack.add(_whole(path.sweep[arc], angles)),
         "axis": _log(pack, path.axis[arc]),
     }
 
@@ -165,11 +182,7 @@ def _lines(pack: Packer, programs: Sequence[Program]) -> tuple[list[int], list[i
     """For each program the first and the last line of its blocks."""
     lines, lasts = [], []
     for program in programs:
-        first = np.asarray(program.line_of(np.arange(len(program))), dtype=np.int64)
-        last = first.copy()
-        some = np.flatnonzero(np.diff(program.first) > 0)
-        word = program.offset[program.first[some + 1] - 1]
-        last[some] = np.maximum(first[some], np.searchsorted(program.line_starts, word, "right"))
+        first, last = (column.astype(np.int64) for column in program.lines())
         lines.append(pack.add(first))
         lasts.append(pack.add(last - first))
     return lines, lasts
@@ -178,12 +191,14 @@ def _lines(pack: Packer, programs: Sequence[Program]) -> tuple[list[int], list[i
 def _profile(pack: Packer, profile: Profile, scale: float) -> dict[str, Any]:
     """Nodes of the pieces and the row of each; between two nodes the way is the cubic of both speeds."""
     p = profile.pieces
-    found: dict[str, Any] = {"row": pack.add(p.row), "t": pack.add(_whole(p.t, 1e6)), "v": pack.add(_whole(p.v, 1e3))}
+    seconds, speeds = _parts(SECONDS, p.t), _parts(SPEEDS, p.v)
+    found: dict[str, Any] = {"row": pack.add(p.row), "seconds": seconds, "speeds": speeds}
+    found |= {"t": pack.add(_whole(p.t, seconds)), "v": pack.add(_whole(p.v, speeds))}
     if p.j.any():  # without jerk the way is the mean of the speeds times the time
         found["s"] = pack.add(_whole(p.s, scale))
     loose = _loose_pieces(profile)
     if len(loose):
-        found["loose"] = {"piece": pack.add(loose)} | _ends(pack, profile, loose, scale)
+        found["loose"] = {"piece": pack.add(loose)} | _ends(pack, profile, loose, scale, speeds)
     return found
 
 
@@ -208,7 +223,7 @@ def _rapid_rows(profile: Profile) -> NDArray[np.int64]:
     return rapids.rows if rows is None else rows[rapids.rows]
 
 
-def _ends(pack: Packer, profile: Profile, pieces: NDArray[np.int64], scale: float) -> dict[str, Any]:
+def _ends(pack: Packer, profile: Profile, pieces: NDArray[np.int64], scale: float, speeds: float) -> dict[str, Any]:
     """Place and velocity of the tool at both ends of some pieces."""
     rapids, p = profile.plan.rapids, profile.pieces
     assert rapids is not None
@@ -219,5 +234,5 @@ def _ends(pack: Packer, profile: Profile, pieces: NDArray[np.int64], scale: floa
         since = np.clip(p.t[node] - begin, 0.0, rapids.seconds[which])
         place, velocity, _, _ = rapids.state(which, since)
         found["p" + name] = _columns(pack, _whole(place, scale))
-        found["v" + name] = _columns(pack, _whole(velocity, 1e3))
+        found["v" + name] = _columns(pack, _whole(velocity, speeds))
     return found

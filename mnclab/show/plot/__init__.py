@@ -9,6 +9,10 @@ plain objects, so that they can be drawn in any thread. A new picture is a file 
 ``colours``; it may import every floor but ``machine`` and ``controls``.
 """
 
-from mnclab.show.plot.compensation import compensation
+from mnclab.text.extras import require
+
+require("matplotlib", "pictures")  # once for all that draw, before they import it
+
+from mnclab.show.plot.compensation import compensation  # noqa: E402
 
 __all__ = ["compensation"]

@@ -43,6 +43,7 @@ from mnclab.text.alarm import Alarm
 GOUGES = {
     "arc": "inside arc too small",
     "element": "used up by its corners",
+    "neighbour": "cuts into line {other} beside it",
     "bottleneck": "too near to line {other}",
     "end": "no room beside line {other}",
     "corner": "straight corner reaches into line {other}",

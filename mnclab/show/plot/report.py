@@ -12,6 +12,7 @@ import matplotlib as mpl
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 
+from mnclab.show.given_away import whole
 from mnclab.show.plot import colours
 
 A4 = (8.27, 11.69)  # inches
@@ -23,7 +24,7 @@ WIDTH = 92  # characters of a line
 def write(found: Any, picture: Figure, path: Path) -> None:
     """Write the pages; the same report gives the same bytes."""
     data = BytesIO()
-    undated = {"CreationDate": None, "Title": found.title}
+    undated = {"CreationDate": None, "Title": whole(found.title)}
     with mpl.rc_context({"pdf.fonttype": 42}), PdfPages(data, metadata=undated) as pages:
         for lines in chunks([*front(found)]):
             pages.savefig(_page(lines))
@@ -83,5 +84,5 @@ def _page(lines: list[tuple[str, bool]]) -> Figure:
     for k, (text, bold) in enumerate(lines):
         place = LEFT / A4[0], 1 - (TOP + k * LINE) / A4[1]
         weight = "bold" if bold else "normal"
-        page.text(*place, text, fontsize=9, family="DejaVu Sans Mono", weight=weight, va="top", parse_math=False)
+        page.text(*place, whole(text), fontsize=9, family="DejaVu Sans Mono", weight=weight, va="top", parse_math=False)
     return page

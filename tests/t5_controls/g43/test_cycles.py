@@ -76,3 +76,44 @@ def test_fine_boring_leaves_the_wall():
 def test_every_code_of_another_chapter_is_remarked_once():
     found = mnclab.run("G91 X1\nG91 X1\nG2 X2 R1 F100\nX2 R1\n", "g43")
     assert [str(alarm).split(": ", 2)[2].split(":")[0] for alarm in found.alarms] == ["G91", "G2"]
+
+
+# --- from one cycle to the next ---------------------------------------------------------------------------------------
+
+WORDS = dict.fromkeys(("G81", "G84", "G74", "G85", "G86"), "")
+WORDS |= {"G82": "P100", "G89": "P100", "G83": "Q5", "G73": "Q5", "G76": "Q.5"}
+START = "G90 F120 S800 M3\nG0 X0 Y0 Z9\n"
+
+
+@pytest.mark.parametrize("dimension", ["G90", "G91"])
+@pytest.mark.parametrize("back", ["G98", "G99"])
+@pytest.mark.parametrize("second", WORDS)
+@pytest.mark.parametrize("first", WORDS)
+def test_hole_data_hold_among_the_cycles(first, second, back, dimension):
+    """The second cycle with X alone is the one with Z, R and F written again, at the levels of the first."""
+    hole = "Z-20 R2" if dimension == "G90" else "Z-22 R-7"
+    before = f"{START}{back} {dimension} {first} X10 Y5 {hole} F90 {WORDS[first]}\n"
+    short = run(f"{before}{second} X40 {WORDS[second]}\nX50\nG80\n")
+    spelt = run(
+        f"{before}G90 {second} X{40 if dimension == 'G90' else 50} Z-20 R2 F90 {WORDS[second]}\n{dimension} X50\nG80\n"
+    )
+    for name in ("kind", "end", "feed", "time", "spindle"):
+        assert np.array_equal(getattr(short.toolpath, name), getattr(spelt.toolpath, name), equal_nan=True), name
+    assert short.toolpath.motion.end[-1, 2] == (9 if back == "G98" else 2)
+
+
+def test_q_and_p_hold_where_they_mean_the_same():
+    """The peck of G83 is that of G73, the dwell of G82 that of G89; the shift of G76 is no peck."""
+    rows = run(f"{START}G99 G83 X10 Z-20 R2 Q11\nG73 X40\n").toolpath.motion
+    cuts = rows[(rows.kind == Kind.LINE) & (rows.end[:, 0] == 40) & (rows.end[:, 2] < rows.start[:, 2])]
+    assert cuts.end[:, 2].tolist() == [-9, -20]
+    path = run(f"{START}G99 G82 X10 Z-20 R2 P700\nG81 X30\nG89 X40 P800\nG82 X50\n").toolpath
+    assert path[path.kind == Kind.DWELL].time.tolist() == [0.7, 0.8, 0.8]
+    alarm = mnclab.run(f"{START}G83 X10 Z-20 R2 Q5\nG76 X40\n", "g43", Setup(settings=QUIET)).alarms[-1]
+    assert alarm.message == "G76 Q (shift off the wall) is missing" and alarm.span.line == 4
+
+
+@pytest.mark.parametrize("between", ["G80", "G80 G0 X1"])
+def test_hole_data_end_with_g80(between):
+    alarm = mnclab.run(f"{START}G83 X10 Z-20 R2 Q5\n{between}\nG73 X40 Q8\n", "g43", Setup(settings=QUIET)).alarms[-1]
+    assert (alarm.message, alarm.span.line) == ("G73 Z (bottom of the hole) is missing", 5)

@@ -64,6 +64,21 @@ def test_from_one_way_of_speed_to_the_other():
     assert np.isnan(path.surface).tolist() == [True, False, False, False, True, False, True]
 
 
+CUTS = ["G1 X40", "G95 F0.2 G1 X40", "G2 X30 Z20 I-20", "G12 Z-80 R10", "G32 Z-30 F2", "G73 Z-20 D5", "G74 X30 Z-20 D2"]
+
+
+@pytest.mark.parametrize("cut", CUTS)
+@pytest.mark.parametrize("before", ["", "S500 M3", "G97 S500 M3"])
+def test_g96_without_any_cutting_speed_is_named_there(cut, before):
+    """The S of G97 is no cutting speed; S may still come in a block of its own, as long as nothing is cut before it."""
+    lines = (before or "G90", "G96", "G0 X45", "F50", cut)
+    alarm = run(*lines).alarms[-1]
+    assert (alarm.severity, alarm.span[:3]) == ("alarm", (2, 1, 3))
+    assert alarm.message == "G96 S (cutting speed, m/min) is missing: none was programmed before the first cut"
+    for given in (run(*lines[:3], "S100 M3", cut), run("G96 S100", "G97 S500", *lines[1:3], "M3", cut)):
+        assert not any("cutting speed, m/min" in a.message for a in given.alarms)
+
+
 def test_a_stopped_spindle_under_g95():
     lines = ("S500 G95 F0.2", "G1 X40")
     row = (found := run(*lines)).toolpath[-1]

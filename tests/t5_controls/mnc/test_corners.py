@@ -11,7 +11,7 @@ import mnclab
 from mnclab import Kind, Setup, Tool
 from mnclab.path.kinds import Rule
 
-TOOLS = {1: Tool(radius=2), 2: Tool(radius=1.5, dr=0.5), 3: Tool(radius=-2)}
+TOOLS = {1: Tool(radius=2), 2: Tool(radius=1.5, dr=0.5), 3: Tool(dr=-2)}
 
 
 def run(program, **more):

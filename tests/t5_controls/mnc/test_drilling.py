@@ -191,12 +191,12 @@ def test_gun_drilling_keeps_the_speed_of_the_program():
     assert run.ok and path.spindle[path.kind == Kind.LINE].tolist() == [800, 25, 800, 25, 900, 25]
 
 
-def test_a_mirror_turns_shift_and_helix_over():
-    """MNC-PREP-XFORM: the shift of D1 goes to +X of the machine, the helix of L1 clockwise."""
+def test_a_mirror_turns_the_helix_over_but_not_the_shift():
+    """MNC-PREP-XFORM: the shift of D1 goes to -X of the machine as the spindle stands, the helix of L1 clockwise."""
     program = "G51 X0\nT2 S800 M3\nG302 Q2 H-5 Z0 D1\nX5 M99\nG306 Q2 H-6 Z0 P2 D12\nX9 M99\n"
     path = mnclab.run(HEAD + program, "mnc").toolpath
     shifted = path[[path.labels[k] == "G302 leave the wall" for k in path.label]]
-    assert shifted.end[0][0] == pytest.approx(-5 + 0.2)
+    assert shifted.end[0][0] == pytest.approx(-5 - 0.2)
     assert (path.sweep[path.kind == Kind.ARC] < 0).all()
 
 

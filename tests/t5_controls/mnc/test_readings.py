@@ -257,10 +257,10 @@ def test_the_spindle_has_its_speed_at_once():
 
 
 def test_spindle_and_coolant_act_before_the_motion_what_ends_after_it():
-    """MNC-M-ORDER, MNC-M5, MNC-PROG-END: M3 M4 M5 M7 M8 before (M9 after it, ISO 6983), M0 and M99 after it."""
-    assert codes(run("G0 X1 S500 M3|X2 M5")) == ["SPINDLE", "RAPID", "SPINDLE", "RAPID"]
+    """MNC-M-ORDER, MNC-M5, MNC-PROG-END: M3 M4 M7 M8 before; M5, M9 (ISO 6983), M0 and M99 after it."""
+    assert codes(run("G0 X1 S500 M3|X2 M5")) == ["SPINDLE", "RAPID", "RAPID", "SPINDLE"]
     path = run("S500 M3|G0 X2 M5").toolpath
-    assert path.spindle.tolist() == [500, 0, 0]
+    assert path.spindle.tolist() == [500, 500, 0]
     assert codes(run("G0 X1 M8|X2 M9|X3 M0")) == ["COOLANT", "RAPID", "RAPID", "COOLANT", "RAPID", "STOP"]
 
 

@@ -239,13 +239,13 @@ def test_waiting_for_the_spindle():
     assert not (run(text, {}).toolpath.kind == Kind.DWELL).any()
 
 
-def test_m5_may_act_after_the_motion():
+def test_m5_acts_after_the_motion_or_before_it():
     text = "S500 M3|G0 X1 M5|X2"
     spindles = [run(text, {"spindle_stop": when}).toolpath for when in ("before", "after")]
     assert [path.spindle[path.kind == Kind.RAPID].tolist() for path in spindles] == [[0, 0], [500, 0]]
-    path = run("S500 M3 F2|G95 G1 X1 M5", {"spindle_stop": "after"}).toolpath
+    path = run("S500 M3 F2|G95 G1 X1 M5", {}).toolpath
     assert [Kind(kind).name for kind in path.kind] == ["SPINDLE", "LINE", "SPINDLE"]
-    assert not run("S500 M3 F2|G95 G1 X1 M5", {}).ok
+    assert not run("S500 M3 F2|G95 G1 X1 M5", {"spindle_stop": "before"}).ok
 
 
 def test_rapids_of_axes_that_do_not_wait():
@@ -306,7 +306,7 @@ def test_outside_corners_follow_the_setting_or_the_program(value, arcs):
 def test_every_setting_is_tested_here_or_with_its_cycle():
     text = open(__file__, encoding="utf-8").read()
     for setting in SETTINGS.values():
-        assert setting.name in text or setting.name in ("block_skip", "peck_clearance", "bulk", "rapid_motion")
+        assert setting.name in text or setting.name in ("block_skip", "peck_clearance", "bulk", "rapid_motion", "stopped_spindle")
         assert setting.check(setting.default) == setting.default and setting.meaning
         assert setting.source or setting.name == "bulk"
 

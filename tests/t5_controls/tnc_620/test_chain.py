@@ -162,7 +162,7 @@ def test_a_scale_leaves_the_tool_alone() -> None:
 
 
 def test_a_scale_scales_roundings_and_lengths_of_cycles() -> None:
-    """Half of RND R5 is 2.5; half of the depth 20 under Q203+0 from Z2 is 10 from Z1; a thread has half the pitch."""
+    """Half of RND R5 is 2.5; half of the depth 20 under Q203+0 from Z2 is 10 from Z1; a thread keeps its pitch."""
     path = run(scale(0.5) + "L X+0 Y+0 F200\nL X+40\nRND R5\nL Y+40").toolpath
     arc = path[path.kind == mnc.Kind.ARC][0]
     assert np.linalg.norm(arc.end - arc.centre) == pytest.approx(2.5)
@@ -171,9 +171,8 @@ def test_a_scale_scales_roundings_and_lengths_of_cycles() -> None:
     levels = run(scale(0.5) + hole).toolpath
     assert -10 in levels.end[:, 2].round(9).tolist() and 1 in levels.end[:, 2].round(9).tolist()
     thread = "CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH = -20\nCYCL DEF 18.2 PITCH = +2\nCYCL CALL"
-    cut = run(scale(0.5) + thread).toolpath
-    cut = cut[cut.synchronous & cut.is_motion][0]
-    assert cut.end[2] == -10 and cut.per_rev == pytest.approx(1)
+    refused = mnc.run(f"TOOL CALL 1 Z S1000\n{scale(0.5)}{thread}\n", "tnc-620")
+    assert "CYCL DEF 18 cannot run under a scale of Z other than 1, got 0.5" in refused.alarms[0].message
 
 
 def test_a_tool_in_a_scaled_surface() -> None:

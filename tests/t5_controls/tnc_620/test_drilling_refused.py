@@ -127,8 +127,11 @@ def test_241_switches_nothing_but_the_coolant(q, number):
 @pytest.mark.parametrize("code", [202, 204])
 def test_an_oriented_stop_needs_a_controlled_spindle(code):
     setup = mnc.Setup(settings={"controlled_spindle": False})
-    (alarm,) = mnc.run(program(code, {})[0], "tnc-620", setup).alarms
-    assert alarm.span[:2] == (3, 1) and alarm.message.startswith(f"CYCL DEF {code} needs a controlled spindle")
+    text, lines = program(code, {})
+    (alarm,) = mnc.run(text, "tnc-620", setup).alarms
+    assert alarm.span[:2] == (max(lines.values()) + 1, 1) and alarm.message.startswith(
+        f"CYCL DEF {code} needs a controlled spindle"
+    )
 
 
 @pytest.mark.parametrize("code", VALUES)

@@ -59,9 +59,9 @@ def test_example_6_9(radius, factor, places):
     assert lines(rows) == [near((-out, y, 120 + out, y)) for y in places]
     assert sorted(set(said(rows, ", line").end[:, 2].round(6)), reverse=True) == [-2.9, -5.8, -6]
     assert said(rows, "floor finishing, line").feed[0] == 500 and rows[-1].end.tolist() == near([-out, min(places), 50])
-    lift, back, over, down = (said(rows, f"level 1 of 2, {what}")[0] for what in ("lift", "back", "over", "down"))
-    assert lift.end[2] == back.end[2] == over.end[2] == near(-0.9) and back.end[0] == over.end[0] == near(-out)
-    assert {lift.kind, back.kind, over.kind} == {Kind.RAPID}
+    lift, back, down = (said(rows, f"level 1 of 2, {what}")[0] for what in ("lift", "back", "down"))
+    assert lift.end[2] == near(-0.9) and back.end.tolist() == near([-out, places[1], -0.9])
+    assert {lift.kind, back.kind} == {Kind.RAPID}
     assert (down.feed, said(rows, "level 1 of 2, down")[1].feed, said(rows, "level 2 of 2, down")[0].feed) == (
         500,
         750,
@@ -82,6 +82,29 @@ def test_strategies(strategy, first, second):
     assert lines(rows)[:2] == [near(first), near(second)]
     links = said(rows, "level 1 of 2, link")
     assert (links.feed == (750 if strategy == 0 else 500)).all() and len(links) == (7 if strategy < 2 else 0)
+
+
+@pytest.mark.parametrize("strategy", [2, 3])
+@pytest.mark.parametrize("change", [{}, {"Q350": 2}, {"Q347": -1, "Q348": 1}, {"Q218": -120, "Q219": -80}], ids=str)
+def test_the_way_back_is_one_straight_rapid_to_the_next_line(strategy, change):
+    """Up, one rapid to where the next line begins, down: nothing else lies between two lines of a level."""
+    rows = run(Q389=strategy, Q200=3, **change)
+    each = lines(rows)
+    backs = said(rows, "level 1 of 2, back")[:-1]  # the last one leads to the start of the level
+    assert len(backs) == len(each) - 1 > 3
+    assert (backs.kind == Kind.RAPID).all() and (backs.start[:, 2] == backs.end[:, 2]).all()
+    assert backs.start[:, :2].tolist() == [near(line[2:]) for line in each[:-1]]
+    assert backs.end[:, :2].tolist() == [near(line[:2]) for line in each[1:]]
+
+
+@pytest.mark.parametrize(("clearance", "scraped"), [(2, 0.9), (2.8, 0.1), (2.9, 0), (5, 0)])
+def test_a_way_back_below_what_still_stands_is_named(clearance, scraped):
+    """Infeeds of 2.9: Q200 above the depth is not above the next line unless Q200 is at least that."""
+    program = PROGRAM.replace("Q200=2", f"Q200={clearance}")
+    found = mnclab.run(f"TOOL CALL 1 Z S1000\n{program}\n", "tnc-620", Setup(tools={1: Tool(radius=10)}))
+    warnings = [alarm.message for alarm in found.alarms]
+    passes = f"CYCL DEF 233 Q200={clearance:g}: the rapid way back to the next line passes {scraped:g} mm below what "
+    assert found.ok and warnings == ([f"{passes}that line has still to take away"] if scraped else [])
 
 
 def test_the_spiral():
@@ -163,7 +186,7 @@ def test_corners_between_walls():
 
 
 def test_a_corner_narrower_than_the_tool_gets_its_radius_and_a_warning():
-    program = PROGRAM.replace("Q347=0", "Q347=1").replace("Q348=0", "Q348=2")
+    program = PROGRAM.replace("Q347=0", "Q347=1").replace("Q348=0", "Q348=2").replace("Q200=2", "Q200=3")
     found = mnclab.run(f"TOOL CALL 1 Z S1000\n{program}\n", "tnc-620", Setup(tools={1: Tool(radius=10)}))
     assert found.ok and [alarm.message for alarm in found.alarms] == [
         "CYCL DEF 233 Q220=2: the corners get the radius of the tool, 10"

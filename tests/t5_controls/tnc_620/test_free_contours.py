@@ -2,6 +2,7 @@
 
 import json
 import math
+import time
 from pathlib import Path
 
 import numpy as np
@@ -212,6 +213,17 @@ def test_refused(blocks, line, column, text):
     alarms = [a for a in run.alarms if a.severity == "alarm"]
     found = [(a.span.line, a.span.column, a.message + (f" ({a.hint})" if a.hint else "")) for a in alarms]
     assert found == [(line, column, text)]
+
+
+@pytest.mark.parametrize("pairs", [1, 6, 40])
+@pytest.mark.parametrize("pair", ["FC DR- R15\nFLT\nRND R2", "FCT R7\nFCT R7\nRND R1", "FC\nFL", "FL LEN20\nFCT DR+ R5"])
+def test_what_is_missing_is_said_soon(pair, pairs):
+    begin = time.thread_time()
+    blocks = "\n".join([pair] * pairs)
+    run = mnc.run(f"{HEAD}L X+0 Y+0 F100\nL X+1\n{blocks}\nL X+50\n", "tnc-620")
+    assert time.thread_time() - begin < 15  # a second or less; it was up to a minute
+    (alarm,) = (alarm for alarm in run.alarms if alarm.severity == "alarm")
+    assert "the free contour is not determined" in alarm.message or "too many solutions to follow" in alarm.message
 
 
 def test_a_contour_needs_a_start(tnc):

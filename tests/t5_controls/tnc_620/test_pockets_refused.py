@@ -111,8 +111,9 @@ def test_refused(number, tool, change, address, sentence):
 
 @pytest.mark.parametrize("number", ALL)
 def test_a_tool_without_radius(number):
-    (alarm,), _ = alarms(number, 3, "")
-    assert alarm.message == f"CYCL DEF {number} needs a tool with a radius, got 0" and alarm.span[:2] == (2, 1)
+    (alarm,), line = alarms(number, 3, "")
+    at_the_call = (max(line.values()) + 1, 3)
+    assert alarm.message == f"CYCL DEF {number} needs a tool with a radius, got 0" and alarm.span[:2] == at_the_call
 
 
 @pytest.mark.parametrize("number", ALL)

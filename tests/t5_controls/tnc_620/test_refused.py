@@ -104,7 +104,9 @@ REFUSED = [
     (D200 + "Q395=2", 12, 1, "CYCL DEF 200 Q395 (depth reference) must be one of 0, 1, got 2"),
     (D200 + "Q395=1\n3 CYCL CALL M3", 12, 1,
      "CYCL DEF 200 Q395 (depth reference) needs the point angle of tool 1 (T-ANGLE of the tool table)"),
-    (D200 + "Q999=2", 12, 1, "Q999=2 has no meaning in this block (CYCL DEF 200 does not take Q999)"),
+    (D200 + "Q999=2", 12, 1,
+     "Q999=2 has no meaning in this block (CYCL DEF 200 does not take Q999) (a line Q… without a block number belongs to the "
+     "definition above it: number it to assign a variable)"),
     (D200 + "Q200=2", 12, 1, "Q200 is written twice in this block (keep one of them)"),
     (D200.replace("Q206=250", "Q206=FMAX"), 6, 1,
      "CYCL DEF 200 Q206 (feed rate for plunging) must be a number, FAUTO, FU, got FMAX"),

@@ -19,7 +19,9 @@ REFUSED = [
     ("2 TOOL CALL 6 Z\n3 L X+1 FZ0.1 M3", 4, 9, "FZ0.1 needs the number of teeth of tool 6 (column CUT of the tool table)"),
     ("2 L X+5 FU0.2 M3\n3 L X+6 M5\n4 L X+7", 5, 1,
      "a feed per revolution needs a turning spindle (write S and M3 before the move)"),
-    ("2 L X+5 FZ0.1 M3\n3 TOOL CALL 6\n4 L X+9", 5, 1, "no feed rate was programmed before this move (write F)"),
+    ("2 L X+5 FZ0.1 M3\n3 TOOL CALL 6\n4 L X+9", 5, 1,
+     "no feed rate was programmed before this move (write F or FMAX; with the setting feed_needed = False such a move is at "
+     "rapid, with a warning)"),
     ("2 L X+5 F MAXX", 3, 9, "F needs a number, found 'M'"),
     ("2 L X+5 FMX", 3, 9, "F needs a number, found 'M' (near: FMAX)"),
     ("2 L X-Q1/2", 3, 9, "'/' has no meaning here (a formula stands in a block of its own, for example Q10 = Q1 / 2)"),

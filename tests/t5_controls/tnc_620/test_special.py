@@ -220,7 +220,7 @@ REFUSED = [
     ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -5\nCYCL DEF 18.2 PITCH 0\nCYCL CALL", 4, 15, "PITCH (pitch of the thread) must be"),
     ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -5\nCYCL CALL", 2, 1, "PITCH (pitch of the thread) is missing"),
     ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -100000\nCYCL DEF 18.2 PITCH 1", 3, 15, "DEPTH (depth of the thread"),
-    ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -5\nCYCL DEF 18.2 PITCH 1\nL X1 M3\nCYCL CALL", 2, 1, "needs a spindle that stands"),
+    ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -5\nCYCL DEF 18.2 PITCH 1\nL X1 M3\nCYCL CALL", 6, 1, "needs a spindle that stands"),
     ("CYCL DEF 32.0 T\nCYCL DEF 32.1 T10.1", 3, 15, "T (permissible contour deviation) must be at least 0 and at most 10"),
     ("CYCL DEF 32.0 T\nCYCL DEF 32.1 T1\nCYCL DEF 32.2 HSC-MODE:2", 4, 15, "HSC-MODE (filter) must be one of 0, 1, got 2"),
     ("CYCL DEF 32.0 T\nCYCL DEF 32.1 T1\nCYCL DEF 32.2 TA-1", 4, 15, "TA (permissible deviation of rotary axes) must be"),
@@ -254,5 +254,5 @@ REFUSED_FACES = [
 @pytest.mark.parametrize(("tool", "changed", "address", "message"), REFUSED_FACES, ids=[r[3] for r in REFUSED_FACES])
 def test_refused_faces(tool: mnc.Tool, changed: dict, address: str, message: str) -> None:
     alarm = next(a for a in faced(tool, **changed).alarms if a.severity == "alarm")
-    line = 3 if not address else 4 + list(FACE).index(address)
+    line = 4 + len(FACE) if not address else 4 + list(FACE).index(address)
     assert message in alarm.message and alarm.span[:2] == (line, 1)

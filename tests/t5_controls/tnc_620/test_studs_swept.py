@@ -190,6 +190,8 @@ def test_a_surface_is_cleared_and_its_walls_are_kept(v, limits, signs, radius, p
         assert area.difference(wall.buffer(MICRON)).area < 1e-6
         stays = surface.intersection(wall.buffer(-2 * MICRON)).difference(kept).difference(area)
         assert stays.area < 1e-4
+    if v["Q200"] < steps[0]:  # the way back that the manual says is not above the next line: a warning says so
+        rows = [(row, label) for row, label in rows if not label.endswith(", back")]
     no_rapid_cuts(rows, radius, surface.union(box(-400, -400, 400, 400).difference(wall)), sweeps)
     assert rows[-1][0].end[2] == pytest.approx(max(v["Q200"], v["Q204"]))
     assert min(row.end[2] for row, _ in rows) == pytest.approx(v["Q386"])

@@ -10,6 +10,7 @@ TAPPING, MILLING = (206, 207, 209), (262, 263, 264, 265, 267)
 INNER, ONE_WAY = (262, 263, 264, 265), (262, 263, 264, 267)
 PITCHED = (207, 209, *MILLING)
 HEAD = ""  # the fault stands at the cycle's own word
+CALL = "CYCL CALL"  # the fault is one of the machine and stands at the call
 
 POSITIVE = "must be negative, got 5: a positive depth works upwards"
 BEYOND = "must be at least -99.9999 and at most 99.9999, got"
@@ -28,15 +29,15 @@ REFUSED = [
     ((264,), {"Q356": 5}, "Q356 (total hole depth)", "must have the sign of the other depths, got 5"),
     ((263, 264, 265, 267), {"Q358": 5, "Q359": 9}, "Q358 (depth at front)",
      "must have the sign of the other depths, got 5"),
-    ((263, 264), {"Q201": 0, "Q356": 0}, HEAD, "has nothing to do: Q201 and Q356 and Q358 are 0"),
-    ((265, 267), {"Q201": 0}, HEAD, "has nothing to do: Q201 and Q358 are 0"),
+    ((263, 264), {"Q201": 0, "Q356": 0}, "Q201 (thread depth)", "leaves nothing to do: Q201 and Q356 and Q358 are 0"),
+    ((265, 267), {"Q201": 0}, "Q201 (thread depth)", "leaves nothing to do: Q201 and Q358 are 0"),
     # the spindle
-    ((206,), {"start": "M5"}, HEAD, "needs a turning spindle: write S in TOOL CALL, and M3 or M4 before"),
-    ((206,), {"speed": 0}, HEAD, "needs a turning spindle: write S in TOOL CALL, and M3 or M4 before"),
-    ((207, 209), {"speed": 0}, HEAD, "needs a spindle speed: write S in TOOL CALL"),
-    (ONE_WAY, {"start": "M4"}, HEAD, "needs a tool that turns right: write M3 before"),
-    (ONE_WAY, {"start": "M5"}, HEAD, "needs a tool that turns right: write M3 before"),
-    ((265,), {"start": "M5"}, HEAD, "needs a turning spindle: write M3 or M4 before"),
+    ((206,), {"start": "M5"}, CALL, "needs a turning spindle: write S in TOOL CALL, and M3 or M4 before"),
+    ((206,), {"speed": 0}, CALL, "needs a turning spindle: write S in TOOL CALL, and M3 or M4 before"),
+    ((207, 209), {"speed": 0}, CALL, "needs a spindle speed: write S in TOOL CALL"),
+    (ONE_WAY, {"start": "M4"}, CALL, "needs a tool that turns right: write M3 before"),
+    (ONE_WAY, {"start": "M5"}, CALL, "needs a tool that turns right: write M3 before"),
+    ((265,), {"start": "M5"}, CALL, "needs a turning spindle: write M3 or M4 before"),
     # the pitch
     (PITCHED, {"Q239": 0}, "Q239 (thread pitch)", "must not be 0"),
     (PITCHED, {"Q239": -100}, "Q239 (thread pitch)", f"{BEYOND} -100"),
@@ -52,7 +53,7 @@ REFUSED = [
     # room for the tool
     (INNER, {"radius": 5}, "Q335 (nominal diameter)", "must be greater than the tool, 10, got 10"),
     (INNER, {"radius": 6}, "Q335 (nominal diameter)", "must be greater than the tool, 12, got 10"),
-    (MILLING, {"radius": 0}, HEAD, "needs a tool with a radius, got 0"),
+    (MILLING, {"radius": 0}, CALL, "needs a tool with a radius, got 0"),
     (MILLING, {"Q335": 0}, "Q335 (nominal diameter)", "must be greater than 0, got 0"),
     ((267,), {"Q358": -1}, "Q359 (offset at front from the stud centre)",
      "must be greater than 0 with Q358: the tool would go into the stud"),
@@ -99,9 +100,9 @@ def test_refused(called, number, changed, parameter, sentence) -> None:
     run = called(number, **changed)
     (alarm,) = (a for a in run.alarms if a.severity == "alarm")
     code = f"CYCL DEF {number} "
-    assert alarm.message == code + (f"{parameter} " if parameter else "") + sentence
+    assert alarm.message == code + (f"{parameter} " if parameter not in (HEAD, CALL) else "") + sentence
     lines = run.programs[0].text.splitlines()
-    address = parameter.split()[0] if parameter else "3 CYCL"
+    address = {HEAD: "3 CYCL", CALL: "4 CYCL"}.get(parameter) or parameter.split()[0]
     line = next(k for k, text in enumerate(lines, 1) if text.startswith(address))
     assert (alarm.span.line, alarm.span.column) == (line, 1) and (line == 4) == (parameter == HEAD)
 
@@ -145,4 +146,5 @@ def test_rigid_tapping_needs_a_controlled_spindle(called, number) -> None:
     run = called(number)
     run = run.again(run.setup.with_settings(controlled_spindle=False))
     (alarm,) = run.alarms
-    assert alarm.span[:2] == (4, 1) and alarm.message.startswith(f"CYCL DEF {number} needs a controlled spindle")
+    line = run.programs[0].text.splitlines().index("4 CYCL CALL") + 1
+    assert alarm.span[:2] == (line, 1) and alarm.message.startswith(f"CYCL DEF {number} needs a controlled spindle")

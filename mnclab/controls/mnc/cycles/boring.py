@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import chain
+from typing import ClassVar
+
+import numpy as np
 
 from mnclab.controls.mnc.cycles.prepared import (
     PreparedCycle,
@@ -16,6 +19,7 @@ from mnclab.controls.mnc.cycles.prepared import (
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import MILLS, SHIFTS, remark, with_the_spindle
 from mnclab.machining.helical import bore_milling, turns
 from mnclab.machining.holes import back_bore, back_to_axis, bore, ream
 
@@ -24,6 +28,12 @@ CYCLES = CycleTable()
 DISENGAGE = {0.0: "not at all", 1.0: "in -X", 2.0: "in -Y", 3.0: "in +X", 4.0: "in +Y"}
 SHIFT = {choice: where for choice, where in DISENGAGE.items() if choice}
 MODE = {1.0: "climb (counter-clockwise)", -1.0: "conventional (clockwise)", 0.0: "as 1"}
+
+
+def tilted(m: Machine) -> Iterator[tuple[str, str]]:
+    """A fault where the hole does not lie along the oriented spindle."""
+    if np.abs(m.frames.matrix[:2, 2]).max() > 1e-9:
+        yield "disengage", "needs a hole along the spindle: G39 outside of G17 tilts it"
 
 
 @CYCLES("G301, G201", "Reaming", runs="call", source="MNC 9.5")
@@ -47,7 +57,7 @@ class Reaming(PreparedCycle):
 
 @CYCLES("G302, G202", "Boring with oriented spindle", runs="call", source="MNC 9.6")
 class Boring(PreparedCycle):
-    """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws."""
+    """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws; no frame turns D or changes 0.2 mm."""
 
     depth: float = depth("depth from the surface to the bottom")
     feed: float | None = feed("boring feed")
@@ -58,6 +68,11 @@ class Boring(PreparedCycle):
     )
     spindle_angle: float = spindle_angle("spindle angle for the withdrawal")
 
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A hole along the spindle, where the tool leaves its wall."""
+        if self.disengage:
+            yield from tilted(m)
+
     def moves(self, m: Machine) -> None:
         """Steps 1 to 6 of the manual; the spindle turns again as before, for the next call."""
         turning, out = m.turning, self.retract_feed or self.feed
@@ -66,12 +81,14 @@ class Boring(PreparedCycle):
             self.surface + self.depth, above=self.level, feed=self.feed, retract=out, dwell=self.dwell_bottom,
             angle=self.spindle_angle, direction=int(self.disengage),
         )  # fmt: skip
-        perform(m, self.code, chain(steps, back_to_axis(end, turning, "to the start point")))
+        perform(m, self.code, chain(with_the_spindle(m, steps), back_to_axis(end, turning, "to the start point")))
 
 
 @CYCLES("G304, G204", "Back boring", runs="call", source="MNC 9.8")
 class BackBoring(PreparedCycle):
     """Counterbores from below, with a bar that goes through the hole off its axis."""
+
+    does: ClassVar[str] = SHIFTS
 
     counterbore_depth: float = param(
         "H", "depth of the counterbore from the lower surface", above=0, incremental=True, example=5
@@ -95,6 +112,10 @@ class BackBoring(PreparedCycle):
                 f"must be less than the thickness {self.thickness:g}, got {self.counterbore_depth:g}",
             )
 
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """A hole along the spindle."""
+        yield from tilted(m)
+
     def moves(self, m: Machine) -> None:
         """Steps 1 to 6 of the manual; levels are those of the end of the bar."""
         turning = m.turning
@@ -105,12 +126,14 @@ class BackBoring(PreparedCycle):
             eccentricity=self.eccentricity, direction=int(self.disengage), angle=self.spindle_angle,
             feed=self.feed, travel=self.positioning_feed, dwell=self.dwell_bottom, turning=turning or 1,
         )  # fmt: skip
-        perform(m, self.code, chain(steps, back_to_axis(end, turning, "to the start point")))
+        perform(m, self.code, chain(with_the_spindle(m, steps), back_to_axis(end, turning, "to the start point")))
 
 
 @CYCLES("G306, G208", "Bore milling", runs="call", source="MNC 9.9")
 class BoreMilling(PreparedCycle):
     """Mills a hole on a helix from the clearance level, with a full circle at the bottom."""
+
+    does: ClassVar[str] = MILLS
 
     depth: float = depth("depth from the surface to the bottom")
     feed: float | None = feed("feed on the helix")
@@ -142,7 +165,8 @@ class BoreMilling(PreparedCycle):
         if m.cycle and 0 < self.predrilled_diameter < inner and m.cycle.extra.setdefault("ring", tool) == tool:
             m.cycle.extra["ring"] = None  # once is enough
             word = m.cycle.words["predrilled_diameter"]
-            m.warn(f"{self.code} C {self.predrilled_diameter:g} leaves a ring: the tool reaches in to {inner:g}", word)
+            ring = f"{self.code} C {self.predrilled_diameter:g} leaves a ring: the tool reaches in to {inner:g}"
+            m.warn(ring + remark(m), word)
 
     def moves(self, m: Machine) -> None:
         """Steps 1 to 5 of the manual."""

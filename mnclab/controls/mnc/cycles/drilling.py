@@ -17,6 +17,7 @@ from mnclab.controls.mnc.cycles.prepared import (
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes import drill, gun_drill
 from mnclab.machining.steps import Go, Wait
@@ -147,13 +148,18 @@ class Centring(PreparedCycle):
         """A diameter needs a point angle."""
         if self.mode and not 0 < m.tool.angle < 180:
             yield "mode", f"1 needs the point angle of tool {m.tool.number} in the tool table"
+        if self.mode and not is_round(m):
+            yield "mode", "1 cannot run under unequal scales of the plane: a diameter would be two"
 
     def moves(self, m: Machine) -> None:
         """Steps 1 to 4 of the manual; the cone of the point is as deep as half the diameter over its tangent."""
         if self.mode:
-            down = (self.diameter or 0.0) / 2 / math.tan(math.radians(m.tool.angle / 2))
+            down = (self.diameter or 0.0) / 2 / math.tan(math.radians(tool(m).angle / 2))
         else:
             down = self.depth or 0.0
+        if self.mode and abs(self.diameter or 0.0) > 2 * m.radius > 0:
+            sentence = f"is wider than the tool, {2 * m.radius:.10g}: the cone ends at the tool's diameter"
+            m.warn(f"{self.code} D{self.diameter:.10g} {sentence}")
         end = self.approach(m)
         perform(
             m, self.code, [Go("centre", self.surface + down, self.feed), Wait("dwell at the bottom", self.dwell_bottom)]
@@ -163,7 +169,12 @@ class Centring(PreparedCycle):
 
 @CYCLES("G307, G241", "Gun drilling", runs="call", source="MNC 9.10")
 class GunDrilling(PreparedCycle):
-    """Drills deep in one go with a single-lip drill: slow in and out, fast with coolant while it cuts."""
+    """Drills deep in one go with a single-lip drill: slow in and out, fast with coolant while it cuts.
+
+    With K it dwells twice. Step 3 drills "to the depth or to the dwell depth": were that an alternative, K < |H| would leave
+    the hole unfinished. So K is a pause on the way, as its own text says of through holes, and step 4 dwells at the bottom;
+    T is the time of both, as there is no other.
+    """
 
     depth: float = depth("depth from the surface to the bottom")
     feed: float | None = feed("drilling feed")

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from mnclab.controls.word_address.holes import approach, initial_level, leave, no_pitch, out_of_place, upside_down
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import TAPS, depth_scale
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes import drill, ream
 from mnclab.machining.tapping import tap
@@ -143,7 +144,7 @@ class DeepHoleDrilling(FixedCycle):
     def moves(self, m: Machine) -> None:
         """Position, level R, pecks, dwell, and up."""
         approach(m, self.code, self.x, self.y, self.r_level)
-        clearance = m.settings["peck_clearance"]
+        clearance = m.settings["peck_clearance"] / depth_scale(m)  # of the control, no length of the program
         steps = drill(self.levels(), above=self.r_level, feed=None, reenter=clearance, dwell_bottom=self.dwell)
         perform(m, self.code, steps)
         leave(m, self.code, self.r_level)
@@ -152,6 +153,8 @@ class DeepHoleDrilling(FixedCycle):
 @CYCLES("G84", "Tapping", runs="position", source="MNC 9.2", triggers=POSITION)
 class Tapping(FixedCycle):
     """Taps at each position with the spindle as it turns, reversed at the bottom and again at level R, until G80."""
+
+    does: ClassVar[str] = TAPS
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """As all fixed cycles; and the spindle turns."""

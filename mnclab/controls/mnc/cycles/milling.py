@@ -8,15 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.clearing import Clearing, numbered
 from mnclab.machining.depths import MOST
 from mnclab.machining.face_milling import Layer, face
 from mnclab.machining.facing import lines, rows
+from mnclab.machining.residue import within
 from mnclab.machining.steps import Go
 
 CYCLES = CycleTable()
@@ -47,6 +49,8 @@ def second_feed(meaning: str, example: float) -> Any:
 @dataclass(frozen=True)
 class MillingCycle(Cycle):
     """What all of them need of the machine: a tool with a radius, a feed, no radius compensation."""
+
+    does: ClassVar[str] = MILLS
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Tool, feed, compensation; and no machine coordinates."""
@@ -112,7 +116,7 @@ class LineMilling(Surface):
     def moves(self, m: Machine) -> None:
         """Steps 1 to 7 of the manual; the tool stays at the clearance level."""
         for sentence in self.remarks(m.radius):
-            m.warn(f"{self.code} {sentence}")
+            m.warn(f"{self.code} {sentence}{remark(m)}")
         if not self.passes:
             return
         left, right, above = (
@@ -184,6 +188,12 @@ class FaceMilling(Surface):
             near = far = self.start_x + self.length_x / 2
         return lines(across, left, right, radius, within=(near, far)), lines(across, near, far, radius)
 
+    def residue(self, radius: float) -> float:
+        """What of the finished surface lines that end within it leave, mm² (MNC-G321-L1END)."""
+        if self.strategy != 1:
+            return 0.0
+        return within(self.length_x, self.length_y, radius, self.across(radius), outside=len(self.levels()) == 1)
+
     def layers(self, radius: float) -> Iterator[Layer]:
         """Every second level backwards; the finishing infeed at its own feed."""
         first, other = self.clearings(radius)
@@ -201,6 +211,12 @@ class FaceMilling(Surface):
         if not self.levels():
             m.warn(f"{self.code} Z and W are the same height: nothing is milled")
             return
+        if (area := self.residue(m.radius) * m.scale**2) > 1e-9:
+            m.warn(
+                f"{self.code} L1 leaves {area:.3f} mm² of the surface uncut: the lines end within it, in the corners and between "
+                "two lines the tool is round",
+                hint="L0 and L2 mill all of it",
+            )
         above = self.level_from + self.clearance
         end = max(m.programmed[2], above)
         self.approach(m, above)

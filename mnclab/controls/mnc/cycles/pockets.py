@@ -16,6 +16,7 @@ from mnclab.controls.mnc.cycles.milling import MillingCycle, clearance, feed, se
 from mnclab.machine.cycle import CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import remark, tool
 from mnclab.machining import concentric
 from mnclab.machining.clearing import Clearing
 from mnclab.machining.depths import infeeds
@@ -125,7 +126,7 @@ class Pocket(MillingCycle, ABC):
 
     def down(self, m: Machine) -> Down:
         """The way from one level to another, as J says."""
-        entry = Entry(ENTRIES[int(self.plunge)], m.tool.plunge_angle) if self.plunge else Entry()
+        entry = Entry(ENTRIES[int(self.plunge)], tool(m).plunge_angle) if self.plunge else Entry()
         return partial(way_down, entry, self.room(m.radius, self.side_allowance), m.radius, self.climb)
 
     def moves(self, m: Machine) -> None:
@@ -137,7 +138,10 @@ class Pocket(MillingCycle, ABC):
             m.warn(f"{self.code} M2 finishes nothing: neither U nor W is given")
             return
         if self.plunge == 1 and m.tool.plunge_angle < 90 and room.half_width < radius:
-            m.warn(f"{self.code} J1 has a narrow helix: its radius is {room.half_width:g}, that of the tool {radius:g}")
+            narrow = (
+                f"{self.code} J1 has a narrow helix: its radius is {room.half_width:g}, that of the tool {radius:g}"
+            )
+            m.warn(narrow + remark(m))
         perform(m, self.code, [Go("to the clearance level", above)])
         side, deep = 1 if self.climb else -1, min(self.clearance, room.half_width)
         if self.scope != 2:

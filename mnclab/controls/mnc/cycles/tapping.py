@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import ClassVar
 
 from mnclab.controls.mnc.cycles.prepared import PreparedCycle, depth
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import TAPS
 from mnclab.machining.tapping import tap
 
 CYCLES = CycleTable()
@@ -15,7 +17,13 @@ CYCLES = CycleTable()
 
 @CYCLES("G309", "Tapping with controlled spindle", runs="call", source="MNC 9.12")
 class RigidTapping(PreparedCycle):
-    """Taps in one pass with the spindle locked to the feed; the spindle stands still afterwards."""
+    """Taps in one pass with the spindle locked to the feed; the spindle stands still afterwards.
+
+    The note of the chapter wants it switched on with M3 or M4 before the next machining. A further call turns it all the
+    same, for a cycle that takes its sense from P and reverses it must turn it itself, but a warning cites the note.
+    """
+
+    does: ClassVar[str] = TAPS
 
     depth: float = depth("depth of the thread from the surface")
     pitch: float = param("P", "pitch", "mm/rev", note="positive right-hand, negative left-hand", example=1.25)
@@ -32,6 +40,13 @@ class RigidTapping(PreparedCycle):
 
     def moves(self, m: Machine) -> None:
         """Steps 1 to 4 of the manual: the sign of the pitch is the hand, whatever way the spindle turned before."""
+        kept = m.cycle.extra if m.cycle else {}
+        if kept.get("stopped") == "now" and not m.turning:
+            kept["stopped"] = "told"
+            m.warn(
+                f"{self.code}: the spindle stands since the thread before, and the cycle turns it itself",
+                hint="the manual wants M3 or M4 before the next machining (9.12, note 3)",
+            )
         end = self.approach(m)
         steps = tap(
             [self.surface + self.depth], above=self.level, pitch=abs(self.pitch), sense=1 if self.pitch > 0 else -1,
@@ -39,3 +54,4 @@ class RigidTapping(PreparedCycle):
         )  # fmt: skip
         perform(m, self.code, steps)
         self.leave(m, end)
+        kept.setdefault("stopped", "now")

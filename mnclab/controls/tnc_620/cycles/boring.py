@@ -7,16 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import chain
+from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.chain import MIRROR
 from mnclab.controls.tnc_620.cycles.holes import Hole, moving, oriented, rate
-from mnclab.geometry import frames
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
+from mnclab.machine.true_size import MILLS, SHIFTS, tool, with_the_spindle
 from mnclab.machining.depths import DRIFT
 from mnclab.machining.helical import bore_milling, steepest_pitch, turns
 from mnclab.machining.holes import back_bore, back_to_axis, bore
-from mnclab.machining.steps import Go, Step
+from mnclab.machining.steps import Step
 
 CYCLES = CycleTable()
 
@@ -24,12 +26,10 @@ CYCLES = CycleTable()
 def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
     """Steps off the axis go where they would without a mirror image; shifts and rotations count (4.5, 4.7)."""
     plain = m.frames.copy()
-    plain.set("mirror", None)
-    (a, b), (c, d) = (frames.inverse(m.frames.matrix) @ plain.matrix)[:2, :2].tolist()
-    for step in steps:
-        if isinstance(step, Go) and step.x is not None and step.y is not None and "mirror" in m.frames:
-            step = step._replace(x=a * step.x + b * step.y, y=c * step.x + d * step.y)
-        yield step
+    for name, _ in m.frames:
+        if name.startswith(MIRROR):  # before the tilt or behind it
+            plain.set(name, None)
+    return with_the_spindle(m, steps, plain.matrix)
 
 
 @CYCLES("CYCL DEF 202", "Boring", runs="call", source="4.5")
@@ -66,6 +66,8 @@ class BackBoring(Hole):
 
     Levels count for the lower end of the bar; its edge is Q252 above that.
     """
+
+    does: ClassVar[str] = SHIFTS
 
     clearance: float = addresses.clearance()
     counterbore_depth: float = addresses.coordinate(
@@ -124,6 +126,8 @@ class BoreMilling(Hole):
     climb into up-cut milling.
     """
 
+    does: ClassVar[str] = MILLS
+
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
     feed: float = addresses.plunge_feed(("FAUTO", "FU", "FZ"))
@@ -139,11 +143,11 @@ class BoreMilling(Hole):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """A bore as wide as the tool, and at most twice as wide if no other came before; a helix that goes down."""
         yield from super().check(m)
-        tool = 2 * m.radius
+        size = 2 * m.radius
         if self.radius(m) < 0:
-            yield "diameter", f"must be at least the tool diameter {tool:g}, got {self.diameter:g}"
-        if not self.roughing_diameter and self.diameter > 2 * tool + DRIFT:
-            yield "diameter", f"must be at most twice the tool diameter {tool:g} while Q342 is 0, got {self.diameter:g}"
+            yield "diameter", f"must be at least the tool diameter {size:g}, got {self.diameter:g}"
+        if not self.roughing_diameter and self.diameter > 2 * size + DRIFT:
+            yield "diameter", f"must be at most twice the tool diameter {size:g} while Q342 is 0, got {self.diameter:g}"
         if self.radius(m):
             yield from moving("pitch", self.pitch, "to mill with")
             yield from too_many("pitch", lambda: turns(self.clearance + abs(self.depth), self.pitch_on(m)))
@@ -155,7 +159,7 @@ class BoreMilling(Hole):
 
     def pitch_on(self, m: Machine) -> float:
         """The infeed per turn that the tool allows."""
-        return min(self.pitch, steepest_pitch(self.radius(m), m.tool.plunge_angle))
+        return min(self.pitch, steepest_pitch(self.radius(m), tool(m).plunge_angle))
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """To the wall, helix, circle, back to the axis; end plane."""

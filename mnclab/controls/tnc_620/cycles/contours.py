@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -16,8 +16,10 @@ from mnclab.machine.following import follow
 from mnclab.machine.interpreter import unit_of
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.recording import Recording
+from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.depths import infeeds
 from mnclab.machining.pockets import rings
+from mnclab.machining.residue import left_by
 from mnclab.path.outline import outline
 
 CYCLES = CycleTable()
@@ -139,7 +141,9 @@ def contour_region(m: Machine) -> Region:
 
 @CYCLES("CYCL DEF 22", "Rough-out", runs="call", source="8.6")
 class RoughOut(Cycle):
-    """Clears the contour level by level, each from the inside outward, islands first."""
+    """Clears the contour level by level, each from the inside outward, islands first; a mirror image keeps its climb (8.3)."""
+
+    does: ClassVar[str] = MILLS
 
     infeed: float = param("Q10", "infeed per cut", modal=True, incremental=True, **WIDE)
     plunge_feed: float = param(
@@ -198,13 +202,16 @@ class RoughOut(Cycle):
         data, region = contour_data(m), contour_region(m)
         down = -1 if data.depth < 0 else 1
         floor = data.surface + down * (abs(data.depth) - data.floor_allowance)
+        climb = data.sense * m.orientation > 0  # on the machine: no mirror image changes it
         try:
             clearing = rings(
-                region, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=data.sense > 0,
+                region, m.radius, data.overlap * m.radius, allowance=data.side_allowance, climb=climb,
                 corner_radius=data.corner,
             )  # fmt: skip
         except ValueError as error:
-            m.alarm(f"{self.code}: {error}", hint="take a smaller tool")
+            m.alarm(f"{self.code}: {error}{remark(m)}", hint="take a smaller tool")
+        if data.overlap > 1:
+            self.warn_of_residue(m, region, data)
         above, plunge = data.surface + data.clearance, self.swing_feed or self.plunge_feed
         levels = infeeds(data.surface, floor, abs(self.infeed))
         for number, level in enumerate(levels, 1):
@@ -222,8 +229,20 @@ class RoughOut(Cycle):
         feed = self.retract_feed
         m.line(z=data.height, f=INF if isinstance(feed, str) else feed or self.feed)
 
+    def warn_of_residue(self, m: Machine, region: Region, data: ContourData) -> None:
+        """Rings more than a radius apart may not meet in sharp corners."""
+        stepover = data.overlap * m.radius
+        area = left_by(rings(region, m.radius, stepover, allowance=data.side_allowance)) * m.scale**2
+        if area >= 0.001:
+            sentence = f"leaves {area:.3f} mm² of each level uncut, where the rings turn sharply"
+            m.warn(f"{self.code} Q2={data.overlap:.10g} {sentence}", hint="Q2=1 leaves nothing")
+
     def enter(self, m: Machine, ring: Contour, height: float, above: float, level: float, plunge: float) -> None:
-        """Over the start of a ring, then down to its level."""
+        """Over the start of a ring, then down to its level.
+
+        It goes across at the clearance height Q7, from above as from below: that is the height for positioning (8.4), and
+        nothing stands in the way there, so that coming down to it at the old place is safe.
+        """
         m.rapid(z=height)
         m.rapid(*_start(ring))
         m.rapid(z=above)

@@ -9,6 +9,7 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.holes import Hole, moving, point_angle, point_length, rate
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
+from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes import drill, ream
 from mnclab.machining.steps import Go, Step, Wait
@@ -41,14 +42,23 @@ class Centering(Hole):
         """The depth, or that of a cone of the diameter."""
         if not self.mode:
             return self.depth
-        return math.copysign(point_length(abs(self.diameter) / 2, m.tool.angle), self.diameter)
+        return math.copysign(point_length(abs(self.diameter) / 2, tool(m).angle), self.diameter)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """The sign of what Q343 chooses, the point angle for a diameter, a feed."""
         yield from self.signs(m)
         if self.mode:
             yield from point_angle(m, "mode")
+            if not is_round(m):
+                yield "mode", "1 cannot run under unequal scales of the plane: a diameter would be two"
         yield from moving("feed", self.feed, "to drill with")
+
+    def moves(self, m: Machine) -> None:
+        """As every hole; a cone is not wider than the tool."""
+        if self.mode and abs(self.diameter) > 2 * m.radius > 0:
+            sentence = f"is wider than the tool, {2 * m.radius:.10g}: the cone ends at the tool's diameter"
+            m.warn(f"{self.code} Q344={self.diameter:.10g} {sentence}")
+        super().moves(m)
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Down, dwell, out."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from datetime import UTC, datetime
+from typing import ClassVar
 
 from mnclab.controls.tnc_620 import engraved_text
 from mnclab.controls.tnc_620.cycles import addresses
@@ -13,6 +14,7 @@ from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
 from mnclab.machine.settings import Setting
+from mnclab.machine.true_size import MILLS
 from mnclab.machining.engraving import Glyph, cells, engrave, length, on_arc, on_line
 from mnclab.machining.steps import Go
 from mnclab.text.strings import TextFormula
@@ -37,6 +39,8 @@ class Engraving(AtSurface):
 
     The letters are single strokes with the widths of DejaVu Sans. Behind % stand umlauts, time and counter; \\n is a new line.
     """
+
+    does: ClassVar[str] = MILLS
 
     text: str | TextFormula = param(("Q500", "QS500"), "text", "text", modal=True, type="text")
     character_height: float = addresses.length(
@@ -125,7 +129,7 @@ class Engraving(AtSurface):
 
     def moves(self, m: Machine) -> None:
         """Stroke by stroke; nothing where the depth is 0."""
-        if self.depth == 0:
+        if not self.executed(m):
             return
         found = self.tokens(m)
         height = self.height(found)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import MILLS
 from mnclab.machining.clearing import Clearing, numbered
 from mnclab.machining.depths import DRIFT
 from mnclab.machining.face_milling import Layer, face
@@ -27,6 +29,8 @@ STRATEGIES: dict[float, str] = {
 @CYCLES("CYCL DEF 232", "Face milling", runs="call", source="12.7")
 class FaceMilling(Cycle):
     """Mills a level surface in several infeeds, each level backwards over the one before; the last one finishes."""
+
+    does: ClassVar[str] = MILLS
 
     strategy: float = addresses.choice("Q389", "machining strategy", STRATEGIES, example=2)
     start_1st_axis: float = addresses.coordinate("Q225", "starting point, first axis", example=10)
@@ -68,7 +72,7 @@ class FaceMilling(Cycle):
             yield "end_3rd_axis", f"must not lie above Q227 = {self.start_3rd_axis:g}, got {self.end_3rd_axis:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """An infeed, a tool that is flat below, a plane where the tool stays round; nothing where nothing is milled."""
+        """An infeed, a tool that is flat below; nothing where nothing is milled."""
         if self.height == 0:
             return
         if self.maximum_plunging_depth == 0 and self.roughing > DRIFT:
@@ -77,8 +81,6 @@ class FaceMilling(Cycle):
             yield "", f"needs a tool with a radius, got {m.radius:g}"
         if self.flat(m) <= 0:
             yield "", f"needs a tool that is flat below, got R {m.radius * m.scale:g} and R2 {m.tool.corner:g}"
-        if not m.keeps_circles:
-            yield "", "cannot run under unequal scales of the plane"
         for name in ("feed", "finishing_feed", "prepositioning_feed"):
             if getattr(self, name) == 0:
                 yield name, "must be greater than 0, got 0"
@@ -139,6 +141,7 @@ class FaceMilling(Cycle):
     def moves(self, m: Machine) -> None:
         """Steps 1 to 9 of the manual."""
         if self.height == 0:
+            m.warn(f"{self.code} Q386 makes a depth of 0: the cycle is not executed")
             return
         above = self.start_3rd_axis + self.clearance
         high = self.start_3rd_axis + max(self.second_clearance, self.clearance)

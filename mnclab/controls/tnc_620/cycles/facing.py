@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import MILLS, remark, tool
 from mnclab.machining.between_walls import Feeds, Heights, Line, Walled, finish_along, over_lines, past_walls
 from mnclab.machining.clearing import begin, numbered
 from mnclab.machining.depths import infeeds
@@ -57,6 +59,8 @@ POSITION: dict[float, str] = {
 @CYCLES("CYCL DEF 233", "Face milling with side walls", runs="call", source="6.9")
 class WalledFaceMilling(AtSurface):
     """Mills a level surface that up to three walls may bound: levels in equal infeeds, a last one finishes, then the walls."""
+
+    does: ClassVar[str] = MILLS
 
     machining_operation: float = addresses.operation(example=0)
     strategy: float = addresses.choice("Q389", "machining strategy", STRATEGIES, example=2)
@@ -217,14 +221,14 @@ class WalledFaceMilling(AtSurface):
         for name in (name for name, needed in used.items() if needed and getattr(self, name) == 0):
             yield name, "must be greater than 0 to mill with, got 0"
         yield from self.check_walls(m.radius)
-        yield from too_many("max_plunging_depth", partial(self.levels, m.tool))
-        yield from too_many("finishing_infeed", partial(self.wall_levels, m.tool))
+        yield from too_many("max_plunging_depth", partial(self.levels, tool(m)))
+        yield from too_many("finishing_infeed", partial(self.wall_levels, tool(m)))
         shorter = min(self.walled.length, self.walled.width)
         yield from too_many(
             "overlap", lambda: rows(0, shorter if self.strategy == 4 else self.width, self.overlap * m.radius)
         )
         lines = 1 + int(self.width / (self.overlap * m.radius))
-        yield from few_passes("max_plunging_depth", len(self.levels(m.tool)), lines)
+        yield from few_passes("max_plunging_depth", len(self.levels(tool(m))), lines)
 
     @property
     def width(self) -> float:
@@ -254,6 +258,14 @@ class WalledFaceMilling(AtSurface):
 
     # --- steps -------------------------------------------------------------------------------------------------------
 
+    def scrapes(self, m: Machine) -> float:
+        """How far a line that still stands reaches above the rapid way back over it, mm; 0 where none does."""
+        lines = self.lines(m.radius)[1:] if self.one_way else ()
+        if not any(line.begins_outside for line in lines):
+            return 0.0
+        heights = (abs(top - level) for _, level, top, _ in self.parts(m))
+        return max(0.0, max(heights, default=0.0) - self.clearance)
+
     def start(self, m: Machine) -> tuple[float, float]:
         """Starting point 1."""
         if not (self.roughs or self.finishes_floor):
@@ -263,13 +275,13 @@ class WalledFaceMilling(AtSurface):
 
     def parts(self, m: Machine) -> Iterator[tuple[str, float, float, float]]:
         """Every level: its name, where it is, what stands above it, and the feed."""
-        top, levels = self.surface, self.levels(m.tool)
+        top, levels = self.surface, self.levels(tool(m))
         if self.roughs:
             for name, level in zip(numbered("level", len(levels)), levels, strict=True):
                 yield name, level, top, self.milling_feed
                 top = level
         top = self.end_tool_axis + self.down * self.floor_allowance
-        levels = self.last_levels(m.tool)
+        levels = self.last_levels(tool(m))
         if self.finishes_floor:
             for name, level in zip(numbered("floor finishing", len(levels)), levels, strict=True):
                 yield name, level, top, self.finishing_feed
@@ -299,17 +311,25 @@ class WalledFaceMilling(AtSurface):
             yield Go(f"{name}, back to the start", x=x, y=y)
         if self.finishes_side:
             feeds = Feeds(self.finishing_feed, position)
-            yield from finish_along(self.along(m.radius, 0.0), self.wall_levels(m.tool), self.above, feeds)
+            yield from finish_along(self.along(m.radius, 0.0), self.wall_levels(tool(m)), self.above, feeds)
 
     def moves(self, m: Machine) -> None:
         """To the start, over all levels, to the second set-up clearance."""
-        if self.down == 0:
+        if not self.executed(m):
             return
         if not (self.roughs or self.finishes_side or self.finishes_floor):
             m.warn(f"{self.code} Q215=2 finishes nothing: neither Q369 nor Q368 with a limit is given")
             return
         if self.has_corners and self.corner_radius < m.radius:
-            m.warn(f"{self.code} Q220={self.corner_radius:g}: the corners get the radius of the tool, {m.radius:g}")
+            m.warn(
+                f"{self.code} Q220={self.corner_radius:g}: the corners get the radius of the tool, {m.radius:g}{remark(m)}"
+            )
+        if (scrapes := self.scrapes(m)) > 1e-9:
+            m.warn(
+                f"{self.code} Q200={self.clearance:g}: the rapid way back to the next line passes {scrapes:.10g} mm below what "
+                "that line has still to take away",
+                hint="choose Q200 not smaller than the infeed",
+            )
         centre, (x, y) = self.centre(m), self.start(m)
         end = self.surface + max(self.second_clearance, self.clearance)
         go = [

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import tool
 from mnclab.machining.steps import RAPID, Go, Step
 
 
@@ -33,7 +34,7 @@ class Hole(AtSurface):
 
     def bottom(self, m: Machine) -> float:
         """B, where the tip of the tool ends: with Q395 = 1 its cylindrical part reaches the depth."""
-        point = point_length(m.radius, m.tool.angle) if self.reference == 1 else 0.0
+        point = point_length(tool(m).effective_radius, tool(m).angle) if self.reference == 1 else 0.0
         return self.surface + self.reach(m) - self.down * point
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
@@ -45,7 +46,7 @@ class Hole(AtSurface):
 
     def moves(self, m: Machine) -> None:
         """To the set-up plane and then what the cycle does; nothing for a depth of 0."""
-        if self.down:  # with spindle and coolant as at the call
+        if self.executed(m):  # with spindle and coolant as at the call
             perform(m, self.code, [Go("to the set-up clearance", self.above), *self.steps(m)])
 
 

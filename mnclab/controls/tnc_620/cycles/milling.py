@@ -12,12 +12,14 @@ import math
 from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import MILLS, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.pocket_milling import Feeds
 from mnclab.machining.steps import Go
@@ -30,6 +32,8 @@ ORIGIN = (0.0, 0.0)
 @dataclass(frozen=True)
 class FigureMilling(AtSurface):
     """A figure that is roughed in layers, then finished at its side and on its floor where allowances were left."""
+
+    does: ClassVar[str] = MILLS
 
     machining_operation: float = addresses.operation(example=0)
     side_allowance: float = addresses.side_allowance(example=0.2)
@@ -148,7 +152,7 @@ class FigureMilling(AtSurface):
         for (name, needed), feed in zip(used.items(), feeds, strict=True):
             if needed and feed == 0:
                 yield name, "must be greater than 0 to mill with, got 0"
-        yield from too_many("infeed", lambda: self.levels(m.tool))
+        yield from too_many("infeed", lambda: self.levels(tool(m)))
         yield from self.check_figure(m)
 
     @abstractmethod

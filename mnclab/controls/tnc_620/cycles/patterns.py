@@ -1,6 +1,10 @@
 """Point patterns (chapter 7): cycles 220 and 221 run the cycle defined last at points on a circle or on lines, at once.
 
 Their Q200, Q203, Q204 (and Q224) are those of that cycle from then on: it reads the same Q parameters.
+
+With Q301 = 0 the tool traverses at the set-up clearance *between the operations*, and that is where it stops (step 3): so
+the cycle retracts to it, and to the second set-up clearance only after the last point. To rise there at every point and
+come down again before the way across would make Q301 = 0 the longer way of the two, and protect nothing.
 """
 
 from __future__ import annotations
@@ -17,6 +21,7 @@ from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.interpreter import run_cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.pattern import at_each
+from mnclab.machine.true_size import faults, is_round
 from mnclab.machining import patterns
 
 CYCLES = CycleTable()
@@ -48,6 +53,8 @@ class PointPattern(Cycle):
                 yield "", sentence
             else:
                 m.warn(f"{self.code} {sentence}")
+        for sentence in faults(m.cycle.cycle.does, m):
+            yield "", f"cannot run {m.cycle.cycle.code} here, which {sentence}"
         if m.side:
             yield "", "cannot run under radius compensation: write R0 before it"
 
@@ -71,24 +78,26 @@ class PointPattern(Cycle):
         self.go(m, z=self.high, to="the second set-up clearance")
         (x, y), others = points[0], points[1:]
         self.go(m, x=float(x), y=float(y), to="the first point")
-        self.work(m)
+        self.work(m, last=not len(others))
         self.run_others(m, others)
 
     def run_others(self, m: Machine, points: Floats) -> None:
         """All points but the first, on straight lines."""
 
-        def visit(x: float, y: float) -> None:
+        def visit(x: float, y: float, last: bool = False) -> None:
             self.go(m, z=self.between, to="the level between the points")
             self.go(m, x=x, y=y, to="the next point")
-            self.work(m)
+            self.work(m, last)
 
-        at_each(m, points, visit)
+        at_each(m, points[:-1], visit)
+        for x, y in points[-1:].tolist():
+            visit(x, y, last=True)
 
-    def work(self, m: Machine) -> None:
-        """At a point: to the set-up clearance, and the machining cycle."""
+    def work(self, m: Machine, last: bool) -> None:
+        """At a point: to the set-up clearance, and the machining cycle; it ends at the level between the points."""
         self.go(m, z=self.above, to="the set-up clearance")
         assert m.cycle is not None
-        run_cycle(m, m.cycle)
+        run_cycle(m, m.cycle, second_clearance=(self.high if last else self.between) - self.surface)
 
     def go(
         self, m: Machine, x: float | None = None, y: float | None = None, z: float | None = None, to: str = ""
@@ -121,6 +130,8 @@ class PolarPattern(PointPattern):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """As both; and an arc to divide."""
         yield from super().check(m)
+        if self.type_of_traverse == 1 and not is_round(m):
+            yield "type_of_traverse", "must be 0 under unequal scales of the plane, got 1: the way would be an ellipse"
         if self.stepping_angle == 0 and self.stopping_angle == self.starting_angle:
             yield "stopping_angle", f"must differ from the starting angle Q245, got {self.stopping_angle:g}"
 
@@ -146,13 +157,13 @@ class PolarPattern(PointPattern):
         if self.type_of_traverse == 0:
             super().run_others(m, points)
             return
-        for _ in points:
+        for number in range(len(points)):
             self.go(m, z=self.between, to="the level between the points")
             label, m.label = m.label, f"{self.code} along the pitch circle"
             if self.pitch_circle_diameter:
                 m.turn(self.centre(), self.step(), f=float(np.min(m.setup.limits.rapid)))
             m.label = label
-            self.work(m)
+            self.work(m, last=number == len(points) - 1)
 
 
 @CYCLES("CYCL DEF 221", "Cartesian pattern", runs="definition", source="7.3")

@@ -33,6 +33,13 @@ class AtSurface(Cycle, ABC):
                 return -1.0 if depth > 0 else 1.0
         return 0.0
 
+    def executed(self, m: Machine) -> bool:
+        """Whether there is a depth; the manual leaves a cycle with a depth of 0 out, which a warning says."""
+        if not self.down:
+            depth = next(p.address for p in self.parameters() if p.name in self.depths())
+            m.warn(f"{self.code} {depth} makes a depth of 0: the cycle is not executed")
+        return bool(self.down)
+
     @property
     def above(self) -> float:
         """A, the set-up plane."""

@@ -19,6 +19,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import tool
 from mnclab.machining import concentric
 from mnclab.machining.clearing import Clearing
 from mnclab.machining.entries import Descent, Entry, onto_floor, vertical
@@ -103,7 +104,7 @@ class Pocket(InsideMilling):
         yield from self.check_size(m.radius)
         yield from too_many("overlap", lambda: self.clearing(m.radius, 0.0))
         passes = len(self.clearing(m.radius, self.side_allowance).passes)
-        yield from few_passes("infeed", len(self.levels(m.tool)), passes)
+        yield from few_passes("infeed", len(self.levels(tool(m))), passes)
         yield from self.check_angle(m)
         if not self.roughs:
             return
@@ -115,7 +116,7 @@ class Pocket(InsideMilling):
         if self.plunging_strategy == 2 and self.slopes(m) and room.half_length < 2 * m.radius - 1e-9:
             found = f"{2 * room.half_length:g} is less than twice the tool diameter, {4 * m.radius:g}"
             yield "plunging_strategy", f"2 has no room for a ramp: {found}"
-        step = self.levels(m.tool)[0] - self.surface
+        step = self.levels(tool(m))[0] - self.surface
         yield from too_many("plunging_strategy", lambda: self.way_in(m)(0.0, step))
 
     @abstractmethod
@@ -126,19 +127,19 @@ class Pocket(InsideMilling):
         """The way from one level to another; straight down where a helix is as narrow as the tool."""
         room = self.room(m.radius, self.side_allowance)
         sloping = self.slopes(m) and not (self.plunging_strategy == 1 and room.half_width < concentric.NOTHING)
-        entry = Entry(ENTRIES[int(self.plunging_strategy)], m.tool.plunge_angle) if sloping else Entry()
+        entry = Entry(ENTRIES[int(self.plunging_strategy)], tool(m).plunge_angle) if sloping else Entry()
         return partial(way_down, entry, room, m.radius, self.climb)
 
     def moves(self, m: Machine) -> None:
         """Roughing in layers, the walls in infeeds, the floor; then back to where the tool was called."""
-        if self.depth == 0 or self.finishes_nothing(m):
+        if not self.executed(m) or self.finishes_nothing(m):
             return
         called, centre, radius, side = m.programmed[:2], self.centre(m), m.radius, 1 if self.climb else -1
         room, whole = self.room(radius, self.side_allowance), self.room(radius, 0.0)
         self.to_start(m, centre)
         if self.roughs:
             layers = rough(
-                self.clearing(radius, self.side_allowance), self.levels(m.tool), surface=self.surface,
+                self.clearing(radius, self.side_allowance), self.levels(tool(m)), surface=self.surface,
                 clearance=self.lift, down=self.way_in(m), feeds=self.roughing_feeds(radius),
                 departure=min(self.clearance, room.half_width), side=side, end=self.last_lift(),
             )  # fmt: skip

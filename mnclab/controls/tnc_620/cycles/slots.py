@@ -22,6 +22,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import tool
 from mnclab.machining import concentric
 from mnclab.machining.clearing import Clearing
 from mnclab.machining.entries import Descent, swing, vertical
@@ -95,11 +96,11 @@ class Slot(InsideMilling):
         if self.plunging_strategy and self.slopes(m) and self.roughs:
             if self.line_length <= concentric.NOTHING:
                 yield "plunging_strategy", f"{self.plunging_strategy:g} has no room for a ramp: the slot is round"
-            step = self.levels(m.tool)[0] - self.surface
+            step = self.levels(tool(m))[0] - self.surface
             yield from too_many("plunging_strategy", lambda: self.way_in(m, line)(0.0, step))
         yield from too_many("slot_width", lambda: self.clearing(line, m.radius, 0.0))
         passes = self.slots * len(self.clearing(line, m.radius, self.side_allowance).passes)
-        yield from few_passes("infeed", len(self.levels(m.tool)), passes)
+        yield from few_passes("infeed", len(self.levels(tool(m))), passes)
 
     @property
     def slots(self) -> int:
@@ -118,12 +119,12 @@ class Slot(InsideMilling):
     def way_in(self, m: Machine, line: Contour) -> Down:
         """To and fro along the line, or straight down at its beginning."""
         if self.slopes(m):
-            return lambda top, bottom: swing(line, top, bottom, m.tool.plunge_angle)
+            return lambda top, bottom: swing(line, top, bottom, tool(m).plunge_angle)
         return straight
 
     def moves(self, m: Machine) -> None:
         """Each slot from the second set-up plane: roughing, side, floor."""
-        if self.depth == 0 or self.finishes_nothing(m):
+        if not self.executed(m) or self.finishes_nothing(m):
             return
         fits = self.is_as_wide_as(m.radius)
         if fits and not self.roughs:
@@ -144,7 +145,7 @@ class Slot(InsideMilling):
         """Layer by layer, out of the slot after each."""
         feeds, side = self.roughing_feeds(m.radius), 1 if self.climb else -1
         layers = rough_slot(
-            place.line, lambda line: self.clearing(line, m.radius, self.side_allowance), self.levels(m.tool),
+            place.line, lambda line: self.clearing(line, m.radius, self.side_allowance), self.levels(tool(m)),
             surface=self.surface, above=self.above, clearance=self.lift, down=self.way_in(m, place.line), feeds=feeds,
             side=side,
         )  # fmt: skip

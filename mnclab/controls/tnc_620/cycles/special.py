@@ -13,6 +13,7 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import TAPS
 from mnclab.machining.steps import Spin, Step, Thread, Wait
 from mnclab.path.recorder import NAN
 
@@ -115,6 +116,7 @@ class ThreadCutting(Cycle):
     thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, note="positive: a right-hand thread")
 
     own_spindle: ClassVar[bool] = True
+    does: ClassVar[str] = TAPS
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """A pitch, within what the control can hold."""

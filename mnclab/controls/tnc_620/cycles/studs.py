@@ -21,6 +21,7 @@ from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import tool
 from mnclab.machining import studs
 from mnclab.machining.clearing import Clearing
 from mnclab.machining.pocket_milling import Feeds
@@ -59,16 +60,16 @@ class Stud(FigureMilling):
         return m.programmed[:2]
 
     @abstractmethod
-    def start(self, radius: float) -> tuple[float, float]:
-        """S, counted from C."""
+    def start(self, radius: float, aside: float) -> tuple[float, float]:
+        """S, counted from C; ``aside`` is :data:`ASIDE` in lengths of the program."""
 
     @abstractmethod
     def clearing(self, radius: float, allowance: float, blank: bool = True) -> Clearing:
         """The passes from the blank to the stud and an allowance, about (0, 0); without a blank the last one alone."""
 
-    def off(self) -> float | None:
+    def off(self, aside: float) -> float | None:
         """How far the tool leaves the stud to the side after a pass; None: as far as S."""
-        return ASIDE
+        return aside
 
     def lifting(self) -> Lifting | None:
         """How the tool goes back to S: on the level, or at a height."""
@@ -99,7 +100,7 @@ class Stud(FigureMilling):
             return
         yield from too_many("overlap", lambda: self.clearing(m.radius, self.side_allowance))
         passes = self.clearing(m.radius, self.side_allowance).passes
-        yield from few_passes("infeed", len(self.levels(m.tool)), sum(len(contour.starts) for contour in passes) // 4)
+        yield from few_passes("infeed", len(self.levels(tool(m))), sum(len(contour.starts) for contour in passes) // 4)
 
     @abstractmethod
     def check_sizes(self) -> Iterator[tuple[str, str]]:
@@ -109,7 +110,7 @@ class Stud(FigureMilling):
         """What is done: its name, levels, passes and feeds."""
         radius, outermost = m.radius, min(self.side_allowance, 0.0)
         if self.roughs:
-            yield "layer", self.levels(m.tool), self.clearing(radius, self.side_allowance), self.roughing_feeds(radius)
+            yield "layer", self.levels(tool(m)), self.clearing(radius, self.side_allowance), self.roughing_feeds(radius)
         if self.finishes_side:
             yield "side finishing", self.wall_levels(), self.clearing(radius, 0.0, blank=False), self.side_feeds(radius)
         if self.finishes_floor:
@@ -117,13 +118,14 @@ class Stud(FigureMilling):
 
     def moves(self, m: Machine) -> None:
         """To S, and from there roughing in layers, the side in infeeds, the floor."""
-        if self.depth == 0 or self.finishes_nothing(m):
+        if not self.executed(m) or self.finishes_nothing(m):
             return
-        centre, start, side = self.centre(m), self.start(m.radius), 1 if self.climb else -1
+        aside, side = ASIDE / m.scale, 1 if self.climb else -1
+        centre, start, off = self.centre(m), self.start(m.radius, aside), self.off(aside)
         self.to_start(m, (centre[0] + start[0], centre[1] + start[1]))
         for name, levels, passes, feeds in self.parts(m):
             perform(m, self.code, [Go(f"{name}, to the clearance level", self.above)])
-            steps = mill_stud(name, passes, levels, start, feeds, side=side, off=self.off(), lifting=self.lifting())
+            steps = mill_stud(name, passes, levels, start, feeds, side=side, off=off, lifting=self.lifting())
             perform(m, self.code, steps, centre)
         self.to_end(m, self.last(centre))
 
@@ -173,10 +175,10 @@ class RectangularStud(Stud):
         x, y = self.turned(float(u), float(v))
         return m.programmed[0] + x, m.programmed[1] + y
 
-    def start(self, radius: float) -> tuple[float, float]:
+    def start(self, radius: float, aside: float) -> tuple[float, float]:
         """On the right of the blank, or beside two of its sides."""
         sides = (self.first_side_length, self.blank_side_1), (self.second_side_length, self.blank_side_2)
-        u, v = (max(blank / 2 + ASIDE, side / 2 + self.side_allowance) + radius for side, blank in sides)
+        u, v = (max(blank / 2 + aside, side / 2 + self.side_allowance) + radius for side, blank in sides)
         if not self.approach_position:
             return self.turned(u, 0.0)
         x, y = SIGNS[int(self.approach_position)]
@@ -192,9 +194,9 @@ class RectangularStud(Stud):
             begin=int(self.approach_position) - 1 if self.approach_position else None,
         )  # fmt: skip
 
-    def off(self) -> float | None:
+    def off(self, aside: float) -> float | None:
         """On the right as far as the start."""
-        return ASIDE if self.approach_position else None
+        return aside if self.approach_position else None
 
 
 @CYCLES("CYCL DEF 257", "Circular stud", runs="call", source="6.7")
@@ -225,9 +227,9 @@ class CircularStud(Stud):
         """Q376 in rad; where the control may choose, it chooses 0."""
         return math.radians(max(self.starting_angle, 0.0))
 
-    def start(self, radius: float) -> tuple[float, float]:
+    def start(self, radius: float, aside: float) -> tuple[float, float]:
         """On the ray of the starting angle."""
-        away = max(self.blank_diameter / 2 + ASIDE, self.finished_diameter / 2 + self.side_allowance) + radius
+        away = max(self.blank_diameter / 2 + aside, self.finished_diameter / 2 + self.side_allowance) + radius
         return away * math.cos(self.angle), away * math.sin(self.angle)
 
     def clearing(self, radius: float, allowance: float, blank: bool = True) -> Clearing:
@@ -287,10 +289,10 @@ class PolygonStud(Stud):
             found = f"{self.inscribed:g} of the inscribed circle, got {self.side_allowance:g}"
             yield "side_allowance", f"must leave something of the radius {found}"
 
-    def start(self, radius: float) -> tuple[float, float]:
+    def start(self, radius: float, aside: float) -> tuple[float, float]:
         """On the ray of the first corner, outside of the blank and of the corners."""
         apex = self.clearing(radius, max(self.side_allowance, 0.0), blank=False).passes[0].points[0]
-        away = max(self.blank_diameter / 2 + radius, float(np.hypot(*apex))) + ASIDE
+        away = max(self.blank_diameter / 2 + radius, float(np.hypot(*apex))) + aside
         return away * math.cos(self.angle), away * math.sin(self.angle)
 
     def clearing(self, radius: float, allowance: float, blank: bool = True) -> Clearing:

@@ -12,6 +12,7 @@ from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import TAPS
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Go, Spin, Step
 from mnclab.machining.tapping import tap
@@ -29,6 +30,8 @@ def pitch_of(m: Machine, name: str, pitch: float) -> Iterator[tuple[str, str]]:
 
 class Tapping(AtSurface):
     """What the three cycles share."""
+
+    does: ClassVar[str] = TAPS
 
     thread_depth: float
 
@@ -57,8 +60,8 @@ class Tapping(AtSurface):
 
     def moves(self, m: Machine) -> None:
         """Set-up plane, thread, end plane; a spindle that stands still turns again as it did before."""
-        if self.thread_depth == 0:
-            return  # not executed
+        if not self.executed(m):
+            return
         turning, speed = m.turning, m.speed
         perform(m, self.code, [Go("to the set-up clearance", self.above)])
         perform(m, self.code, self.steps(m))

@@ -17,6 +17,7 @@ from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.performing import perform
+from mnclab.machine.true_size import MILLS_THREADS
 from mnclab.machining.steps import RAPID, Go, Step
 from mnclab.machining.thread_milling import Path, centre_feed, chamfer, countersink, helices, mill_thread, path_of
 
@@ -39,6 +40,7 @@ class ThreadMilling(AtSurface):
     milling_type: float
     milling_feed: float
 
+    does: ClassVar[str] = MILLS_THREADS
     external: ClassVar[bool] = False
     either_way: ClassVar[bool] = False
     """Whether the tool may turn left too."""
@@ -92,7 +94,8 @@ class ThreadMilling(AtSurface):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Spindle, tool, pitch, signs, feeds, and room for the tool."""
         if not any(self.depths().values()):
-            yield "", f"has nothing to do: {' and '.join(self._address(name) for name in self.depths())} are 0"
+            every = " and ".join(self._address(name) for name in self.depths())
+            yield next(iter(self.depths())), f"leaves nothing to do: {every} are 0"
         if self.either_way and not m.turning:
             yield "", "needs a turning spindle: write M3 or M4 before"
         if not self.either_way and m.turning != 1:
@@ -188,7 +191,7 @@ class InnerThreadMilling(ThreadMilling):
 
     def moves(self, m: Machine) -> None:
         """Not executed with a depth of 0."""
-        if self.thread_depth:
+        if self.executed(m):
             super().moves(m)
 
 

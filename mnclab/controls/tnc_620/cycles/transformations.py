@@ -82,7 +82,10 @@ def factor(address: str, meaning: str, **more: Any) -> Any:
 
 @CYCLES("CYCL DEF 11", "Scaling", runs="definition", source="11.7")
 class Scaling(Cycle):
-    """Multiplies all coordinates, radii and lengths of cycles with a factor about the active datum; 1 is the end of it."""
+    """Multiplies all coordinates, radii and lengths of cycles with a factor about the active datum; 1 is the end of it.
+
+    Feeds, fixed distances and pitches stay: a cycle that cuts a thread is refused under it.
+    """
 
     scaling_factor: float = factor("SCL", "scaling factor")
 

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from mnclab.controls.tnc_620.language.motion import coordinates, feed
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.cycle import Definition, instance
+from mnclab.machine.cycle import Definition, instance, refuse_frame
 from mnclab.machine.interpreter import as_it_stands, run_cycle
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
@@ -75,6 +75,7 @@ def ready(m: Machine, code: str, word: Word | None) -> Definition:
         m.warn(f"{code}: no tool was called", word)
     if not m.turning and not m.cycle.cycle.own_spindle:
         m.warn(f"{code}: the spindle does not turn", word, hint="write M3 or M4 before the call")
+    refuse_frame(m.cycle, m)
     return m.cycle
 
 
@@ -112,7 +113,8 @@ def cycle_call_at(m: Machine, words: Words) -> None:
 def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:
     """Surface, set-up clearance and second set-up clearance of a cycle, mm: Q203, Q200, Q204.
 
-    A contour cycle has the surface Q5, the clearance Q6 and the absolute height Q7 instead; what a cycle lacks is 0.
+    Face milling has its surface in Q227; a contour cycle has the surface Q5, the clearance Q6 and the absolute height Q7
+    instead; what a cycle lacks is 0.
     """
     cycle = instance(as_it_stands(m, definition))
     found = {p.address: getattr(cycle, p.name) for p in cycle.parameters()}
@@ -120,14 +122,17 @@ def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:
         surface, first, height = (m.variables.get(q, 0.0) * m.variable_unit for q in ("Q5", "Q6", "Q7"))
         return surface, first, height - surface
     surface, first, second = (float(found.get(q) or 0.0) for q in ("Q203", "Q200", "Q204"))
-    return surface, first, second
+    return float(found.get("Q227", surface)), first, second
 
 
-def run_at(m: Machine, definition: Definition, x: float, y: float, z: float) -> None:
-    """Run a cycle where the tool stands, x y, its surface shifted by z; a contour cycle with its datum there."""
+def run_at(m: Machine, definition: Definition, x: float, y: float, z: float, **instead: float) -> None:
+    """Run a cycle where the tool stands, x y, its surface shifted by z; a contour cycle with its datum there.
+
+    ``instead`` are values that count in place of its own.
+    """
     shift = (x, y, z) if definition.cycle.code in PLACED_BY_DATUM else (0.0, 0.0, z)
     with shifted(m, shift):
-        run_cycle(m, definition)
+        run_cycle(m, definition, **instead)
 
 
 @contextmanager

@@ -29,6 +29,7 @@ def label(m: Machine, words: Words) -> None:
 def call_label(m: Machine, words: Words) -> None:
     """Runs from the label to LBL 0; with REP n the section from the label to here n times more."""
     word = words["label"]
+    m.flow.ask(word.value, words["REP"].value if "REP" in words else 0)
     name = label_name(m, word)
     if name == "0":
         m.alarm("CALL LBL 0: LBL 0 is the end of a subprogram and cannot be called", word)
@@ -57,12 +58,14 @@ CONDITIONS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
 )  # fmt: skip
 def jump(m: Machine, words: Words) -> None:
     """Goes on at a label if the condition holds; numbers are equal when they are exactly so."""
+    word = words["label"]
+    m.flow.ask(word.value, *(words[part].value for part in ("first", "second") if part in words))
     if "state" in words:
         name = str(words["parameter"].value)
+        m.flow.loops.asked[name] = m.step
         holds = (name in m.variables or name in PREASSIGNED) == (words["state"].value == "DEFINED")
     else:
         holds = CONDITIONS[words.code][1](m.value(words["first"]), m.value(words["second"]))
-    word = words["label"]
     name = label_name(m, word)
     if name == "0":
         m.alarm(f"{words.code} GOTO LBL 0: LBL 0 is the end of a subprogram and no place to go to", word)
@@ -91,12 +94,14 @@ def call_program(m: Machine, name: str, what: str, word: Word | None) -> None:
 @FUNCTIONS("CALL PGM,", "Program call", takes="name", source="3.4")
 def call_named(m: Machine, words: Words) -> None:
     """Runs another program up to its END PGM: of Setup(files=…), or beside the calling file."""
+    m.flow.ask(words["name"].value)
     call_program(m, text(m, words["name"]), "CALL PGM", words["name"])
 
 
 @FUNCTIONS("SEL PGM,", "Choice of a program", takes="name", source="Klartext, not described")
 def select(m: Machine, words: Words) -> None:
     """The program that CALL SELECTED PGM runs; its name may stand in a QS parameter."""
+    m.flow.ask(words["name"].value)
     m.memory["selected program"] = text(m, words["name"])
     m.log("selected program", m.memory["selected program"])
 

@@ -20,8 +20,8 @@ from mnclab.controls.tnc_620.language.free_words import describe
 from mnclab.controls.tnc_620.language.motion import TOLERANCE, feed, refuse_rapid, side
 from mnclab.geometry import free_choice
 from mnclab.geometry.free_contour import FreeContour, Pair, Piece, known
-from mnclab.geometry.quadratics import Form
-from mnclab.geometry.readings import Contradiction, Reading, TooManyReadings
+from mnclab.geometry.quadratics import Exhausted, Form
+from mnclab.geometry.readings import Contradiction, TooManyReadings
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.waiting import Moment, as_of, moment
@@ -35,6 +35,7 @@ ARC = f"{BOTH} P3X P3Y R DR CCA CCX CCY CCPR CCPA RCCX RCCY RCCPR RCCPA"
 START = "free start"  # in the machine's memory: where a contour began with CLSD+
 POLE = "free pole"
 EARLIER = "free elements"
+MOST_COMPARED = 2000  # elements in all solutions, when those that do not cross themselves are sought
 
 
 class Earlier(NamedTuple):
@@ -94,7 +95,9 @@ class Chain:
             self.contour.follow(thoroughly)
         except Contradiction as error:
             self.refuse(m, error)
-        except TooManyReadings:
+        except (TooManyReadings, Exhausted) as error:
+            if isinstance(error, Exhausted):
+                self.refuse_open(m)
             m.alarm(
                 "the free contour has too many solutions to follow", None, hint="write FSELECT after earlier blocks"
             )
@@ -139,9 +142,7 @@ class Chain:
         """Settle everything and move."""
         self.follow(m, thoroughly=True)
         contour = self.contour
-        for reading in contour.readings:
-            if contour.open_unknowns(reading):
-                self.refuse_open(m, reading)
+        self.refuse_open(m)
         solutions = [contour.pieces(reading) for reading in contour.readings]
         which = 0 if len(solutions) == 1 else self.likely(m, solutions)
         values = contour.readings[which].values
@@ -174,9 +175,12 @@ class Chain:
         if START in m.memory:
             m.memory[START] = _fixed(m.memory[START], values)
 
-    def refuse_open(self, m: Machine, reading: Reading) -> NoReturn:
-        """The alarm of a contour of which too little is known."""
+    def refuse_open(self, m: Machine) -> None:
+        """The alarm of a contour of which too little is known; nothing if no reading leaves anything open."""
         contour = self.contour
+        reading = next((reading for reading in contour.readings if contour.open_unknowns(reading)), None)
+        if reading is None:
+            return
         open_ = set(contour.open_unknowns(reading))
         first, parts = len(contour.elements) - 1, ["end point"]
         for k, element in enumerate(contour.elements):
@@ -190,13 +194,11 @@ class Chain:
             if known_not:
                 first, parts = k, known_not
                 break
-        missing, block = max(contour.missing(reading), 0), self.blocks[first]
+        missing, block = contour.missing(reading), self.blocks[first]
         what = f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else parts[0]
-        need = (
-            f"{missing} more {'datum is' if missing == 1 else 'data are'} needed"
-            if missing
-            else "no solution was found"
-        )
+        need = "too much of it is open" if missing is None else "no solution was found"
+        if missing:
+            need = f"{missing} more {'datum is' if missing == 1 else 'data are'} needed"
         m.alarm(
             f"{block.code}: the free contour is not determined, {need}; not known here: {what}",
             m.flow.span_of_step(block.moment.step),
@@ -214,11 +216,10 @@ class Chain:
                 or free_choice.is_within(pieces, blank.minimum[:2], blank.maximum[:2])
             )
 
-        for test in (
-            lambda pieces: free_choice.is_closed(pieces, self.start), inside,
-            lambda pieces: not free_choice.crosses_itself(pieces),
-        ):  # fmt: skip
+        for test in (lambda pieces: free_choice.is_closed(pieces, self.start), inside):
             left = [k for k in left if test(solutions[k])] or left
+        if len(left) * len(self.blocks) <= MOST_COMPARED:
+            left = [k for k in left if not free_choice.crosses_itself(solutions[k])] or left
         block, count = self.blocks[-1], len(solutions)
         span = m.flow.span_of_step(block.moment.step)
         if len(left) > 1:

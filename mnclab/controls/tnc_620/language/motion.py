@@ -53,6 +53,10 @@ def side(m: Machine, words: Words, begins: bool) -> None:
         m.change("side", wanted)
 
 
+#: FMAX holds for its block alone, and the manual's own program C210 (6.10) has such a move after it.
+FEED_NEEDED = "write F or FMAX; with the setting feed_needed = False such a move is at rapid, with a warning"
+
+
 @FUNCTIONS("L", "Straight line", takes="X Y Z A B C PR PA R0 RL RR F FMAX FAUTO", source="4.11, example")
 def line(m: Machine, words: Words) -> None:
     """From the present position to the programmed point at feed, or with FMAX at rapid; axes not written keep their value."""
@@ -71,7 +75,9 @@ def line(m: Machine, words: Words) -> None:
             return
         set_angles(m, turned)
     if to:
-        if f is None and m.feed is None and not m.settings["feed_needed"]:
+        if f is None and m.feed is None:
+            if m.settings["feed_needed"]:
+                m.alarm("no feed rate was programmed before this move", None, FEED_NEEDED)
             m.warn("no feed rate was programmed before this move: it is at rapid")
             f = math.inf
         m.line(**to, f=f)

@@ -165,6 +165,7 @@ def read_system(m: Machine, words: Words) -> None:
     index = m.value(words["IDX"]) if "IDX" in words else 1.0
     read = SYSTEM.get((identity, number))
     value = read(m, index) if read else None
+    m.variables.state_read = m.step
     if value is None:
         m.alarm(
             f"FN 18: SYSREAD ID{identity:g} NR{number:g} IDX{index:g} is not built yet, or has no value", words["ID"]

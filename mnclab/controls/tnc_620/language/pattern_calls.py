@@ -2,7 +2,8 @@
 
 At a point with surface Z the cycle works from S = Q203 + Z. Between the points the tool is at its clearance height H:
 where it stood at the call, or the second set-up clearance, whichever is greater; from a lower point to a higher one it
-goes up first, and from a higher one to a lower one it goes down last.
+goes up first, and from a higher one to a lower one it goes down last. The second set-up clearance is one level, for the
+way between the points and for the cycle, which retracts to it; where it does not count, for neither.
 """
 
 from __future__ import annotations
@@ -38,18 +39,19 @@ def cycle_call_pattern(m: Machine, words: Words) -> None:
     if m.plane != "XY":
         m.alarm(f"{CODE}: the points of a pattern lie in X and Y, the tool axis must be Z", None)
     f = feed(m, words)
-    heights = clearance_heights(m, definition, pattern)
+    heights, second = clearance_heights(m, definition, pattern)
     surface = pattern.points[:, 2]
     last = np.flatnonzero((np.diff(surface) != 0) | (np.diff(heights) != 0)) + 1
     for run in np.split(np.arange(len(surface)), last):  # of points that differ in their place alone
         if len(run):
-            at_each(m, pattern.points[run, :2], visit(m, definition, f, float(surface[run[0]]), float(heights[run[0]])))
+            one = (float(column[run[0]]) for column in (surface, heights, second))
+            at_each(m, pattern.points[run, :2], visit(m, definition, f, *one))
 
 
 def visit(
-    m: Machine, definition: Definition, f: float | None, z: float, height: float
+    m: Machine, definition: Definition, f: float | None, z: float, height: float, second: float
 ) -> Callable[[float, float], None]:
-    """What happens at a point: up if need be, over it, the cycle, up."""
+    """What happens at a point: up if need be, over it, the cycle with its second set-up clearance, up."""
 
     def go(x: float, y: float) -> None:
         m.label = f"{CODE} to the point"
@@ -57,7 +59,7 @@ def visit(
             m.rapid(z=height)
         m.line(x=x, y=y, f=f)
         m.label = ""
-        run_at(m, definition, x, y, z)
+        run_at(m, definition, x, y, z, second_clearance=second)
         m.label = f"{CODE} to the clearance height"
         m.rapid(z=height)
         m.label = ""
@@ -65,8 +67,8 @@ def visit(
     return go
 
 
-def clearance_heights(m: Machine, definition: Definition, pattern: Pattern) -> Floats:
-    """The clearance height of each point (n,), never below its set-up clearance.
+def clearance_heights(m: Machine, definition: Definition, pattern: Pattern) -> tuple[Floats, Floats]:
+    """Of each point the clearance height (n,), never below its set-up clearance, and the Q204 of the cycle there (n,).
 
     In a PATTERN DEF above the surface of the cycle, Q204 counts from the surface of the pattern alone. Where a point
     table holds clearance heights, Q204 does not count, unless GLOBAL DEF 125 asks for it.
@@ -77,10 +79,13 @@ def clearance_heights(m: Machine, definition: Definition, pattern: Pattern) -> F
     surface = own + z
     whole = pattern.table or definition.cycle.code in PLACED_BY_DATUM
     above = second + (surface if whole else np.where(z > own, z, surface))
+    end = surface  # where the second set-up clearance does not count
     if choice == 1:
-        heights = np.fmax(above, pattern.clearance)
+        heights, end = np.fmax(above, pattern.clearance), above
     elif not np.isnan(pattern.clearance).all():
         heights = np.where(np.isnan(pattern.clearance), at_call, pattern.clearance)
+    elif choice == 0:
+        heights = np.full(len(z), at_call)
     else:
-        heights = np.full(len(z), at_call) if choice == 0 else np.maximum(at_call, above)
-    return np.maximum(heights, surface + first)
+        heights, end = np.maximum(at_call, above), above
+    return np.maximum(heights, surface + first), np.maximum(end - surface, 0.0)

@@ -1,0 +1,33 @@
+"""What a file that is given away says of a program: its name without the folders here, and whole letters alone."""
+
+from __future__ import annotations
+
+from copy import copy
+from pathlib import Path
+from typing import NamedTuple
+
+from mnclab.text.alarm import Alarm, Source
+
+
+class Named(NamedTuple):
+    """The source of an alarm under its name alone."""
+
+    name: str
+    source: Source
+
+    def line_text(self, line: int) -> str:
+        """The characters of one line, without its end."""
+        return self.source.line_text(line)
+
+
+def whole(text: str) -> str:
+    """A text that can be written: half a pair of surrogates, which is no letter, becomes a question mark."""
+    return text.encode("utf-8", "replace").decode()
+
+
+def named(alarm: Alarm) -> Alarm:
+    """The same alarm, in a file without folders."""
+    found = copy(alarm)
+    if alarm.source is not None:
+        found.source = Named(Path(alarm.source.name).name, alarm.source)
+    return found

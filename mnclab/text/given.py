@@ -1,0 +1,45 @@
+"""What a user gives, in Python or in a file, is checked where it is given: numbers, and how the rest is quoted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from numbers import Real
+from reprlib import Repr
+from typing import Any
+
+from mnclab.text.alarm import Alarm
+
+_QUOTED = Repr()
+_QUOTED.maxstring = _QUOTED.maxother = 60
+
+
+def shown(value: Any) -> str:
+    """A value as an alarm quotes it: never long, however deep or large it is."""
+    return _QUOTED.repr(value)
+
+
+def check_number(
+    value: Any, what: str, *, above: float | None = None, at_least: float | None = None, endless: bool = False
+) -> None:
+    """An Alarm unless ``value`` is a number within its limits; infinity is one where it is ``endless``."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise Alarm(f"{what} must be a number, got {shown(value)}")
+    try:
+        size = float(value)
+    except OverflowError:  # a whole number of some hundred digits
+        size = math.inf
+    if math.isnan(size) or (math.isinf(size) and not endless):
+        raise Alarm(f"{what} must be a finite number, got {size:g}")
+    if above is not None and not size > above:
+        raise Alarm(f"{what} must be greater than {above:g}, got {size:g}")
+    if at_least is not None and not size >= at_least:
+        raise Alarm(f"{what} must be at least {at_least:g}, got {size:g}")
+
+
+def check_point(value: Any, what: str) -> None:
+    """An Alarm unless ``value`` is three numbers."""
+    if isinstance(value, str | Mapping) or not hasattr(value, "__len__") or len(value) != 3:
+        raise Alarm(f"{what} must be three numbers (x, y, z), got {shown(value)}")
+    for each in value:
+        check_number(each, what)

@@ -1,0 +1,144 @@
+"""What a Setup takes: numbers that can be, tables of what they are named for; nothing that two runs share."""
+
+import math
+from dataclasses import fields
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mnclab
+from mnclab import Alarm, Datum, Limits, Probe, Setup, Tool
+from mnclab.workpiece.blank import Box, Revolved, cylinder
+
+NAN, INF = math.nan, math.inf
+NEVER = [NAN, INF, -INF, "3", None, True, [1], {}, 1j, 10**400]
+NUMBERS = [each.name for each in fields(Tool) if each.name not in ("name", "kind")]
+SIZES = ["radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle"]
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+@pytest.mark.parametrize("value", NEVER, ids=lambda value: str(value)[:9])
+def test_no_dimension_of_a_tool_is_anything_but_a_number(name, value):
+    with pytest.raises(Alarm, match=f"the {name.replace('_', ' ')} of a tool must be a (finite )?number, got "):
+        Tool(**{name: value})
+
+
+def test_a_size_of_a_tool_is_not_negative_but_a_delta_may_be():
+    for name in SIZES:
+        with pytest.raises(Alarm, match="must be at least 0, got -1"):
+            Tool(**{name: -1})
+    tool = Tool(radius=Fraction(1, 2), dr=-2, length=-12, dl=np.float64(-0.5), pitch=-1)
+    assert (tool.effective_radius, tool.effective_length) == (-1.5, -12.5)  # another side; against a zero tool
+    for name in ("name", "kind"):
+        with pytest.raises(Alarm, match=f"the {name} of a tool must be a text, got 3"):
+            Tool(**{name: 3})
+
+
+@pytest.mark.parametrize("value", NEVER, ids=lambda value: str(value)[:9])
+def test_no_coordinate_is_anything_but_a_number(value):
+    for build in (
+        lambda: Datum(y=value),
+        lambda: Datum(1, 2, value),
+        lambda: Setup(start=(0, value, 0)),
+        lambda: Setup(datums={1: (0, value)}),
+        lambda: Setup(presets={1: [0, value, 0]}),
+        lambda: Setup(correctors={1: (0, 0, value)}),
+        lambda: Setup(datums={value if not isinstance(value, list | dict) else "a": (0, 0, 0)}),
+        lambda: Probe(clearance=value),
+        lambda: Probe(reach=value),
+        lambda: Limits(corner_tolerance=value),
+        lambda: Limits(rapid=(value, 1, 1)),
+        lambda: Limits(acceleration=(1, 1, value)),
+        lambda: Limits(rapid=value if value != [1] else NAN),
+        lambda: Limits(tool_change=value),
+        lambda: Setup(stock=((0, 0, 0), (1, 1, value)) if value not in ("3", True) else 5),
+    ):
+        with pytest.raises(Alarm):
+            build()
+
+
+@pytest.mark.parametrize("named", [{"clearance": -1}, {"reach": 0}, {"feed": -5}, {"rapid": NAN}, {"rapid": 0}])
+def test_a_probe_that_cannot_be(named):
+    with pytest.raises(Alarm, match=f"the {next(iter(named))} of a probe must be"):
+        Probe(**named)
+
+
+@pytest.mark.parametrize(
+    ("what", "sentence"),
+    [
+        ({"tools": {1: 5}}, r"tools\[1\] must be a Tool, got 5"),
+        ({"tools": [Tool()]}, "tools must be a dict, got"),
+        ({"tools": {"1": Tool()}}, "a row of tools must be a number, got '1'"),
+        ({"tools": {-1: Tool()}}, "a row of tools must be at least 0, got -1"),
+        ({"datums": {1: 5}}, r"datums\[1\] must be a Datum or its numbers, got 5"),
+        ({"datums": {1: "123"}}, r"datums\[1\] must be a Datum or its numbers, got '123'"),
+        ({"datums": {1: range(9)}}, r"datums\[1\] must be a Datum"),
+        ({"presets": 3}, "presets must be a dict, got 3"),
+        ({"start": (0, 0)}, "start must be three numbers"),
+        ({"start": "123"}, "start must be three numbers"),
+        ({"stock": 5}, "stock must be two corners"),
+        ({"stock": Box((0, 0, 0), (1, 1, NAN))}, "stock must be two corners"),
+        ({"stock": Revolved(((-5.0, 0.0), (-5.0, 9.0)))}, "stock must be two corners"),
+        ({"stock": cylinder(INF, 0, 5)}, "stock must be two corners"),
+        ({"part": 5}, "part must be a part"),
+        ({"part": "cut"}, "not built yet"),
+        ({"probe": 5}, "probe must be a Probe"),
+        ({"limits": 5}, "limits must be a Limits"),
+        ({"files": {"A": 5}}, r"files\['A'\] must be a text or a Path"),
+        ({"files": {5: "A"}}, "files must be a dict with names"),
+        ({"settings": 5}, "settings must be a dict with names"),
+        ({"variables": [1]}, "variables must be a dict with names"),
+        ({"kinematics": {"A": 1}}, r"Setup\(kinematics=…\) is not built yet"),
+        ({"kinematics": ()}, r"Setup\(kinematics=…\) is not built yet"),
+        ({"true_tools": {1: Tool()}}, r"Setup\(true_tools=…\) is not built yet"),
+    ],
+    ids=str,
+)
+def test_what_cannot_be_is_refused_where_it_is_given(what, sentence):
+    with pytest.raises(Alarm, match=sentence):
+        Setup(**what)
+
+
+@pytest.mark.parametrize(
+    "travel",
+    [5, ((0, 1), (0, 1)), ((0, 1), (0, 1), 5), ((0, 1), (0, 1), (1, 0)), ((0, 1), (0, 1), (1, 1)),
+     ((0, 1), (0, NAN), (0, 1)), ((0, 1), (0, "9"), (0, 1)), ((0, 1), (0, 1), (0, 1, 2))],
+)  # fmt: skip
+def test_a_travel_goes_up_in_three_axes(travel):
+    with pytest.raises(Alarm, match="limit travel"):
+        Limits(travel=travel)
+    assert Limits(travel=[[0, INF], [-INF, 0], [0, 1]]).travel  # without an end is an end too
+
+
+WILD = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(), st.binary(),
+                 st.lists(st.one_of(st.floats(), st.text()), max_size=4), st.tuples(st.floats(), st.floats(), st.floats()),
+                 st.dictionaries(st.one_of(st.integers(), st.text()), st.one_of(st.floats(), st.text(), st.none())))  # fmt: skip
+
+
+@given(name=st.sampled_from([each.name for each in fields(Setup) if each.name != "source"]), value=WILD)
+def test_a_setup_of_anything_is_a_setup_or_an_alarm(name, value):
+    try:
+        setup = Setup(**{name: value})
+        mnclab.run("T1\nG0 X1\nG1 X2 F100\n", "mnc", setup)  # a setup that was taken can be run with
+    except Alarm:
+        return
+
+
+def test_nothing_is_shared_between_setups_and_runs():
+    magazine = dict(Setup().tools)
+    setup, own = Setup(), {1: Tool(radius=7)}
+    setup.tools[1] = Tool(radius=99)
+    assert Setup().tools == magazine and mnclab.run("T1\nG0 X1\n", "mnc").toolpath.radius[-1] == 5
+    setup.tools[1] = 5
+    with pytest.raises(Alarm, match=r"tools\[1\] must be a Tool, got 5"):
+        mnclab.run("T1\nG0 X1\n", "mnc", setup)
+    given_own = Setup(tools=own, files={"A": Path("a")})
+    own[1] = Tool(radius=8)
+    assert given_own.tools[1].radius == 7
+    run = mnclab.run("T1\nG0 X1\n", "mnc", given_own)
+    run.tables.tools[1] = Tool(radius=9)
+    assert given_own.tools[1].radius == 7 and run.again(given_own).toolpath.radius[-1] == 7
