@@ -34,12 +34,7 @@ def run(
     the text, and refuses to guess when two fit. Faults are collected in ``run.alarms``; ``strict`` raises the first.
     """
     program = source if isinstance(source, Program) else read(source, control)
-    result = run_program(program, CONTROLS[program.control], setup)
-    if not result.ok and not any(alarm.severity == ALARM for alarm in program.alarms):
-        _point_out_another(program, result.alarms)
-    if strict and not result.ok:
-        raise next(alarm for alarm in result.alarms if alarm.severity == ALARM)
-    return result
+    return run_program(program, CONTROLS[program.control], setup, strict=strict)
 
 
 def read(source: str | Path, control: str | None = None) -> Program:
@@ -52,13 +47,13 @@ def read(source: str | Path, control: str | None = None) -> Program:
         object.__setattr__(program, "folder", str(Path(name).parent))
     for alarm in program.alarms:
         alarm.source = program
-    _point_out_another(program, program.alarms)
+    _point_out_another(program)
     return program
 
 
-def _point_out_another(program: Program, alarms: tuple[Alarm, ...]) -> None:
-    """Say at the first alarm that a text with faults is plainly a program of another control."""
-    first = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
+def _point_out_another(program: Program) -> None:
+    """Say at the first alarm that a text which could not be read is plainly a program of another control."""
+    first = next((alarm for alarm in program.alarms if alarm.severity == ALARM), None)
     if first is None:
         return
     head = program.text[:LOOKED_AT]
