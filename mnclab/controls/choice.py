@@ -33,15 +33,8 @@ def run(
     ``source``: a text, or the path of a file. ``control``: a name of ``mnclab.controls``; None asks the file's suffix, then
     the text, and refuses to guess when two fit. Faults are collected in ``run.alarms``; ``strict`` raises the first.
     """
-    if setup is not None and not isinstance(setup, Setup):
-        raise TypeError(f"setup must be a Setup, got {type(setup).__name__}")
     program = source if isinstance(source, Program) else read(source, control)
-    result = run_program(program, CONTROLS[program.control], setup)
-    if not result.ok and not any(alarm.severity == ALARM for alarm in program.alarms):
-        _point_out_another(program, result.alarms)
-    if strict and not result.ok:
-        raise next(alarm for alarm in result.alarms if alarm.severity == ALARM)
-    return result
+    return run_program(program, CONTROLS[program.control], setup, strict=strict)
 
 
 def read(source: str | Path, control: str | None = None) -> Program:
@@ -54,13 +47,13 @@ def read(source: str | Path, control: str | None = None) -> Program:
         object.__setattr__(program, "folder", str(Path(name).parent))
     for alarm in program.alarms:
         alarm.source = program
-    _point_out_another(program, program.alarms)
+    _point_out_another(program)
     return program
 
 
-def _point_out_another(program: Program, alarms: tuple[Alarm, ...]) -> None:
-    """Say at the first alarm that a text with faults is plainly a program of another control."""
-    first = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
+def _point_out_another(program: Program) -> None:
+    """Say at the first alarm that a text which could not be read is plainly a program of another control."""
+    first = next((alarm for alarm in program.alarms if alarm.severity == ALARM), None)
     if first is None:
         return
     head = program.text[:LOOKED_AT]
@@ -97,9 +90,10 @@ def _text_of(source: str | Path, control: str | None) -> tuple[str, str, str]:
             return source, "program", "str"
         if not _is_file(source) and not _names_a_file(source, control):
             return source, "program", "str"
-    if isinstance(source, str) and not _is_file(source):
+    if "\0" not in str(path) and not os.path.lexists(path):
         near = _files_near(path)
-        near = f"{near}; a text that is a program ends with a line end" if near else "a program ends with a line end"
+        if isinstance(source, str):
+            near = f"{near}; a program ends with a line end" if near else "a program ends with a line end"
         raise Alarm(f"{path} cannot be read: there is no such file", hint=near)
     text, encoding = decode(read_file(path, path))
     return text, str(path), encoding
@@ -177,7 +171,7 @@ class Help:
         entry = self.entry
         if isinstance(entry, Control):
             rows = [(code, one.title) for code, one in entry.functions.items()]
-            rows += [(code, one.title) for code, one in entry.cycles.items()]
+            rows += [(code, cycle.title) for code, cycle in entry.cycles.items()]
             wide = max(len(code) for code, _ in rows)
             return "\n".join([f"{entry.name}  {entry.title}", *(f"{code:{wide}}  {title}" for code, title in rows)])
         if isinstance(entry, tuple):

@@ -7,7 +7,7 @@ in its block; the interpreter hands out the words and refuses those that nobody 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -17,7 +17,7 @@ from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
 
 if TYPE_CHECKING:
-    from mnclab.machine.cycle import CycleTable, Parameter
+    from mnclab.machine.cycle import Cycle, CycleTable, Parameter
     from mnclab.machine.machine import Machine
     from mnclab.path.compensation import Compensation
 
@@ -136,7 +136,9 @@ class Control:
     ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
-    ("G4 P").
+    ("G4 P"). ``relative`` are words so written that count from the last position under G91, beside coordinates;
+    ``absolute_with`` codes in whose block coordinates are absolute even then; ``marks`` says what the marks on a word of a
+    function or cycle do (the last argument: whether the word calls it).
     ``to_turn`` says what makes the spindle turn, as a hint.
     ``names`` leads from other names of cycles (DIN/ISO) to their codes; help knows them.
     ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; ``predefined``
@@ -166,6 +168,9 @@ class Control:
     looks_like: Callable[[str], bool] | None = None
     refused: Mapping[str, str] = field(default_factory=dict)
     meanings: Mapping[str, str] = field(default_factory=dict)
+    relative: tuple[str, ...] = ()
+    absolute_with: tuple[str, ...] = ()
+    marks: Callable[[Function | type[Cycle], Word, bool], Iterator[tuple[str, str]]] | None = None
     names: Mapping[str, str] = field(default_factory=dict)
     together: Callable[[Machine, str, list[Word]], None] | None = None
     bulk: Any = None

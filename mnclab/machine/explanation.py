@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import frames
 from mnclab.machine.calls import Flow
-from mnclab.machine.control import Control, Function
+from mnclab.machine.control import Function
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.planner import Plan, Planner
 from mnclab.path.listing import figure, point, words
 from mnclab.text.alarm import Alarm, quoted
 from mnclab.text.expression import Expression
-from mnclab.text.program import Word
+from mnclab.text.program import Word, digits
 from mnclab.text.strings import NumberFromText, TextFormula
 
 if TYPE_CHECKING:
@@ -160,22 +160,23 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
             Meaning(str(word), _value(run, moment, word), "", "not obeyed: the block is refused", "", "")
             for word in block.words
         ]
-    found: dict[int, Meaning] = {}
+    here = _Here(run, moment)
+    found: dict[int, list[Meaning]] = {}
     for action, _ in plan.actions:
         what = action.what
         for index in (action.head, *action.takes):
             word = block.words[index] if index >= 0 else None
             if index == action.head and isinstance(what, Function):
-                says, source = f"{what.title}", what.source
+                says, source = _title(here, what, word), what.source
             elif index == action.head:
                 says, source = f"cycle: {what.title}", what.source
             elif isinstance(what, Function):
                 assert word is not None
-                says, source = f"{_meaning(run.control, what, word)} of {what.code} ({what.title})", ""
+                says, source = f"{_meaning(here, what, word)} of {what.code} ({what.title})", ""
             else:
                 assert word is not None
                 before_it = [block.words[i].address for i in action.takes if i < index]
-                says, source = _parameter(what, action.code, word, before_it.count(word.address)), ""
+                says, source = _parameter(here, what, action.code, word, before_it.count(word.address)), ""
             kept = word is None and action.code != block.keyword  # modal, not written in this block
             shown = str(word) if word is not None else f"({action.code})" if kept else block.keyword
             if kept:
@@ -190,8 +191,44 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
                 before, after = changed[word.address]
                 happened = f"{before or 'none'} -> {after}"
             place = len(block.words) if kept and block.keyword else index
-            found[place] = Meaning(shown, value, action.code, says, source, happened)
-    return [found[index] for index in sorted(found)]
+            found[place] = [Meaning(shown, value, action.code, says, source, happened)]
+            if word is not None and run.control.marks:
+                marks = run.control.marks(what, word, index == action.head)
+                found[place] += [Meaning(mark, "", action.code, f"on {word}: {does}", "", "") for mark, does in marks]
+    return [meaning for index in sorted(found) for meaning in found[index]]
+
+
+class _Here:
+    """How words are read in one block: the control, its settings, what is active in it."""
+
+    def __init__(self, run: Run, moment: Moment) -> None:
+        self.control, self.settings = run.control, run.settings
+        self.active = lambda name: run.history.value(name, moment.step)
+        codes = {f"{word.address}{digits(word.value)}" for word in moment.block.words if isinstance(word.value, float)}
+        self.incremental = self.active("dimension") == "G91" and not codes & set(run.control.absolute_with)
+
+    @property
+    def feed(self) -> str:
+        """What F is."""
+        if self.active("per_time"):
+            return "time of the move, s"
+        return "feed, mm/rev" if self.active("per_rev") else "feed, mm/min"
+
+    @property
+    def speed(self) -> str:
+        """What S is."""
+        return "spindle speed, rev/min" if self.active("surface") is None else "cutting speed, m/min"
+
+
+def _title(here: _Here, what: Function, word: Word | None) -> str:
+    """The title of a function; of a word that is a function by itself also what it is in this block."""
+    if word is None or word.address != what.code:
+        return what.title
+    says = _meaning(here, what, word)
+    kind, _, unit = says.rpartition(", ")
+    if kind.lower() == what.title.partition(",")[0].lower():
+        return f"{what.title}, {unit}"
+    return what.title if says.startswith("word ") else f"{what.title}: {says}"
 
 
 def _plan(run: Run, moment: Moment) -> Plan | None:
@@ -217,26 +254,34 @@ def _plan(run: Run, moment: Moment) -> Plan | None:
         return None
 
 
-def _meaning(control: Control, what: Function, word: Word) -> str:
-    """What a word of a function is."""
-    address = word.address
-    says = control.meanings.get(f"{what.code} {address}") or control.meanings.get(address)
+def _meaning(here: _Here, what: Function, word: Word) -> str:
+    """What a word of a function is in this block."""
+    address, own, control = word.address, f"{what.code} {word.address}", here.control
+    says = control.meanings.get(own) or control.meanings.get(address)
     if says:
-        return f"{says}, incremental" if word.incremental else says
+        relative = word.incremental or (here.incremental and own in control.relative)
+        return f"{says}, incremental" if relative else says
     if address in ("X", "Y", "Z"):
-        return f"increment along {address}" if word.incremental else f"coordinate {address}"
+        lathe = f", {'diameter' if here.settings.get('diameter') else 'radius'}" if control.lathe and address == "X" else ""
+        relative = word.incremental or here.incremental
+        return (f"increment along {address}" if relative else f"coordinate {address}") + lathe
+    if address in ("F", "S"):
+        return here.feed if address == "F" else here.speed
     if (axis := address.rpartition(":")[2]) in ("A", "B", "C"):
         return f"increment about {axis}" if word.incremental else f"rotary axis {axis}"
     return f"word {address}" if address.isalpha() and address.isupper() else "part"
 
 
-def _parameter(cycle: type[Cycle], code: str, word: Word, which: int = 0) -> str:
+def _parameter(here: _Here, cycle: type[Cycle], code: str, word: Word, which: int = 0) -> str:
     """The parameter of a cycle that a word gives: of several with the same address, by their order."""
     alike = [p for p in cycle.parameters() if word.address in (p.address, *p.aliases) and not p.mark]
     if not alike:
         return f"word of {code}"
     parameter = alike[min(which, len(alike) - 1)]
-    return f"{parameter.meaning}{f', {parameter.unit}' if parameter.unit else ''} ({code})"
+    relative = parameter.note.removeprefix("under G91 ") if here.incremental else parameter.note
+    said = f", {relative}" if relative != parameter.note else ", incremental" if word.incremental else ""
+    unit = "mm/rev" if parameter.unit == "mm/min" and here.active("per_rev") else parameter.unit
+    return f"{parameter.meaning}{said}{f', {unit}' if unit else ''} ({code})"
 
 
 def _changes(what: Function | type[Cycle], word: Word | None) -> str:

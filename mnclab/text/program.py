@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
 MOST_WORDS = 1000  # of a block: what has more is no block of any control, and a long line must not fill the memory
 FEW = 1000  # stretches of blocks that are copied one after the other
-INCREMENTAL, RAPID_MARK, GROUP_MARK = 1, 2, 4  # bits of column ``flag``
+INCREMENTAL, RAPID_MARK, GROUP_MARK, AT_MARK = 1, 2, 4, 8  # bits of column ``flag``; the last: written as @
 
 _NUMBER_OF_BLOCK = re.compile(r"\ufeff*[ \t]*(?:/[ \t]*)?(N[ \t]*\+?\d+|\d+)", re.IGNORECASE)
 
@@ -75,7 +75,8 @@ class Word(NamedTuple):
         if self.address.islower():  # a value that stands without an address in the text
             return f"{shown}"
         equals = "=" if self.address[:1] == "Q" and self.address[-1].isdigit() else ""
-        return f"{'I' if self.incremental else ''}{self.address}{equals}{'' if shown is None else shown}"
+        before, after = ("I" if self.incremental else "", "") if not self.flag & AT_MARK else ("", "@")
+        return f"{before}{self.address}{equals}{'' if shown is None else shown}{after}"
 
 
 @dataclass(frozen=True)

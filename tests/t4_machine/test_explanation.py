@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -100,11 +101,14 @@ def test_every_block_of_the_samples_can_be_explained(file):
 def test_every_word_that_a_function_takes_says_what_it_is():
     unknown = []
     for control in mnclab.controls.values():
+        run = mnclab.run("\n", control.name)
+        here = SimpleNamespace(control=control, settings=run.settings, active=lambda name: None, incremental=False)
         for function in control.functions.values():
             for address in (taken.rstrip("*") for taken in function.takes):
                 word = Word(address, 1.0, int(place_of(1, 1, 1)))
-                if _meaning(control, function, word).startswith(("word ", "part")):
-                    if _meaning(control, function, word) != "part of a circle":  # of a pattern
+                says = _meaning(here, function, word)
+                if says.startswith(("word ", "part")):
+                    if says != "part of a circle":  # of a pattern
                         unknown.append((control.name, function.code, address))
     assert unknown == []
 
@@ -153,3 +157,83 @@ def test_many_moves_are_cut_short_but_never_by_one():
         assert (f"… {told.more_moves} more" in str(told)) == (told.more_moves > 0)
         hidden.add(told.more_moves)
     assert 1 not in hidden and 0 in hidden and max(hidden) > 1
+
+
+def told(run, **where):
+    return {m.word: m.says for m in run.explain(**where).meanings}
+
+
+def test_the_marks_of_the_nc_31_are_told_in_words():
+    run = mnclab.run("N1 S600\nN2 F15\nN3 X@-200~\nN10 G77*~\nN11 X@-400*\nN12 Z-2000*\nN13 F2000*\nN14 P80\n", "nc-31")
+    move = told(run, line=3)
+    assert list(move) == ["X-200@", "@", "~"] and "incremental" in move["X-200@"]
+    assert "X is an increment" in move["@"] and "at rapid" in move["~"]
+    cycle = told(run, line=4)
+    assert list(cycle)[:3] == ["G77", "~", "*"] and "rapid" in cycle["~"] and "next frame belongs" in cycle["*"]
+    assert "incremental" in cycle["X-400@"] and "incremental" not in cycle["Z-2000"]
+    assert "IX" not in str(run.explain(line=3)) + str(run.explain(line=4)) and "IG" not in str(run.explain(line=4))
+
+
+def test_a_switch_of_the_nc_31_is_no_increment():
+    run = mnclab.run("N1 S600\nN2 F15\nN3 Z200~\nN4 G66@*\nN5 Z-100\nN6 G32@*\nN7 Z-500*\nN8 F10000\n", "nc-31")
+    assert "single-block" in told(run, line=4)["@"] and "zero mark" in told(run, line=6)["@"]
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "said"),
+    [
+        ("mnc", "G91 G1 X5 F100", {"X5": "increment along X", "F100": "Feed, mm/min"}),
+        ("mnc", "G90 G1 X5 F100", {"X5": "coordinate X"}),
+        ("mnc", "G91 G53 G0 X5", {"X5": "coordinate X"}),
+        ("mnc", "G95 G1 X5 F0.1 S100 M3", {"F0.1": "Feed, mm/rev", "S100": "Spindle speed, rev/min"}),
+        ("mnc", "G91 G92 X5", {"X5": "new value of X"}),
+        ("mnc", "F100\nG91 G2 X5 I2.5", {"X5": "increment along X", "I2.5": "centre along X from the start"}),
+        ("mnc", "G91\nG16 X0 Y0\nG10 R5 A30", {"R5": "polar radius, incremental", "A30": "polar angle in degrees, incr"}),
+        ("mnc", "G0 Z9\nG91 G83 X5 Z-5 R-2 K1 F9", {"X5": "hole position along X, from the present point", "Z-5": "bottom"}),
+        ("g43", "G91 G0 X5 Y2", {"X5": "increment along X", "Y2": "increment along Y"}),
+        ("g43", "G91 G52 X5", {"X5": "origin's X"}),
+        ("jnc-t01", "G96 S100 M3\nG91 G0 X5. Z2.", {"X5": "increment along X, radius", "Z2": "increment along Z"}),
+        ("jnc-t01", "G96 M3\nS100", {"S100": "cutting speed, m/min"}),
+        ("jnc-t01", "G0 X9.\nG93 G1 X5. F2.", {"F2": "Feed: time of the move, s"}),
+        ("jnc-t01", "G91 G92 X5.", {"X5": "origin along X, incremental"}),
+        ("tnc-620", "TOOL CALL 1 Z S100\nL IX+5 Y+2 FMAX", {"IX5": "increment along X", "Y2": "coordinate Y"}),
+    ],
+)  # fmt: skip
+def test_words_are_told_as_this_block_reads_them(control, text, said):
+    run = mnclab.run(text + "\n", control)
+    found = told(run, step=len(run.steps.block) - 1)
+    for word, meaning in said.items():
+        assert meaning in next(says for shown, says in found.items() if shown == word), (word, found)
+
+
+@pytest.mark.parametrize(("diameter", "word"), [(True, "diameter"), (False, "radius")])
+def test_x_of_a_lathe_is_a_diameter_or_a_radius(diameter, word):
+    run = mnclab.run("G0 X10.\n", "jnc-t01", mnclab.Setup(settings={"diameter": diameter}))
+    assert f"coordinate X, {word}" in told(run, line=1)["X10"]
+
+
+ENDS = ("G0", "G1", "G2", "G3", "L", "C", "CR", "CT")  # functions whose X Y Z are the end of the block
+
+
+@pytest.mark.parametrize("file", sorted((ROOT / "data" / "programs").rglob("*.*")), ids=lambda file: file.name)
+def test_explanations_of_the_samples_fit_what_the_block_did(file):
+    """An axis word that is called a coordinate is where the block ended; an increment is how far it went."""
+    run = mnclab.run(file)
+    lathe = {"nc-31": (1 / 200, 1 / 100), "jnc-t01": (0.5 if run.settings.get("diameter") else 1.0, 1.0)}
+    units = lathe.get(run.control.name, (1.0, 1.0))
+    before = np.array(run.history.value("position", 0))
+    for step in range(1, min(len(run.steps.block), 60)):
+        explained = run.explain(step=step)
+        after, words = np.array(explained.moment.position), explained.moment.block.words
+        for meaning in explained.meanings:
+            word = next((w for w in words if str(w) == meaning.word and w.address in ("X", "Y", "Z")), None)
+            if word is None or not isinstance(word.value, float) or meaning.code not in ENDS or "M99" in explained.title:
+                continue  # M99 calls a cycle after the motion
+            k, says = "XYZ".index(word.address), meaning.says
+            value = word.value * units[0 if k == 0 else 1]
+            if says.startswith("coordinate"):
+                assert after[k] == pytest.approx(value, abs=1e-9), explained
+            elif says.startswith("increment"):
+                assert after[k] - before[k] == pytest.approx(value, abs=1e-9), explained
+            assert not (says.startswith("coordinate") and run.history.value("dimension", step) == "G91")
+        before = after

@@ -75,7 +75,7 @@ def test_refused_statements_of_the_tnc(code):
 @pytest.mark.parametrize("line", [2, 3])
 def test_a_fault_in_a_later_line_of_a_block_is_that_of_the_block(line):
     lines = ["CYCL DEF 200 ~", "Q200=2 ~", "Q201=-5"]
-    lines[line - 1] = lines[line - 1].replace("Q2", "Z2")
+    lines[line - 1] = lines[line - 1].replace("=", "=)")
     run = mnclab.run("\n".join(lines) + "\n", "tnc-620")
     assert [alarm.span.line for alarm in run.alarms] == [line]
     assert all("refused" in meaning.says for meaning in run.explain(line=1).meanings)

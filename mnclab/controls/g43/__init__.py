@@ -59,7 +59,9 @@ REFUSED = (
 )
 
 MEANINGS = {
-    **{f"G{n} {letter}": f"centre along {axis}" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
+    **{f"G{n} {letter}": f"centre along {axis} from the start" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
+    **{f"G52 {axis}": f"origin's {axis} from the work offset" for axis in "XYZ"},
+    **{f"G92 {axis}": f"new value of {axis} where the tool stands" for axis in "XYZ"},
     "R": "radius", "G4 P": "milliseconds", "G4 X": "seconds",
 }  # fmt: skip
 

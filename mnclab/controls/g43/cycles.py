@@ -58,8 +58,14 @@ class HoleCycle(Cycle, ABC):
 
     shares = True
 
-    x: float | None = param("X", "hole position along X", default=None, default_means="the present point", example=20)
-    y: float | None = param("Y", "hole position along Y", default=None, default_means="the present point", example=10)
+    x: float | None = param(
+        "X", "hole position along X", default=None, default_means="the present point",
+        note="under G91 from the present point", example=20,
+    )  # fmt: skip
+    y: float | None = param(
+        "Y", "hole position along Y", default=None, default_means="the present point",
+        note="under G91 from the present point", example=10,
+    )  # fmt: skip
     bottom: float = param("Z", "bottom of the hole", modal=True, note="under G91 from level R", example=-20)
     r_level: float = param("R", "level R", modal=True, note="under G91 from the initial level", example=2)
     feed: float | None = param(

@@ -86,6 +86,7 @@ CONTROL = Control(
     looks_like=looks_like,
     refused=REFUSED,
     meanings=MEANINGS,
+    relative=("G92 X", "G92 Z"),
     together=together,
     lathe=True,
     bulk=PlainWords(

@@ -42,13 +42,15 @@ def looks_like(text: str) -> bool:
 
 #: What the words of functions are, where their letters do not say it.
 MEANINGS = {
-    **{f"G{n} {letter}": f"centre along {axis}" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
+    **{f"G{n} {letter}": f"centre along {axis} from the start" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
+    **{f"G92 {axis}": f"new value of {axis} where the tool stands" for axis in "XYZ"},
     "R": "radius", "A": "angle in degrees", "Q": "number of a datum", "G4 P": "seconds",
     **{f"{code} {axis}": f"{what} {axis}" for axis in "XYZ" for code, what in (
         ("G37", "scaling factor along"), ("G51", "mirror plane across"), ("G39", "rotation centre's"),
         ("G16", "pole's"),
     )},
-    **{f"G{n} K": "height of the helix" for n in (12, 13)},
+    **{f"G{n} K": "radius of the arc" for n in (12, 13)},
+    **{f"G{n} R": "polar radius" for n in range(10, 14)}, **{f"G{n} A": "polar angle in degrees" for n in range(10, 14)},
     **{letter: f"increment along {axis}" for letter, axis in zip("UVW", "XYZ")},
 }  # fmt: skip
 
@@ -72,6 +74,8 @@ CONTROL = Control(
     looks_like=looks_like,
     refused=REFUSED,
     meanings=MEANINGS,
+    relative=tuple(f"G{n} {letter}" for n in range(10, 14) for letter in "RA"),
+    absolute_with=("G53",),
     together=language.together,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},

@@ -87,6 +87,7 @@ CONTROL = Control(
     looks_like=looks_like,
     refused=REFUSED,
     meanings=MEANINGS,
+    marks=notation.marks,
     one_command=True,
     lathe=True,
     to_turn="write S before the move, and M3 or M4 where M5 was written",

@@ -11,9 +11,10 @@ from collections.abc import Iterator
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.functions import CONDITIONAL, CONDITIONS
+from mnclab.machine.control import Function
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.text.notation import Notation, NotationRow
-from mnclab.text.program import INCREMENTAL, RAPID_MARK, Program, Word
+from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Program, Word
 
 HEAD = "G21 G90 G95 (mm, X on the diameter, feed per revolution)"
 SCALES = {"0.0001": discretes.CYCLE_FEED, "0.01": discretes.Z}
@@ -65,6 +66,23 @@ def sentence(words: tuple[Word, ...], cycles: CycleTable, told: bool) -> str:
         return f"{_plain(head)} M3"
     return " ".join(_millimetres("F", _amount(w), discretes.FREE_FEED) if w.address == "F" else _plain(w)
                     for w in words)  # fmt: skip
+
+
+def marks(what: Function | type[Cycle], word: Word, head: bool) -> Iterator[tuple[str, str]]:
+    """The marks on a word of a function or cycle, and what each does in its command."""
+    own = {} if isinstance(what, Function) or not head else {p.mark: p.meaning for p in what.parameters() if p.mark}
+    code = what.code if head else ""
+    if word.incremental:
+        usual = f"{word.address} is an increment from the start of the command"
+        if code in CONDITIONAL:
+            usual = "separate in single-block mode"
+        if code == "G32":
+            usual = "start at the zero mark of the spindle"
+        yield "@", own.get(INCREMENTAL, usual)
+    if word.flag & RAPID_MARK:
+        yield "~", own.get(RAPID_MARK, "the move is at rapid")
+    if word.flag & GROUP_MARK:
+        yield "*", "the next frame belongs to this command"
 
 
 def _cycle(cycle: type[Cycle], head: Word, rest: tuple[Word, ...]) -> Iterator[str]:

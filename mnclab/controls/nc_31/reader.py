@@ -19,11 +19,11 @@ from __future__ import annotations
 import re
 from string import ascii_lowercase
 
-from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Program, ProgramBuilder
+from mnclab.text.program import AT_MARK, GROUP_MARK, INCREMENTAL, RAPID_MARK, Program, ProgramBuilder
 from mnclab.text.words import characters, line_starts
 
 COMMENT = ";"
-MARKS = {"*": GROUP_MARK, "~": RAPID_MARK, "@": INCREMENTAL}
+MARKS = {"*": GROUP_MARK, "~": RAPID_MARK, "@": INCREMENTAL | AT_MARK}
 MARKED = "GXZ"  # addresses that ~ and @ may stand on
 ADDRESSES = "GXZFSPMT"
 DIGITS = 9
@@ -165,7 +165,7 @@ class _Frames:
     def read_marks(self, match: re.Match[str], stop: int, any_mark: int) -> int:
         """The marks behind the integer, and the word with them; where the mark * stands, or -1."""
         address, at = match[1], match.end()
-        flag = INCREMENTAL if match[2] else 0
+        flag = MARKS["@"] if match[2] else 0
         places = {"@": match.start(2)} if match[2] else {}
         while (at := self.skip(at, stop)) < stop:
             mark = self.text[at]

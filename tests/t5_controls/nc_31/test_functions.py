@@ -137,7 +137,8 @@ def test_a_block_is_explained_word_by_word():
         "G61*",
         "M9",
     )
-    says = [[meaning.says for meaning in run.explain(step=step).meanings] for step in (2, 3, 4)]
+    told = [run.explain(step=step).meanings for step in (2, 3, 4)]
+    says = [[meaning.says for meaning in meanings if meaning.word not in "*~@"] for meanings in told]
     assert says[0][3:] == [
         "pitch, 0.0001 mm (G31)", "depth of the thread, 0.01 mm on radius (G31)",
         "depth of cut per pass, 0.01 mm on radius (G31)", "taper, 0.01 mm on diameter (G31)",

@@ -4,13 +4,13 @@ import pytest
 
 import mnclab
 from mnclab.controls.nc_31.reader import looks_like
-from mnclab.text.program import GROUP_MARK, RAPID_MARK
+from mnclab.text.program import AT_MARK, GROUP_MARK, RAPID_MARK
 
 PARSING = "N92 X10500 ~\nN96 G66 *\nN97 X400\nN98 Z@-1000~\n"  # catalogue, "frame": frames of the source and an @
 
 
 def words(text):
-    return [[(word.address, word.value, word.flag) for word in block.words] for block in mnclab.read(text, "nc-31")]
+    return [[(word.address, word.value, word.flag & ~AT_MARK) for word in block.words] for block in mnclab.read(text, "nc-31")]
 
 
 def test_parsing():

@@ -43,11 +43,17 @@ def return_level(m: Machine, words: Words) -> None:
 class FixedCycle(Cycle):
     """What G83, G84 and G85 share: hole position and levels, of which Z (or W), R and F are modal."""
 
-    x: float | None = param("X", "hole position along X", default=None, default_means="the present point", example=20)
+    x: float | None = param(
+        "X", "hole position along X", default=None, default_means="the present point",
+        note="under G91 from the present point", example=20,
+    )  # fmt: skip
     x_increment: float | None = param(
         "U", "increment to the hole along X", default=None, instead="x", incremental=True, example=15
     )
-    y: float | None = param("Y", "hole position along Y", default=None, default_means="the present point", example=10)
+    y: float | None = param(
+        "Y", "hole position along Y", default=None, default_means="the present point",
+        note="under G91 from the present point", example=10,
+    )  # fmt: skip
     y_increment: float | None = param(
         "V", "increment to the hole along Y", default=None, instead="y", incremental=True, example=10
     )
