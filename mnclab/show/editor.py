@@ -93,7 +93,7 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
             future.result(FIRST if live.run is None else PATIENCE)
         except TimeoutError:
             say(f"{document.path.name}: at work")  # what was good last stays in sight
-            future.add_done_callback(lambda done: state() if live.source == source else None)  # type: ignore[func-returns-value]
+            future.add_done_callback(lambda done: state() if live.source == source else None)
 
     def state() -> None:
         changed = text.value != document.text

@@ -7,7 +7,7 @@ from mnclab import Setup, Tool
 from mnclab.show import trial
 
 EXTREMES = (0.001, -0.001, 99999.0, -99999.0, 99999.9999)
-SHARE, MOST = 5, 300_000  # one case in so many; rows that a single cycle may make
+SHARE, MOST = 5, 1_000_000  # one case in so many; rows that a single cycle may make
 
 
 def cases():
