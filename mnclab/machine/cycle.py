@@ -196,7 +196,7 @@ class Cycle:
         """The motion of the cycle, in verbs of the machine."""
 
 
-MOST_PASSES = 100_000  # of one cycle, all its levels together
+MOST_PASSES = 20_000  # of one cycle, all its levels together
 AnyCycle = TypeVar("AnyCycle", bound=type[Cycle])
 
 

@@ -17,19 +17,20 @@ from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.machining.clearing import Clearing, Piece, numbered
-from mnclab.machining.depths import MOST, TooMany
+from mnclab.machining.depths import TooMany
 from mnclab.machining.spirals import half_circles
 
 DRIFT = 1e-9  # a number of steps this little above a whole one is that whole one
+MOST = 2_000  # steps from the middle to the wall, beyond any tool and pocket
 NOTHING = 1e-6  # mm; a shorter way needs no step
 
 
-def steps(way: float, stepover: float) -> int:
+def steps(way: float, stepover: float, most: int = MOST) -> int:
     """How many equal steps of at most `stepover` a way needs; TooMany where nobody would wait for them."""
     if not stepover > 0:
         raise ValueError(f"the stepover must be greater than 0, got {stepover:g}")
-    if way > MOST * stepover:
-        raise TooMany(f"{stepover:g} divides {way:g} into more than {MOST} steps")
+    if way > most * stepover:
+        raise TooMany(f"{stepover:g} divides {way:g} into more than {most} steps")
     return math.ceil(way / stepover - DRIFT) if way > NOTHING else 0
 
 

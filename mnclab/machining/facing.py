@@ -20,6 +20,7 @@ from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import placed
 from mnclab.machining.clearing import Clearing, Piece, numbered
 from mnclab.machining.concentric import steps
+from mnclab.machining.depths import MOST
 
 
 def rows(first: float, last: float, stepover: float) -> tuple[float, ...]:
@@ -28,7 +29,7 @@ def rows(first: float, last: float, stepover: float) -> tuple[float, ...]:
     >>> rows(10, 40, 15)
     (10.0, 25.0, 40.0)
     """
-    n = steps(abs(last - first), stepover)
+    n = steps(abs(last - first), stepover, MOST)
     return tuple(float(first + (last - first) * i / n) for i in range(n + 1)) if n else (float(first),)
 
 

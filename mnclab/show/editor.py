@@ -1,7 +1,8 @@
 """A part program to type in: its text, its alarms and its picture, all of them while one types; and a file to save to.
 
 The front end holds typing back while the kernel is busy, so that nothing need be delayed here; a change that comes back
-to the same text draws nothing. Figures are drawn in the one drawing thread of :mod:`mnclab.show.forms`.
+to the same text draws nothing. Programs are run and figures drawn in the one drawing thread of :mod:`mnclab.show.forms`:
+where that takes long, one types on beside the last good picture, and texts typed over in the meantime are not run.
 """
 
 from __future__ import annotations
@@ -20,6 +21,8 @@ from mnclab.text.file import read, replaced
 from mnclab.text.given import shown
 from mnclab.text.program import decode
 
+FIRST = 10.0  # s for the first picture, which has none before it
+PATIENCE = 0.5  # s; work that takes longer goes on elsewhere, and what was good last stays in sight
 STYLE = "<style>.mnclab-editor textarea{font-family:monospace;font-size:13px;line-height:1.35;white-space:pre}</style>"
 
 
@@ -81,15 +84,31 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
 
     def check(_: Any = None) -> None:
         source = text.value if text.value.endswith("\n") else text.value + "\n"
+        state()
+        live.source = source
+        future = DRAWING.submit(work, source)
+        try:
+            future.result(FIRST if live.run is None else PATIENCE)
+        except TimeoutError:
+            say(f"{document.path.name}: at work")  # what was good last stays in sight
+            future.add_done_callback(lambda done: state() if live.source == source else None)
+
+    def state() -> None:
         changed = text.value != document.text
         say(f"{document.path.name}: {'changed' if changed else 'new' if not document.content else 'saved'}")
-        try:
-            live.run = run_text(source, _control(control, document.path, source), setup)
-        except Alarm as alarm:
-            alarms.value = alarm._repr_html_()
+
+    def work(source: str) -> None:
+        if live.source != source:  # typed over in the meantime
             return
-        picture.value = DRAWING.submit(picture_of, live.run, view).result()
-        alarms.value = verdict(live.run)
+        try:
+            run = run_text(source, _control(control, document.path, source), setup)
+            drawn, told = picture_of(run, view), verdict(run)
+        except Alarm as alarm:
+            if live.source == source:
+                alarms.value = alarm._repr_html_()
+            return
+        if live.source == source:
+            live.run, picture.value, alarms.value = run, drawn, told
 
     def save(_: Any = None) -> None:
         try:
@@ -100,7 +119,7 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
             say(f"{document.path.name}: saved")
 
     live.text, live.button, live.status, live.picture, live.alarms = text, button, status, picture, alarms
-    live.run, live.document = None, document
+    live.run, live.document, live.source = None, document, ""
     check()
     text.observe(check, "value")
     button.on_click(save)

@@ -7,6 +7,13 @@ import mnclab
 pytest.importorskip("ipywidgets")
 
 
+@pytest.fixture(autouse=True)
+def patience(monkeypatch):
+    """These look at the picture at once, however busy the computer is."""
+    for name in ("PATIENCE", "FIRST"):
+        monkeypatch.setattr(f"mnclab.show.editor.{name}", 60.0)
+
+
 @pytest.fixture
 def file(tmp_path):
     path = tmp_path / "part.mnc"
@@ -74,3 +81,33 @@ def test_a_new_file_is_made_when_it_is_saved(tmp_path):
 def test_a_control_that_does_not_exist_is_an_alarm(file):
     with pytest.raises(mnclab.Alarm, match="there is no control"):
         mnclab.editor(str(file), "mnd")
+
+
+def test_a_long_run_does_not_stop_the_typing(tmp_path, monkeypatch):
+    """The last good picture stays while the work goes on elsewhere; a text typed over in the meantime is never run."""
+    import threading
+    import time
+
+    from mnclab.show import editor as module
+
+    live = module.editor(tmp_path / "a.mnc", "mnc")
+    live.text.value = "G54\nG0 X1\n"
+    picture, go_on, ran = live.children[0].children[1], threading.Event(), []
+    good, run_text = picture.value, module.run_text
+
+    def slow(source, *rest):
+        ran.append(source)
+        assert go_on.wait(20)
+        return run_text(source, *rest)
+
+    monkeypatch.setattr(module, "run_text", slow)
+    monkeypatch.setattr(module, "PATIENCE", 0.2)
+    begin = time.monotonic()
+    for number in (2, 3, 4):
+        live.text.value = f"G54\nG0 X{number}\nG0 Y{number}\n"
+    assert time.monotonic() - begin < 5  # and not 20
+    assert picture.value == good and "at work" in live.status.value
+    go_on.set()
+    module.DRAWING.submit(int).result(20)
+    assert [source.split()[2] for source in ran] == ["X2", "X4"]
+    assert picture.value != good and live.run.toolpath.end[-1].tolist()[:2] == [4, 4]

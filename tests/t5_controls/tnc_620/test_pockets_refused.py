@@ -64,7 +64,7 @@ REFUSED = [
     (251, 1, "Q219=10.3", "Q219", "must be at least the tool diameter and twice Q368, 10.4, got 10.3"),
     (251, 1, "Q220=4.9", "Q220", "must be 0 or at least the tool radius, 5, got 4.9"),
     (251, 1, "Q220=30.1", "Q220", "must be at most half the shorter side, 30, got 30.1"),
-    (251, 1, "Q370=.0001", "Q370", "0.0005 divides 25 into more than 10000 steps"),
+    (251, 1, "Q370=.0001", "Q370", "0.0005 divides 25 into more than 2000 steps"),
     (251, 1, "Q370=2", "Q370", "must be at least 0.0001 and at most 1.9999, got 2"),
     (252, 1, "Q370=.05", "Q370", "must be at least 0.1 and at most 1.9999, got 0.05"),
     (251, 1, "Q367=5", "Q367", "must be one of 0, 1, 2, 3, 4, got 5"),
@@ -80,7 +80,7 @@ REFUSED = [
     (254, 1, "Q375=12", "Q375", "must be greater than the slot width Q219, 12, got 12"),
     (254, 1, "Q377=0", "Q377", "must be a whole number and at least 1 and at most 99999, got 0"),
     (254, 1, "Q377=1.5", "Q377", "must be a whole number and at least 1 and at most 99999, got 1.5"),
-    (254, 1, "Q377=99999", "Q202", "makes 4 levels of 199998 passes, more than 100000 together"),
+    (254, 1, "Q377=99999", "Q202", "makes 4 levels of 199998 passes, more than 20000 together"),
 ]  # fmt: skip
 
 

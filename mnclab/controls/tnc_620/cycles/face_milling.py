@@ -18,7 +18,7 @@ from mnclab.machining.facing import lines, rows
 from mnclab.machining.steps import Go
 
 CYCLES = CycleTable()
-MOST = 100_000  # lines of one cycle, all its levels together
+MOST = 20_000  # lines of one cycle, all its levels together
 STRATEGIES: dict[float, str] = {
     0: "meander, stepover outside the surface",
     1: "meander, stepover at its edge",
