@@ -78,7 +78,7 @@ REFUSED = [
     (233, "Q347=3", "Q347", "must be one of 0, -1, 1, -2, 2, got 3"),
     (233, "Q367=-2", "Q367", "must be one of -1, 0, 1, 2, 3, 4, got -2"),
     (233, "Q369=6", "Q369", "must be less than the depth 6, got 6"),
-    (233, "Q202=.0001", "Q202", "0.0001 divides 5.8 into more than 2000 steps"),
+    (233, "Q202=.0001", "Q202", "0.0001 divides 5.8 into more than 10000 steps"),
     (233, "Q338=.0001 Q347=1", "Q338", "0.0001 divides 6 into more than 10000 infeeds"),
     (233, "Q218=0", "Q218", "must not be 0"), (233, "Q219=0", "Q219", "must not be 0"),
     (233, "Q253=0", "Q253", "must be greater than 0 to mill with, got 0"),
