@@ -54,7 +54,7 @@ def read(source: str | Path, control: str | None = None) -> Program:
 def _point_out_another(program: Program) -> None:
     """Say at the first alarm that a text which could not be read is plainly a program of another control."""
     first = next((alarm for alarm in program.alarms if alarm.severity == ALARM), None)
-    if first is None:
+    if first is None or len(program.faulty_blocks()) < max(3, len(program) / 4):  # a slip or two
         return
     head = program.text[:LOOKED_AT]
     if len(program.text) > LOOKED_AT:  # whole lines
