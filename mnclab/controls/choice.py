@@ -21,7 +21,6 @@ from mnclab.text.nearest import hint, nearest
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, decode
 
-SEVERAL = 3  # faults: fewer are mistakes
 LOOKED_AT = 20_000  # characters of a program that tell its control
 MOST_FILES = 1000  # of a folder, looked through for a name
 
@@ -54,10 +53,9 @@ def read(source: str | Path, control: str | None = None) -> Program:
 
 def _point_out_another(program: Program) -> None:
     """Say at the first alarm that a text which could not be read is plainly a program of another control."""
-    faults = [alarm for alarm in program.alarms if alarm.severity == ALARM]
-    if sum(alarm.count for alarm in faults) < SEVERAL:
+    first = next((alarm for alarm in program.alarms if alarm.severity == ALARM), None)
+    if first is None or len(program.faulty_blocks()) < max(3, len(program) / 4):  # a slip or two
         return
-    first = faults[0]
     head = program.text[:LOOKED_AT]
     if len(program.text) > LOOKED_AT:  # whole lines
         head = head[: max(head.rfind("\n"), head.rfind("\r")) + 1]
