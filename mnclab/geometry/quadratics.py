@@ -337,7 +337,7 @@ def _directions(matrix: Array, tolerance: float) -> Array:
     open_ = np.setdiff1d(np.arange(v), columns)
     found = np.zeros((v, len(open_)))
     found[open_, np.arange(len(open_))] = 1
-    found[columns] = -reduced[np.ix_(rows, open_)]
+    found[columns] = -reduced[rows][:, open_]
     return found
 
 
