@@ -126,8 +126,7 @@ class Readings:
         data leave open, which comes first then; Exhausted where the search ends before.
         """
         self.conflict = None
-        waiting = self.readings[::-1]
-        done: list[Reading] = []
+        waiting, done = self.readings[::-1], list[Reading]()
         while waiting:
             reading = waiting.pop()
             try:

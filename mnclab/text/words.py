@@ -11,7 +11,7 @@ The text is worked in pieces of some 256 KiB, which stay in the processor's cach
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -54,9 +54,10 @@ class Scan:
     def without(self, lines: NDArray[np.bool_]) -> Scan:
         """The same with some lines (l,) that are not clean."""
         keep = np.repeat(~lines, self.count)
-        letter, value, offset, length = self.letter[keep], self.value[keep], self.offset[keep], self.length[keep]
-        count = np.where(lines, 0, self.count)
-        return Scan(letter, value, offset, length, count, self.clean & ~lines, self.starts, self.indented)
+        return replace(
+            self, letter=self.letter[keep], value=self.value[keep], offset=self.offset[keep], length=self.length[keep],
+            count=np.where(lines, 0, self.count).astype(np.int32), clean=self.clean & ~lines,
+        )  # fmt: skip
 
     @property
     def line(self) -> NDArray[np.int64]:
