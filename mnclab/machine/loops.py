@@ -3,7 +3,8 @@
 A jump back that is made once more under the same calls and repeats leads the same way again if nothing that was asked on
 the way can have changed: no variable that a condition or the name of a label reads was written since, or all variables have
 the values that they had then, and none was taken from the state of the machine. Such a loop has no end, and is an alarm at
-once. Whether others end, nobody can say: they run up to a limit.
+once. So is one that has run long while all its comparisons moved away, evenly, from being decided otherwise: a counter that
+runs the wrong way. Whether others end, nobody can say: they run up to a limit.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 SHOWN, WIDTH = 3, 60  # loops around a block that an alarm names, characters of each
+ROUNDS = 10_000  # after which a loop that runs the wrong way is no more believed to turn round
+EVEN = 1e-9  # of the difference: what computing leaves uneven
 UNKNOWN = ""  # what a decision reads beside variables with numbers
 
 
@@ -49,20 +52,48 @@ class _Seen:
 
 
 @dataclass
+class _Comparison:
+    """The difference of what a jump compares, at a step; for how many rounds it has evenly grown, by ``growth``."""
+
+    step: int
+    difference: float
+    growth: float = 0.0
+    rounds: int = 0
+
+
+@dataclass
 class Loops:
     """The loops that run, the outermost first, and what decides how they go on."""
 
     running: list[Loop] = field(default_factory=list)
     asked: dict[str, int] = field(default_factory=dict)  # variable: the step at which a decision read it last
     seen: dict[tuple[int, int, int], _Seen] = field(default_factory=dict)  # program, block and target of a jump back
+    compared: dict[tuple[int, int], _Comparison] = field(default_factory=dict)  # by program and block
+    otherwise: int = -1  # the step of the last decision that read a variable and compared nothing
 
     def ask(self, step: int, values: Iterable[Any]) -> None:
         """A decision where to go reads these values of words."""
         for value in values:
             if isinstance(value, Expression):
                 self.asked.update((token.text, step) for token in value.tokens if token.kind == "variable")
+                self.otherwise = step
             elif not isinstance(value, int | float | str):
-                self.asked[UNKNOWN] = step
+                self.asked[UNKNOWN] = self.otherwise = step
+
+    def compare(self, m: Machine, one: Any, other: Any, difference: float) -> None:
+        """A decision compares the values of two words."""
+        before = self.otherwise
+        self.ask(m.step, (one, other))
+        if self.otherwise == before:  # two numbers
+            return
+        self.otherwise = before
+        key = m.program, m.flow.current
+        last = self.compared.get(key)
+        now = self.compared[key] = _Comparison(m.step, difference)
+        if last is not None:
+            now.growth = difference - last.difference
+            even = abs(now.growth - last.growth) <= EVEN * max(1.0, abs(difference))
+            now.rounds = last.rounds + 1 if even and now.growth * difference > 0 else 0
 
     def asked_since(self, step: int) -> list[str]:
         """The variables that decided something after a step."""
@@ -82,9 +113,21 @@ class Loops:
                 span or m.flow.span_of_block(m.flow.current),
                 hint="change in the loop what its condition reads, or repeat it with a count",
             )
+        if seen.count >= ROUNDS and self._runs_away(seen.step):
+            raise Alarm(
+                f"the program does not get out of this loop: in {seen.count} rounds its conditions moved away from being met "
+                "otherwise",
+                span or m.flow.span_of_block(m.flow.current),
+                hint="the count runs the wrong way, or the condition asks for the opposite",
+            )
         seen.step, seen.count = m.step, seen.count + 1
         if seen.count == seen.next_kept:  # ever further apart: values that come again after many rounds are found, too
             seen.values, seen.kept, seen.next_kept = dict(m.variables), m.step, 2 * seen.count
+
+    def _runs_away(self, step: int) -> bool:
+        """Whether all that was decided after a step was compared, and moves away from being decided otherwise."""
+        latest = [one for one in self.compared.values() if one.step > step]
+        return self.otherwise <= step and bool(latest) and all(one.rounds >= ROUNDS - 2 for one in latest)
 
     def _decided(self, m: Machine, step: int) -> bool:
         """Whether nothing that was asked after a step was written after it."""

@@ -74,6 +74,36 @@ def test_a_loop_that_ends_is_not_called_endless(body: str, name: str, value: flo
     assert found.variables[name] == value
 
 
+RUNS_AWAY = {
+    "counts up from what it must fall below": "Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nL X+Q1\nFN 11: IF +Q1 GT +0 GOTO LBL 1",
+    "counts down from what it must exceed": "Q1 = 0\nLBL 1\nQ1 = Q1 - 0.1\nFN 12: IF +Q1 LT +5 GOTO LBL 1",
+    "steps over the value that it waits for": "Q1 = 0\nLBL 1\nQ1 = Q1 + 0.3\nFN 10: IF +Q1 NE +10 GOTO LBL 1",
+    "two conditions": "Q1 = 1\nLBL 1\nQ1 = Q1 + 1\nFN 9: IF +Q1 EQU +0 GOTO LBL 2\nFN 11: IF +Q1 GT +0 GOTO LBL 1\nLBL 2",
+}
+
+
+@pytest.mark.parametrize("name", RUNS_AWAY)
+def test_a_count_that_runs_the_wrong_way_is_named(name: str) -> None:
+    found, _ = run(RUNS_AWAY[name])
+    (alarm,) = found.alarms
+    assert alarm.message.startswith("the program does not get out of this loop: in 10")
+    assert "LBL 1" in found.program.line_text(alarm.span.line) and len(found.steps.block) < 60_000
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nFN 12: IF +Q1 LT +30000 GOTO LBL 1",
+        "Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nFN 9: IF +Q1 EQU +30000 GOTO LBL 2\nFN 11: IF +Q1 GT +0 GOTO LBL 1\nLBL 2",
+        "Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nQ2 = SIN ( Q1 / 200 )\nFN 11: IF +Q2 GT +0 GOTO LBL 1",
+        "Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nQ2 = INT ( Q1 / 30000 )\nFN 9: IF +Q2 EQU +0 GOTO LBL 1",
+    ],
+)
+def test_a_long_count_is_believed(body: str) -> None:
+    found, _ = run(body)
+    assert found.ok and found.variables["Q1"] >= 30000
+
+
 def test_a_long_repeat_runs() -> None:
     found, _ = run("Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nL IX+1\nCALL LBL 1 REP 65534")
     assert found.ok and found.variables["Q1"] == 65535 and found.toolpath.end[-1, 0] == 65535

@@ -59,13 +59,16 @@ CONDITIONS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
 def jump(m: Machine, words: Words) -> None:
     """Goes on at a label if the condition holds; numbers are equal when they are exactly so."""
     word = words["label"]
-    m.flow.ask(word.value, *(words[part].value for part in ("first", "second") if part in words))
+    m.flow.ask(word.value)
     if "state" in words:
         name = str(words["parameter"].value)
-        m.flow.loops.asked[name] = m.step
+        m.flow.loops.asked[name] = m.flow.loops.otherwise = m.step
         holds = (name in m.variables or name in PREASSIGNED) == (words["state"].value == "DEFINED")
     else:
-        holds = CONDITIONS[words.code][1](m.value(words["first"]), m.value(words["second"]))
+        first, second = words["first"], words["second"]
+        one, other = m.value(first), m.value(second)
+        m.flow.loops.compare(m, first.value, second.value, one - other)
+        holds = CONDITIONS[words.code][1](one, other)
     name = label_name(m, word)
     if name == "0":
         m.alarm(f"{words.code} GOTO LBL 0: LBL 0 is the end of a subprogram and no place to go to", word)
