@@ -10,8 +10,6 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
-import numpy as np
-
 from mnclab.geometry.contours import Contour
 from mnclab.machining.clearing import Clearing, begin, end
 
@@ -39,16 +37,20 @@ def within(length: float, width: float, radius: float, places: Sequence[float], 
     a surface narrower than the tool are a point. ``outside``: the first line begins outside.
     """
     a, b = min(radius, length / 2), min(radius, width / 2)
-    corner = beside_disc(a, b, radius)
-    near = sum(
-        beside_disc(max(0.0, gap - radius), a, radius) if outside and not k else 2 * beside_disc(gap / 2, a, radius)
-        for k, gap in enumerate(np.diff(places).tolist())
-        if k % 2 == 0
-    )
-    far = sum(2 * beside_disc(gap / 2, a, radius) for k, gap in enumerate(np.diff(places).tolist()) if k % 2)
-    if length <= 2 * radius:  # every line is the same point: all of them are joined
-        near = far = 0.0
-    return corner * (3 if outside else 4) + near + far
+    covered = places[0] + radius if outside else -math.inf  # at the near end the first line comes over all below this
+
+    def left(deep: float, below: float = 0.0) -> float:  # beside the disc at an end of a line, to this distance from it
+        return beside_disc(deep, a, radius) - beside_disc(min(max(below, 0.0), deep), a, radius)
+
+    near = left(b, covered - places[-1]) + (0.0 if outside else left(b))
+    far = 2 * left(b)
+    for k, (one, other) in enumerate(pairwise(places if length > 2 * radius else ())):
+        half, middle = (other - one) / 2, (one + other) / 2
+        if k % 2:  # joined at the near end
+            far += 2 * left(half)
+        else:
+            near += left(half, covered - one) + left(min(half, max(0.0, other - max(covered, middle))))
+    return near + far
 
 
 def left_by(clearing: Clearing) -> float:

@@ -65,6 +65,7 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     ``run`` (the last run) and ``document``.
     """
     require("ipywidgets", "editors")
+    require("matplotlib", "pictures")
     if not isinstance(path, str | Path):
         raise Alarm(f"an editor is opened on the path of a file, got {shown(path)}")
     import ipywidgets

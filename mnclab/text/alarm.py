@@ -23,7 +23,8 @@ SHOWN = 20  # alarms of a card
 PLACES = 5  # of alarms that are counted as one
 KEPT, KINDS = 1000, 100  # alarms of a kind; kinds that are told apart
 
-_WHAT_DIFFERS = re.compile(r"'[^']*'|\"[^\"]*\"|\S*[^\sa-z.,;:()]\S*")  # names and numbers in a sentence
+_PARTS = re.compile(r"'[^']*'|\"[^\"]*\"|\S+")
+_SAID = re.compile(r"[a-z.,;:()]+")  # what is neither a name nor a number
 
 
 class Span(NamedTuple):
@@ -182,7 +183,7 @@ class Alarms(list[Alarm]):
         if alarm.severity == WARNING and key in self._first:
             self._first[key].include(alarm)
             return
-        kind = alarm.severity + _WHAT_DIFFERS.sub("", alarm.message)
+        kind = alarm.severity + " ".join(filter(_SAID.fullmatch, _PARTS.findall(alarm.message)))
         if kind not in self._kinds and len(self._kinds) >= KINDS:
             kind = alarm.severity
         kept = self._kinds.setdefault(kind, [0, alarm])

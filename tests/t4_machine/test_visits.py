@@ -12,6 +12,7 @@ from mnclab.machine.interpreter import Interpreter
 from mnclab.machine.machine import Machine
 from mnclab.path.recorder import State
 from mnclab.path.tool import Tool
+from mnclab.text.alarm import Alarm
 
 POINTS = np.array([(k * k, 7 * k % 5 + 1) for k in range(1, 21)], dtype=float)
 #: The place is moved, the rows are those of the visit; the rest cannot be changed, or says again what other attributes say.
@@ -68,6 +69,8 @@ def alteration(m, name):
     value = getattr(m, name)
     if isinstance(value, dict):
         return lambda count: dict.__setitem__(value, "added", str(count))
+    if name == "alarms":
+        return lambda count: value.append(Alarm("doubtful", severity="warning"))
     if isinstance(value, list):
         return lambda count: value.append(lambda: count)
     if name == "frames":

@@ -239,7 +239,7 @@ def test_cycles_at_patterns(changes, number, which, height):
 @settings(max_examples=30)
 @given(FRAMES, DRILLING, st.integers(0, 1), st.integers(0, 1), st.integers(9, 14))
 def test_cycles_220_and_221(changes, number, level, which, count):
-    """Q301 0 travels at the set-up clearance, to which the tool goes where the point before was.
+    """Q301 0 travels at the set-up clearance, where the cycle ends at all points but the last.
 
     Written out: the cycle called by M99 at each of the points, which cycle 220 or 221 also gives.
     """
@@ -256,10 +256,11 @@ def test_cycles_220_and_221(changes, number, level, which, count):
         "" if which else " ~\n Q365=+0"
     )
     before = "\n".join(changes) + "\n" + parameters(number)
-    assigned = f"Q200 = {clearance}\nQ203 = {surface}\nQ204 = {high}\n" + ("Q224 = 0\n" if which else "")
+    assigned = f"Q200 = {clearance}\nQ203 = {surface}\n" + ("Q224 = 0\n" if which else "")
     between = clearance if level == 0 else high
     way = "".join(
-        f"L Z+{between if k else high} FMAX\nL X{x:+.10f} Y{y:+.10f} FMAX\nL Z+{clearance} FMAX\nCYCL CALL\n"
+        f"L Z+{between if k else high} FMAX\nL X{x:+.10f} Y{y:+.10f} FMAX\nL Z+{clearance} FMAX\n"
+        f"Q204 = {between if k + 1 < len(places) else high}\nCYCL CALL\n"
         for k, (x, y) in enumerate(places)
     )
 

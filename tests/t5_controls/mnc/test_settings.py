@@ -255,8 +255,8 @@ def test_rapids_of_axes_that_do_not_wait():
     path = run("G39 A90|G0 X10 Y30|G1 X0 Y0 F60", settings, limits=limits).toolpath
     assert path.end == pytest.approx(np.array([[-20, 10, 0], [-30, 10, 0], [0, 0, 0]]))
     assert path.kind.tolist() == [Kind.RAPID, Kind.RAPID, Kind.LINE] and path.line.tolist() == [2, 2, 3]
-    path = run("F60|G83 X10 Y10 Z-5 R1", settings, limits=limits).toolpath
-    assert path.end[:2].tolist() == [[10, 5, 0], [10, 10, 0]]
+    path = run("F60 G0 Z1|G83 X10 Y10 Z-5 R1", settings, limits=limits).toolpath
+    assert path.end[1:3].tolist() == [[10, 5, 1], [10, 10, 1]]
     assert len(run("G0 X10 Y30", {}, limits=limits).toolpath) == 1
     assert len(run("G0 X10 Y30", settings, limits=limits).programmed) == 1
 
