@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mnclab.geometry.contours import Contour
@@ -40,6 +40,7 @@ def test_a_face_milled_within_it():
 )  # fmt: skip
 def test_against_polygons(length, width, radius, factor, outside):
     """The same face swept by a polygon of 2048 corners: off by some millionths of the disc at each end."""
+    assume(not 2 * radius < length < 3 * radius)  # one end reaches the other
     places = rows(radius, width - radius, factor * radius) if width > 2 * radius else (width / 2,)
     near, far = (radius, length - radius) if length > 2 * radius else (length / 2, length / 2)
     way = []
