@@ -27,14 +27,19 @@ SAME = 1e-9
 
 def faults(does: str, m: Machine) -> Iterator[str]:
     """Why a cycle that does this cannot run under the frame of the machine: the end of a sentence."""
-    if does == VISITS or is_shift(m.frames.matrix):
+    if is_shift(m.frames.matrix):
+        return
+    if is_upside_down(m):
+        yield "cannot run under a mirror image of Z: it would work from below the table"
+        return
+    if does == VISITS:
         return
     if does == MILLS:
         if not is_round(m):
             yield "cannot run under unequal scales of the plane"
         return
     x, y, z = np.linalg.norm(m.frames.matrix[:3, :3], axis=0).tolist()
-    z, kept = -z if is_upside_down(m) else z, "bar keeps its size" if does == SHIFTS else "thread keeps its pitch"
+    kept = "bar keeps its size" if does == SHIFTS else "thread keeps its pitch"
     if abs(z - 1) > SAME:
         yield f"cannot run under a scale of Z other than 1, got {z:g}: a {kept}"
     elif does != TAPS and max(abs(x - 1), abs(y - 1)) > SAME:

@@ -223,12 +223,13 @@ class Toolpath:
     @property
     def bounds(self) -> NDArray[np.float64]:
         """Smallest and greatest coordinates (2, 3) of the motion, arcs included; nan without motion."""
-        from mnclab.path.points import points
+        from mnclab.path.travel import extents
 
-        xyz, _ = points(self, 0.01)
-        if not len(xyz):
+        motion = self.motion
+        if not len(motion):
             return np.full((2, 3), np.nan)
-        return np.stack([xyz.min(axis=0), xyz.max(axis=0)])
+        low, high = extents(motion)
+        return np.stack([np.minimum(motion.start, low).min(axis=0), np.maximum(motion.start, high).max(axis=0)])
 
     def points(self, chord_error: float = 0.01) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Points (m, 3) along the motion within ``chord_error`` mm of every arc, and the row (m,) of each."""

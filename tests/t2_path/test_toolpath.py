@@ -119,3 +119,13 @@ def test_only_rows_at_feed_have_a_feed_per_revolution():
     for kind, feed in ((Kind.RAPID, np.inf), (Kind.LINE, 60.0), (Kind.DWELL, NAN)):
         recorder.add((int(kind), 1, 0, 0, 1.0, 0.0, 0.0, *NOWHERE, 0.0, feed, NAN, -1, state))
     assert np.array_equal(recorder.take().per_rev, [np.nan, 0.2, np.nan], equal_nan=True)
+
+
+def test_bounds_of_arcs_are_exact():
+    """A circle about (20, 0), and a helix of a turn and a half that climbs 9: both reach 10 mm on every side."""
+    import mnclab
+
+    path = mnclab.run("G17 G90 F100\nG0 X10\nG3 I10\n", "mnc").toolpath
+    np.testing.assert_allclose(path.bounds, [[0, -10, 0], [30, 10, 0]], atol=1e-12)
+    path = mnclab.run("G17 G90 G16 F100\nG10 R10 A-90\nG13 A90 K10\nG13 A45 K10\n", "mnc").toolpath
+    np.testing.assert_allclose(path[1:].bounds[:, :2], [[-10, -10], [10, 10]], atol=1e-9)

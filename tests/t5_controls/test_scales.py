@@ -337,7 +337,17 @@ def test_a_bar_is_not_shifted_where_the_hole_is_tilted():
     assert run("G302", "T2 S500 M3 F100\nG18 G39 A10\nG302 Q2 H-5 Z0 D0\nX5 M99\n", setup()).ok
 
 
-@pytest.mark.parametrize("frame", ["G37 Z2", "G37 X2 Y2 Z2", "G51 Z0"])
+HOLES = ["G83 X5 Z-9 R2", "G84 X5 Z-9 R2", "G85 X5 Z-9 R2", "G300 Q2 H-9 Z0", "G309 Q2 H-9 Z0 P1.5"]
+
+
+@pytest.mark.parametrize("cycle", [*HOLES, "G320 X0 Y0 Z0 A50 B10 K3 V150 Q2"])
+def test_no_cycle_works_from_below(cycle):
+    text = f"T2 S500 M3 F100\nG0 Z50\nG51 Z0\n{cycle}\n" + ("X5 M99\n" if cycle[:2] == "G3" else "")
+    found = run(cycle.split()[0], text, setup())
+    assert_refused(found, cycle.split()[0], "cannot run under a mirror image of Z")
+
+
+@pytest.mark.parametrize("frame", ["G37 Z2", "G37 X2 Y2 Z2"])
 def test_a_tap_is_refused_under_another_scale_of_z(frame):
     for cycle, call in (("G84 X5 Z-9 R2 F1.5", "G80"), ("G309 Q2 H-9 Z0 P1.5", "X5 M99")):
         found = run("G84", f"T2 S500 M3\nG95 {frame}\n{cycle}\n{call}\n", setup())
