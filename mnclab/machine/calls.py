@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 DEEPEST = 20  # nested calls
-LONGEST = 1_000_000  # blocks that repeats and calls may add, one by one
+LONGEST = 500_000  # blocks that repeats and calls may add, one by one
 CERTAIN = 4  # times the limit of blocks: more than what passes along the same way may differ by
 ROWS_A_BLOCK = 20  # of the text, beside the rows that the setting most_rows allows
 
@@ -48,6 +48,7 @@ class Flow:
         self.programs = [program]
         self.obey, self.bulk, self.switch = obey, bulk, switch
         self.machine: Machine
+        self.spent = 0  # of the limit, by blocks that take as long as many
         self.depth, self.calls = 0, 0  # calls: subprograms alone, without repeats
         self.limit, self.in_bulk = (
             LONGEST + len(program),
@@ -226,10 +227,15 @@ class Flow:
         blocks.append(block)
         return step
 
+    def spend(self, work: int) -> None:
+        """Count a block as so many more of the limit: it takes as long as they do."""
+        self.limit, self.spent = self.limit - work, self.spent + work
+
     def _too_long(self, step: int, block: int) -> NoReturn:
         """Stop at a block: there are too many to obey."""
         self.machine.step = step
-        message = f"jumps, repeats and calls ran {LONGEST} blocks without an end{self.loops.told(self.machine)}"
+        work = f"{LONGEST} blocks" if self.spent < LONGEST // 10 else f"as much work as {LONGEST} blocks"
+        message = f"jumps, repeats and calls ran {work} without an end{self.loops.told(self.machine)}"
         raise Alarm(message, self.span_of_block(block))
 
     @property

@@ -186,6 +186,7 @@ class Interpreter:
     def take_cycle(self, cycle: type[Cycle], code: str, head: Word | None, given: tuple[Word, ...]) -> None:
         """A block that defines a cycle, or runs the active one again."""
         machine = self.machine
+        machine.flow.spend(len(given))
         values, words = self.assign(cycle, code, given)
         head = head or Word(code, None, int(place_of(*self.span_here()[:3])))
         if head.flag:

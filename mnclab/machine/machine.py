@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from mnclab.machine.cycle import Definition
 
 INF = math.inf
+LONG = 8  # tokens of an expression that take about as long as a block
 PLANES = {"XY": (0, 1, 2), "ZX": (2, 0, 1), "YZ": (1, 2, 0), "XZ": (0, 2, 1)}  # first axis, second axis, normal
 _AXES = {"XY": (0.0, 0.0, 1.0), "ZX": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0), "XZ": (0.0, -1.0, 0.0)}
 
@@ -131,6 +132,8 @@ class Machine:
             return value
         if isinstance(value, Expression | NumberFromText):
             try:
+                if isinstance(value, Expression) and len(value.tokens) > LONG:
+                    self.flow.spend(len(value.tokens) // LONG)
                 return value.evaluate(self.variables)
             except Alarm as alarm:
                 alarm.span = alarm.span and alarm.span._replace(program=self.program)

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from mnclab.text.strings import NumberFromText, TextFormula
 
 NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
+CHUNK = 65_536  # words that a builder holds one by one
 MOST_WORDS = 1000  # of a block: what has more is no block of any control, and a long line must not fill the memory
 FEW = 1000  # stretches of blocks that are copied one after the other
 INCREMENTAL, RAPID_MARK, GROUP_MARK, AT_MARK = 1, 2, 4, 8  # bits of column ``flag``; the last: written as @
@@ -281,12 +282,14 @@ class ProgramBuilder:
         self.line_starts, self.comment_mark = line_starts, comment_mark
         self.addresses: dict[str, int] = {}
         self.keywords: dict[str, int] = {"": 0}
-        self.words: list[tuple[int, float, int, int, int, int]] = []  # address, value, form, flag, offset, length
+        self.words: list[tuple[int, float, int, int, int, int]] = []  # address, value, form, flag, offset, length; …
+        self.put_away: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []  # … earlier ones, and their blocks: less memory
+        self.before = 0  # how many words those are
         self.blocks: list[tuple[int, int, bool, bool, int]] = []  # offset, keyword, skip, plain, first word
         self.payload: list[Any] = []
         self.alarms = Alarms()
         self.labels: dict[str, int] = {}  # jump target -> offset of its block
-        self.full = 0  # the number of the block that was told to be too long
+        self.full = -1  # where the block begins that was told to be too long
 
     def span(self, offset: int, length: int = 1) -> Span:
         """Line and column of a place in the text."""
@@ -299,15 +302,31 @@ class ProgramBuilder:
 
     def block(self, offset: int, keyword: str = "", skip: bool = False, plain: bool = False) -> None:
         """Begin a block at ``offset``."""
+        if len(self.words) >= CHUNK:
+            self.put_away.append((np.array(self.words, dtype=np.float64), np.array(self.blocks, dtype=np.float64)))
+            self.before += len(self.words)
+            self.words.clear()
+            self.blocks.clear()
         key = self.keywords.setdefault(keyword, len(self.keywords))
-        self.blocks.append((offset, key, skip, plain, len(self.words)))
+        self.blocks.append((offset, key, skip, plain, self.before + len(self.words)))
+
+    @property
+    def heads(self) -> NDArray[np.float64]:
+        """The blocks so far (b, 5): offset, keyword, skip, plain, first word."""
+        last = np.array(self.blocks, dtype=np.float64).reshape(-1, 5)
+        return np.concatenate([*(blocks for _, blocks in self.put_away), last])
+
+    @property
+    def block_words(self) -> list[tuple[int, float, int, int, int, int]]:
+        """The words that the block begun last has so far."""
+        return self.words[self.blocks[-1][4] - self.before :]
 
     def word(self, address: str, value: Any, offset: int, length: int, flag: int = 0) -> None:
         """Add a word to the block begun last; an alarm at the first of too many, and none of them is kept."""
-        size = len(self.words) - (self.blocks[-1][4] if self.blocks else 0)
+        size = self.before + len(self.words) - (self.blocks[-1][4] if self.blocks else 0)
         if size >= MOST_WORDS:
-            if self.full != len(self.blocks):
-                self.full = len(self.blocks)
+            if self.full != self.blocks[-1][0]:
+                self.full = self.blocks[-1][0]
                 self.alarm(f"a block holds at most {MOST_WORDS} words, this one has more", offset, length)
             return
         index = self.addresses.setdefault(address, len(self.addresses))
@@ -322,8 +341,8 @@ class ProgramBuilder:
 
     def build(self, bulk: BulkBlocks | None = None) -> Program:
         """The program; blocks found in bulk are sorted in by their place in the text."""
-        words = np.array(self.words, dtype=np.float64).reshape(-1, 6)
-        blocks = np.array(self.blocks, dtype=np.float64).reshape(-1, 5)
+        last = np.array(self.words, dtype=np.float64).reshape(-1, 6)
+        words, blocks = np.concatenate([*(words for words, _ in self.put_away), last]), self.heads
         count = np.diff(np.append(blocks[:, 4], len(words)))
         words[:, 5] = np.minimum(words[:, 5], 32767)
         kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int16)
@@ -342,7 +361,7 @@ class ProgramBuilder:
             same = np.broadcast_to(np.int16(key), (n,)), np.broadcast_to(np.False_, (n,))
             more_heads = [bulk.start, *same, bulk.plain]
             first = bulk.first
-            if self.blocks:
+            if len(blocks):
                 sizes = [count, np.diff(first)]
                 columns, heads = _merged(columns, more, 4), _merged([*heads, sizes[0]], [*more_heads, sizes[1]], 0)
                 first = first_words(heads[4])

@@ -27,6 +27,7 @@ MARKS = {"*": GROUP_MARK, "~": RAPID_MARK, "@": INCREMENTAL | AT_MARK}
 MARKED = "GXZ"  # addresses that ~ and @ may stand on
 ADDRESSES = "GXZFSPMT"
 DIGITS = 9
+REPEATED = 1100  # G25 names frames up to 999, and a group that one of them belongs to goes on a little
 BLANKS = " \t\ufeff"
 
 _LOOKS_LATIN = dict(zip("ХМРТСЗхмртсз", "XMPTCZ" * 2, strict=True))
@@ -157,9 +158,11 @@ class _Frames:
             if at >= stop:
                 self.alarm(f"frame N{number} has no word", begin, length)
                 at = -1
-        if number in self.blocks:
-            self.shadowed.add(self.blocks.pop(number))
-        self.blocks[number], self.last = self.group, number
+        self.last = number
+        if number <= REPEATED:
+            if number in self.blocks:
+                self.shadowed.add(self.blocks.pop(number))
+            self.blocks[number] = self.group
         return at
 
     def read_marks(self, match: re.Match[str], stop: int, any_mark: int) -> int:

@@ -61,9 +61,8 @@ def read(text: str, name: str = "program") -> Program:
 def _check_end(builder: ProgramBuilder, bulk: BulkBlocks, end: int | None) -> None:
     """Warn about blocks after END PGM."""
     if end is not None:
-        after = [block[0] for block in builder.blocks if block[0] > end and block[1]] + bulk.start[bulk.start > end][
-            :1
-        ].tolist()
+        heads = builder.heads
+        after = heads[(heads[:, 0] > end) & (heads[:, 1] > 0), 0].astype(int).tolist() + bulk.start[bulk.start > end].tolist()
         if after:
             builder.alarm("nothing after END PGM is obeyed", min(after), severity="warning")
 

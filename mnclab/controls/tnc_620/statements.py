@@ -165,7 +165,7 @@ def name_of_cycle(cursor: Cursor, stop: int = -1) -> None:
 def _addresses(cursor: Cursor) -> list[str]:
     """Addresses of the words that the block has so far."""
     names = list(cursor.builder.addresses)
-    return [names[word[0]] for word in cursor.builder.words[cursor.builder.blocks[-1][4] :]]
+    return [names[word[0]] for word in cursor.builder.block_words]
 
 
 def contour_labels(cursor: Cursor) -> None:

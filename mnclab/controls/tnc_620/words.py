@@ -100,7 +100,7 @@ class Cursor:
         if self.inch and address in LENGTHS and isinstance(value, float | Expression):
             value = value * INCH if isinstance(value, float) else replace(value, scale=INCH)
         self.builder.word(address, value, offset, self.at - offset, flag)
-        if self.builder.full == len(self.builder.blocks):
+        if self.builder.blocks and self.builder.full == self.builder.blocks[-1][0]:
             self.at = self.stop
 
     # --- values ---------------------------------------------------------------------------------------------------------

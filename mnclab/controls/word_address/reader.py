@@ -173,7 +173,7 @@ def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labe
             if abs(number) >= LARGEST:
                 builder.alarm(f"a number must be smaller than {LARGEST:g}", at, length)
             builder.word(address, number, at, length)
-            if builder.full == len(builder.blocks):
+            if builder.blocks and builder.full == builder.blocks[-1][0]:
                 return
         at, first = _skip_blanks(text, match.end(), stop), False
 

@@ -104,6 +104,21 @@ def test_a_long_count_is_believed(body: str) -> None:
     assert found.ok and found.variables["Q1"] >= 30000
 
 
+DEAR = {
+    "a pattern": GRID.format(300, 300),
+    "a long formula": "Q2 = " + " + ".join(["SIN 3"] * 2000),
+    "a cycle that is never called": DRILLING.format(5),
+}
+
+
+@pytest.mark.parametrize("name", DEAR)
+def test_a_dear_block_counts_as_many(name: str) -> None:
+    found, _ = run(f"LBL 1\n{DEAR[name]}\nCALL LBL 1 REP 65534")
+    (alarm,) = found.alarms
+    assert alarm.message.startswith("jumps, repeats and calls ran as much work as 500000 blocks without an end; in CALL LBL 1")
+    assert len(found.steps.block) < 150_000
+
+
 def test_a_long_repeat_runs() -> None:
     found, _ = run("Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nL IX+1\nCALL LBL 1 REP 65534")
     assert found.ok and found.variables["Q1"] == 65535 and found.toolpath.end[-1, 0] == 65535

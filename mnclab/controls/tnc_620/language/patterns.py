@@ -23,6 +23,7 @@ FUNCTIONS = FunctionTable()
 
 LARGEST_NUMBER = 9  # POS1 to POS9
 MOST = 100_000  # points
+POINTS_A_BLOCK = 50  # points that take as long as a block
 Floats = NDArray[np.float64]
 
 COUNTS = {"NUM": "number of positions", "NUMX": "number of columns", "NUMY": "number of rows"}
@@ -62,6 +63,7 @@ def pattern_def(m: Machine, words: Words) -> None:
         points = np.concatenate([points, more])
     if not len(points):
         m.alarm(f"PATTERN DEF needs at least one of {', '.join(FORMS)}", None)
+    m.flow.spend(len(points) // POINTS_A_BLOCK)
     activate(m, Pattern(points, np.full(len(points), np.nan), False))
 
 
@@ -204,5 +206,6 @@ FORM = {"POS": position, "ROW": row, "PAT": grid, "FRAME": grid, "CIRC": circle,
 def sel_pattern(m: Machine, words: Words) -> None:
     """The points of a file NAME.PNT; nothing moves."""
     table: PointTable = read_points(m, words["file"])
+    m.flow.spend(len(table.points))
     shown = table.points[~table.hidden], table.clearance[~table.hidden]
     activate(m, Pattern(*shown, True))
