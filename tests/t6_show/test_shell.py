@@ -234,10 +234,10 @@ def test_a_faulty_setup_is_one_sentence_with_its_line(folder, capsys, name):
         assert name in ("deep", "long") or ALARM_LINE.fullmatch(err.strip())
 
 
-@pytest.mark.parametrize("value", ["nan", "inf", "-5", "0"])
+@pytest.mark.parametrize("value", ["nan", "inf", "-5", "0", "1e-300", "1e300"])
 def test_an_override_that_cannot_be_is_one_sentence(folder, capsys, value):
     assert mnclab("time", "good.mnc", f"--override={value}") == 2
-    assert capsys.readouterr().err.startswith("mnclab: alarm: the feed override must be")
+    assert capsys.readouterr().err.startswith("mnclab: alarm: the feed override (1 for 100 %) must be")
 
 
 def test_a_radius_that_cannot_be_is_one_sentence(folder, capsys):
