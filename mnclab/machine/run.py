@@ -34,7 +34,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of
 from mnclab.text.columns import fixed
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import shown
 from mnclab.text.program import Block, Program
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
@@ -194,8 +194,8 @@ class Run:
         """When the tool is where, and how fast, under the limits of a machine: those of the setup, others, or those
         of a named machine ("small-mill"; see ``data/machines``).
 
-        ``override`` is the feed override, 1 for 100 %. How a rapid goes is the control's (its setting ``rapid_motion``)
-        unless the limits say; the program waits for the spindle unless its supervision is off (MNC G25).
+        ``override`` is the feed override, 1 for 100 %, from 0.001 to 100. How a rapid goes is the
+        control's (its setting ``rapid_motion``) unless the limits say; the program waits for the spindle unless its supervision is off (MNC G25).
         """
         path, spindle = self.toolpath, self.toolpath.kind == Kind.SPINDLE
         waits = np.ones(len(path), dtype=bool)
@@ -207,7 +207,6 @@ class Run:
         limits = self.setup.limits if limits is None else limits
         if not isinstance(limits, Limits):
             raise Alarm(f"limits must be Limits or the name of a machine, got {shown(limits)}", hint='"small-mill"')
-        check_number(override, "the feed override")
         return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
 
     def again(self, setup: Setup) -> Run:
@@ -349,7 +348,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     """Run a program that was read; with ``strict`` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
-    setup = Setup() if setup is None else setup
+    setup = (Setup() if setup is None else setup).kept()  # somebody may have written into its tables, and may again
     machine = Machine(control, setup)
     interpreter = Interpreter(control, machine, program)
     alarms = interpreter.alarms
