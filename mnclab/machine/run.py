@@ -34,7 +34,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of
 from mnclab.text.columns import fixed
-from mnclab.text.given import shown
+from mnclab.text.given import shown, whole
 from mnclab.text.program import Block, Program
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
@@ -124,10 +124,12 @@ class Run:
         if step is None:
             if line is None:
                 raise Alarm("at() needs a line or a step", hint="run.at(line=5)")
-            found = self._executions(line, program)
+            line, pass_ = whole(line, "the line"), whole(pass_, "pass_")
+            found = self._executions(line, whole(program, "the number of the program"))
             if not 1 <= pass_ <= len(found):
                 raise Alarm(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
             step = int(found[pass_ - 1])
+        step = whole(step, "the step")
         if not 0 <= step < len(self.steps.block):
             raise Alarm(f"step must be 0 … {len(self.steps.block) - 1}, got {step}")
         which = int(self.steps.program[step])
@@ -195,7 +197,8 @@ class Run:
         of a named machine ("small-mill"; see ``data/machines``).
 
         ``override`` is the feed override, 1 for 100 %, from 0.001 to 100. How a rapid goes is the
-        control's (its setting ``rapid_motion``) unless the limits say; the program waits for the spindle unless its supervision is off (MNC G25).
+        control's (its setting ``rapid_motion``) unless the limits say;
+        the program waits for the spindle unless its supervision is off (MNC G25).
         """
         path, spindle = self.toolpath, self.toolpath.kind == Kind.SPINDLE
         waits = np.ones(len(path), dtype=bool)

@@ -159,7 +159,8 @@ class Setup:
         object.__setattr__(self, "start", tuple(map(float, self.start)))
         self._check_workpiece()
         for name, says in NOT_BUILT.items():
-            if getattr(self, name) or (name == "kinematics" and self.kinematics is not None):
+            given = getattr(self, name)
+            if given is not None and not (name == "true_tools" and isinstance(given, Mapping) and not given):
                 raise Alarm(f"Setup({name}=…) is not built yet: {says}")
 
     def _check_workpiece(self) -> None:

@@ -113,11 +113,14 @@ def load(path: str | Path) -> Setup:
     def build(table: dict[str, Any], file: File) -> Setup:
         return replace(_setup(table, file), source=file)
 
-    return parse(Path(path), build, "setup")
+    return parse(path, build, "setup")
 
 
-def parse(path: Path, build: Callable[[dict[str, Any], File], Result], what: str) -> Result:
+def parse(path: str | Path, build: Callable[[dict[str, Any], File], Result], what: str) -> Result:
     """What ``build`` makes of the table in a TOML file; alarms show the line of the file."""
+    if not isinstance(path, str | Path) or not str(path):
+        raise Alarm(f"the {what} must be the name of a file, got {shown(path)}")
+    path = Path(path)
     try:
         text = read(path, f"the {what}", LARGEST).decode("utf-8")
     except UnicodeDecodeError:

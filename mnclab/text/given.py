@@ -57,7 +57,11 @@ def plain(value: Any) -> Any:
 
 def check_point(value: Any, what: str) -> None:
     """An Alarm unless ``value`` is three numbers."""
-    if isinstance(value, str | Mapping) or not hasattr(value, "__len__") or len(value) != 3:
+    try:
+        three = not isinstance(value, str | Mapping) and len(value) == 3
+    except TypeError:  # of what has no length
+        three = False
+    if not three:
         raise Alarm(f"{what} must be three numbers (x, y, z), got {shown(value)}")
     for each in value:
         check_number(each, what)
