@@ -195,7 +195,7 @@ class Setup:
 
     def with_radius(self, radius: float) -> Setup:
         """The same machine with another radius, mm, in all its tools but the probes."""
-        tools = {n: t if t.kind == "probe" else replace(t, radius=radius, dr=0.0) for n, t in self.tools.items()}
+        tools = {n: t if t.kind == "probe" else t.of_radius(radius) for n, t in self.tools.items()}
         return replace(self, tools=tools)
 
     def with_settings(self, **settings: Any) -> Setup:

@@ -251,7 +251,8 @@ def test_an_empty_name_is_said_to_be_empty(folder, capsys, arguments):
 
 
 @pytest.mark.parametrize(
-    ("option", "says"), [("--setup", "the setup must be the name of a file"), ("--machine", "no machine has the name ''")]
+    ("option", "says"),
+    [("--setup", "the setup must be the name of a file"), ("--machine", "no machine has the name ''")],
 )
 def test_an_empty_option_is_not_left_out(folder, capsys, option, says):
     assert mnclab("time", "good.mnc", option, "") == 2
