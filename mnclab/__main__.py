@@ -162,6 +162,13 @@ def describe(alarm: Alarm, file: str) -> dict[str, Any]:
     return alarm.as_dict() if alarm.source else alarm.as_dict() | {"file": file}
 
 
+def program(file: str) -> Path:
+    """The path of a program; an Alarm for an empty name, which would be the folder."""
+    if not file:
+        raise Alarm("the name of the program is empty")
+    return Path(file)
+
+
 def sensible(do: Callable[..., Result], *arguments: Any) -> Result:
     """The result of what a command line asks for beside its programs; a fault in that is a wrong command line."""
     try:
@@ -173,9 +180,9 @@ def sensible(do: Callable[..., Result], *arguments: Any) -> Result:
 
 def obey(chosen: argparse.Namespace) -> mnclab.Run | None:
     """Run a file as the command line says; None, and a line on stderr, if there is no program in it."""
-    setup = sensible(load, chosen.setup) if chosen.setup else None
+    setup = None if chosen.setup is None else sensible(load, chosen.setup)
     try:
-        return mnclab.run(Path(chosen.file), chosen.control, setup)
+        return mnclab.run(program(chosen.file), chosen.control, setup)
     except Alarm as alarm:
         say(alarm, chosen.file)
         return None
@@ -184,10 +191,10 @@ def obey(chosen: argparse.Namespace) -> mnclab.Run | None:
 def check(chosen: argparse.Namespace) -> int:
     """Report the alarms of several programs."""
     status, report = CLEAN, []
-    setup = sensible(load, chosen.setup) if chosen.setup else None
+    setup = None if chosen.setup is None else sensible(load, chosen.setup)
     for file in chosen.files:
         try:
-            alarms = mnclab.run(Path(file), chosen.control, setup).alarms
+            alarms = mnclab.run(program(file), chosen.control, setup).alarms
         except Alarm as unreadable:
             alarms = (unreadable,)
         if any(alarm.severity == ALARM for alarm in alarms):
@@ -238,7 +245,7 @@ def report(chosen: argparse.Namespace) -> int:
 
 def time(chosen: argparse.Namespace) -> int:
     """Print how long a program takes: in all, by cause, by tool, and the lines that cost most."""
-    machine = sensible(load_machine, chosen.machine) if chosen.machine else None
+    machine = None if chosen.machine is None else sensible(load_machine, chosen.machine)
     result = obey(chosen)
     if result is None:
         return ALARMS
@@ -252,8 +259,11 @@ def time(chosen: argparse.Namespace) -> int:
 
 
 def words(text: str) -> list[str]:
-    """Words between commas."""
-    return [word.strip() for word in text.split(",") if word.strip()]
+    """Words between commas, one at least."""
+    found = [word.strip() for word in text.split(",") if word.strip()]
+    if not found:
+        raise argparse.ArgumentTypeError(f"nothing stands between the commas of {text!r}")
+    return found
 
 
 def numbers(text: str) -> list[float]:

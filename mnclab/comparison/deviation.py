@@ -17,9 +17,11 @@ from numpy.typing import NDArray
 from mnclab.path.listing import figure, point
 from mnclab.path.points import points
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.given import check_number
 
 Array = NDArray[np.float64]
 PLACES = 4000  # of a path, if no step is given
+MOST = 10_000_000  # of a path, whatever the step
 SAME = 1e-9  # mm; paths no farther apart than this are the same
 CHUNK, GROUP = 256, 64  # places at a time; strokes that share a box
 
@@ -123,9 +125,11 @@ def deviation(
     step: float | None = None, chord_error: float = 1e-4, times: tuple[float, float] | None = None,
 ) -> Deviation:  # fmt: skip
     """Lay two paths over one another; ``step`` mm, by default a four-thousandth of the longer one."""
-    step = step or max(one.length, other.length, 1e-3) / PLACES
-    if not step > 0:
-        raise ValueError(f"step must be greater than 0 mm, got {step:g}")
+    longest = max(one.length, other.length, 1e-3)
+    if step is None:
+        step = longest / PLACES
+    else:
+        check_number(step, "step (mm)", above=0, at_least=longest / MOST)
     strokes = [_strokes(path, chord_error) for path in (one, other)]
     looks = [_places(*parts, step) for parts in strokes]
     traces = [Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1])]

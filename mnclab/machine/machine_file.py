@@ -6,6 +6,7 @@ The named ones lie in ``data/machines``. A file has ``title``, ``assumes`` (a li
 
 from __future__ import annotations
 
+import os
 from difflib import get_close_matches
 from pathlib import Path
 from typing import NamedTuple
@@ -13,6 +14,7 @@ from typing import NamedTuple
 from mnclab.machine.setup_file import File, check_names, parse, record
 from mnclab.path.limits import Limits
 from mnclab.text.alarm import Alarm
+from mnclab.text.given import shown
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 PLACES = (_PACKAGE / "data" / "machines", _PACKAGE.parent / "data" / "machines")  # installed; in the sources
@@ -38,11 +40,11 @@ def load(machine: str | Path) -> MachineFile:
     if isinstance(machine, Path) or text.endswith(".toml"):
         return parse(Path(machine), _machine, "machine")
     for place in PLACES:
-        if (place / f"{text}.toml").is_file():
+        if os.path.isfile(place / f"{text}.toml"):
             return parse(place / f"{text}.toml", _machine, "machine")
-    near = get_close_matches(text, names(), 1)
+    near = get_close_matches(text[:40], names(), 1)
     hint = f"near: {near[0]}" if near else f"known: {', '.join(names())}; or the name of a .toml file"
-    raise Alarm(f"no machine has the name {text!r}", hint=hint)
+    raise Alarm(f"no machine has the name {shown(text)}", hint=hint)
 
 
 def _machine(table: dict[str, object], file: File) -> MachineFile:

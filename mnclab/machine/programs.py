@@ -76,10 +76,10 @@ def _beside(caller: Program, wanted: str) -> Path | None:
     if not caller.folder:
         return None
     try:
-        names = sorted(entry.name for entry in os.scandir(caller.folder) if entry.is_file())
+        names = sorted(name for name in os.listdir(caller.folder) if name.lower() == wanted)
     except OSError:
         return None
-    return next((Path(caller.folder, name) for name in names if name.lower() == wanted), None)
+    return next((path for name in names if os.path.isfile(path := Path(caller.folder, name))), None)
 
 
 def _leads_out(file: Path, folder: str) -> bool:

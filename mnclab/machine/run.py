@@ -34,7 +34,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of
 from mnclab.text.columns import fixed
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import shown, whole
 from mnclab.text.program import Block, Program
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
@@ -124,10 +124,12 @@ class Run:
         if step is None:
             if line is None:
                 raise Alarm("at() needs a line or a step", hint="run.at(line=5)")
-            found = self._executions(line, program)
+            line, pass_ = whole(line, "the line"), whole(pass_, "pass_")
+            found = self._executions(line, whole(program, "the number of the program"))
             if not 1 <= pass_ <= len(found):
                 raise Alarm(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
             step = int(found[pass_ - 1])
+        step = whole(step, "the step")
         if not 0 <= step < len(self.steps.block):
             raise Alarm(f"step must be 0 … {len(self.steps.block) - 1}, got {step}")
         which = int(self.steps.program[step])
@@ -194,8 +196,9 @@ class Run:
         """When the tool is where, and how fast, under the limits of a machine: those of the setup, others, or those
         of a named machine ("small-mill"; see ``data/machines``).
 
-        ``override`` is the feed override, 1 for 100 %. How a rapid goes is the control's (its setting ``rapid_motion``)
-        unless the limits say; the program waits for the spindle unless its supervision is off (MNC G25).
+        ``override`` is the feed override, 1 for 100 %, from 0.001 to 100. How a rapid goes is the
+        control's (its setting ``rapid_motion``) unless the limits say;
+        the program waits for the spindle unless its supervision is off (MNC G25).
         """
         path, spindle = self.toolpath, self.toolpath.kind == Kind.SPINDLE
         waits = np.ones(len(path), dtype=bool)
@@ -207,7 +210,6 @@ class Run:
         limits = self.setup.limits if limits is None else limits
         if not isinstance(limits, Limits):
             raise Alarm(f"limits must be Limits or the name of a machine, got {shown(limits)}", hint='"small-mill"')
-        check_number(override, "the feed override")
         return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
 
     def again(self, setup: Setup) -> Run:
@@ -349,7 +351,7 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     """Run a program that was read; with ``strict`` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
-    setup = Setup() if setup is None else setup
+    setup = (Setup() if setup is None else setup).kept()  # somebody may have written into its tables, and may again
     machine = Machine(control, setup)
     interpreter = Interpreter(control, machine, program)
     alarms = interpreter.alarms

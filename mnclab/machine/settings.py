@@ -31,6 +31,7 @@ class Setting(NamedTuple):
     choices: Mapping[str, str] = MappingProxyType({})
     unit: str = ""
     at_least: float | None = None
+    at_most: float | None = None
 
     @property
     def allowed(self) -> str:
@@ -40,7 +41,8 @@ class Setting(NamedTuple):
         if isinstance(self.default, bool):
             return "true or false"
         least = "" if self.at_least is None else f" from {self.at_least:g}"
-        return f"a number{least}"
+        most = "" if self.at_most is None else f" to {self.at_most:.10g}"
+        return f"a number{least}{most}"
 
     def check(self, value: Any) -> Any:
         """The value as functions read it; an Alarm when it is not allowed."""
@@ -51,6 +53,7 @@ class Setting(NamedTuple):
         else:
             good = isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
             good = good and (self.at_least is None or float(value) >= self.at_least)
+            good = good and (self.at_most is None or float(value) <= self.at_most)
         if not good:
             near = hint(value, self.choices, 1) if isinstance(value, str) else ""
             raise Alarm(f"setting {self.name} ({self.meaning}) must be {self.allowed}, got {shown(value)}", hint=near)
@@ -65,7 +68,7 @@ EVERY = (
     ),
     Setting(
         "most_rows", 4_000_000, "rows of the path beyond which a run ends, with 20 more for each block of the text",
-        "the memory of the computer", unit="rows", at_least=1000,
+        "the memory of the computer", unit="rows", at_least=1000, at_most=1_000_000_000,
     ),
 )  # fmt: skip
 

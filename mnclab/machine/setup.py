@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from copy import deepcopy
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple, NoReturn
@@ -98,7 +99,7 @@ def _refuse(what: str, must: str, value: Any, example: str) -> NoReturn:
 
 @dataclass(frozen=True)
 class Setup:
-    """Everything a program finds on the machine; never changed by a run.
+    """Everything a program finds on the machine; never changed by a run, which keeps a copy that nobody can write to.
 
     ``start`` is the spindle reference in machine coordinates, mm. ``part`` and ``stock`` stand in machine coordinates.
     ``files`` maps names to texts or paths of other programs and tables. ``settings`` overrides the declared choices of
@@ -139,7 +140,8 @@ class Setup:
                     _refuse(f"{name}[{row}]", "must be a Datum or its numbers", value, example)
                 if kind is Datum:
                     Datum(*value)
-            object.__setattr__(self, name, dict(table))
+            rows = {row: tuple(value) if isinstance(value, list) else value for row, value in table.items()}
+            object.__setattr__(self, name, rows)
         for name, example in NAMED.items():
             table = getattr(self, name)
             if not isinstance(table, Mapping) or not all(isinstance(key, str) for key in table):
@@ -157,7 +159,8 @@ class Setup:
         object.__setattr__(self, "start", tuple(map(float, self.start)))
         self._check_workpiece()
         for name, says in NOT_BUILT.items():
-            if getattr(self, name) or (name == "kinematics" and self.kinematics is not None):
+            given = getattr(self, name)
+            if given is not None and not (name == "true_tools" and isinstance(given, Mapping) and not given):
                 raise Alarm(f"Setup({name}=…) is not built yet: {says}")
 
     def _check_workpiece(self) -> None:
@@ -177,9 +180,22 @@ class Setup:
         if self.part is not None and not callable(self.part):
             _refuse("part", "must be a part", self.part, "mnclab.workpiece.part has box, cylinder, ball and plane")
 
+    def kept(self) -> Setup:
+        """A copy, checked again, whose tables nobody can write to: what a run was made with."""
+        found = replace(self, stock=deepcopy(self.stock))
+        for name in (*TABLES, *NAMED):
+            object.__setattr__(found, name, MappingProxyType(getattr(found, name)))
+        return found
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For copies and pickles, which take no mapping that is only read."""
+        values = {each.name: getattr(self, each.name) for each in fields(self)}
+        tables = {name: dict(values[name]) for name in (*TABLES, *NAMED)}
+        return _again, (values | tables, isinstance(self.tools, MappingProxyType))
+
     def with_radius(self, radius: float) -> Setup:
         """The same machine with another radius, mm, in all its tools but the probes."""
-        tools = {n: t if t.kind == "probe" else replace(t, radius=radius, dr=0.0) for n, t in self.tools.items()}
+        tools = {n: t if t.kind == "probe" else t.of_radius(radius) for n, t in self.tools.items()}
         return replace(self, tools=tools)
 
     def with_settings(self, **settings: Any) -> Setup:
@@ -187,11 +203,16 @@ class Setup:
         return replace(self, settings={**self.settings, **settings}, source=None)
 
 
+def _again(values: Mapping[str, Any], kept: bool) -> Setup:
+    """A setup of a copy or a pickle."""
+    found = Setup(**values)
+    return found.kept() if kept else found
+
+
 class Tables:
     """The tables of one run: copies that the program may write to."""
 
     def __init__(self, setup: Setup) -> None:
-        setup = replace(setup)  # checked again: somebody may have written into its tables since
         numbered = {number: _numbered(tool, number) for number, tool in setup.tools.items()}
         self.tools: dict[int, Tool] = {0: MAGAZINE[0], **numbered}
         self.datums: dict[int, Datum] = {row: Datum(*datum) for row, datum in setup.datums.items()}

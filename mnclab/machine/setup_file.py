@@ -113,13 +113,16 @@ def load(path: str | Path) -> Setup:
     def build(table: dict[str, Any], file: File) -> Setup:
         return replace(_setup(table, file), source=file)
 
-    return parse(Path(path), build, "setup")
+    return parse(path, build, "setup")
 
 
-def parse(path: Path, build: Callable[[dict[str, Any], File], Result], what: str) -> Result:
+def parse(path: str | Path, build: Callable[[dict[str, Any], File], Result], what: str) -> Result:
     """What ``build`` makes of the table in a TOML file; alarms show the line of the file."""
+    if not isinstance(path, str | Path) or not str(path):
+        raise Alarm(f"the {what} must be the name of a file, got {shown(path)}")
+    path = Path(path)
     try:
-        text = read(path, f"the {what}", LARGEST).decode("utf-8")
+        text = read(path, f"the {what}", LARGEST).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise Alarm(f"the {what} cannot be read: it is not UTF-8", source=File(str(path), "")) from None
     except Alarm as alarm:
@@ -165,10 +168,7 @@ def _setup(table: Mapping[str, Any], file: File) -> Setup:
             elif name == "stock":
                 found[name] = _stock(_table(value, name), file)
             elif name in ROWS:
-                rows = _table(value, name)
-                found[name] = {
-                    _row(row, name, file): record(ROWS[name], each, file, name, row) for row, each in rows.items()
-                }
+                found[name] = _rows(_table(value, name), name, file)
             elif name in RECORDS:
                 found[name] = record(RECORDS[name], value, file, name)
             elif name == "files":
@@ -181,6 +181,22 @@ def _setup(table: Mapping[str, Any], file: File) -> Setup:
     return Setup(**found)
 
 
+def _rows(table: Mapping[str, Any], name: str, file: File) -> dict[int, Any]:
+    """The rows of a table of tools or datums; an Alarm for one that is written twice, as 1 and as 01."""
+    found: dict[int, Any] = {}
+    for key, value in table.items():
+        row = _row(key, name, file)
+        with file.at(name, key):
+            if row in found:
+                raise Alarm(f"{name} has the row {row} twice")
+        found[row] = record(ROWS[name], value, file, name, key)
+        if isinstance(found[row], Tool) and "number" in value and found[row].number != row:
+            with file.at(name, key, "number"):
+                told = f"{name}.{key}.number must be {row}, that of its row, got {found[row].number:g}"
+                raise Alarm(told, hint="a tool has the number of its row; leave it out")
+    return found
+
+
 def _stock(table: Mapping[str, Any], file: File) -> Blank:
     """The blank: a cylinder where it has a radius, else a box."""
     if "radius" not in table:
@@ -188,7 +204,10 @@ def _stock(table: Mapping[str, Any], file: File) -> Blank:
         corners = []
         for name in ("low", "high"):
             with file.at("stock", name):
-                corners.append(_point(table.get(name), f"stock.{name}"))
+                if name not in table:
+                    needs = "stock needs low and high, two corners [x, y, z], or a radius"
+                    raise Alarm(f"{needs}: stock.{name} is missing")
+                corners.append(_point(table[name], f"stock.{name}"))
         return Box(*corners)
     check_names(table, ("radius", "low", "high", "bore", "axis", "at"), "stock", file, "stock")
     numbers = {name: table.get(name, 0.0) for name in ("radius", "low", "high", "bore")}

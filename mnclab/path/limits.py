@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import check_number, plain, shown
 
 PerAxis = float | tuple[float, ...]
 
@@ -24,6 +24,7 @@ RAPIDS = {
     "proportional": "speeds in the ratio of the distances, each axis with its own acceleration",
     "line": "along the straight line, as a feed move at the greatest speed",
 }
+LEAST, MOST = 1e-3, 1e9  # of every limit, in its unit: beyond them a time is no number any more
 TRAVEL = "travel=((0, 400), (0, 300), (-200, 0)): from and to of X, Y and Z, machine coordinates of the spindle, mm"
 
 
@@ -39,7 +40,7 @@ class Limits:
     coordinates of the spindle reference (a lathe's X as radius; inf: without an end): a run stops where it is left.
     The defaults are those of a small machining centre whose spindle and tool changer take no time.
 
-    An Alarm names a limit that makes no sense.
+    An Alarm names a limit that makes no sense: each is from 0.001 to 1e9 in its unit, or 0 where that has a meaning.
     """
 
     rapid: PerAxis = 10_000.0
@@ -61,11 +62,14 @@ class Limits:
         for name in ("corner_tolerance", "corner_jump", "tool_change"):
             self._check(name, above=False)
         for name, known in (("corner_speed", (*CORNERS,)), ("rapid_motion", (*RAPIDS, None))):
-            if getattr(self, name) not in known:
+            value = getattr(self, name)
+            if not isinstance(value, str | None) or value not in known:
                 names = ", ".join(each for each in known if each)
-                raise Alarm(f"limit {name} must be one of {names}, got {shown(getattr(self, name))}")
+                raise Alarm(f"limit {name} must be one of {names}, got {shown(value)}")
         if self.travel is not None:
             self._check_travel(self.travel)
+        for each in fields(self):
+            object.__setattr__(self, each.name, plain(getattr(self, each.name)))
 
     def _check(self, name: str, above: bool) -> None:
         """An Alarm unless each value is a number greater than 0, or not below it."""
@@ -76,9 +80,9 @@ class Limits:
             raise Alarm(f"limit {name} takes one number or three (X Y Z), got {len(values)}")
         for each in values:
             if above:
-                check_number(each, f"limit {name}", above=0, endless=name == "spindle")
+                check_number(each, f"limit {name}", above=0, at_least=LEAST, at_most=MOST, endless=name == "spindle")
             else:
-                check_number(each, f"limit {name}", at_least=0)
+                check_number(each, f"limit {name}", at_least=0, at_most=MOST)
 
     def _check_travel(self, travel: Any) -> None:
         """An Alarm unless each axis has a lower position and a higher one."""

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
+from mnclab.text.nearest import hint
 
 TEXTS = ("name", "kind")
+KINDS = (
+    "", "mill", "face mill", "thread mill", "chamfer", "drill", "reamer", "countersink", "tap", "probe",
+    "turning", "boring", "grooving", "thread",
+)  # fmt: skip
+LATHE = ("turning", "boring", "grooving", "thread")  # their corner is the nose, whatever the radius
 SIZES = ("radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle")  # never negative
 
 
@@ -19,6 +25,8 @@ class Tool:
     radius, ``corner`` is the corner radius, ``cutting_length`` the length of the edges, ``pitch`` that of a tap.
     Of a lathe tool ``main_angle`` and ``auxiliary_angle`` lie between the cutting edges and the axis (0: not given),
     ``width`` is that of a grooving tool, whose tip is its left corner, and ``corner`` the nose radius.
+
+    ``kind`` is one of :data:`KINDS`, "" where it does not matter.
 
     An Alarm names a dimension that makes no sense. Negative may be the deltas, and the length against a zero tool; a
     radius below 0 is written as a negative ``dr``.
@@ -48,6 +56,19 @@ class Tool:
                 check_number(value, what, at_least=0 if each.name in SIZES else None)
             elif not isinstance(value, str):
                 raise Alarm(f"{what} must be a text, got {shown(value)}")
+        if self.teeth != int(self.teeth):
+            raise Alarm(f"the teeth of a tool must be a whole number, got {shown(self.teeth)}")
+        if self.kind not in KINDS:
+            near = hint(self.kind[:40].lower(), KINDS[1:], 1) or f"known: {', '.join(KINDS[1:])}"
+            raise Alarm(f"a tool cannot be of the kind {shown(self.kind)}", hint=near)
+        if 0 < self.radius < self.corner * (1 - 1e-9) and self.kind not in LATHE:
+            found = f"{self.corner:g} and {self.radius:g}"
+            raise Alarm(f"the corner radius of a tool must not be greater than its radius, got {found}")
+
+    def of_radius(self, radius: float, dr: float = 0.0) -> Tool:
+        """The same tool with another radius, mm; a corner that this has no room for is as large as it."""
+        room = self.kind in LATHE or not 0 < radius < self.corner
+        return replace(self, radius=radius, dr=dr, corner=self.corner if room else radius)
 
     @property
     def effective_radius(self) -> float:

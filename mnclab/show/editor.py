@@ -7,6 +7,7 @@ where that takes long, one types on beside the last good picture, and texts type
 
 from __future__ import annotations
 
+import os
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,7 @@ from mnclab.machine.setup import Setup
 from mnclab.show.forms import DRAWING, picture_of, verdict
 from mnclab.text.alarm import Alarm
 from mnclab.text.extras import require
-from mnclab.text.file import read, replaced
+from mnclab.text.file import read, reason, replaced
 from mnclab.text.given import shown
 from mnclab.text.program import decode
 
@@ -32,8 +33,12 @@ class Document:
     def __init__(self, path: Path) -> None:
         self.path, self.encoding, self.ends, self.content = path, "utf-8", "\n", b""
         self.text = ""
-        if not path.exists():
+        try:
+            os.stat(path)
+        except FileNotFoundError:
             return
+        except (OSError, ValueError) as error:
+            raise Alarm(f"{shown(str(path))} cannot be opened: {reason(error)}") from None
         self.content = read(path, path)
         text, self.encoding = decode(self.content)
         if self.content.startswith(b"\xef\xbb\xbf"):

@@ -24,6 +24,7 @@ from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm, first_of
+from mnclab.text.extras import require
 
 
 class _Options(argparse.ArgumentParser):
@@ -84,6 +85,7 @@ def _setup(chosen: argparse.Namespace, names: Mapping[str, Any]) -> Setup:
 
 def load_ipython_extension(shell: Any) -> None:
     """Make %%mnc known to the running IPython."""
+    require("IPython", "cells of programs (%%mnc)")
     from IPython.display import display
 
     def mnc(line: str, cell: str) -> None:

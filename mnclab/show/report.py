@@ -115,6 +115,8 @@ def save_report(run: Any, path: str | Path, title: str | None = None, **options:
     """Write a report to one file, .html or .pdf; ``options`` are those of the picture (:meth:`Run.plot`)."""
     if not isinstance(path, str | Path):
         raise Alarm(f"a file is written to a path, got {shown(path)}")
+    if not isinstance(title, str | None):
+        raise Alarm(f"the title of a report must be a text, got {shown(title)}")
     path = Path(path)
     writers = {".html": write_html, ".pdf": write_pdf}
     if path.suffix.lower() not in writers:

@@ -25,6 +25,7 @@ from mnclab.show import solids
 from mnclab.show.export_mesh import CHORD, FEED, PROBING, RAPID, STOCK, TOOL
 from mnclab.text.alarm import Alarm
 from mnclab.text.extras import require
+from mnclab.text.given import shown
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.blank import blank as as_blank
 
@@ -59,8 +60,8 @@ def scene(
 
     An Alarm says in a sentence what is missing: pyvista, or something for VTK to draw with.
     """
-    if colour not in COLOURS:
-        raise ValueError(f"colour must be one of {', '.join(COLOURS)}, got {colour!r}")
+    if not isinstance(colour, str) or colour not in COLOURS:
+        raise Alarm(f"colour must be one of {', '.join(COLOURS)}, got {shown(colour)}")
     check_drawing()
     path = run.toolpath
     plotter: Any = _class()(off_screen=True, window_size=list(size))
@@ -73,7 +74,7 @@ def scene(
         )
     given = run.stock if stock is True else as_blank(stock) if stock is not False else None
     if stock is not True and stock is not False and given is None:
-        raise ValueError(f"stock must be True, False, two corners (3,) or a body of workpiece.blank, got {stock!r}")
+        raise Alarm(f"stock must be True, False, two corners (3,) or a body of workpiece.blank, got {shown(stock)}")
     blank = solids.body_of(given) if given else None
     if blank:
         plotter.add_mesh(_surface(blank), color=STOCK, opacity=0.25, name="blank")

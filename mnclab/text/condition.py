@@ -20,6 +20,7 @@ from mnclab.text.nearest import hint
 
 SAME = 1e-9  # a millionth of a micrometre, where lengths are compared
 DEEPEST = 50
+MOST = 200  # operators of arithmetic: a tree of them is as deep as they are many
 Values = Mapping[str, NDArray[np.float64]]
 Array = NDArray[Any]
 
@@ -159,7 +160,7 @@ class _Reader:
     def __init__(self, text: str, known: Collection[str]) -> None:
         self.known = {name.lower(): name for name in known}
         self.tokens: list[tuple[str, str, Span]] = []
-        self.at = self.depth = 0
+        self.at = self.depth = self.operators = 0
         at, end = 0, len(text.rstrip())
         while at < end:
             match = _TOKEN.match(text, at)
@@ -237,6 +238,9 @@ class _Reader:
         place, left = self.at, inner()
         while self.peek() in marks:
             name = self.peek()
+            self.operators += 1
+            if self.operators > MOST:
+                self.refuse(f"the condition has more than {MOST} operators at")
             self.at += 1
             left, place = self.numeric(left, place), self.at
             left = Node("arithmetic", (left, self.numeric(inner(), place)), name=name)

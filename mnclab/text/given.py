@@ -20,8 +20,9 @@ def shown(value: Any) -> str:
 
 
 def check_number(
-    value: Any, what: str, *, above: float | None = None, at_least: float | None = None, endless: bool = False
-) -> None:
+    value: Any, what: str, *, above: float | None = None, at_least: float | None = None, at_most: float | None = None,
+    endless: bool = False,
+) -> None:  # fmt: skip
     """An Alarm unless ``value`` is a number within its limits; infinity is one where it is ``endless``."""
     if isinstance(value, bool) or not isinstance(value, Real):
         raise Alarm(f"{what} must be a number, got {shown(value)}")
@@ -35,11 +36,32 @@ def check_number(
         raise Alarm(f"{what} must be greater than {above:g}, got {size:g}")
     if at_least is not None and not size >= at_least:
         raise Alarm(f"{what} must be at least {at_least:g}, got {size:g}")
+    if at_most is not None and not size <= at_most and not (math.isinf(size) and endless):
+        raise Alarm(f"{what} must be at most {at_most:g}, got {size:g}")
+
+
+def whole(value: Any, what: str) -> int:
+    """A number as a whole one; an Alarm unless it is."""
+    check_number(value, what)
+    if value != int(value):
+        raise Alarm(f"{what} must be a whole number, got {shown(value)}")
+    return int(value)
+
+
+def plain(value: Any) -> Any:
+    """A number of another kind (a fraction, one of numpy) as Python's float; lists of numbers as tuples."""
+    if isinstance(value, tuple | list):
+        return tuple(map(plain, value))
+    return float(value) if isinstance(value, Real) and not isinstance(value, int | float) else value
 
 
 def check_point(value: Any, what: str) -> None:
     """An Alarm unless ``value`` is three numbers."""
-    if isinstance(value, str | Mapping) or not hasattr(value, "__len__") or len(value) != 3:
+    try:
+        three = not isinstance(value, str | Mapping) and len(value) == 3
+    except TypeError:  # of what has no length
+        three = False
+    if not three:
         raise Alarm(f"{what} must be three numbers (x, y, z), got {shown(value)}")
     for each in value:
         check_number(each, what)

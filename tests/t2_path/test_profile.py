@@ -5,6 +5,7 @@ Times are seconds, lengths mm. For one straight move of length L at V with accel
 """
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -290,6 +291,42 @@ def test_the_setup_of_a_run_has_the_limits():
     assert run.profile(Limits()).time == pytest.approx(trapezoid(30, 100, 1000))
 
 
+TINY = dict.fromkeys(("acceleration", "jerk", "spindle", "spindle_acceleration"), 1e-300) | {"rapid": (1, 1e-300, 1)}
+MAY_BE_NONE = ("corner_tolerance", "corner_jump", "tool_change")
+
+
+@pytest.mark.parametrize("corner", ["tolerance", "deviation", "jump"])
+@pytest.mark.parametrize("jerk", [None, 1e-3, 1e9])
+@pytest.mark.parametrize("override", [0.001, 100])
+def test_limits_at_the_ends_of_their_range_give_a_time(corner, jerk, override):
+    """Whatever the limits allow: a time that is a number, and no shorter than at the greatest speed of the axes."""
+    bent = mnclab.run("T1 S500 M3\nG90 G54\nG0 X0 Y0 Z5\nG1 X10 F100\nG3 X20 Y10 I0 J10\nG1 X30\n", "mnc").toolpath
+    for rapid in (1e-3, 1e9):
+        for acceleration in (1e-3, 1e9):
+            for tolerance in (0, 1e-300, 1e9):
+                limits = Limits(
+                    rapid=rapid, acceleration=acceleration, jerk=jerk, corner_speed=corner,
+                    corner_tolerance=tolerance, corner_jump=tolerance,
+                )  # fmt: skip
+                profile = Profile(bent, limits, override=override)
+                assert np.isfinite(profile.t).all() and profile.time >= 20 / (rapid / 60)
+
+
+@pytest.mark.parametrize("kind", [Fraction, np.float32, np.int64])
+def test_limits_take_every_kind_of_number(kind):
+    one, five = kind(1), kind(5)
+    limits = Limits(rapid=(five, five, one), acceleration=five, jerk=five, corner_tolerance=one, tool_change=one)
+    same = Limits(rapid=(5, 5, 1), acceleration=5, jerk=5, corner_tolerance=1, tool_change=1)
+    bent = path((0, 0, 0), (30, 0, 0), (30, 30, 0))
+    assert limits == same and Profile(bent, limits).time == Profile(bent, same).time
+
+
+@pytest.mark.parametrize("override", [0, -1, 1e-300, 0.0009, 101, 1e300, np.nan, "1", 10**400])
+def test_an_override_is_a_sensible_share(override):
+    with pytest.raises(Alarm, match=r"the feed override \(1 for 100 %\) must be"):
+        Profile(path((0, 0, 0), (1, 0, 0)), Limits()).again(override=override)
+
+
 @pytest.mark.parametrize(
     ("wrong", "says"),
     [
@@ -300,6 +337,11 @@ def test_the_setup_of_a_run_has_the_limits():
         ({"rapid_motion": "fast"}, "limit rapid_motion must be one of axes, proportional, line"),
         ({"corner_tolerance": "a"}, "limit corner_tolerance must be a number, got 'a'"),
         ({"tool_change": -1}, "limit tool_change must be at least 0"),
+        *(({name: value}, f"limit {name} must be at least 0.001, got 1e-300") for name, value in TINY.items()),
+        *(({name: 1e200}, f"limit {name} must be at most 1e[+]09, got 1e[+]200") for name in (*TINY, *MAY_BE_NONE)),
+        ({"corner_speed": np.array([1])}, "limit corner_speed must be one of"),
+        ({"rapid_motion": np.array([1])}, "limit rapid_motion must be one of"),
+        ({"corner_jump": 10**400}, "limit corner_jump must be a finite number"),
     ],
 )
 def test_limits_that_make_no_sense(wrong, says):

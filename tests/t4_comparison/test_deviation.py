@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab
+from mnclab import Alarm
 from mnclab.comparison.deviation import _nearest, deviation
 
 PATH = "G90 G54 G17\nG0 X-20 Y0 Z0\nG41 G1 X-10 Y-20 F300\nX0\nG3 I0 J20\nG40 G1 X10 Y0\n"
@@ -86,8 +87,11 @@ def test_nearest_is_the_nearest_of_all_strokes(corners, places):
 
 def test_a_step_must_be_positive():
     path = mnclab.run("G0 X5\n", "mnc").toolpath
-    with pytest.raises(ValueError, match="greater than 0"):
+    with pytest.raises(Alarm, match=r"step \(mm\) must be greater than 0, got -1"):
         deviation(path, path, step=-1)
+    for wrong in (0, -5, math.nan, math.inf, 10**400, "5", 1e-308, [1], True):
+        with pytest.raises(Alarm, match="step"):
+            mnclab.diff(path, path, wrong)
 
 
 def test_two_limits_differ_in_time_alone():

@@ -111,6 +111,32 @@ def test_a_part_is_the_same_after_its_way():
     assert contact(again, (3, 3, 20), (0, 0, -1), 1, 30) == contact(SETUP.part, (3, 3, 20), (0, 0, -1), 1, 30)
 
 
+TABLES = {"tools": Tool(radius=9), "datums": (1, 2, 3), "presets": (1, 2, 3), "correctors": (1, 2, 3)}
+GIVEN = TABLES | {"files": "G0 X1\n", "settings": True, "variables": 5.0}
+
+
+@pytest.mark.parametrize("name", GIVEN)
+def test_a_run_keeps_its_setup(name):
+    key, value = 1 if name in TABLES else "block_skip", GIVEN[name]
+    setup = Setup(**{name: {key: value}})
+    run = mnclab.run("G0 X1\n", "mnc", setup)
+    getattr(setup, name)[key] = None
+    getattr(setup, name)["more"] = None
+    for each in (run, copy.deepcopy(run), pickle.loads(pickle.dumps(run))):
+        assert dict(getattr(each.setup, name)) == {key: value}
+        with pytest.raises(TypeError):
+            getattr(each.setup, name)[key] = value
+    getattr(copy.deepcopy(run.setup.with_settings()), name)[key] = value  # a setup of one's own can be written to
+
+
+def test_numbers_in_lists_are_kept_too():
+    row, corner = [1, 2, 3], [0.0, 0.0, -5.0]
+    setup = Setup(datums={1: row}, stock=(corner, [9, 9, 0]), limits=mnclab.Limits(rapid=row))
+    run = mnclab.run("G0 X1\n", "mnc", setup)
+    row[0] = corner[0] = -77
+    assert run.setup.datums[1] == (1, 2, 3) and run.stock.low[0] == 0 and run.setup.limits.rapid == (1, 2, 3)
+
+
 def test_tools_stay_what_they_are_in_every_later_run():
     run = mnclab.run("T1\nG0 X1\n", "mnc")
     run.tables.tools[1] = Tool(radius=77)

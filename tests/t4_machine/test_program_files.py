@@ -72,6 +72,14 @@ def test_a_link_inside_the_folder_is_a_file(folder):
     assert run(folder, "link.h").variables == {"Q1": 5} and run(folder, "down.h").variables == {"Q1": 7}
 
 
+@pytest.mark.parametrize("to", ["loop", "own.h/under", "x" * 255])
+def test_a_link_that_leads_nowhere_hides_no_other_file(folder, to):
+    (folder / "loop").symlink_to(to)
+    (folder / "loop.h").symlink_to("loop")
+    assert run(folder, "own").variables == {"Q1": 5}
+    assert not run(folder, "loop").ok
+
+
 @pytest.mark.parametrize("name", ["gone.h", "../secret.h", *PIPE, "a\0b.h", "/dev/zero"])
 def test_what_is_no_file_of_the_folder_is_not_there(folder, name):
     found = run(folder, name)

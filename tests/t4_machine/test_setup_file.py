@@ -83,7 +83,21 @@ def test_every_part_arrives(tmp_path):
         ("start = [0, 0]\n", "start must be three numbers [x, y, z], got [0, 0]"),
         ("[datums]\n1 = [true, 0, 0]\n", "datums.1 must be a number, got True"),
         ("[stock]\nradius = 0\n", "stock: a cylinder needs radius > bore"),
-        ("[stock]\nlow = [0, 0, 0]\n", "stock.high must be three numbers [x, y, z], got None"),
+        ("[stock]\nlow = [0, 0, 0]\n", "or a radius: stock.high is missing"),
+        ("[stock]\n", "stock needs low and high, two corners [x, y, z], or a radius: stock.low is missing"),
+        ("[stock]\nhigh = [0, 0, 0]\n", "or a radius: stock.low is missing"),
+        *(
+            (f"[{name}.1]\n[{name}.01]\n", f"machine.toml:2:{len(name) + 3}: alarm: {name} has the row 1 twice")
+            for name in ("tools", "datums", "presets", "correctors")
+        ),
+        ("[tools.1]\nnumber = 7\n", "machine.toml:2:1: alarm: tools.1.number must be 1, that of its row, got 7"),
+        ("[tools.1]\nteeth = 2.5\n", "machine.toml:2:1: alarm: the teeth of a tool must be a whole number, got 2.5"),
+        ("[tools.1]\nkind = 'zz'\n", "machine.toml:2:1: alarm: a tool cannot be of the kind 'zz' (known: mill, "),
+        ("[tools.1]\nkind = 'Drill'\n", "a tool cannot be of the kind 'Drill' (near: drill)"),
+        (
+            "[tools.1]\nradius = 1\ncorner = 9\n",
+            "corner radius of a tool must not be greater than its radius, got 9 and 1",
+        ),
         ("[stock]\ndiameter = 3\n", "stock without a radius has no 'diameter'"),
         ("limits = 3\n", "limits must be a table, got 3"),
     ],
@@ -92,6 +106,26 @@ def test_a_fault_is_an_alarm_that_names_it(tmp_path, text, sentence):
     with pytest.raises(Alarm) as caught:
         load(written(tmp_path, text))
     assert sentence in caught.value.headline
+
+
+def test_a_byte_order_mark_is_none_of_the_text(tmp_path):
+    setup = load(written(tmp_path, "\ufeff[tools.1]\nradius = 3\nnumber = 1\n"))
+    assert setup.tools[1].radius == 3
+    with pytest.raises(Alarm, match="radiux") as caught:
+        load(written(tmp_path, "\ufefftools.1.radiux = 3\n"))
+    assert caught.value.headline.startswith(f"{tmp_path}/machine.toml:1:9: ")
+
+
+def test_a_lathe_tool_has_a_nose_and_a_cutter_of_less_radius_a_smaller_corner():
+    assert Tool(radius=0.1, corner=0.8, kind="turning").corner == 0.8
+    ball = mnclab.Setup(tools={1: Tool(radius=5, corner=5)})
+    assert ball.with_radius(2).tools[1] == Tool(radius=2, corner=2) and ball.with_radius(9).tools[1].corner == 5
+
+
+@pytest.mark.parametrize("control", mnclab.controls)
+def test_no_setting_is_without_a_bound_where_rows_are_counted(control):
+    with pytest.raises(Alarm, match="setting most_rows .* must be a number from 1000 to 1000000000, got 1e[+]300"):
+        mnclab.run("", control, mnclab.Setup(settings={"most_rows": 1e300}))
 
 
 @pytest.mark.parametrize("data", [None, b"\xff\xfe\x00"])

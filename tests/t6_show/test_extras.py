@@ -80,6 +80,13 @@ def test_scenes_name_pyvista_and_what_turns_them(run, without):
     assert LAB in caught.value.hint
 
 
+def test_cells_name_ipython(without):
+    without("IPython")
+    with pytest.raises(Alarm, match="need IPython") as caught:
+        mnclab.load_ipython_extension(None)
+    assert LAB in caught.value.hint
+
+
 def test_drawings_name_ezdxf(tmp_path, without):
     without("ezdxf")
     with pytest.raises(Alarm, match="need ezdxf") as caught:

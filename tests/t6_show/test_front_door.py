@@ -2,12 +2,14 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab
-from mnclab import Alarm, Setup
+from mnclab import Alarm, Limits, Setup
+from mnclab.machine.setup_file import load
 
 pytest.importorskip("ipywidgets")
 WRONG = [5, None, b"G0 X5\n", 1.5, [1], {}, ("mnc",), object(), True]
@@ -54,6 +56,51 @@ def test_a_wrong_type_is_an_alarm(run, wrong):
         with pytest.raises(Alarm) as caught:
             door()
         assert len(caught.value.message) < 300
+
+
+LONG = "é" * 5000
+DOORS = {
+    "a text for a line": lambda run: run.at("5"),
+    "nothing for a pass": lambda run: run.at(1, None),
+    "a dict for a line": lambda run: run.at({}),
+    "an array for a pass": lambda run: run.at(1, np.zeros(3)),
+    "half a line": lambda run: run.at(1.5),
+    "an endless step": lambda run: run.at(step=10**400),
+    "a text for a program": lambda run: run.at(1, program="0"),
+    "a text to explain": lambda run: run.explain("5"),
+    "a long name for limits": lambda run: run.profile(LONG),
+    "a long name for a player": lambda run: run.player(LONG),
+    "a long name for an editor": lambda run: mnclab.editor(LONG),
+    "a folder that is a file": lambda run: mnclab.editor(f"{__file__}/a.mnc"),
+    "a long sum": lambda run: run.when("x+" * 20_000 + "x>1"),
+    "a sum of some length": lambda run: run.when("x+" * 250 + "x>1"),
+    "a long product": lambda run: run.when("x>" + "1*" * 20_000 + "1"),
+    "a number for a title": lambda run: run.report("r.html", title=5),
+    "an array for a corner": lambda run: Limits(corner_speed=np.array([1])),
+    "an array for rapids": lambda run: Limits(rapid_motion=np.array([1, 2])),
+    "arrays of axes": lambda run: Setup(kinematics=np.array([1, 2])),
+    "no kinematics": lambda run: Setup(kinematics=False),
+    "an array of tools": lambda run: Setup(true_tools=np.array([1, 2])),
+    "a number for a place": lambda run: Setup(start=np.array(5)),
+    "nothing for a file": lambda run: load(None),
+    "a name without a letter": lambda run: load(""),
+}
+
+
+@pytest.mark.parametrize("door", DOORS)
+def test_what_a_door_is_not_made_for_is_an_alarm(run, door, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(Alarm) as caught:
+        DOORS[door](run)
+    assert len(caught.value.message) < 400 and not list(tmp_path.iterdir())
+
+
+def test_whole_numbers_of_every_kind_name_a_line(run):
+    assert run.at(2).line == run.at(np.int64(2)).line == run.at(2.0).line == run.at(step=np.uint8(1)).line == 2
+
+
+def test_a_condition_may_have_some_operators(run):
+    assert len(run.when("0*x+" * 99 + "x > 6")) == 1
 
 
 @pytest.mark.parametrize(

@@ -231,7 +231,8 @@ def test_a_control_with_its_own_approach():
 
 def test_what_makes_no_sense_is_refused():
     found = run(PLATE)
-    for options in ({"rules": ["G163"]}, {"radii": [float("nan")]}):
+    lists = [{name: value} for name in ("rules", "radii") for value in ([], (), 5, "5", ["5"], [[1]], [10**400])]
+    for options in ({"rules": ["G163"]}, {"radii": [float("nan")]}, {"radii": [-1]}, {"rules": [5]}, *lists):
         with pytest.raises(Alarm):
             plot.compensation(found, **options)
     for options in ({"view": "UV"}, {"discs": -1.0}, {"ax": found.plot().axes[0], "radii": [1, 2]}):

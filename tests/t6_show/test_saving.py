@@ -71,6 +71,19 @@ def test_a_fault_on_the_way_leaves_the_old_file(run, save, tmp_path, monkeypatch
     assert save.path.read_bytes() == b"old" and os.listdir(tmp_path) == [save.path.name]
 
 
+def test_a_disk_that_is_full_on_the_way_is_an_alarm(run, save, tmp_path):
+    resource = pytest.importorskip("resource")
+    save.path.write_bytes(b"old")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, before[1]))
+    try:
+        with pytest.raises(Alarm, match="cannot be written"):
+            save(run)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert save.path.read_bytes() == b"old" and os.listdir(tmp_path) == [save.path.name]
+
+
 def test_no_file_names_a_folder(run, save):
     save(run)
     assert b"folder-of-mine" not in save.path.read_bytes()

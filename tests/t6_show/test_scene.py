@@ -29,7 +29,7 @@ def test_a_round_blank_is_round(run):
     assert np.allclose(bounds(scene, "blank"), [(-5, 35), (-8, 32), (-10, 0)])
     scene = run.scene(stock=cylinder(3, 0, 9, "X"))
     assert np.allclose(bounds(scene, "blank"), [(0, 9), (-3, 3), (-3, 3)])
-    with pytest.raises(ValueError, match="stock must be"):
+    with pytest.raises(Alarm, match="stock must be"):
         run.scene(stock="steel")
 
 
@@ -58,8 +58,9 @@ def test_colours_come_from_the_columns(run, colour):
     data = scene.actors["cuts"].mapper.dataset[colour]
     expected = {"feed": (100, 200), "tool": (1, 1), "z": (-2, 5), "line": (3, 4)}[colour]
     assert (data.min(), data.max()) == pytest.approx(expected)
-    with pytest.raises(ValueError, match="colour must be one of"):
-        run.scene("depth")
+    for wrong in ("depth", None, 5, [1], np.zeros(3)):
+        with pytest.raises(Alarm, match="colour must be one of"):
+            run.scene(wrong)
 
 
 def test_jupyter_gets_a_picture_with_a_name(run):

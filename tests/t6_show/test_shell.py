@@ -234,10 +234,35 @@ def test_a_faulty_setup_is_one_sentence_with_its_line(folder, capsys, name):
         assert name in ("deep", "long") or ALARM_LINE.fullmatch(err.strip())
 
 
-@pytest.mark.parametrize("value", ["nan", "inf", "-5", "0"])
+@pytest.mark.parametrize("option", ["--rules", "--radii"])
+@pytest.mark.parametrize("value", ["", ",", " , "])
+def test_a_list_of_nothing_is_a_wrong_command_line(folder, capsys, option, value):
+    assert mnclab("plot", "good.mnc", "-o", "x.svg", option, value) == 2
+    assert f"argument {option}: nothing stands between the commas" in capsys.readouterr().err
+    assert not (folder / "x.svg").exists()
+
+
+@pytest.mark.parametrize(
+    "arguments", [["check", ""], ["run", ""], ["time", ""], ["plot", "", "-o", "a.csv"], ["report", "", "-o", "a.html"]]
+)
+def test_an_empty_name_is_said_to_be_empty(folder, capsys, arguments):
+    assert mnclab(*arguments) == 1
+    assert capsys.readouterr() == ("", "mnclab: alarm: the name of the program is empty\n")
+
+
+@pytest.mark.parametrize(
+    ("option", "says"),
+    [("--setup", "the setup must be the name of a file"), ("--machine", "no machine has the name ''")],
+)
+def test_an_empty_option_is_not_left_out(folder, capsys, option, says):
+    assert mnclab("time", "good.mnc", option, "") == 2
+    assert says in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "-5", "0", "1e-300", "1e300"])
 def test_an_override_that_cannot_be_is_one_sentence(folder, capsys, value):
     assert mnclab("time", "good.mnc", f"--override={value}") == 2
-    assert capsys.readouterr().err.startswith("mnclab: alarm: the feed override must be")
+    assert capsys.readouterr().err.startswith("mnclab: alarm: the feed override (1 for 100 %) must be")
 
 
 def test_a_radius_that_cannot_be_is_one_sentence(folder, capsys):

@@ -1,6 +1,7 @@
 """``mnclab time``: the breakdown, as text and as JSON, on machines with and without a name."""
 
 import json
+import math
 import re
 
 import pytest
@@ -87,3 +88,4 @@ def test_a_faulty_machine_is_an_alarm(tmp_path, text, says):
 
 def test_times_as_people_say_them():
     assert [clock(t) for t in (3.214, 75, 3723)] == ["3.21 s", "1:15", "1:02:03"]
+    assert [clock(t) for t in (math.inf, 1e300)] == ["inf s", "1e+300 s"]

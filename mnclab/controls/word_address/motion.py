@@ -158,7 +158,7 @@ def corrector(m: Machine, words: Words) -> None:
 
 def corrected(tool: Tool, row: Tool) -> Tool:
     """A tool with the radius of another row of the table."""
-    return replace(tool, radius=row.radius, dr=row.dr)
+    return tool.of_radius(row.radius, row.dr)
 
 
 def tool_row(m: Machine, word: Word, name: str) -> Tool:

@@ -23,7 +23,7 @@ from mnclab.path.profile.rows import PIECE, Rows, measure
 from mnclab.path.profile.smooth import Groups, smooth
 from mnclab.path.profile.turns import FEWEST, PART, Turns
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number
 
 SURFACE = 64  # parts of a row at constant cutting speed, in each of which the feed is constant
 
@@ -62,10 +62,10 @@ def plan(
     """Plan a path under limits; ``override`` is the feed override, 1 for 100 %.
 
     ``rapid_motion`` holds unless the limits say otherwise; ``waits`` (n,) says which SPINDLE rows wait until the spindle
-    has its speed (MNC: G26), all by default. An Alarm for an override that is not above 0.
+    has its speed (MNC: G26), all by default. An Alarm for an override outside 0.001 … 100.
     """
-    if not 0 < override < np.inf:
-        raise Alarm(f"the feed override must be greater than 0 and finite, got {override:g}")
+    check_number(override, "the feed override (1 for 100 %)", above=0, at_least=0.001, at_most=100)
+    override = float(override)
     row = None
     turning = np.isfinite(path.surface) & np.isfinite(path.per_rev)
     if turning.any():

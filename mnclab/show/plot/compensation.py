@@ -7,7 +7,7 @@ contour because it does not fit is hatched. Several rules or radii are several r
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import product
 from typing import Any
 
@@ -38,6 +38,7 @@ from mnclab.show.plot.picture import (
 )
 from mnclab.show.plot.strokes import corners
 from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown
 
 #: The kinds of places that do not fit, in few words.
 GOUGES = {
@@ -110,9 +111,15 @@ def image(run: Any, size: tuple[float, float] = (6.4, 5.2), **options: Any) -> s
 
 def _runs(run: Any, rules: Sequence[str] | None, radii: Sequence[float] | None) -> list[tuple[str, Any]]:
     """What is shown, and its title: the run itself, or the program run again for each rule and radius."""
-    for value in () if radii is None else radii:
-        if not math.isfinite(value):
-            raise Alarm(f"a tool radius must be a number of mm, got {value!r}")
+    for name, given, example in (("rules", rules, '("G160", "G161")'), ("radii", radii, "(2, 5)")):
+        if given is not None and (isinstance(given, str) or not isinstance(given, Iterable)):
+            raise Alarm(f"{name} must be a list, got {shown(given)}", hint=f"{name}={example}")
+    rules, radii = (None if given is None else [*given] for given in (rules, radii))
+    for name, given in (("rules", rules), ("radii", radii)):
+        if given is not None and not given:
+            raise Alarm(f"{name} must name one at least, got none")
+    for value in radii or ():
+        check_number(value, "a tool radius (mm)", at_least=0)
     found = []
     for rule, radius in product([None] if rules is None else rules, [None] if radii is None else radii):
         setup = run.setup

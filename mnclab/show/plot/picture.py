@@ -90,8 +90,10 @@ def write(figure: Figure, path: Path) -> None:
     """Save a figure; the same figure gives the same bytes, and text in an SVG stays text."""
     steady: Any = {"svg.hashsalt": "mnclab", "svg.fonttype": "none"}
     undated = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(path.suffix.lower())
+    data = BytesIO()  # a full disk in the middle of a pdf would be more than an OSError
     with mpl.rc_context(steady):
-        figure.savefig(path, dpi=200, metadata=undated)
+        figure.savefig(data, format=path.suffix[1:].lower(), dpi=200, metadata=undated)
+    path.write_bytes(data.getvalue())
 
 
 # --- layout ----------------------------------------------------------------------------------------------------------

@@ -161,7 +161,7 @@ def test_every_control_has_the_bound() -> None:
     for control in mnc.controls.values():
         assert [s.default for s in control.settings if s.name == "most_rows"] == [4_000_000]
     assert "most_rows" in str(mnc.help("settings", "nc-31"))
-    with pytest.raises(mnc.Alarm, match="most_rows .* must be a number from 1000, got 5"):
+    with pytest.raises(mnc.Alarm, match="most_rows .* must be a number from 1000 to 1000000000, got 5"):
         mnc.run("G0 X1\n", "mnc", mnc.Setup(settings={"most_rows": 5}))
 
 
