@@ -4,6 +4,7 @@ changed; and the way from the programmed point through datum, transformations an
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -19,7 +20,7 @@ from mnclab.machine.planner import Plan, Planner
 from mnclab.path.listing import figure, point, words
 from mnclab.text.alarm import Alarm, quoted
 from mnclab.text.expression import Expression
-from mnclab.text.program import Word, digits
+from mnclab.text.program import Program, Word, digits
 from mnclab.text.strings import NumberFromText, TextFormula
 
 if TYPE_CHECKING:
@@ -57,8 +58,7 @@ class Explanation:
         span = moment.block.span
         self.program = run.programs[run.steps.program[moment.step]]
         last = int(self.program.lines()[1][run.steps.block[moment.step]])
-        here = [a for a in run.alarms if a.span and a.source is self.program]
-        self.alarms = tuple(a for a in here if a.span and span.line <= a.span.line <= last)
+        self.alarms = tuple(_alarms(run, self.program, span.line, last))
         history = run.history
         self.changed = [
             (name, _said(name, history.value(name, moment.step - 1)) if moment.step else "", _said(name, value))
@@ -139,6 +139,18 @@ class Explanation:
             )
         )
         return f"<div>{''.join(parts)}</div>"
+
+
+def _alarms(run: Run, program: Program, first: int, last: int) -> Iterator[Alarm]:
+    """The alarms that have a place in some lines, told there."""
+    for alarm in run.alarms:
+        if not alarm.span or alarm.source is not program:
+            continue
+        if first <= alarm.span.line <= last:
+            yield alarm
+            continue
+        here = [p for p in alarm.places if p.program == alarm.span.program and first <= p.line <= last]
+        yield from (alarm.at(place) for place in here[:1])
 
 
 def _executions(run: Run, step: int) -> int:

@@ -73,6 +73,14 @@ def test_loops_expressions_and_changes_of_variables():
     assert "= 3" in {m.word: m.says for m in second.meanings}["+Q5 + +1"]
 
 
+def test_a_warning_that_is_told_once_is_told_at_each_of_its_places():
+    run = mnclab.run("G17 G90 G54 T4 F200 S800 M3\nG3 Z-1 I10\nG3 Z-2 I10\nG0 Z5\n", "mnc")
+    first, second = (run.explain(line=line).alarms[0] for line in (2, 3))
+    assert first.message == second.message and (first.span.line, second.span.line) == (2, 3)
+    assert "(line 3)" in str(run.explain(line=2)) and "(line 2)" in str(run.explain(line=3))
+    assert not run.explain(line=4).alarms
+
+
 def test_a_refused_block_shows_its_alarm():
     run = mnclab.run("G90\nG1 X5 Q7 F100\n", "mnc")
     explanation = run.explain(line=2)
