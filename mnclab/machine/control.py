@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from mnclab.machine.settings import Setting, settings_html, with_every
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
+from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
     from mnclab.machine.cycle import Cycle, CycleTable, Parameter
@@ -201,14 +202,13 @@ class Control:
         return f"<Control {self.name}: {self.title}; {len(self.functions)} functions, {len(self.cycles)} cycles>"
 
     def _repr_html_(self) -> str:
-        def row(code: str, title: str, group: str, on: str, source: str) -> str:
-            cells = (f"<code>{escape(code)}</code>", escape(title), escape(group), on, escape(source))
-            return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+        def row(code: str, title: str, group: str, on: str, source: str) -> tuple[str, ...]:
+            return f"<code>{escape(code)}</code>", escape(title), escape(group), on, escape(source)
 
         rows = [
             row(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.functions.values()
         ]
         rows += [row(code, cycle.title, "cycle", "", cycle.source) for code, cycle in self.cycles.items()]
-        head = "<tr><th>code</th><th>title</th><th>group</th><th>at power-on</th><th>source</th></tr>"
-        table = f"<h4>{escape(self.title)}</h4><table>{head}{''.join(rows)}</table>"
+        head = ("code", "title", "group", "at power-on", "source")
+        table = f"<h4>{escape(self.title)}</h4>{html_table(head, rows)}"
         return table + (f"<h5>Settings</h5>{settings_html(self.settings)}" if self.settings else "")

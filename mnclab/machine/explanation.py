@@ -22,6 +22,7 @@ from mnclab.text.alarm import Alarm, quoted
 from mnclab.text.expression import Expression
 from mnclab.text.program import Program, Word, digits
 from mnclab.text.strings import NumberFromText, TextFormula
+from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
     from mnclab.machine.run import Moment, Run
@@ -112,12 +113,8 @@ class Explanation:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
-            if not rows:
-                return ""
-            top = "".join(f"<th>{cell}</th>" for cell in head)
-            body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
-            return f"<table><tr>{top}</tr>{body}</table>"
+        def table(head: tuple[str, ...], rows: list[tuple[str, ...]], numbers: tuple[int, ...] = ()) -> str:
+            return html_table(head, ([*map(escape, row)] for row in rows), numbers) if rows else ""
 
         parts = [f"<h4>{escape(self.title)}</h4>"]
         if self.skipped:
@@ -136,6 +133,7 @@ class Explanation:
             table(
                 ("from the program to the tool", "X", "Y", "Z", ""),
                 [(s.name, *map(figure, s.point), s.note) for s in self.stages],
+                numbers=(1, 2, 3),
             )
         )
         return f"<div>{''.join(parts)}</div>"
