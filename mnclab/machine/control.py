@@ -138,6 +138,7 @@ class Control:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
     ("G4 P"). ``relative`` are words so written that count from the last position under G91, beside coordinates;
+    ``told`` says what the value of a word of a function means (the last argument: how many of its address stand before);
     ``absolute_with`` codes in whose block coordinates are absolute even then; ``marks`` says what the marks on a word of a
     function or cycle do (the last argument: whether the word calls it).
     ``to_turn`` says what makes the spindle turn, as a hint.
@@ -171,6 +172,7 @@ class Control:
     meanings: Mapping[str, str] = field(default_factory=dict)
     relative: tuple[str, ...] = ()
     absolute_with: tuple[str, ...] = ()
+    told: Callable[[Function, Word, int], str] | None = None
     marks: Callable[[Function | type[Cycle], Word, bool], Iterator[tuple[str, str]]] | None = None
     names: Mapping[str, str] = field(default_factory=dict)
     together: Callable[[Machine, str, list[Word]], None] | None = None
