@@ -14,6 +14,7 @@ from importlib import import_module
 from importlib.metadata import entry_points
 
 from mnclab.machine.control import Control
+from mnclab.text.tables import html_table
 
 #: Name of a control -> the module that builds it.
 MODULES = {
@@ -62,12 +63,11 @@ class Controls(Mapping[str, Control]):
         return "\n".join(f"{name:8s} {self[name].title}" for name in self)
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td><code>{escape(name)}</code></td><td>{escape(self[name].title)}</td>"
-            f"<td>{len(self[name].functions)}</td><td>{len(self[name].cycles)}</td></tr>"
-            for name in self
-        )
-        return f"<table><tr><th>control</th><th>title</th><th>functions</th><th>cycles</th></tr>{rows}</table>"
+        rows = [
+            (f"<code>{escape(name)}</code>", escape(one.title), str(len(one.functions)), str(len(one.cycles)))
+            for name, one in self.items()
+        ]
+        return html_table(("control", "title", "functions", "cycles"), rows, numbers=(2, 3))
 
 
 CONTROLS = Controls()

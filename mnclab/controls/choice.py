@@ -40,11 +40,15 @@ def run(
 def read(source: str | Path, control: str | None = None) -> Program:
     """Read a part program into blocks without running it; see :func:`run` for the arguments."""
     text, name, encoding = _text_of(source, control)
-    chosen = choose(control, name, text)
-    program = chosen.read(text, name)
+    program = read_text(text, name, control, "" if encoding == "str" else str(Path(name).parent))
     object.__setattr__(program, "encoding", encoding)
-    if encoding != "str":  # from a file
-        object.__setattr__(program, "folder", str(Path(name).parent))
+    return program
+
+
+def read_text(text: str, name: str, control: str | None = None, folder: str = "") -> Program:
+    """Read the text of a file of some name; other programs that it calls are sought in its folder."""
+    program = choose(control, name, text).read(text, name)
+    object.__setattr__(program, "folder", folder)
     for alarm in program.alarms:
         alarm.source = program
     _point_out_another(program)
@@ -61,7 +65,7 @@ def _point_out_another(program: Program) -> None:
         head = head[: max(head.rfind("\n"), head.rfind("\r")) + 1]
     alike = [one.name for one in CONTROLS.values() if one.looks_like and one.looks_like(head)]
     if len(alike) == 1 and alike[0] != program.control:
-        said = f"this looks like a {alike[0]} program, and was read as one of {program.control}"
+        said = f"this looks like a program of {alike[0]}, and was read as one of {program.control}"
         first.hint = f"{said}; {first.hint}" if first.hint else said
 
 
@@ -173,7 +177,8 @@ class Help:
             rows = [(code, one.title) for code, one in entry.functions.items()]
             rows += [(code, cycle.title) for code, cycle in entry.cycles.items()]
             wide = max(len(code) for code, _ in rows)
-            return "\n".join([f"{entry.name}  {entry.title}", *(f"{code:{wide}}  {title}" for code, title in rows)])
+            lines = [f"{entry.name}  {entry.title}", *(f"{code:{wide}}  {title}" for code, title in rows)]
+            return "\n".join([*lines, f'settings: help("settings", "{entry.name}")'])
         if isinstance(entry, tuple):
             return settings_table(entry)
         if isinstance(entry, Function):
@@ -226,6 +231,9 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
 
 def _only_one_with(code: str) -> Control:
     """The control that has a code; an Alarm where none or several have."""
+    if code.strip().lower() == "settings":
+        known = f'help("settings", "mnc"); controls: {", ".join(CONTROLS)}'
+        raise Alarm("every control has its own settings: name it", hint=known)
     having = [one for one in CONTROLS.values() if _normal(code, one) in {*one.functions, *one.cycles, *one.refused}]
     if code.strip() and len(having) == 1:
         return having[0]

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from mnclab.machine.settings import Setting, settings_html, with_every
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
+from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
     from mnclab.machine.cycle import Cycle, CycleTable, Parameter
@@ -137,6 +138,7 @@ class Control:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
     ("G4 P"). ``relative`` are words so written that count from the last position under G91, beside coordinates;
+    ``told`` says what the value of a word of a function means (the last argument: how many of its address stand before);
     ``absolute_with`` codes in whose block coordinates are absolute even then; ``marks`` says what the marks on a word of a
     function or cycle do (the last argument: whether the word calls it).
     ``to_turn`` says what makes the spindle turn, as a hint.
@@ -170,6 +172,7 @@ class Control:
     meanings: Mapping[str, str] = field(default_factory=dict)
     relative: tuple[str, ...] = ()
     absolute_with: tuple[str, ...] = ()
+    told: Callable[[Function, Word, int], str] | None = None
     marks: Callable[[Function | type[Cycle], Word, bool], Iterator[tuple[str, str]]] | None = None
     names: Mapping[str, str] = field(default_factory=dict)
     together: Callable[[Machine, str, list[Word]], None] | None = None
@@ -201,14 +204,13 @@ class Control:
         return f"<Control {self.name}: {self.title}; {len(self.functions)} functions, {len(self.cycles)} cycles>"
 
     def _repr_html_(self) -> str:
-        def row(code: str, title: str, group: str, on: str, source: str) -> str:
-            cells = (f"<code>{escape(code)}</code>", escape(title), escape(group), on, escape(source))
-            return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+        def row(code: str, title: str, group: str, on: str, source: str) -> tuple[str, ...]:
+            return f"<code>{escape(code)}</code>", escape(title), escape(group), on, escape(source)
 
         rows = [
             row(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.functions.values()
         ]
         rows += [row(code, cycle.title, "cycle", "", cycle.source) for code, cycle in self.cycles.items()]
-        head = "<tr><th>code</th><th>title</th><th>group</th><th>at power-on</th><th>source</th></tr>"
-        table = f"<h4>{escape(self.title)}</h4><table>{head}{''.join(rows)}</table>"
+        head = ("code", "title", "group", "at power-on", "source")
+        table = f"<h4>{escape(self.title)}</h4>{html_table(head, rows)}"
         return table + (f"<h5>Settings</h5>{settings_html(self.settings)}" if self.settings else "")

@@ -22,6 +22,7 @@ from mnclab.machine import true_size
 from mnclab.machining.depths import TooMany
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Word
+from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -354,17 +355,14 @@ def help_html(cycle: type[Cycle]) -> str:
     for p in cycle.parameters():
         default = "required" if p.required else p.default_means or ("" if p.default is None else f"{p.default:g}")
         choices = "; ".join(f"{k:g} {v}" for k, v in (p.choices or {}).items())
-        cells = (
+        rows.append((
             f"<code>{p.address}</code>",
             escape(p.meaning),
             p.unit,
             escape(choices or p.allowed),
             escape(default),
             escape(p.note),
-        )
-        rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
-    head = "".join(f"<th>{name}</th>" for name in ("address", "meaning", "unit", "allowed", "default", "note"))
+        ))  # fmt: skip
+    table = html_table(("address", "meaning", "unit", "allowed", "default", "note"), rows)
     about = f"<p>{escape(cycle.__doc__ or '')} ({escape(cycle.source)})</p>"
-    return (
-        f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4>{about}<table><tr>{head}</tr>{''.join(rows)}</table>"
-    )
+    return f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4>{about}{table}"

@@ -4,6 +4,8 @@ changed; and the way from the programmed point through datum, transformations an
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -15,17 +17,19 @@ from mnclab.machine.calls import Flow
 from mnclab.machine.control import Function
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.planner import Plan, Planner
+from mnclab.machine.planner import Action, Plan, Planner
 from mnclab.path.listing import figure, point, words
 from mnclab.text.alarm import Alarm, quoted
 from mnclab.text.expression import Expression
-from mnclab.text.program import Word, digits
+from mnclab.text.program import Program, Word, digits
 from mnclab.text.strings import NumberFromText, TextFormula
+from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
     from mnclab.machine.run import Moment, Run
 
 BY_WORD = {"F": "feed", "S": "speed", "T": "tool"}
+_UNIT = re.compile(r", ([\d. ]*(?:mm|m|rev|s)(?:/(?:min|rev))?)$")  # at the end of a meaning
 SHOWN = 12  # rows of the path
 Matrix = NDArray[np.float64]
 
@@ -57,8 +61,7 @@ class Explanation:
         span = moment.block.span
         self.program = run.programs[run.steps.program[moment.step]]
         last = int(self.program.lines()[1][run.steps.block[moment.step]])
-        here = [a for a in run.alarms if a.span and a.source is self.program]
-        self.alarms = tuple(a for a in here if a.span and span.line <= a.span.line <= last)
+        self.alarms = tuple(_alarms(run, self.program, span.line, last))
         history = run.history
         self.changed = [
             (name, _said(name, history.value(name, moment.step - 1)) if moment.step else "", _said(name, value))
@@ -112,12 +115,8 @@ class Explanation:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
-            if not rows:
-                return ""
-            top = "".join(f"<th>{cell}</th>" for cell in head)
-            body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
-            return f"<table><tr>{top}</tr>{body}</table>"
+        def table(head: tuple[str, ...], rows: list[tuple[str, ...]], numbers: tuple[int, ...] = ()) -> str:
+            return html_table(head, ([*map(escape, row)] for row in rows), numbers) if rows else ""
 
         parts = [f"<h4>{escape(self.title)}</h4>"]
         if self.skipped:
@@ -136,9 +135,22 @@ class Explanation:
             table(
                 ("from the program to the tool", "X", "Y", "Z", ""),
                 [(s.name, *map(figure, s.point), s.note) for s in self.stages],
+                numbers=(1, 2, 3),
             )
         )
         return f"<div>{''.join(parts)}</div>"
+
+
+def _alarms(run: Run, program: Program, first: int, last: int) -> Iterator[Alarm]:
+    """The alarms that have a place in some lines, told there."""
+    for alarm in run.alarms:
+        if not alarm.span or alarm.source is not program:
+            continue
+        if first <= alarm.span.line <= last:
+            yield alarm
+            continue
+        here = [p for p in alarm.places if p.program == alarm.span.program and first <= p.line <= last]
+        yield from (alarm.at(place) for place in here[:1])
 
 
 def _executions(run: Run, step: int) -> int:
@@ -153,14 +165,19 @@ def _executions(run: Run, step: int) -> int:
 
 def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> list[Meaning]:
     """Every word of a block, in the order written; the keyword of a conversational block first."""
-    block = moment.block
+    block, program = moment.block, run.programs[run.steps.program[moment.step]]
     plan = _plan(run, moment)
     if plan is None:
         return [
-            Meaning(str(word), _value(run, moment, word), "", "not obeyed: the block is refused", "", "")
+            Meaning(written(program, word), _value(run, moment, word), "", "not obeyed: the block is refused", "", "")
             for word in block.words
         ]
     here = _Here(run, moment)
+
+    def before(action: Action, index: int) -> int:
+        """How many words of the same address the function takes before one."""
+        return sum(block.words[i].address == block.words[index].address for i in action.takes if i < index)
+
     found: dict[int, list[Meaning]] = {}
     for action, _ in plan.actions:
         what = action.what
@@ -172,30 +189,37 @@ def _meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> 
                 says, source = f"cycle: {what.title}", what.source
             elif isinstance(what, Function):
                 assert word is not None
-                says, source = f"{_meaning(here, what, word)} of {what.code} ({what.title})", ""
+                told = run.control.told and run.control.told(what, word, before(action, index))
+                meaning = told or _UNIT.sub(r" (\1)", _meaning(here, what, word))
+                says, source = f"{meaning} of {what.code} ({what.title})", ""
             else:
                 assert word is not None
-                before_it = [block.words[i].address for i in action.takes if i < index]
-                says, source = _parameter(here, what, action.code, word, before_it.count(word.address)), ""
+                says, source = _parameter(here, what, action.code, word, before(action, index)), ""
             kept = word is None and action.code != block.keyword  # modal, not written in this block
-            shown = str(word) if word is not None else f"({action.code})" if kept else block.keyword
+            shown = written(program, word) if word is not None else f"({action.code})" if kept else block.keyword
             if kept:
                 says = f"{says}, active from before"
             value = _value(run, moment, word) if word is not None else ""
             if value:
                 says += f" = {value}"
             name = _changes(what, word)
-            before, after = changed.get(name, ("", ""))
-            happened = f"{name}: {before or 'none'} -> {after}" if name in changed and index == action.head else ""
+            old, new = changed.get(name, ("", ""))
+            happened = f"{name}: {old or 'none'} -> {new}" if name in changed and index == action.head else ""
             if word is not None and word.address.startswith("Q") and word.address in changed:
-                before, after = changed[word.address]
-                happened = f"{before or 'none'} -> {after}"
+                old, new = changed[word.address]
+                happened = f"{old or 'none'} -> {new}"
             place = len(block.words) if kept and block.keyword else index
             found[place] = [Meaning(shown, value, action.code, says, source, happened)]
             if word is not None and run.control.marks:
                 marks = run.control.marks(what, word, index == action.head)
-                found[place] += [Meaning(mark, "", action.code, f"on {word}: {does}", "", "") for mark, does in marks]
+                found[place] += [Meaning(mark, "", action.code, f"on {shown}: {does}", "", "") for mark, does in marks]
     return [meaning for index in sorted(found) for meaning in found[index]]
+
+
+def written(program: Program, word: Word) -> str:
+    """A word as the program writes it."""
+    line, column, length, _ = word.span
+    return program.line_text(line)[column - 1 : column - 1 + length].strip() or str(word)
 
 
 class _Here:
@@ -260,7 +284,7 @@ def _meaning(here: _Here, what: Function, word: Word) -> str:
     says = control.meanings.get(own) or control.meanings.get(address)
     if says:
         relative = word.incremental or (here.incremental and own in control.relative)
-        return f"{says}, incremental" if relative else says
+        return _increment(says) if relative else says
     if address in ("X", "Y", "Z"):
         lathe = f", {'diameter' if here.settings.get('diameter') else 'radius'}" if control.lathe and address == "X" else ""
         relative = word.incremental or here.incremental
@@ -279,9 +303,19 @@ def _parameter(here: _Here, cycle: type[Cycle], code: str, word: Word, which: in
         return f"word of {code}"
     parameter = alike[min(which, len(alike) - 1)]
     relative = parameter.note.removeprefix("under G91 ") if here.incremental else parameter.note
-    said = f", {relative}" if relative != parameter.note else ", incremental" if word.incremental else ""
+    if relative != parameter.note:
+        meaning = f"{parameter.meaning}, {relative}"
+    else:
+        meaning = _increment(parameter.meaning) if word.incremental else parameter.meaning
     unit = "mm/rev" if parameter.unit == "mm/min" and here.active("per_rev") else parameter.unit
-    return f"{parameter.meaning}{said}{f', {unit}' if unit else ''} ({code})"
+    return f"{meaning}{f', {unit}' if unit else ''} ({code})"
+
+
+def _increment(meaning: str) -> str:
+    """What a word is that counts from the last position: no coordinate and no diameter."""
+    if meaning.startswith("coordinate "):
+        return "increment " + meaning.removeprefix("coordinate ")
+    return f"increment on the {meaning}" if meaning.startswith("diameter") else f"{meaning}, incremental"
 
 
 def _changes(what: Function | type[Cycle], word: Word | None) -> str:

@@ -32,7 +32,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of
+from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, several
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
 from mnclab.text.program import Block, Program
@@ -313,7 +313,8 @@ class Run:
     def __repr__(self) -> str:
         s = self.summary()
         head = (
-            f"<Run {s['program']} on {self.control.name}: {s['blocks']} blocks, {s['moves']} moves, "
+            f"<Run {s['program']} on {self.control.name}: "
+            f"{several(s['blocks'], 'block')}, {several(s['moves'], 'move')}, "
             f"cutting {s['cutting length']:.3f} mm, rapid {s['rapid length']:.3f} mm, {s['time at feed']:.1f} s at feed>"
         )
         shown, more = first_of(self.alarms)

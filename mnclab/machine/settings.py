@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 from mnclab.text.nearest import hint, nearest
+from mnclab.text.tables import html_table
 
 
 class Setting(NamedTuple):
@@ -128,10 +129,8 @@ def settings_table(settings: Iterable[Setting]) -> str:
 
 def settings_html(settings: Iterable[Setting]) -> str:
     """The settings as HTML."""
-    head = "".join(f"<th>{name}</th>" for name in HEAD)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{f'<code>{escape(cell)}</code>' if k in (0, 1, 2) and cell else escape(cell)}</td>"
-                         for k, cell in enumerate(row)) + "</tr>"
-        for row in rows(settings)
-    )  # fmt: skip
-    return f"<table><tr>{head}</tr>{body}</table>"
+
+    def cells(row: tuple[str, ...]) -> list[str]:
+        return [f"<code>{escape(cell)}</code>" if k < 3 and cell else escape(cell) for k, cell in enumerate(row)]
+
+    return html_table(HEAD, map(cells, rows(settings)))

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mnclab.path.kinds import Kind
+from mnclab.text.alarm import several
 
 if TYPE_CHECKING:
     from mnclab.path.toolpath import Move, Toolpath
@@ -115,5 +116,5 @@ def table(path: Toolpath) -> str:
         body.append("<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in cells) + "</tr>")
     head = "".join(f"<th>{name}</th>" for name in columns)
     return (
-        f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table><p>{n} rows, positions in mm</p>"
+        f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table><p>{several(n, 'row')}, positions in mm</p>"
     )

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from mnclab.path.kinds import MOTION_KINDS, Kind
+from mnclab.text.alarm import several
 from mnclab.text.columns import fixed
 
 if TYPE_CHECKING:
@@ -260,7 +261,7 @@ class Toolpath:
 
     def __repr__(self) -> str:
         motion = int(self.is_motion.sum())
-        return f"<Toolpath: {self._n} rows, {motion} moves, {self.length:.3f} mm>"
+        return f"<Toolpath: {several(self._n, 'row')}, {several(motion, 'move')}, {self.length:.3f} mm>"
 
     def _repr_html_(self) -> str:
         from mnclab.path.listing import table

@@ -12,7 +12,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from mnclab.controls.choice import choose
+from mnclab.controls.choice import choose, read_text
 from mnclab.controls.choice import run as run_text
 from mnclab.machine.setup import Setup
 from mnclab.show.forms import DRAWING, picture_of, verdict
@@ -24,7 +24,11 @@ from mnclab.text.program import decode
 
 FIRST = 10.0  # s for the first picture, which has none before it
 PATIENCE = 0.5  # s; work that takes longer goes on elsewhere, and what was good last stays in sight
-STYLE = "<style>.mnclab-editor textarea{font-family:monospace;font-size:13px;line-height:1.35;white-space:pre}</style>"
+PAST = "mnclab-past"  # alarms of a text that was typed over
+STYLE = (
+    "<style>.mnclab-editor textarea{font-family:monospace;font-size:13px;line-height:1.35;white-space:pre}"
+    f".{PAST}{{opacity:.4}}</style>"
+)
 
 
 class Document:
@@ -96,8 +100,15 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
         try:
             future.result(FIRST if live.run is None else PATIENCE)
         except TimeoutError:
-            say(f"{document.path.name}: at work")  # what was good last stays in sight
-            future.add_done_callback(lambda done: state() if live.source == source else None)
+            say(f"{document.path.name}: at work")  # what was good last stays in sight, its alarms dimmed
+            alarms.add_class(PAST)
+            future.add_done_callback(lambda done: fresh() if live.source == source else None)
+        else:
+            alarms.remove_class(PAST)
+
+    def fresh() -> None:
+        alarms.remove_class(PAST)
+        state()
 
     def state() -> None:
         changed = text.value != document.text
@@ -107,7 +118,7 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
         if live.source != source:  # typed over in the meantime
             return
         try:
-            run = run_text(source, _control(control, document.path, source), setup)
+            run = run_text(read_text(source, document.path.name, control, str(document.path.parent)), None, setup)
             drawn, told = picture_of(run, view), verdict(run)
         except Alarm as alarm:
             if live.source == source:
@@ -130,8 +141,3 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
     text.observe(check, "value")
     button.on_click(save)
     return live
-
-
-def _control(control: str | None, path: Path, source: str) -> str:
-    """The control that was named, or what the file's name or the text point to."""
-    return choose(control, path.name, source).name

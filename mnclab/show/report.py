@@ -17,12 +17,13 @@ from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
 from mnclab.show.given_away import named
 from mnclab.show.times import clock
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import ALARM, Alarm, card_html
 from mnclab.text.file import replaced
 from mnclab.text.given import shown
 
 Table = list[tuple[str, ...]]
-Listing = list[tuple[int, str, bool]]
+Listing = list[tuple[int, str, str]]
+QUOTED = 84  # characters of a line that stand in the column of the page
 TOOL_HEAD = ("tool", "name", "kind", "radius", "corner", "length", "teeth", "time")
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
@@ -39,7 +40,7 @@ class Report:
     times: Table
     alarms: tuple[Alarm, ...]
     listing: Listing
-    """Number and text of each line, and whether an alarm stands in it."""
+    """Number and text of each line, and the severity of what stands in it: "alarm", "warning" or nothing."""
     tool_head: tuple[str, ...] = TOOL_HEAD
     called: tuple[tuple[str, Listing], ...] = ()
     """Name and listing of the programs that were called."""
@@ -95,8 +96,10 @@ def report(run: Any, title: str | None = None) -> Report:
 
 def _numbered(run: Any, index: int) -> Listing:
     """The lines of a program of the run."""
-    faulty = {alarm.span.line for alarm in run.alarms if alarm.span and alarm.span.program == index}
-    return [(number, text, number in faulty) for number, text in enumerate(run.programs[index].text.splitlines(), 1)]
+    marks: dict[int, str] = {}
+    for alarm in sorted(run.alarms, key=lambda alarm: alarm.severity == ALARM):  # an alarm stands above a warning
+        marks |= {place.line: alarm.severity for place in alarm.places if place.program == index}
+    return [(number, text, marks.get(number, "")) for number, text in enumerate(run.programs[index].text.splitlines(), 1)]
 
 
 def _used(run: Any) -> list[int]:
@@ -145,7 +148,7 @@ def html(run: Any, found: Report, **options: Any) -> str:
 
     picture: Any = plot_run(run, **options)
     style = Path(__file__).with_name("report.css").read_text("utf-8")
-    alarms = "".join(alarm._repr_html_() for alarm in found.alarms) or "<p>none</p>"
+    alarms = card_html(found.alarms, QUOTED) or "<p>none</p>"
     parts = [
         f"<h1>{escape(found.title)}</h1><p>{escape(found.subtitle)}</p>{_table((), found.facts)}",
         f"<h2>Tools</h2>{_table(TOOL_HEAD, found.tools) if found.tools else '<p>none</p>'}",
@@ -173,7 +176,7 @@ def _table(head: tuple[str, ...], rows: Table) -> str:
 def _listing(lines: Listing) -> str:
     wide = len(str(len(lines)))
     rows = []
-    for number, text, faulty in lines:
+    for number, text, mark in lines:
         line = f'<span class="number">{number:{wide}d}</span>  {escape(text)}'
-        rows.append(f'<span class="fault">{line}</span>' if faulty else line)
+        rows.append(f'<span class="{mark}">{line}</span>' if mark else line)
     return "\n".join(rows)

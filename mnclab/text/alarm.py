@@ -12,6 +12,7 @@ from __future__ import annotations
 import copy
 import re
 from array import array
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Any, NamedTuple, Protocol
@@ -108,19 +109,27 @@ class Alarm(Exception):
         place = f"{self.place}: " if self.place else ""
         return f"{place}{self.severity}: {self.message}{self.others}{hint}"
 
-    def lines(self) -> tuple[str, str]:
+    def at(self, place: Span) -> Alarm:
+        """The same alarm told at another of its places."""
+        return self.changed(span=place, places=(place, *(each for each in self.places if each != place)))
+
+    def lines(self, width: int = WIDTH) -> tuple[str, str]:
         """The line of the program and the carets under the faulty characters; two empty strings if there is none.
 
-        Of a long line only what stands around them.
+        Of a line longer than ``width`` only what stands around them.
         """
         if self.span is None or self.source is None:
             return "", ""
-        text, at = quoted(self.source.line_text(self.span.line), self.span.column - 1)
+        text, at = quoted(self.source.line_text(self.span.line), self.span.column - 1, width)
         indent = "".join("\t" if c == "\t" else " " for c in text[:at]).ljust(at)
         return text, indent + "^" * max(1, min(self.span.length, max(1, len(text) - at)))
 
     def __str__(self) -> str:
-        text, caret = self.lines()
+        return self.text()
+
+    def text(self, width: int = WIDTH) -> str:
+        """The alarm with at most so many characters of its line, and the caret."""
+        text, caret = self.lines(width)
         if not caret:
             return self.headline
         return f"{self.headline}\n    {text}\n    {caret}"
@@ -133,7 +142,11 @@ class Alarm(Exception):
         return str(self).split("\n")
 
     def _repr_html_(self) -> str:
-        text, caret = self.lines()
+        return self.html()
+
+    def html(self, width: int = WIDTH) -> str:
+        """The alarm as HTML, with at most so many characters of its line."""
+        text, caret = self.lines(width)
         colour = "#b3261e" if self.severity == ALARM else "#8a5a00"
         head = f'<span style="color:{colour};font-weight:600">{escape(self.severity)}</span> '
         said = self.message + self.others
@@ -209,27 +222,41 @@ class Alarms(list[Alarm]):
 
 def first_of(alarms: Sequence[Alarm]) -> tuple[list[Alarm], str]:
     """Those that a card shows, alarms before warnings but in their order, and a sentence about the others."""
-    count = sum(alarm.count for alarm in alarms)
     if len(alarms) <= SHOWN:
         return list(alarms), ""
     chosen = sorted(sorted(range(len(alarms)), key=lambda k: alarms[k].severity == WARNING)[:SHOWN])
-    rest = count - sum(alarms[k].count for k in chosen)
-    return [alarms[k] for k in chosen], f"… and {rest} more alarms and warnings, {count} in all"
+    shown = [alarms[k] for k in chosen]
+    every = amounts(alarms)
+    rest = [several(n, f"more {name}") for name, n in (every - amounts(shown)).items()]
+    return shown, f"… and {' and '.join(rest)}, {every.total()} in all"
 
 
-def card_html(alarms: Sequence[Alarm]) -> str:
-    """The first alarms as HTML, and how many more there are."""
+def amounts(alarms: Iterable[Alarm]) -> Counter[str]:
+    """How many there are of each severity, alarms first."""
+    found = Counter({ALARM: 0, WARNING: 0})
+    for alarm in alarms:
+        found[alarm.severity] += alarm.count
+    return found
+
+
+def several(count: int, name: str) -> str:
+    """A number of things: 1 block, 2 blocks."""
+    return f"{count} {name}{'s' if count != 1 else ''}"
+
+
+def card_html(alarms: Sequence[Alarm], width: int = WIDTH) -> str:
+    """The first alarms as HTML, with so many characters of their lines, and how many more there are."""
     shown, more = first_of(alarms)
-    return "".join(alarm._repr_html_() for alarm in shown) + (f"<p>{more}</p>" if more else "")
+    return "".join(alarm.html(width) for alarm in shown) + (f"<p>{more}</p>" if more else "")
 
 
-def quoted(text: str, at: int = 0) -> tuple[str, int]:
-    """A line as people are shown it, at most a screen's width around a character, and where that stands in it."""
-    if len(text) <= WIDTH:
+def quoted(text: str, at: int = 0, width: int = WIDTH) -> tuple[str, int]:
+    """A line as people are shown it, at most ``width`` characters around one, and where that stands in it."""
+    if len(text) <= width:
         return text, at
-    begin = max(0, min(at, len(text)) - WIDTH // 3)
-    before, after = "… " if begin else "", " …" if begin + WIDTH < len(text) else ""
-    return f"{before}{text[begin : begin + WIDTH]}{after}", at - begin + len(before)
+    begin = max(0, min(at, len(text)) - width // 3)
+    before, after = "… " if begin else "", " …" if begin + width < len(text) else ""
+    return f"{before}{text[begin : begin + width]}{after}", at - begin + len(before)
 
 
 def _shortened(text: str) -> str:

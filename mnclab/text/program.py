@@ -20,9 +20,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.text.alarm import ALARM, Alarm, Alarms, Span, card_html
+from mnclab.text.alarm import ALARM, Alarm, Alarms, Span, card_html, several
 from mnclab.text.columns import fixed
 from mnclab.text.expression import Expression
+from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
     from mnclab.text.strings import NumberFromText, TextFormula
@@ -227,18 +228,18 @@ class Program:
         return [self.line_text(line) for line in range(first, max(last, first + 1))]
 
     def __repr__(self) -> str:
-        return f"<Program {self.name}: {self.control}, {len(self)} blocks, {sum(a.count for a in self.alarms)} alarms>"
+        alarms = several(sum(alarm.count for alarm in self.alarms), "alarm")
+        return f"<Program {self.name}: {self.control}, {several(len(self), 'block')}, {alarms}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{block.span.line}</td><td>{escape(block.number)}</td><td><code>"
-            f"{escape(' '.join(filter(None, [block.keyword, *map(str, block.words)])))}</code></td>"
-            f"<td>{escape(block.comment)}</td></tr>"
-            for block in (self[i] for i in range(min(len(self), 40)))
-        )
+        blocks = [self[i] for i in range(min(len(self), 40))]
+        words = (" ".join(filter(None, [block.keyword, *map(str, block.words)])) for block in blocks)
+        rows = [
+            (str(block.span.line), escape(block.number), f"<code>{escape(said)}</code>", escape(block.comment))
+            for block, said in zip(blocks, words)
+        ]
         more = f"<p>… {len(self) - 40} more blocks</p>" if len(self) > 40 else ""
-        head = "<tr><th>line</th><th>block</th><th>words</th><th>comment</th></tr>"
-        return f"<table>{head}{rows}</table>{more}{card_html(self.alarms)}"
+        return html_table(("line", "block", "words", "comment"), rows, (0,)) + more + card_html(self.alarms)
 
 
 def decode(data: bytes) -> tuple[str, str]:

@@ -322,6 +322,24 @@ def test_an_alarm_is_said_and_leads_to_its_line(open_file):
     assert page.locator(".line.alarm code").all_inner_texts() == ["G1 X4,5 F100"]
 
 
+def test_a_warning_is_marked_at_all_its_places_and_counted(open_file):
+    page = open_file(mnclab.run("G17 G90 G54 T4 F200 S800 M3\nG3 Z-1 I10\nG3 Z-2 I10\n", "mnc"))
+    assert page.locator(".line.warning code").all_inner_texts() == ["G3 Z-1 I10", "G3 Z-2 I10"]
+    assert page.get_by_role("button", name="warning in line 2:").inner_text().endswith(" (and 1 more warning)")
+
+
+@pytest.mark.parametrize(("text", "scales"), [("// nothing\n", []), ("G0 Z9\nG1 X9 F80\n", ["80 mm/min"])])
+def test_a_curve_has_a_scale_where_something_moves(open_file, text, scales):
+    page = open_file(mnclab.run(text, "mnc"))
+    said = page.evaluate("""() => {
+      const said = [];
+      CanvasRenderingContext2D.prototype.fillText = text => said.push(text);
+      window.player.curve.draw({});
+      return said.filter(text => text.includes("mm/min"));
+    }""")
+    assert [text.partition(",")[0] for text in said] == scales
+
+
 def test_programs_without_moves_open(open_file):
     for text in ("// nothing\n", "G90\n", "\n"):
         page = open_file(mnclab.run(text, "mnc"))

@@ -1,5 +1,6 @@
 """Many alarms: those of a kind are counted, a card shows the first, a long line is quoted around its caret."""
 
+import re
 import tracemalloc
 
 import pytest
@@ -60,7 +61,7 @@ def test_thousands_of_wrong_lines(control, wrong):
     run = mnclab.run(program)
     assert run.summary()["alarms"] + run.summary()["warnings"] >= faults and not run.ok
     assert len(run._repr_html_()) < 20_000 > len(repr(run)) and run._repr_html_().count('role="alert"') <= SHOWN
-    assert " more alarms and warnings, " in repr(run)
+    assert re.search(r"… and (\d+ more (alarm|warning)s?( and )?)+, \d+ in all$", repr(run))
     assert len(program.faulty_blocks()) >= lines - 1 or control == "nc-31"
 
 
@@ -72,6 +73,24 @@ def test_a_fault_that_is_only_counted_still_stops_the_run():
     stopped = [alarm for alarm in run.alarms if alarm.severity == ALARM]
     assert [alarm.span.line for alarm in stopped] == [KEPT + 7] and "only counted" in stopped[0].message
     assert "only counted" in str(run.explain(line=KEPT + 7))
+
+
+@pytest.mark.parametrize("width", [84, WIDTH])
+@given(st.text("abcX ", max_size=400), st.integers(0, 399), st.integers(1, 400))
+def test_a_quote_is_as_wide_as_it_may_be_and_the_caret_under_its_word(width, text, at, length):
+    at = min(at, len(text))
+    program = mnclab.read(f"{text}|\n", "mnc")
+    line, caret = Alarm("wrong", Span(1, at + 1, length), source=program).lines(width)
+    assert max(len(line), len(caret)) <= width + 4
+    assert caret.strip(" ").strip("^") == "" and f"{text}|"[at] == line[caret.index("^")]
+
+
+def test_a_rest_of_one_is_one_and_names_what_there_is():
+    def rest(alarms, warnings):
+        return first_of([Alarm("a", Span(k, 1)) for k in range(alarms)] + [Alarm("w", severity=WARNING)] * warnings)[1]
+
+    assert rest(21, 0) == "… and 1 more alarm, 21 in all" and rest(20, 1) == "… and 1 more warning, 21 in all"
+    assert rest(22, 1) == "… and 2 more alarms and 1 more warning, 23 in all"
 
 
 def test_memory_of_many_alarms_is_bounded():
@@ -86,7 +105,7 @@ def test_a_card_shows_what_stopped_the_run_among_many_warnings():
     alarms = [Alarm(f"w{k}", Span(k, 1), WARNING) for k in range(100)]
     alarms.insert(70, Alarm("stopped", Span(70, 1)))
     shown, more = first_of(alarms)
-    assert len(shown) == SHOWN and shown[-1].message == "stopped" and "81 more alarms and warnings, 101 in all" in more
+    assert len(shown) == SHOWN and shown[-1].message == "stopped" and more == "… and 81 more warnings, 101 in all"
     assert first_of(alarms[:SHOWN]) == (alarms[:SHOWN], "")
 
 

@@ -101,10 +101,11 @@ def test_a_printed_program_reads_as_the_same_blocks(lines):
 
 def test_a_table_for_notebooks_shows_blocks_and_alarms():
     shown = mnclab.read(TEXT.replace("to the start", "<to> & fro"), "mnc")._repr_html_()
-    assert "<td>N10</td><td><code>G0 X1.5</code></td><td>&lt;to&gt; &amp; fro</td>" in shown
+    row = "<td>N10</td><td><code>G0 X1.5</code></td><td>&lt;to&gt; &amp; fro</td>"
+    assert row in shown.replace(' style="text-align:left"', "")
     assert "has no meaning here" in shown
     long = mnclab.read("X1\n" * 50, "mnc")._repr_html_()
-    assert long.count("<tr><td>") == 40 and "10 more blocks" in long
+    assert long.count("<tr><td") == 40 and "10 more blocks" in long
 
 
 # --- bytes ------------------------------------------------------------------------------------------------------------

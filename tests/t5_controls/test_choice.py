@@ -149,7 +149,7 @@ def test_faults_in_a_program_of_another_control_say_so_once(control, other):
     run = mnclab.run(OTHERS[other] * 30, control)
     said = [alarm for alarm in run.alarms if "this looks like" in alarm.hint]
     assert len(said) == (other != control)
-    assert all(f"looks like a {other} program" in alarm.hint for alarm in said)
+    assert all(f"looks like a program of {other}" in alarm.hint for alarm in said)
 
 
 def test_help_without_a_control():
@@ -157,6 +157,10 @@ def test_help_without_a_control():
         table = mnclab.help(name)
         assert all(code in str(table) for code in (*control.functions, *control.cycles))
         assert str(mnclab.help(name, name)) == str(mnclab.help(control)) == str(table) and "<table>" in table._repr_html_()
+        assert str(table).endswith(f'help("settings", "{name}")')
+    with pytest.raises(Alarm, match="every control has its own settings: name it") as found:
+        mnclab.help("settings")
+    assert found.value.hint.startswith('help("settings", "mnc")')
     assert "Drilling" in str(mnclab.help("CYCL DEF 200"))  # only one control has it
     for code, said in (("G1", "a code of mnc, g43, jnc-t01"), ("zzz", "no code of any control"), ("", "needs a code")):
         with pytest.raises(Alarm, match=said) as found:

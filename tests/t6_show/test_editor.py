@@ -32,6 +32,18 @@ def test_typing_draws_and_checks(file):
     assert "no alarms" in box.alarms.value
 
 
+def test_alarms_carry_the_name_of_the_file(file):
+    box = mnclab.editor(str(file))
+    box.text.value = "G90\nG1 X5\n"
+    assert "part.mnc:2:" in box.alarms.value and "program:" not in box.alarms.value
+
+
+def test_programs_beside_the_file_are_called(tmp_path):
+    (tmp_path / "SUB.H").write_text("BEGIN PGM SUB MM\nL X+9 FMAX\nEND PGM SUB MM\n")
+    (tmp_path / "a.h").write_text("BEGIN PGM A MM\nTOOL CALL 1 Z S100\nCALL PGM SUB\nEND PGM A MM\n")
+    assert mnclab.editor(tmp_path / "a.h").run.toolpath.end[-1, 0] == 9
+
+
 def test_saving_keeps_line_ends(file):
     box = mnclab.editor(str(file))
     box.text.value += "Y5\n"
@@ -96,7 +108,7 @@ def test_a_long_run_does_not_stop_the_typing(tmp_path, monkeypatch):
     good, run_text = picture.value, module.run_text
 
     def slow(source, *rest):
-        ran.append(source)
+        ran.append(source.text)
         assert go_on.wait(20)
         return run_text(source, *rest)
 
@@ -107,7 +119,9 @@ def test_a_long_run_does_not_stop_the_typing(tmp_path, monkeypatch):
         live.text.value = f"G54\nG0 X{number}\nG0 Y{number}\n"
     assert time.monotonic() - begin < 5  # and not 20
     assert picture.value == good and "at work" in live.status.value
+    assert "mnclab-past" in live.alarms._dom_classes  # dimmed: they are those of the text before
     go_on.set()
     module.DRAWING.submit(int).result(20)
     assert [source.split()[2] for source in ran] == ["X2", "X4"]
+    assert "mnclab-past" not in live.alarms._dom_classes
     assert picture.value != good and live.run.toolpath.end[-1].tolist()[:2] == [4, 4]

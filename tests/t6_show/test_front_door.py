@@ -1,5 +1,6 @@
 """The front door takes what it is made for; anything else is a sentence that says what that is."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -101,6 +102,30 @@ def test_whole_numbers_of_every_kind_name_a_line(run):
 
 def test_a_condition_may_have_some_operators(run):
     assert len(run.when("0*x+" * 99 + "x > 6")) == 1
+
+
+def test_one_thing_is_one():
+    run = mnclab.run("G0 X1\n", "mnc")
+    assert ": 1 block, 1 move, " in repr(run) and "1 block, 0 alarms" in repr(run.program)
+    assert "1 row, 1 move, " in repr(run.toolpath) and "1 move, " in repr(run.player())
+
+
+@pytest.mark.parametrize("notebook", ["help", "settings", "control", "controls", "explain", "program"])
+def test_words_of_a_table_stand_to_the_left(notebook):
+    """Notebooks set every cell to the right that does not say otherwise."""
+    run = mnclab.run("G90 G54\nG1 X1 F100\n", "mnc")
+    shown = {
+        "help": lambda: mnclab.help("G83", "mnc"),
+        "settings": lambda: mnclab.help("settings", "mnc"),
+        "control": lambda: mnclab.help("mnc"),
+        "controls": lambda: mnclab.controls,
+        "explain": lambda: run.explain(line=2),
+        "program": lambda: run.program,
+    }[notebook]()._repr_html_()
+    cells = re.findall(r'<td style="text-align:(left|right)">(.*?)</td>', shown)
+    assert len(cells) == shown.count("<td") > 4
+    for side, text in cells:
+        assert side == "left" or re.fullmatch(r"-?[0-9.]+", text), text
 
 
 @pytest.mark.parametrize(

@@ -268,6 +268,31 @@ def test_a_run_without_moves_and_one_with_an_alarm_have_pages():
     assert (alarm["line"], alarm["severity"]) == (2, "alarm")
 
 
+HELICES = "G17 G90 G54 T4 F200 S800 M3\nG3 Z-1 I10\nG3 Z-2 I10\n"  # one warning, at two places
+
+
+@pytest.mark.parametrize(
+    ("text", "more"),
+    [
+        ("X,1\n" * 1500, "1499 more alarms"),
+        ("X,1\n" * 2, "1 more alarm"),
+        (HELICES, "1 more warning"),
+        (HELICES + "X,1\n", "2 warnings"),
+        ("X,1\n", ""),
+        ("G0 X1\n", ""),
+    ],
+)
+def test_what_the_page_has_no_room_for_is_counted_by_its_kind(text, more):
+    run = mnclab.run(text, "mnc")
+    assert Data(payload(run, run.profile())).header["more"] == more
+
+
+def test_an_alarm_that_is_told_once_has_all_its_places():
+    run = mnclab.run(HELICES, "mnc")
+    (alarm,) = Data(payload(run, run.profile())).header["alarms"]
+    assert alarm["places"] == [[0, 2], [0, 3]]
+
+
 @pytest.mark.parametrize("wrong", [{"theme": "pink"}, {"speed": 0}, {"speed": float("nan")}])
 def test_options_are_checked(wrong):
     with pytest.raises(ValueError, match=next(iter(wrong))):

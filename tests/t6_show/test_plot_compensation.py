@@ -132,6 +132,15 @@ def test_hatches_are_where_the_tool_cuts_too_much_and_nowhere_else():
     assert "the largest radius is 4 mm" in picture.texts[-1].get_text()
 
 
+def test_where_no_tool_is_small_enough_none_is_asked_for():
+    spike = SLOT.replace("X38", "X30.001")  # half of a thousandth would fit
+    (alarm,) = (found for found in run(spike, 5).alarms if found.severity == "alarm")
+    assert "no tool fits here" in alarm.message and "take a smaller tool" not in str(alarm)
+    picture = run(spike, 5).plot_compensation()
+    said = picture.axes[0].get_title(loc="left"), picture.texts[-1].get_text()
+    assert "no tool fits" in said[0] and "no tool fits here" in said[1] and "0.0005" not in "".join((str(alarm), *said))
+
+
 @pytest.mark.parametrize("radius", [3.99, 1.0])
 def test_nothing_is_hatched_where_the_tool_fits(radius):
     picture = run(SLOT, radius).plot_compensation()

@@ -6,6 +6,7 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
+from mnclab.show.plot import report as pages
 from mnclab.show.report import report
 
 PROGRAM = "G90 G54 T1 S1000 M3\nG0 X10 Y0 Z5\nG1 Z-2 F100 // down <here>\nX30\nT2\nG4 P30\nG1 X4,5\n"
@@ -62,12 +63,40 @@ def test_the_pages_are_the_same_every_time(run, tmp_path):
 
 
 def test_a_long_program_goes_on_over_pages():
-    from mnclab.show.plot import report as pages
-
     found = report(mnclab.run("G0 X1\n" * 200 + "// " + "x" * 300 + "\n", "mnc"))
     lines = list(pages.listing(found.listing))
     assert len(lines) == 200 + 4 and max(map(len, lines)) <= pages.WIDTH
     assert sum(map(len, pages.chunks([(line, False) for line in lines]))) == 204
+
+
+def test_every_place_of_a_warning_is_marked_as_one(tmp_path):
+    run = mnclab.run("G17 G90 G54 T4 F200 S800 M3\nG3 Z-1 I10\nG3 Z-2 I10\nX,1\n", "mnc")
+    found = report(run)
+    assert [mark for _, _, mark in found.listing] == ["", "warning", "warning", "alarm"]
+    text = run.report(tmp_path / "a.html").read_text("utf-8")
+    assert text.count('<span class="warning">') == 2 and text.count('<span class="alarm">') == 1
+    assert [line[2] for line in pages.listing(found.listing)] == list(" ??!")
+
+
+def test_a_flood_of_alarms_has_a_short_report(tmp_path):
+    """The first alarms and their number as on the card; the listing of the pages has an end and says so."""
+    run = mnclab.run("X,1\n" * 5000, "mnc")
+    text = run.report(tmp_path / "a.html").read_text("utf-8")
+    assert text.count('role="alert"') == 20 and "4980 more alarms, 5000 in all" in text
+    lines = [line for line, _ in (*pages.front(report(run)), *pages.texts(report(run)))]
+    assert len(lines) < 2100 and "… and 4980 more alarms, 5000 in all" in lines
+    assert lines[-1].startswith("… 3000 of 5000 lines are left out")
+
+
+def test_quotes_are_not_folded(tmp_path):
+    """The caret stands below its word only where the quoted line is one."""
+    run = mnclab.run("G1 " + "X1 " * 100 + "X,1 " + "Y1 " * 100 + "\n", "mnc")
+    lines = [line for line, _ in pages.front(report(run))]
+    (caret,) = (k for k, line in enumerate(lines) if set(line.strip()) == {"^"})
+    assert lines[caret - 1].startswith("    … ") and lines[caret - 1].endswith(" …")
+    assert lines[caret - 1][lines[caret].index("^") :].startswith("X,1")
+    text = run.report(tmp_path / "a.html").read_text("utf-8").split('role="alert"')[1].split("</pre>")[0]
+    assert max(map(len, text.split("<pre")[1].partition(">")[2].split("\n"))) <= 88
 
 
 def test_called_programs_rotary_axes_and_the_blank_are_told(tmp_path):

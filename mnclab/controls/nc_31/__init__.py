@@ -66,7 +66,7 @@ REFUSED = {code: f"{what} stand in a chapter that the source does not have" for 
 MEANINGS = {
     "X": "diameter, 0.01 mm", "Z": "coordinate along the axis, 0.01 mm", "F": "feed, 0.01 mm/rev",
     "M": "auxiliary function", "P": "parameter",
-    "G25 P": "frames, first * 1000 + last; then how often", "G32 F": "pitch, 0.0001 mm",
+    "G25 P": "frames (first * 1000 + last), or how often", "G32 F": "pitch, 0.0001 mm",
     **{f"G{n} M": "auxiliary function at the end of the move" for n in range(61, 68)},
 }  # fmt: skip
 
@@ -87,6 +87,7 @@ CONTROL = Control(
     looks_like=looks_like,
     refused=REFUSED,
     meanings=MEANINGS,
+    told=notation.told,
     marks=notation.marks,
     one_command=True,
     lathe=True,

@@ -50,7 +50,7 @@ def refuse_rapid(m: Machine, words: list[Word], code: str) -> None:
             m.alarm(f"the mark ~ has no meaning on {word} in a group with {code}", word, f"write it on {code}")
 
 
-ENDS = {"X": "Straight move to a diameter, or with Z in both axes", "Z": "Straight move along the axis"}
+ENDS = {"X": "Straight move", "Z": "Straight move"}  # their words say in which axes
 
 
 def straight_move(m: Machine, words: Words) -> None:

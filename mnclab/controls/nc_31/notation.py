@@ -13,6 +13,7 @@ from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.functions import CONDITIONAL, CONDITIONS
 from mnclab.machine.control import Function
 from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.text.alarm import several
 from mnclab.text.notation import Notation, NotationRow
 from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Program, Word
 
@@ -66,6 +67,14 @@ def sentence(words: tuple[Word, ...], cycles: CycleTable, told: bool) -> str:
         return f"{_plain(head)} M3"
     return " ".join(_millimetres("F", _amount(w), discretes.FREE_FEED) if w.address == "F" else _plain(w)
                     for w in words)  # fmt: skip
+
+
+def told(what: Function, word: Word, before: int) -> str:
+    """Which frames a G25 repeats, or how often."""
+    if what.code != "G25" or word.address != "P" or not isinstance(word.value, float):
+        return ""
+    first, last = divmod(int(word.value), 1000)
+    return several(int(word.value), "time") if before else f"frames {first} to {last}"
 
 
 def marks(what: Function | type[Cycle], word: Word, head: bool) -> Iterator[tuple[str, str]]:

@@ -160,6 +160,7 @@ CONTROL = Control(
     refused=later.refused(FUNCTIONS, CYCLES),
     together=strange_parameters(CYCLES),
     meanings=MEANINGS,
+    told=motion.turning_sense,
     names=ISO_NAMES,
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
     named=feeds.named,

@@ -213,13 +213,22 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks)
 
 
 def _digit_meant(text: str, at: int, stop: int) -> str:
-    """The hint about a letter in place of a digit: the one at ``at`` inside a number, or the one after that address."""
+    """The hint about a letter in place of a digit: the one at ``at`` inside a number, or the one after that address.
+
+    What follows it must be digits: TOOL is a word.
+    """
+    begin = at
     c = text[at]
     if c not in DIGITS or not text[at - 1 : at].isdigit():
         c = text[at + 1 : at + 2] if c.isascii() else ""
         if c in " \t":
+            begin = at + 1
             c = text[at + 1 : stop].lstrip(" \t")[:1]
             c = c if c in "Oo" else ""  # the others may begin the next word
+    begin = text.find(c, begin, stop) if c else stop
+    rest = text[begin:stop].lstrip(f"{c}0123456789.")
+    if rest[:1].isalpha() and not re.match(r"[-+.\d]", rest[1:]):
+        return ""
     return (
         f"the letter {c.upper() if c in 'Oo' else c} stands where the digit {DIGITS[c]} was meant"
         if c in DIGITS

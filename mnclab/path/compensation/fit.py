@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 
 EXACT = 1e-9  # mm
 HINT = "take a smaller tool"
+NO_TOOL = 0.001  # mm; below, no tool is as small
 
 
 class Places(NamedTuple):
@@ -114,11 +115,13 @@ def _worded(place: Places, m: int, k: int, el: Elements, path: Toolpath, view: P
     row, other, R = int(el.rows[k]), int(el.rows[place.other[m]]), float(el.R[k] or el.R[k - 1])
     width, missing = float(place.width[m]), float(place.missing[m])
     text = place.message.format(R=R, r=width, other=int(path.line[other]))
-    fits = f"the largest radius for the whole contour is {largest:.7g} mm" if largest > EXACT else "no radius fits"
+    fits, hint = f"the largest radius for the whole contour is {largest:.7g} mm", place.hint
+    if largest < NO_TOOL:
+        fits, hint = "no tool fits here", hint.removeprefix(HINT).removeprefix(", or ")
     at = view.to_space(np.array([row]), np.array([[*el.end[k], view.end[row, 2]]]))[0].tolist()
     return Gouge(
         place.kind, int(path.line[row]), int(path.step[row]), int(path.line[other]), (at[0], at[1], at[2]), R,
-        width, missing, largest, f"{text}: {missing:.4g} mm are missing, {fits}", place.hint,
+        width, missing, largest, f"{text}: {missing:.4g} mm are missing, {fits}", hint,
     )  # fmt: skip
 
 

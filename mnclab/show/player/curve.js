@@ -12,6 +12,7 @@ class Curve {
       if (path.kind[course.row[i]] !== RAPID) cuts = Math.max(cuts, top);
     }
     this.most = (cuts || all) * 1.08 || 1;
+    this.moves = all > 0;
     this.clipped = all > this.most;
   }
   draw(colours) {
@@ -50,6 +51,7 @@ class Curve {
       pen.lineWidth = 1.1;
       pen.stroke();
     }
+    if (!this.moves) return;  // no scale of nothing
     pen.font = "10px system-ui, sans-serif";
     pen.textBaseline = "top";
     const text = `${number(this.most / 1.08 * 60, 0)} mm/min${this.clipped ? ", rapids go beyond" : ""}`;

@@ -13,7 +13,10 @@ class Listing {
     box.append(this.sheet);
     this.height = 20;
     box.style.setProperty("--digits", Math.max(3, ...run.texts.map(text => String(text.length).length)));
-    this.alarms = new Map(run.header.alarms.filter(alarm => alarm.line).map(alarm => [`${alarm.program} ${alarm.line}`, alarm]));
+    this.alarms = new Map();  // an alarm stands above a warning, the first above others
+    for (const severity of ["alarm", "warning"])
+      for (const alarm of run.header.alarms.filter(alarm => alarm.severity === severity))
+        for (const place of alarm.places) this.alarms.has(place.join(" ")) || this.alarms.set(place.join(" "), alarm);
     choice.hidden = run.texts.length < 2;
     run.texts.forEach((_, k) => choice.add(new Option(this.name(k), k)));
     choice.addEventListener("change", () => this.turnTo(Number(choice.value)));

@@ -15,6 +15,7 @@ from typing import Any
 from mnclab.path.profile import Profile
 from mnclab.show.given_away import whole
 from mnclab.show.player.payload import payload
+from mnclab.text.alarm import several
 from mnclab.text.file import replaced
 from mnclab.text.given import check_number
 
@@ -110,7 +111,7 @@ class Player:
     def __repr__(self) -> str:
         path = self.run.toolpath
         moves = int(path.is_motion.sum())
-        return f"<Player of {self.name}: {moves} moves, {self.profile.time:.1f} s; save it as .html>"
+        return f"<Player of {self.name}: {several(moves, 'move')}, {self.profile.time:.1f} s; save it as .html>"
 
 
 def player(run: Any, profile: Profile | None = None, **options: Any) -> Player:

@@ -20,6 +20,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.given_away import named
 from mnclab.show.player.packing import LARGEST, Packer
+from mnclab.text.alarm import Alarm, amounts, several
 from mnclab.text.program import Program
 
 SCALES = (1e3, 1e4, 1e6)  # parts of a millimetre
@@ -48,8 +49,10 @@ def payload(run: Any, profile: Profile) -> str:
         "lathe": path.lathe,
         "alarms": [
             alarm.as_dict() | {"text": str(alarm), "program": alarm.span.program if alarm.span else 0}
+            | {"places": [[place.program, place.line] for place in alarm.places]}
             for alarm in map(named, run.alarms)
         ],
+        "more": more_than_first(run.alarms),
         "programs": [{"name": program.title, "text": program.text} for program in run.programs],
         "lines": lines,
         "lasts": lasts,
@@ -73,6 +76,14 @@ def payload(run: Any, profile: Profile) -> str:
         "profile": _profile(pack, profile, scale),
     }
     return pack.text(header)
+
+
+def more_than_first(alarms: Sequence[Alarm]) -> str:
+    """How many alarms and warnings there are beside the first alarm, or else the first warning: what the page has room for."""
+    rest = amounts(alarms)
+    first = next((severity for severity, count in rest.items() if count), "")
+    rest[first] -= 1
+    return " and ".join(several(n, f"more {name}" if name == first else name) for name, n in rest.items() if n > 0)
 
 
 def plain(value: Any) -> Any:

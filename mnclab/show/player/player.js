@@ -277,13 +277,12 @@ class PlayerPage {
     this.find("help").setAttribute("aria-expanded", !box.hidden);
   }
   alarms() {
-    const {alarms} = this.run.header, first = alarms.find(alarm => alarm.severity === "alarm") || alarms[0], box = this.find("alarm");
+    const {alarms, more} = this.run.header, first = alarms.find(alarm => alarm.severity === "alarm") || alarms[0], box = this.find("alarm");
     if (!first) return;
     box.hidden = false;
     box.className = first.severity;
-    const more = alarms.length > 1 ? ` (and ${alarms.length - 1} more)` : "";
     const where = first.line ? ` in line ${first.line}${first.program ? ` of ${this.listing.name(first.program)}` : ""}` : "";
-    box.textContent = `${first.severity}${where}: ${first.message}${more}`;
+    box.textContent = `${first.severity}${where}: ${first.message}${more && ` (and ${more})`}`;
     box.addEventListener("click", () => first.line && this.goLine(first.program, first.line));
   }
   key(event) {

@@ -19,6 +19,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from mnclab.path.compensation.construction import construct
+from mnclab.path.compensation.fit import NO_TOOL
 from mnclab.path.kinds import RULE_NAMES, Rule
 from mnclab.show.plot import colours
 from mnclab.show.plot.equidistant import CORNERS, Panel, draw, write
@@ -134,7 +135,8 @@ def _runs(run: Any, rules: Sequence[str] | None, radii: Sequence[float] | None) 
         used = np.unique(np.abs(again.programmed.radius[again.programmed.side != 0]))
         said += [f"radius {each:.4g} mm" for each in used[:3].tolist()]
         if again.gouges:
-            said.append(f"largest {min(gouge.largest for gouge in again.gouges):.4g} mm")
+            largest = min(gouge.largest for gouge in again.gouges)
+            said.append(f"largest {largest:.4g} mm" if largest >= NO_TOOL else "no tool fits")
         found.append((", ".join(said), again))
     return found
 
@@ -251,7 +253,8 @@ def _foot(panels: Sequence[Panel]) -> Foot | None:
             what = f"line {gouge.line}: {GOUGES[gouge.kind].format(other=gouge.other)}, {gouge.missing:.4g} mm missing"
             more = len(panel.run.gouges) - 1
             rest = f"; {more} more {'places' if more > 1 else 'place'}" if more else ""
-            return Foot(f"{what}; the largest radius is {gouge.largest:.4g} mm{rest}", colours.GOUGE)
+            fits = f"the largest radius is {gouge.largest:.4g} mm" if gouge.largest >= NO_TOOL else "no tool fits here"
+            return Foot(f"{what}; {fits}{rest}", colours.GOUGE)
     return None
 
 

@@ -14,11 +14,15 @@ from matplotlib.figure import Figure
 
 from mnclab.show.given_away import whole
 from mnclab.show.plot import colours
+from mnclab.text.alarm import ALARM, WARNING, first_of
 
 A4 = (8.27, 11.69)  # inches
 LEFT, TOP, LINE = 0.8, 0.8, 0.165  # inches: margins, and the height of a line
 LINES = int((A4[1] - 2 * TOP) / LINE)
 WIDTH = 92  # characters of a line
+QUOTED = WIDTH - 8  # of a quoted line, which is set in and may begin and end with an ellipsis
+LISTED = 2000  # lines of the programs
+MARKS = {"": " ", ALARM: "!", WARNING: "?"}
 
 
 def write(found: Any, picture: Figure, path: Path) -> None:
@@ -47,8 +51,9 @@ def front(found: Any) -> Iterator[tuple[str, bool]]:
         yield from [("", False), (name, True)]
         yield from table(rows) if rows else [("none", False)]
     yield from [("", False), ("Alarms", True)]
-    for alarm in found.alarms:
-        for line in str(alarm).split("\n"):
+    shown, more = first_of(found.alarms)
+    for told in (*(alarm.text(QUOTED) for alarm in shown), *filter(None, [more])):
+        for line in told.split("\n"):
             yield from ((part, False) for part in textwrap.wrap(line, WIDTH, drop_whitespace=False) or [""])
     if not found.alarms:
         yield "none", False
@@ -62,20 +67,26 @@ def table(rows: list[tuple[str, ...]]) -> Iterator[tuple[str, bool]]:
 
 
 def texts(found: Any) -> Iterator[tuple[str, bool]]:
-    """All programs, each under its name."""
-    for k, (name, lines) in enumerate(found.programs):
+    """The first lines of all programs, each under its name."""
+    room = LISTED
+    for k, (name, program) in enumerate(found.programs):
         yield from [("", False)] * (2 if k else 0)
         yield name, True
+        if any(mark for _, _, mark in program):
+            yield "! an alarm, ? a warning stands in the line", False
         yield "", False
-        yield from ((line, False) for line in listing(lines))
+        yield from ((line, False) for line in listing(program[:room]))
+        if room < len(program):
+            yield f"… {len(program) - room} of {len(program)} lines are left out; an .html report has them all", False
+        room = max(0, room - len(program))
 
 
 def listing(program: Any) -> Iterator[str]:
-    """A program with its line numbers; a mark where an alarm stands, long lines folded."""
+    """A program with its line numbers; a mark where an alarm or a warning stands, long lines folded."""
     wide = len(str(len(program)))
-    for number, text, faulty in program:
+    for number, text, mark in program:
         parts = textwrap.wrap(text.expandtabs(4), WIDTH - wide - 3, drop_whitespace=False) or [""]
-        yield f"{number:{wide}d} {'!' if faulty else ' '} {parts[0]}"
+        yield f"{number:{wide}d} {MARKS[mark]} {parts[0]}"
         yield from (" " * (wide + 3) + part for part in parts[1:])
 
 

@@ -96,6 +96,9 @@ def test_an_unknown_code_gets_the_one_that_is_a_slip_away(wrong, near):
         ("G1 Х10", 4, "write the Latin letter X"),
         ("G I5", 1, ""),  # I5 is a word
         ("T l", 1, ""),
+        ("TOOL CALL", 1, ""),  # a word, no number
+        ("GOO X5", 1, "the letter O stands where the digit 0 was meant"),
+        ("G0OX5", 3, "the letter O stands where the digit 0 was meant"),
     ],
 )
 def test_a_letter_in_place_of_a_digit_or_of_a_latin_letter(wrong, column, hint):

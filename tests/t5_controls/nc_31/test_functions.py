@@ -143,7 +143,7 @@ def test_a_block_is_explained_word_by_word():
         "pitch, 0.0001 mm (G31)", "depth of the thread, 0.01 mm on radius (G31)",
         "depth of cut per pass, 0.01 mm on radius (G31)", "taper, 0.01 mm on diameter (G31)",
     ]  # fmt: skip
-    assert "coordinate along the axis, 0.01 mm" in says[1][1] and "pitch, 0.0001 mm" in says[1][2]
+    assert "coordinate along the axis (0.01 mm)" in says[1][1] and "pitch (0.0001 mm)" in says[1][2]
     assert "auxiliary function at the end of the move" in says[2][1]
     for code, function in run.control.functions.items():
         for address in function.takes:

@@ -10,11 +10,12 @@ from mnclab.controls.tnc_620.language.feeds import feed
 from mnclab.controls.tnc_620.language.machine_datum import DATUM, machine_target
 from mnclab.controls.tnc_620.language.pole import polar_point, pole
 from mnclab.geometry.arcs import tangent_arc_of_one
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.control import Function, FunctionTable, Words
 from mnclab.machine.machine import PLANES, Machine
 from mnclab.machine.rotary import AXES as AXES_OF_ROTATION
 from mnclab.machine.rotary import Angles, angles, set_angles, turn_axes
 from mnclab.path.corners import Corner
+from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 AXES = "XYZ"
@@ -103,6 +104,14 @@ def sense(m: Machine, words: Words) -> int:
     if word.value not in ("+", "-"):
         m.alarm(f"{words.code} DR (sense of rotation) must be DR+ or DR-, got {word}", word)
     return 1 if word.value == "+" else -1
+
+
+def turning_sense(what: Function, word: Word, _: int) -> str:
+    """Which sense of rotation a DR gives."""
+    senses = {"+": "counter-clockwise", "-": "clockwise"}
+    if word.address != "DR" or not isinstance(word.value, str) or word.value not in senses:
+        return ""
+    return f"sense of rotation ({senses[word.value]})"
 
 
 @FUNCTIONS("C", "Circular path around CC", takes="X Y DR R0 RL RR F FMAX FAUTO", source="8.3, example")
