@@ -36,6 +36,8 @@ class Curves(NamedTuple):
 def share(p: Array, curve: Curves) -> Array:
     """Where the point of a curve nearest to p (n, 2) lies, 0 at its start and 1 at its end; beyond is not on it.
 
+    A curve without length has no such point: nan or infinite, by which p is on none of it; its ends count alone.
+
     For an arc the foot is where the ray from its centre through p meets its circle.
     """
     travel = curve.end - curve.start
@@ -50,7 +52,8 @@ def share(p: Array, curve: Curves) -> Array:
         half = sweep / 2
         angle = (angle - half + np.pi) % (2 * np.pi) - np.pi + half
         angle = np.where(sweep >= 2 * np.pi, np.minimum(np.maximum(angle, 0), sweep), angle)
-        found[k] = angle / sweep
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found[k] = angle / sweep
     return np.asarray(found)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import beside, cross, dot, meet
-from mnclab.path.compensation.cusps import in_a_cusp, inside_cusps
+from mnclab.path.compensation.cusps import in_a_cusp, inside_cusps, rolls_through
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.rules import ACUTE_TURN, CUSP, ROUND, STRAIGHT, TANGENT, Compensation
 from mnclab.path.kinds import Rule
@@ -54,6 +54,9 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
     outside = bent & out & ~change
     if rules.approach == "perpendicular":
         outside &= ~lead & ~leave
+    k = np.flatnonzero(outside & (lead ^ leave) & (along < np.cos(CUSP)) & np.where(lead, el.arc[a], el.arc[b]))
+    if len(k):
+        outside[k] = ~rolls_through(el, c[k], R[k], s[k], lead[k])
     k = np.flatnonzero(~on | change | lead | leave)
     if len(k):  # a change of side begins at A1; inside, an entry leads straight to A2 and an exit starts at A1
         square = ~outside[k] & on[k] & ~change[k]

@@ -3,7 +3,8 @@
 Between two bumps, or a bump and a wall, the tangents are opposite and yet the tool can only go to where the offsets meet;
 round a spike it rolls about the corner. Both ways are laid out along the two elements, and the one that keeps clear of
 both elements is taken. Where neither does, or both, what counts is on which side of the first element the second one
-runs, as far away from the joint as the tool is wide.
+runs, as far away from the joint as the tool is wide. Beside the line that leads to a contour or away from it nothing is
+cut: there only the arc of the contour counts, and a tool that would roll through it goes straight.
 """
 
 from __future__ import annotations
@@ -11,9 +12,9 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.geometry.curves import Curves, foot, gap, part, share
-from mnclab.geometry.offsets import cross, dot, meetings
+from mnclab.geometry.offsets import beside, cross, dot, meetings
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
-from mnclab.path.compensation.rules import CLEAR
+from mnclab.path.compensation.rules import CLEAR, TANGENT
 
 
 def inside_cusps(el: Elements, c: Index, R: Array, s: Array) -> Mask:
@@ -28,12 +29,28 @@ def inside_cusps(el: Elements, c: Index, R: Array, s: Array) -> Mask:
 
 def _rolls(el: Elements, c: Index, R: Array, s: Array) -> Mask:
     """Whether a tool that rolls about corners c (m,) keeps clear of both elements."""
-    d, P = c + 1, el.end[c]
+    d = c + 1
     first, second, before, after = el.moved(c, R, s), el.moved(d, R, s), el.curves(c), el.curves(d)
-    turn = np.arctan2(cross(el.t_out[c], el.t_in[d]), dot(el.t_out[c], el.t_in[d]))
-    about = Curves(first.end, second.start, P, R, np.where(s * turn > 0, turn - s * 2 * np.pi, turn))
+    about = _about(el, c, R, s)
     clear = (gap(first, after) > R - CLEAR) & (gap(second, before) > R - CLEAR)
     return np.asarray(clear & (gap(about, before) > R - CLEAR) & (gap(about, after) > R - CLEAR))
+
+
+def rolls_through(el: Elements, c: Index, R: Array, s: Array, entry: Mask) -> Mask:
+    """Whether a tool that rolls about corners c (m,) between a lead and an arc of the contour cuts into that arc.
+
+    ``entry`` (m,): the lead comes before the corner, else after it.
+    """
+    return np.asarray(gap(_about(el, c, R, s), el.curves(np.where(entry, c + 1, c))) <= R - CLEAR)
+
+
+def _about(el: Elements, c: Index, R: Array, s: Array) -> Curves:
+    """The arcs about corners c (m,) by which a tool rolls over them."""
+    t1, t2, P = el.t_out[c], el.t_in[c + 1], el.end[c]
+    turn = np.arctan2(cross(t1, t2), dot(t1, t2))
+    half = np.abs(cross(t1, t2)) < np.sin(TANGENT)  # straight back: half a turn about the corner
+    turn = np.where(half, -s * np.pi, np.where(s * turn > 0, turn - s * 2 * np.pi, turn))
+    return Curves(beside(P, t1, R * s), beside(P, t2, R * s), P, R, turn)
 
 
 def _goes_in(el: Elements, c: Index, R: Array, s: Array) -> Mask:

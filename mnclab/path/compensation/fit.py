@@ -4,7 +4,8 @@ Five things are looked at. An *arc* on the inside must have a greater radius tha
 used up by its inside corners; a *bottleneck* is a pair of walls, any number of blocks apart, that face each other nearer
 than the tool is wide; at the *ends* of a contour, where the tool arrives and leaves, and at the points of straight
 outside *corners*, it must stand clear of all other walls. An *entry* (and an *exit*) must begin where the tool does not
-yet cut into the element it leads to. Close by along the contour, and behind a cusp, *neighbours* are measured one by one.
+yet cut into the element it leads to, and where the tool rolls onto the contour or off it, all walls must be clear. Close
+by along the contour, and behind a cusp, *neighbours* are measured one by one.
 Everywhere a tool cuts only into what is at its ``heights`` and into walls that the contour leaves standing (``passes``).
 
 Growing the tool from nothing, the first place that fails is one of these; so the largest radius is the least of their
@@ -250,7 +251,12 @@ def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     curves = Curves(el.start[run], el.end[run], el.centre[run], el.r[run], el.sweep[run])
     walls = Walls(curves, n_in, n_out, joined, s, group)
     coarse = chunks(walls)
-    return [_bottlenecks(el, contour, k, walls, coarse), *_ends(el, contour, k, walls, coarse), *_tips(found, contour)]
+    return [
+        _bottlenecks(el, contour, k, walls, coarse),
+        *_ends(el, contour, k, walls, coarse),
+        *_rolled(found, contour, k, coarse),
+        *_tips(found, contour),
+    ]
 
 
 def _bottlenecks(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> Places:
@@ -328,6 +334,45 @@ def _ends(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) 
             message = f"where the tool of radius {{R:.4g}} {verb} the contour, the element of line {{other}} is {{r:.6g}} mm away"
             other = k[group[bad[[worst]]]]
             places.append(Places("end", one, other, width, R - width, largest[[worst]], message))
+    return places
+
+
+def _rolled(found: Equidistant, contour: Index, k: Index, coarse: Chunks) -> list[Places]:
+    """Arcs by which the tool rolls onto the first wall of a contour, or off the last, into walls k of the contour."""
+    el, rules, slack, places = found.el, found.rules, _misfit(found.el), []
+    c = np.flatnonzero(found.insert[1:] & (el.lead[:-1] | el.exit[1:]))
+    near = [k[around(coarse, el.end[one], 2 * float(el.R[one]), len(k))] for one in c]
+    near = [
+        w[(contour[w] == contour[one]) & at_height(el, float(el.from_height[one + 1]), w)]
+        for one, w in zip(c, near, strict=True)
+    ]
+    if not near:
+        return []
+    every, wall = np.repeat(c, [len(w) for w in near]), np.concatenate(near)
+    for kind, step in (("entry", 1), ("exit", 0)):
+        of = el.lead[every] == bool(step)
+        at, w = every[of], wall[of]
+        own, R = at + step, el.R[at]  # the wall at the lead
+        look = neighbours.Pairs(at, np.ones(len(at), dtype=bool), w, np.full(len(at), np.inf))
+        room = -CLEAR / 2 - slack[own] - slack[w]
+        bad = np.flatnonzero(neighbours.clearance(el, look, R, rules) < room)
+        given_up = run_past(el, own[bad], w[bad]) | led_through(el, contour, own[bad], w[bad])
+        bad = bad[~given_up | (own == w)[bad]]
+        if not len(bad):
+            continue
+        look, R, room = look.take(bad), R[bad], room[bad]
+        width = R + neighbours.clearance(el, look, R, rules)
+
+        def clear(which: Index, radius: Array, look: neighbours.Pairs = look, room: Array = room) -> Mask:
+            return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
+
+        verb = "onto" if step else "off"
+        through = "the contour through the element of line {other}, {r:.6g} mm from its centre"
+        message = f"the tool of radius {{R:.4g}} rolls {verb} {through}"
+        hint = f"let the {kind} {'come from' if step else 'lead to'} the side of the tool"
+        places.append(
+            Places(kind, look.k + 1 - step, look.wall, width, R - width, narrowed(clear, R, parts=4), message, hint)
+        )
     return places
 
 

@@ -88,7 +88,7 @@ def overcuts(made: Construction, steps: Iterable[int]) -> Iterator[Overcut]:
         if not len(k):
             continue
         leads = np.flatnonzero((contour == which) & bad & ~el.wall)
-        tool = _rows(made, np.concatenate([k, leads]), k)
+        tool = _rows(made, np.concatenate([k, leads]))
         s = el.s[k]
         origin = np.zeros((1, 2))
         walls = Curves(el.start[k], el.end[k], el.centre[k], el.r[k], el.sweep[k])
@@ -97,13 +97,13 @@ def overcuts(made: Construction, steps: Iterable[int]) -> Iterator[Overcut]:
         yield Overcut(walls, n_in, n_out, tool, float(el.R[k[0]]), row, float(made.view.end[row, 2]))
 
 
-def _rows(made: Construction, k: Index, walls: Index) -> Curves:
-    """The rows of the tool centre along elements k, and the arcs inserted between the ``walls``."""
+def _rows(made: Construction, k: Index) -> Curves:
+    """The rows of the tool centre along elements k, and the arcs inserted before them."""
     found = made.found
     assert found is not None
     el = found.el
     start, end, centre, sweep = found.begin[k], found.end[k], el.centre[k], found.sweep[k]
-    c = walls[1:][found.insert[walls[1:]]]
+    c = k[found.insert[k]]
     about = el.end[c - 1]
     start, end = np.concatenate([start, found.end[c - 1]]), np.concatenate([end, found.begin[c]])
     centre, sweep = np.concatenate([centre, about]), np.concatenate([sweep, found.turn[c]])
