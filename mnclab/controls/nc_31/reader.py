@@ -196,7 +196,7 @@ class _Frames:
         c, following = self.text[at], self.text[at + 1 : stop].lstrip(" \t")[:1]
         if c in MARKS:
             self.alarm(f"the mark {c} stands before its word", at, hint="write it after the number")
-        elif "A" <= c <= "Z" and following == "O":
+        elif "A" <= c <= "Z" and re.match(r"[ \t]*O[O0-9]*(?![A-Z])", self.text[at + 1 : stop]):
             self.alarm(f"{c} needs a whole number", at, hint="the letter O stands where the digit 0 was meant")
         elif "A" <= c <= "Z":
             self.alarm(f"{c} needs a whole number" + (f", found {following!r}" if following else ""), at)

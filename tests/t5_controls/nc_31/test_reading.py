@@ -26,6 +26,12 @@ def test_parsing():
     assert [word.span[:2] for word in program[1].words] == [(2, 5), (3, 5)]
 
 
+@pytest.mark.parametrize(("text", "meant"), [("XO5", True), ("G O1", True), ("TOOL CALL", False)])
+def test_a_letter_stands_for_a_digit_only_among_digits(text, meant):
+    (alarm, *_) = mnclab.read(text + "\n", "nc-31").alarms
+    assert ("the digit 0 was meant" in alarm.hint) == meant
+
+
 @pytest.mark.parametrize("frame", ["G77@*~", "G77 @ * ~", "G77~*@", "G@77*~", "g77\t~ @ *"])
 def test_marks_stand_in_any_order(frame):
     assert words(frame + "\nX1\n")[0][0] == ("G", 77, 7)
