@@ -28,7 +28,7 @@ from mnclab.path.compensation import neighbours
 from mnclab.path.compensation.corners import ends, remaining
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.heights import at_height, meet
-from mnclab.path.compensation.passes import led_through, run_past
+from mnclab.path.compensation.passes import crossed, given_up, run_past
 from mnclab.path.compensation.rules import CLEAR, Compensation, Gouge, Report
 from mnclab.path.compensation.tips import clearance, near_tips
 from mnclab.path.fault import PathFault
@@ -252,25 +252,39 @@ def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     walls = Walls(curves, n_in, n_out, joined, s, group)
     coarse = chunks(walls)
     return [
-        _bottlenecks(el, contour, k, walls, coarse),
-        *_ends(el, contour, k, walls, coarse),
+        _bottlenecks(found, contour, k, walls, coarse),
+        _crossed(found, contour),
+        *_ends(found, contour, k, walls, coarse),
         *_rolled(found, contour, k, coarse),
         *_tips(found, contour),
     ]
 
 
-def _bottlenecks(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> Places:
+def _bottlenecks(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> Places:
     """Walls that face each other nearer than the tool is wide; the largest radius is half of what there is."""
+    el = found.el
     chords = facing(walls, 2 * el.R[k], coarse)
     if not len(chords.i):
         return Places("bottleneck", k[:0], k[:0], el.R[:0], el.R[:0], el.R[:0], "")
     i, j, slack = k[chords.i], k[chords.j], _misfit(el)
     bad = (chords.length < 2 * el.R[i] - EXACT - slack[i] - slack[j]) & meet(el, i, j)
     bad[bad] = ~run_past(el, i[bad], j[bad])
-    bad[bad] = ~led_through(el, contour, i[bad], j[bad])
+    bad[bad] = ~given_up(found, contour, i[bad], j[bad])
     i, j, width = i[bad], j[bad], chords.length[bad]
     message = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
     return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, message)
+
+
+def _crossed(found: Equidistant, contour: Index) -> Places:
+    """Walls that lead the tool through another one that stands."""
+    first, last = crossed(found.el, contour)
+    bad = ~given_up(found, contour, first, last)
+    first, last = first[bad], last[bad]
+    none, R = np.zeros(len(first)), found.el.R[last]
+    message = (
+        "beside this element the tool of radius {R:.4g} goes through that of line {other}, which the contour crosses"
+    )
+    return Places("bottleneck", last, first, none, R, none, message, "end the contour where it meets itself")
 
 
 def _tips(found: Equidistant, contour: Index) -> list[Places]:
@@ -299,8 +313,9 @@ def _misfit(el: Elements) -> Array:
     return slack
 
 
-def _ends(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
+def _ends(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> list[Places]:
     """Where the tool arrives at the first wall of a contour, and where it leaves the last, other walls must be clear."""
+    el = found.el
     slack, places = _misfit(el), []
     last = np.append(~walls.joined[1:], True)
     for edge, at_end in ((~walls.joined, False), (last, True)):
@@ -321,9 +336,9 @@ def _ends(el: Elements, contour: Index, k: Index, walls: Walls, coarse: Chunks) 
 
             bad = np.flatnonzero(clear(np.full(len(group), R), np.arange(len(group))) < -allowed)
             if len(bad):
-                given_up = run_past(el, np.full(len(bad), k[e]), k[group[bad]])
-                given_up |= led_through(el, contour, np.full(len(bad), k[e]), k[group[bad]])
-                bad = bad[~given_up]
+                off = run_past(el, np.full(len(bad), k[e]), k[group[bad]])
+                off |= given_up(found, contour, np.full(len(bad), k[e]), k[group[bad]])
+                bad = bad[~off]
             if not len(bad):
                 continue
             largest = narrowed(partial(_clears, clear, bad, allowed[bad]), np.full(len(bad), R))
@@ -356,8 +371,8 @@ def _rolled(found: Equidistant, contour: Index, k: Index, coarse: Chunks) -> lis
         look = neighbours.Pairs(at, np.ones(len(at), dtype=bool), w, np.full(len(at), np.inf))
         room = -CLEAR / 2 - slack[own] - slack[w]
         bad = np.flatnonzero(neighbours.clearance(el, look, R, rules) < room)
-        given_up = run_past(el, own[bad], w[bad]) | led_through(el, contour, own[bad], w[bad])
-        bad = bad[~given_up | (own == w)[bad]]
+        off = run_past(el, own[bad], w[bad]) | given_up(found, contour, own[bad], w[bad])
+        bad = bad[~off | (own == w)[bad]]
         if not len(bad):
             continue
         look, R, room = look.take(bad), R[bad], room[bad]

@@ -30,6 +30,19 @@ def at_height(el: Elements, height: float, k: Index) -> Mask:
     return _overlap(np.full(len(k), height), np.full(len(k), height), *_range(el, k))
 
 
+def retracted(el: Elements, contour: Index) -> Mask:
+    """Which elements (n,) run higher than their contour does both before and after them."""
+    n, low = len(el.rows), np.minimum(el.from_height, el.to_height)
+    result = np.zeros(n, dtype=bool)
+    changes = np.flatnonzero(np.diff(low))  # a contour at one height has no such way
+    for k in np.unique(contour[changes]):
+        a = int(np.searchsorted(contour, k))
+        z = low[a : int(np.searchsorted(contour, k, "right"))]
+        before, after = np.minimum.accumulate(z), np.minimum.accumulate(z[::-1])[::-1]
+        result[a : a + len(z)] = (z > before + SAME) & (z > after + SAME)
+    return result
+
+
 def _range(el: Elements, k: Index) -> tuple[Array, Array]:
     return np.minimum(el.from_height[k], el.to_height[k]), np.maximum(el.from_height[k], el.to_height[k])
 

@@ -1,23 +1,32 @@
 """What a contour says about walls that it does not leave standing: contours run past their start, several passes at one level.
 
 A contour that is run past its start crosses its own beginning. Where it does so at an outside corner both tails lie in the
-air beside the part: a tool that cuts across a tail cuts nothing. And a wall through which the contour itself leads does
-not stand, whatever the size of the tool: the next pass of a roughing, say, leaves the last one by a loop and comes back
-through it.
+air beside the part: a tool that cuts across a tail cuts nothing. Where it does so at an inside corner and runs on, it enters
+the part. And a place of a wall does not stand if what is behind it is cut away beside another wall that faces the same way, the
+next pass of a roughing, say, which leaves the last one by a loop and comes back through it, or was cut away before.
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from mnclab.geometry.boxes import near
-from mnclab.geometry.curves import Curves, crossings, share
-from mnclab.geometry.offsets import cross
+from mnclab.geometry.curves import Curves, crossings, distance, part, share
+from mnclab.geometry.offsets import cross, dot, left
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
-from mnclab.path.compensation.heights import meet
+from mnclab.path.compensation.heights import meet, retracted
+from mnclab.path.compensation.rules import CLEAR
+
+if TYPE_CHECKING:
+    from mnclab.path.compensation.equidistant import Equidistant
 
 ENDS = 1e-6  # mm: a crossing so near to an end of an element is its joint
 ALONG = 1e-6  # rad: elements that meet at a smaller angle touch
+BEHIND = 1e-3  # mm behind a wall: there its material begins
+MOST = 400  # places along a wall
+TAIL = 4  # tool radii from a crossing: a tail stands for nothing there
 
 
 def run_past(el: Elements, i: Index, j: Index) -> Mask:
@@ -33,38 +42,113 @@ def run_past(el: Elements, i: Index, j: Index) -> Mask:
     return result
 
 
-def led_through(el: Elements, contour: Index, i: Index, j: Index) -> Mask:
-    """Whether between walls i and j (m,) of a contour it goes through one of the two itself, where heights meet."""
-    if not len(i):
-        return np.zeros(0, dtype=bool)
-    first, last, n = np.minimum(i, j), np.maximum(i, j), len(el.rows)
-    k = np.flatnonzero(el.wall & np.isin(contour, contour[i]))
-    asked = np.zeros(n, dtype=bool)
-    asked[i] = asked[j] = True
-    after, before = np.full(n, n), np.full(n, -1)  # the next and the last one that goes through each wall
+def crossed(el: Elements, contour: Index) -> tuple[Index, Index]:
+    """Walls first < last (m,) of a contour that cross as at an inside corner from the last to the first and run on.
+
+    Not on a retracted way, with a lift before it and a plunge after it: what it crosses is in the air.
+    """
+    k, found = np.flatnonzero(el.wall & ~retracted(el, contour)), []
+    if not len(k):
+        return k, k
     for one, two in near(*el.boxes(k, contour), 0.0):
-        a, b = k[one], k[two]
-        some = asked[a] | asked[b]
-        a, b = a[some], b[some]
-        through = _crosses(el, a, b) & meet(el, a, b)
-        np.minimum.at(after, a[through], b[through])
-        np.maximum.at(before, b[through], a[through])
-    return np.asarray((after[first] <= last) | (before[last] >= first))
+        a, b = np.minimum(k[one], k[two]), np.maximum(k[one], k[two])
+        apart = (b > a + 1) & (contour[a] == contour[b])
+        a, b = a[apart], b[apart]
+        bad = _run_on_inside(el, a, b) & meet(el, a, b)
+        found.append((a[bad], b[bad]))
+    first, last = (np.concatenate([pair[which] for pair in found] or [k[:0]]) for which in (0, 1))
+    return first, last
 
 
-def _crosses(el: Elements, a: Index, b: Index) -> Mask:
-    """Whether elements a and b (m,) cross between their ends."""
+def _run_on_inside(el: Elements, a: Index, b: Index) -> Mask:
     one, two = el.curves(a), el.curves(b)
     result = np.zeros(len(a), dtype=bool)
     for p in crossings(one, two):
-        inside = np.isfinite(p[:, 0])
-        for curve, k in ((one, a), (two, b)):
-            at, length = share(p, curve), el.length(k)
-            with np.errstate(invalid="ignore"):
-                inside &= (at * length > ENDS) & ((1 - at) * length > ENDS)
         with np.errstate(invalid="ignore"):
-            result |= inside & (np.abs(cross(_tangent(one, p), _tangent(two, p))) > ALONG)
+            to_one, to_two = share(p, one) * el.length(a) > ENDS, share(p, two) * el.length(b) > ENDS
+            on_one = (1 - share(p, one)) * el.length(a) > ENDS
+            on_two = (1 - share(p, two)) * el.length(b) > ENDS
+            inside = el.s[a] * cross(_tangent(two, p), _tangent(one, p)) > ALONG
+            result |= np.isfinite(p[:, 0]) & inside & to_two & on_one & (to_one | on_two)
     return result
+
+
+def given_up(found: Equidistant, contour: Index, i: Index, j: Index) -> Mask:
+    """Whether the tool beside one of walls i and j (m,) cuts only into places of the other one that do not stand.
+
+    Where the two cross each other, the tail of one of them stands for nothing within ``TAIL`` radii if the other is
+    given up.
+    """
+    el, result = found.el, np.zeros(len(i), dtype=bool)
+    if not len(i):
+        return result
+    walls = np.flatnonzero(el.wall & np.isin(contour, contour[i]) & (found.left_over > 0))
+    if not len(walls):
+        return result
+    low, high = el.boxes(walls, np.zeros(len(el.rows), dtype=np.int64))
+    known: dict[tuple[int, int], bool] = {}
+    for m, (a, b) in enumerate(zip(i.tolist(), j.tolist(), strict=True)):
+        pair = min(a, b), max(a, b)
+        if pair not in known:
+            reach = 2 * el.R[a]
+            lowest, highest = el.boxes(np.array(pair), np.zeros(len(el.rows), dtype=np.int64))
+            there = ((low <= highest.max(axis=0) + reach) & (high >= lowest.min(axis=0) - reach)).all(axis=1)
+            k = walls[there & (contour[walls] == contour[a])]
+            k = k[(k != a) & (k != b)]
+            k = k[meet(el, np.full(len(k), a), k) | meet(el, np.full(len(k), b), k)]
+            known[pair] = _given_up(found, k, *pair)
+        result[m] = known[pair]
+    return result
+
+
+def _given_up(found: Equidistant, k: Index, first: int, last: int) -> bool:
+    """Whether walls k (n,) cut away what stands behind the places of two walls in which the tool beside the other cuts."""
+    el, standing = found.el, []
+    for wall, other in ((first, last), (last, first)):
+        p, normal = _places(el, wall)
+        cut = distance(p, _rows(found, np.full(len(p), other))) < el.R[wall] - CLEAR
+        p, normal = p[cut], normal[cut]
+        standing.append(p[_stands(found, k, k < first, p - BEHIND * normal, normal)])
+        if not len(p):
+            return False
+    if not any(len(p) for p in standing):
+        return True
+    if all(len(p) for p in standing):
+        return False
+    still = np.concatenate(standing)
+    away = np.full(len(still), np.inf)
+    for p in crossings(el.curves(np.array([first])), el.curves(np.array([last]))):
+        away = np.fmin(away, np.hypot(*(still - p).T))
+    return bool((away < TAIL * el.R[first]).all())
+
+
+def _places(el: Elements, k: int) -> tuple[Array, Array]:
+    """Points (m, 2) along a wall, a quarter of the radius apart if it is not too long, and normals to the tool there."""
+    length = float(el.length(np.array([k]))[0])
+    m = int(np.clip(4 * length / el.R[k], 8, MOST)) + 1
+    wall = el.curves(np.full(m, k))
+    p = part(wall, np.zeros(m), np.linspace(0, 1, m)).end
+    return p, el.s[k] * left(_tangent(wall, p))
+
+
+def _stands(found: Equidistant, k: Index, earlier: Mask, p: Array, normal: Array) -> Mask:
+    """Which points p (m, 2) no tool beside one of walls k (n,) sweeps that is ``earlier`` (n,) or faces as ``normal`` (m, 2)."""
+    el, stands = found.el, np.ones(len(p), dtype=bool)
+    if not len(p) or not len(k):
+        return stands
+    size = len(k)
+    wall, q = np.repeat(k, len(p)), np.tile(p, (size, 1))
+    along = _tangent(el.curves(wall), q)
+    faces = np.repeat(earlier, len(p)) | (el.s[wall] * dot(left(along), np.tile(normal, (size, 1))) > 0)
+    swept = faces & (distance(q, _rows(found, wall)) < el.R[wall])
+    return np.asarray(~swept.reshape(size, len(p)).any(axis=0))
+
+
+def _rows(found: Equidistant, k: Index) -> Curves:
+    """The rows of the tool centre beside elements k (m,)."""
+    el = found.el
+    r = np.abs(el.r[k] - el.s[k] * np.sign(el.sweep[k]) * el.R[k])
+    return Curves(found.begin[k], found.end[k], el.centre[k], np.where(el.arc[k], r, np.nan), found.sweep[k])
 
 
 def _tangent(curve: Curves, p: Array) -> Array:
