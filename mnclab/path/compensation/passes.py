@@ -26,6 +26,7 @@ ENDS = 1e-6  # mm: a crossing so near to an end of an element is its joint
 ALONG = 1e-6  # rad: elements that meet at a smaller angle touch
 BEHIND = 1e-3  # mm behind a wall: there its material begins
 MOST = 400  # places along a wall
+ENOUGH = 64  # pairs that cut into what stands: of such a contour the later ones are not asked, they count as well
 TAIL = 4  # tool radii from a crossing: a tail stands for nothing there
 
 
@@ -87,7 +88,9 @@ def given_up(found: Equidistant, contour: Index, i: Index, j: Index) -> Mask:
         return result
     low, high = el.boxes(walls, np.zeros(len(el.rows), dtype=np.int64))
     known: dict[tuple[int, int], bool] = {}
-    for m, (a, b) in enumerate(zip(i.tolist(), j.tolist(), strict=True)):
+    standing = 0
+    for m in np.lexsort((np.minimum(i, j), np.maximum(i, j))).tolist():
+        a, b = int(i[m]), int(j[m])
         pair = min(a, b), max(a, b)
         if pair not in known:
             reach = 2 * el.R[a]
@@ -97,7 +100,10 @@ def given_up(found: Equidistant, contour: Index, i: Index, j: Index) -> Mask:
             k = k[(k != a) & (k != b)]
             k = k[meet(el, np.full(len(k), a), k) | meet(el, np.full(len(k), b), k)]
             known[pair] = _given_up(found, k, *pair)
+            standing += not known[pair]
         result[m] = known[pair]
+        if standing >= ENOUGH:
+            break
     return result
 
 
