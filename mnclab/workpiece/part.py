@@ -130,7 +130,9 @@ def contact(part: Part, start: ArrayLike, direction: ArrayLike, radius: float, r
         return part(origin + np.atleast_1d(travel)[:, None] * ahead) - radius
 
     free, room = 0.0, float(gap(0.0)[0])
-    while room > TOUCHING and free <= reach:
+    while room > TOUCHING:
+        if free > reach:
+            return None
         step = max(room, CREEP)
         places = free + step * np.arange(1, AT_ONCE + 1)
         gaps = gap(places)
