@@ -199,3 +199,16 @@ CYCLES_REFUSED = [
 def test_a_point_pattern_is_refused(blocks: str, line: int, column: int, text: str, inside) -> None:
     alarms = [a for a in inside(blocks).alarms if a.severity == "alarm"]
     assert [(a.span.line, a.span.column, a.message) for a in alarms] == [(line, column, text)]
+
+
+def test_more_points_on_a_pitch_circle_than_anybody_mills():
+    """Each way along the circle is an arc of its own; on straight lines the visits are repeated as columns."""
+    text = (
+        "BEGIN PGM A MM\nTOOL CALL 2 Z S1000 F100\nL X+0 Y+0 Z+50 FMAX M3\nCYCL DEF 200 DRILLING ~\n Q200=2 ~\n Q201=-15 ~\n "
+        "Q206=120 ~\n Q202=5 ~\n Q210=0 ~\n Q203=0 ~\n Q204=20 ~\n Q211=0\nCYCL DEF 220 POLAR PATTERN ~\n Q216=0 ~\n Q217=0 ~\n "
+        "Q244=80 ~\n Q245=0 ~\n Q246=360 ~\n Q247=0 ~\n Q241=10001 ~\n Q200=2 ~\n Q203=0 ~\n Q204=20 ~\n Q301=1 ~\n Q365={}\n"
+        "END PGM A MM\n"
+    )
+    found = [mnc.run(text.format(way), "tnc-620") for way in (0, 1)]
+    assert found[0].ok and not found[1].ok
+    assert "Q241 (number of operations) must be at most 10000 on the pitch circle" in found[1].alarms[-1].message

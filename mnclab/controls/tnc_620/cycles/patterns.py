@@ -26,6 +26,7 @@ from mnclab.machining import patterns
 
 CYCLES = CycleTable()
 MOST = 100_000  # points
+MOST_ON_ARCS = 10_000  # where each way is another arc, and no visit is the one before, moved
 
 _BOTH = (*range(200, 210), 240, 251, 252, 253, 256, 257, 262, 263, 264, 265, 267)
 TRAVERSE: dict[float, str] = {0: "at the set-up clearance", 1: "at the second set-up clearance"}
@@ -132,6 +133,9 @@ class PolarPattern(PointPattern):
         yield from super().check(m)
         if self.type_of_traverse == 1 and not is_round(m):
             yield "type_of_traverse", "must be 0 under unequal scales of the plane, got 1: the way would be an ellipse"
+        if self.type_of_traverse == 1 and self.nr_of_repetitions > MOST_ON_ARCS:
+            many = f"must be at most {MOST_ON_ARCS} on the pitch circle (Q365 = 1)"
+            yield "nr_of_repetitions", f"{many}, got {self.nr_of_repetitions:.10g}"
         if self.stepping_angle == 0 and self.stopping_angle == self.starting_angle:
             yield "stopping_angle", f"must differ from the starting angle Q245, got {self.stopping_angle:g}"
 
