@@ -144,13 +144,13 @@ class PlayerPage {
     const angles = run.angles(row, run.items && row === run.itemRow[item] ? share : 1);
     return {step, item: this.atStart ? -1 : item, row, rowsDone, point, speed, angles, t};
   }
-  show() {
+  show() {  // what is written follows at once, also where the frame of the change before is still to come
+    this.write();
     if (this.waiting) return;
     this.waiting = requestAnimationFrame(() => {
       this.waiting = 0;
       this.draw();
     });
-    this.write();
   }
   write() {
     const {run, find} = this, now = this.now(), slider = find("slider");
