@@ -22,13 +22,13 @@ from typing import TYPE_CHECKING
 
 from mnclab.controls import CONTROLS as controls
 from mnclab.controls.choice import Help, help, modern, read, run
-from mnclab.machine.run import Run
 from mnclab.machine.setup import Datum, Probe, Setup
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
+from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 from mnclab.text.program import Program
@@ -79,7 +79,7 @@ def compare_turning(profile: object, blank: float, *arguments: object, **options
 
     `profile` is an open contour of points (z, r) from the face to the chuck, `blank` the radius of the blank, mm.
     """
-    from mnclab.comparison.turning import compare as build
+    from mnclab.comparison.turning_schemes import compare as build
     from mnclab.geometry.contours import Contour
 
     if not isinstance(profile, Contour):

@@ -5,7 +5,7 @@ import os
 import pytest
 from hypothesis import settings
 
-from mnclab.machine import still_spindle
+from mnclab.runs import still_spindle
 
 os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
 os.environ.setdefault("MPLBACKEND", "agg")

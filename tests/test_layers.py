@@ -18,7 +18,7 @@ FLOORS = {
     "geometry": 1,
     "path": 2,
     "workpiece": 3, "machining": 3,
-    "comparison": 4, "machine": 4,
+    "comparison": 4, "machine": 4, "running": 4.1, "runs": 4.2,
     "controls": 5,
     "show": 6,
 }  # fmt: skip
@@ -90,7 +90,7 @@ def fault(module, found):
         return None if alike else "a control imports word_address and itself, never another"
     if here[0] == there[0]:
         return None
-    if here[0] == "show" and there[0] in ("machine", "controls"):
+    if here[0] == "show" and there[0] in ("machine", "running", "runs", "controls"):
         return f"pictures know data, never {there[0]}; only forms, editor and magic see all"
     if there[0] == "show" and found.place in ("door", "types"):
         return None
@@ -138,15 +138,15 @@ DOOR = "def plot(self):\n    'A door.'\n    from mnclab.show.plot import path\n 
         ("path/toolpath.py", "import numpy as np, math", None),
         ("path/toolpath.py", "from ..geometry import arcs", None),
         ("path/toolpath.py", "from .tool import Tool", None),
-        ("path/toolpath.py", "from ..machine.run import Run", "a floor above"),
+        ("path/toolpath.py", "from ..runs.run import Run", "a floor above"),
         ("path/toolpath.py", "from mnclab import machine", "a floor above"),
         ("path/toolpath.py", "from mnclab import Toolpath", "front door"),
         ("path/toolpath.py", "import scipy.optimize", "not among the packages"),
-        ("path/toolpath.py", "if True:\n    def f():\n        import mnclab.machine.run", "a floor above"),
+        ("path/toolpath.py", "if True:\n    def f():\n        from mnclab.runs import run", "a floor above"),
         ("path/toolpath.py", "from ..show.plot import path", "a floor above"),
         ("path/toolpath.py", DOOR, None),
         ("path/toolpath.py", DOOR.replace("    return", "    self = 1\n    return"), "a floor above"),
-        ("path/toolpath.py", DOOR.replace("show.plot", "machine.run"), "a floor above"),
+        ("path/toolpath.py", DOOR.replace("show.plot", "runs.run"), "a floor above"),
         ("path/toolpath.py", "if TYPE_CHECKING:\n    import matplotlib", None),
         ("workpiece/stock.py", "from mnclab.machining import holes", "the same floor"),
         ("comparison/runs.py", "from mnclab.machine import run", "the same floor"),
@@ -155,7 +155,7 @@ DOOR = "def plot(self):\n    'A door.'\n    from mnclab.show.plot import path\n 
         ("show/plot/path.py", "from matplotlib.figure import Figure", None),
         ("show/scene.py", "def f():\n    import pyvista", None),
         ("show/player.py", "from matplotlib.figure import Figure", "only show.plot"),
-        ("show/player.py", "from ..machine.run import Run", "pictures know data"),
+        ("show/player.py", "from ..runs.run import Run", "pictures know data"),
         ("show/forms.py", "import ipywidgets, mnclab\nfrom mnclab.controls import mnc", None),
         ("controls/__init__.py", "from . import mnc, nc_31", None),
         ("controls/mnc/drilling.py", "from ..word_address import motion\nfrom . import polar", None),

@@ -23,10 +23,10 @@ from mnclab.comparison.table import Table
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
-from mnclab.machining.clearing import Clearing, begin, end
-from mnclab.machining.entries import VERTICAL, Entry, descent
-from mnclab.machining.layers import toolpath
-from mnclab.machining.strategies import STRATEGIES, clear
+from mnclab.machining.milling.clearing import Clearing, begin, end
+from mnclab.machining.milling.entries import VERTICAL, Entry, descent
+from mnclab.machining.milling.layers import toolpath
+from mnclab.machining.milling.strategies import STRATEGIES, clear
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile

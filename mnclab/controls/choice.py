@@ -11,9 +11,9 @@ from pathlib import Path, PurePath
 from mnclab.controls import CONTROLS
 from mnclab.machine.control import Control, Function
 from mnclab.machine.cycle import Cycle, help_html, help_table
-from mnclab.machine.run import Run, run_program
 from mnclab.machine.settings import Setting, settings_html, settings_table
 from mnclab.machine.setup import Setup
+from mnclab.runs.run import Run, run_program
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.file import read as read_file
 from mnclab.text.given import shown

@@ -16,10 +16,10 @@ import numpy as np
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import sweep_of_one
 from mnclab.geometry.frames import FrameChain, Matrix
+from mnclab.machine.adding import add_row, spindle_axis
 from mnclab.machine.circles import centre_by_radius, check_radii, check_start, normal, turn
-from mnclab.machine.history import Logs
-from mnclab.machine.recording import Recording, record
-from mnclab.machine.rows import add_row, spindle_axis
+from mnclab.machine.flow import Flow, Recording
+from mnclab.machine.logs import Logs
 from mnclab.machine.settings import chosen
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
@@ -38,7 +38,6 @@ from mnclab.text.program import Word
 from mnclab.text.strings import NumberFromText
 
 if TYPE_CHECKING:
-    from mnclab.machine.calls import Flow
     from mnclab.machine.control import Control
     from mnclab.machine.cycle import Definition
 
@@ -431,7 +430,7 @@ class Machine:
 
     def record(self, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
         """Read the contour of a label: nothing moves, variables that it writes stay."""
-        return record(self, label, span, after)
+        return self.flow.record(self, label, span, after)
 
     # --- settling ----------------------------------------------------------------------------------------------------
 

@@ -21,9 +21,9 @@ import numpy as np
 from mnclab.controls.choice import help as help_on
 from mnclab.controls.choice import run as run_text
 from mnclab.machine.cycle import Cycle, Parameter
-from mnclab.machine.run import Run
 from mnclab.machine.setup import Setup
 from mnclab.path.profile import Profile
+from mnclab.runs.run import Run
 from mnclab.show import trial
 from mnclab.text.alarm import Alarm, card_html
 from mnclab.text.extras import require

@@ -19,10 +19,10 @@ from typing import Any, NoReturn
 
 from mnclab.controls import CONTROLS
 from mnclab.controls.choice import run as run_text
-from mnclab.machine.run import Run
 from mnclab.machine.setup import Setup
 from mnclab.machine.setup_file import load
 from mnclab.path.tool import Tool
+from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm, first_of
 from mnclab.text.extras import require
 

@@ -86,7 +86,7 @@ def test_pattern_of_points(monkeypatch):
     tenth = text.replace(f"NUMX{HOLES // 100}", f"NUMX{HOLES // 1000}")
     columns, _, run = seconds(lambda: mnclab.run(text, "tnc-620"))
     assert run.ok and (run.toolpath.kind == Kind.LINE).sum() == 3 * HOLES
-    monkeypatch.setattr("mnclab.machine.pattern.FEWEST", HOLES)
+    monkeypatch.setattr("mnclab.running.repeating.FEWEST", HOLES)
     single, _, run = seconds(lambda: mnclab.run(tenth, "tnc-620"))
     assert (run.toolpath.kind == Kind.LINE).sum() == 3 * HOLES // 10
     print(f"\n{HOLES} holes of a pattern: {columns:.2f} s; one by one {10 * single / columns:.0f} times as long")

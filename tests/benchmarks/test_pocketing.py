@@ -19,8 +19,8 @@ import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import rectangle
-from mnclab.machining.clearing import begin, end
-from mnclab.machining.strategies import STRATEGIES, clear
+from mnclab.machining.milling.clearing import begin, end
+from mnclab.machining.milling.strategies import STRATEGIES, clear
 
 pytestmark = pytest.mark.benchmark
 RADIUS, STEP = 3.0, 3.6

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mnclab.runs.conditions import FUNCTIONS, parse
 from mnclab.text.alarm import Alarm
-from mnclab.text.condition import FUNCTIONS, parse
 
 VALUES = {"x": np.array([-3.0, 0.0, 2.0, 5.0]), "z": np.array([1.0, -6.0, np.nan, 2.0]), "Q5": np.array([4.0, 3, 2, 1])}
 

@@ -7,7 +7,7 @@ import types
 import pytest
 
 import mnclab
-from mnclab.machine import calls
+from mnclab.running import flow
 from mnclab.text import progress as place
 from mnclab.text.progress import progress
 
@@ -97,7 +97,7 @@ def test_an_interrupted_run_leaves_the_collector_on(monkeypatch):
     def stop(self, block):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(calls.Flow, "begin", stop)
+    monkeypatch.setattr(flow.Course, "begin", stop)
     with pytest.raises(KeyboardInterrupt):
         mnclab.run("G1 X1 F100", "mnc")
     assert gc.isenabled()
@@ -110,6 +110,6 @@ def test_ctrl_c_in_a_shell_is_one_line(monkeypatch, capsys, tmp_path):
         raise KeyboardInterrupt
 
     (tmp_path / "a.mnc").write_text("G1 X1 F100\n")
-    monkeypatch.setattr(calls.Flow, "begin", stop)
+    monkeypatch.setattr(flow.Course, "begin", stop)
     assert main(["run", str(tmp_path / "a.mnc")]) == 130
     assert capsys.readouterr() == ("", "mnclab: interrupted\n")

@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining import concentric
+from mnclab.machining.milling import concentric
 
 
 def half_sides(passes):

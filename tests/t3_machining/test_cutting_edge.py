@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
-from mnclab.machining.cutting_edge import along, centre_feeds
-from mnclab.machining.entries import descend, onto_floor, swing
-from mnclab.machining.finishing import half_circles, quarter_circles
+from mnclab.machining.milling.cutting_edge import along, centre_feeds
+from mnclab.machining.milling.entries import descend, onto_floor, swing
+from mnclab.machining.milling.finishing import half_circles, quarter_circles
 from mnclab.machining.steps import Turn
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from mnclab.geometry.contours import Contour
-from mnclab.machining import concentric, entries
-from mnclab.machining.entries import Entry
+from mnclab.machining.milling import concentric, entries
+from mnclab.machining.milling.entries import Entry
 
 
 def slopes(descent):

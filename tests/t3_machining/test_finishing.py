@@ -6,7 +6,7 @@ import pytest
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import rectangle
-from mnclab.machining import finishing
+from mnclab.machining.milling import finishing
 
 
 def test_approach_and_departure():

@@ -7,11 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mnclab import Tool
-from mnclab.comparison.turning import compare
-from mnclab.machining import groove_schemes as grooves
-from mnclab.machining import thread_schemes as threads
-from mnclab.machining.groove_schemes import CONTOUR_TOOL, SHOULDER_TOOL, Groove
-from mnclab.machining.strokes import FINISH, RAPID, THREAD
+from mnclab.comparison.turning_schemes import compare
+from mnclab.machining.turning import groove_schemes as grooves
+from mnclab.machining.turning import thread_schemes as threads
+from mnclab.machining.turning.groove_schemes import CONTOUR_TOOL, SHOULDER_TOOL, Groove
+from mnclab.machining.turning.strokes import FINISH, RAPID, THREAD
 
 RING = Groove(right=0, width=5, bottom=25, rim=30)
 

@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mnclab.machining.grooving import grooves, places
 from mnclab.machining.steps import RAPID, Go, Thread, Wait
-from mnclab.machining.threading import lead_along, thread_passes
-from mnclab.machining.turning import Shoulder, around, facing, loops, roughing, towards
+from mnclab.machining.turning.grooving import grooves, places
+from mnclab.machining.turning.shoulders import Shoulder, around, facing, loops, roughing, towards
+from mnclab.machining.turning.threading import lead_along, thread_passes
 
 
 def ways(steps):

@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mnclab.machining import concentric, facing
 from mnclab.machining.depths import TooMany
-from mnclab.machining.entries import Entry, descend, helix, pendulum, vertical
-from mnclab.machining.face_milling import Layer, face
-from mnclab.machining.finishing import approaching, leaving, tangential
-from mnclab.machining.pocket_milling import Feeds, Room, rough, way_down
+from mnclab.machining.milling import concentric, face_lines
+from mnclab.machining.milling.entries import Entry, descend, helix, pendulum, vertical
+from mnclab.machining.milling.face_steps import Layer, face
+from mnclab.machining.milling.finishing import approaching, leaving, tangential
+from mnclab.machining.milling.pocket_steps import Feeds, Room, rough, way_down
 from mnclab.machining.steps import Along, Go, Turn
 
 
@@ -80,7 +80,7 @@ def test_the_arcs_at_a_wall_are_those_of_a_tangential_pass():
 
 
 def test_lines_that_do_not_lead_on_are_reached_above_the_surface():
-    passes = facing.lines((0, 10), -5, 50, 5, one_way=True)
+    passes = face_lines.lines((0, 10), -5, 50, 5, one_way=True)
     layers = [
         Layer("layer 1 of 2", -1, passes, 400, 900, 90),
         Layer("layer 2 of 2", -2, passes.reversed(), 400, 900, 90),

@@ -8,7 +8,7 @@ import shapely
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.machining.pockets import rings, rounded
+from mnclab.machining.milling.rings import rings, rounded
 
 
 def box(x0, y0, x1, y1):

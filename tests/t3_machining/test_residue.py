@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.machining.facing import lines, rows
-from mnclab.machining.pockets import rings
-from mnclab.machining.residue import beside_disc, left_by, within
+from mnclab.machining.milling.face_lines import lines, rows
+from mnclab.machining.milling.residue import beside_disc, left_by, within
+from mnclab.machining.milling.rings import rings
 
 
 def swept(points, radius):

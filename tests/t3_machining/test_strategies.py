@@ -7,11 +7,11 @@ import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import rectangle
-from mnclab.machining import trochoids
-from mnclab.machining.clearing import begin, end
-from mnclab.machining.entries import Entry
-from mnclab.machining.layers import toolpath
-from mnclab.machining.strategies import STRATEGIES, clear
+from mnclab.machining.milling import trochoids
+from mnclab.machining.milling.clearing import begin, end
+from mnclab.machining.milling.entries import Entry
+from mnclab.machining.milling.layers import toolpath
+from mnclab.machining.milling.strategies import STRATEGIES, clear
 from mnclab.path.kinds import Kind
 
 

@@ -8,7 +8,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mnclab.machining import studs
+from mnclab.machining.milling import studs
 
 
 def half_sides(passes):

@@ -12,15 +12,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mnclab import Tool
-from mnclab.comparison.turning import TURNER, compare
+from mnclab.comparison.turning_schemes import TURNER, compare
 from mnclab.geometry.contours import Contour
-from mnclab.machining import turning_schemes as schemes
-from mnclab.machining.groove_schemes import Groove, plunges, scheme_5, side_steps
-from mnclab.machining.strokes import CLEANUP, PICK_UP, PLUNGE, RAPID
-from mnclab.machining.thread_schemes import added, shifts
-from mnclab.machining.turning_passes import without_drop
-from mnclab.machining.turning_profiles import angles_of, reachable
-from mnclab.machining.zones import zone_of, zones
+from mnclab.machining.turning import schemes as schemes
+from mnclab.machining.turning.groove_schemes import Groove, plunges, scheme_5, side_steps
+from mnclab.machining.turning.passes import without_drop
+from mnclab.machining.turning.profiles import angles_of, reachable
+from mnclab.machining.turning.strokes import CLEANUP, PICK_UP, PLUNGE, RAPID
+from mnclab.machining.turning.thread_schemes import added, shifts
+from mnclab.machining.turning.zones import zone_of, zones
 
 CATALOGUE = Path(__file__).parent.parent / "authorities" / "catalogue" / "turning-technology.json"
 OPEN = Contour([(0, 20), (-50, 20)], closed=False)

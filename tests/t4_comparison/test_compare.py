@@ -10,8 +10,8 @@ from mnclab.comparison.strategies import COLUMNS, compare
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import rectangle
-from mnclab.machining import concentric
-from mnclab.machining.strategies import STRATEGIES
+from mnclab.machining.milling import concentric
+from mnclab.machining.milling.strategies import STRATEGIES
 
 BOX = Region.of(rectangle(60, 40))
 

@@ -5,9 +5,9 @@ import pytest
 
 import mnclab
 from mnclab import Setup
-from mnclab.machine.interpreter import Interpreter
 from mnclab.machine.machine import Machine
 from mnclab.path.toolpath import COLUMNS
+from mnclab.running.interpreter import Interpreter
 
 
 @pytest.fixture(scope="session")

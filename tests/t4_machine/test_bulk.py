@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab
-from mnclab.machine.bulk import SHORTEST
-from mnclab.machine.interpreter import Interpreter
 from mnclab.machine.machine import Machine
+from mnclab.running.bulk import SHORTEST
+from mnclab.running.interpreter import Interpreter
 
 HEAD = "G17 G90 G54 T1\nG92 X3 Y-2.5\nG1 X0 Y0 Z0 F100\n"
 

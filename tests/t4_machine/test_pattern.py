@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mnclab.machine.bulk import SHORTEST
+from mnclab.running.bulk import SHORTEST
 
 HEAD = "G17 G90 G54 T2 S800 M3\nG0 X0 Y0 Z20\n"
 CYCLES = [

@@ -7,11 +7,12 @@ import pytest
 
 import mnclab
 from mnclab.geometry import frames
-from mnclab.machine import lasting, pattern
-from mnclab.machine.interpreter import Interpreter
+from mnclab.machine import lasting
 from mnclab.machine.machine import Machine
 from mnclab.path.recorder import State
 from mnclab.path.tool import Tool
+from mnclab.running import repeating
+from mnclab.running.interpreter import Interpreter
 from mnclab.text.alarm import Alarm
 
 POINTS = np.array([(k * k, 7 * k % 5 + 1) for k in range(1, 21)], dtype=float)
@@ -41,7 +42,7 @@ def visited(m, alter, points=POINTS):
         m.line(z=-1)
         m.rapid(z=5)
 
-    pattern.at_each(m, points, go)
+    repeating.at_each(m, points, go)
     return len(made)
 
 
@@ -170,8 +171,8 @@ def test_what_is_done_over_the_place_before_stays_there(frame, first):
             m.rapid(z=50)
 
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(pattern, "FEWEST", few)
-            pattern.at_each(m, POINTS, go)
+            patch.setattr(repeating, "FEWEST", few)
+            repeating.at_each(m, POINTS, go)
         paths.append((m.recorder.take(), m.tip, m.programmed))
     (columns, *place), (single, *other) = paths
     assert len(columns) == len(single) == 6 * len(POINTS)
@@ -191,7 +192,7 @@ def test_a_way_of_no_length_is_no_row():
         m.rapid(x=x + 1)
         m.rapid(z=5)
 
-    pattern.at_each(m, points, go)
+    repeating.at_each(m, points, go)
     path = m.recorder.take()
     assert (path.lengths > 0).all() and len(path) == 4 * len(points) - 3  # to the first of all, and after 4 and 11
 

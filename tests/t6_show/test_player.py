@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Alarm, Limits, Setup
-from mnclab.machine.interpreter import Interpreter, Stop
-from mnclab.machine.run import run_program
+from mnclab.running.interpreter import Interpreter, Stop
+from mnclab.runs.run import run_program
 from mnclab.show.player.packing import Packer
 from mnclab.show.player.payload import payload, plain
 
@@ -102,7 +102,7 @@ class Until(Interpreter):
 def fresh(run, step, monkeypatch):
     """A fresh run of the same text that ends behind a step, wherever in a loop or a called program that is."""
     monkeypatch.setattr(Until, "steps", step + 1)
-    monkeypatch.setattr("mnclab.machine.run.Interpreter", Until)
+    monkeypatch.setattr("mnclab.runs.run.Interpreter", Until)
     slow = dataclasses.replace(run.control, bulk=None)
     found = run_program(run.program, slow, run.setup)
     assert len(found.steps.block) == step + 1

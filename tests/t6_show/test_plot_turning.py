@@ -7,15 +7,15 @@ import pytest
 from matplotlib.patches import Polygon
 
 from mnclab import Alarm, Limits, Setup, Tool, run
-from mnclab.comparison.turning import compare, toolpath
+from mnclab.comparison.turning_schemes import compare, toolpath
 from mnclab.geometry.contours import Contour
-from mnclab.machining import thread_schemes as threads
+from mnclab.machining.turning import thread_schemes as threads
 from mnclab.show.plot.classes import classes
 from mnclab.show.plot.insert import insert_outline
 from mnclab.show.plot.lathe import plot_speed, silhouette, speed_strokes, speeds, thread_leads
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.strokes import strokes
-from mnclab.show.plot.turning import plot_schemes, plot_threads
+from mnclab.show.plot.turning_schemes import plot_schemes, plot_threads
 
 SHOULDER = Contour([(0, 20), (-40, 20), (-50, 30)], closed=False)
 SQUARE = "S800\nM3\nF20\nX4000 ~ *\nZ200 ~\nX3000 ~\nZ-2000\nX6200\nZ200 ~\n"

@@ -11,12 +11,12 @@ import re
 from mnclab.controls.g43 import cycles, language, lengths
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
-from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
 from mnclab.machine.setup import Datum
 from mnclab.path.compensation import Compensation
+from mnclab.running.bulk import PlainWords
 
 #: Order inside a block.
 PHASES = (

@@ -27,11 +27,11 @@ from mnclab.controls.word_address.holes import (
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes import bore_and_stop, drill, ream
+from mnclab.machining.holes.drilling import bore_and_stop, drill, ream
+from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Step
-from mnclab.machining.tapping import tap
+from mnclab.running.performing import perform
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()

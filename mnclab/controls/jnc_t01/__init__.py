@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from mnclab.controls.jnc_t01 import cycles, feeds, motion
 from mnclab.controls.jnc_t01.reader import looks_like, read
-from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
+from mnclab.running.bulk import PlainWords
 from mnclab.text.program import Word, digits
 
 #: Order inside a block; the manual gives none.

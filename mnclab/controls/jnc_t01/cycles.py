@@ -13,12 +13,12 @@ from mnclab.controls.jnc_t01.feeds import cutting_feed
 from mnclab.controls.jnc_t01.motion import coordinate, scale, use_corrector
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machining.depths import MOST, infeeds
-from mnclab.machining.grooving import grooves, places
-from mnclab.machining.holes import drill
+from mnclab.machining.holes.drilling import drill
 from mnclab.machining.steps import RAPID, Go, Step
-from mnclab.machining.turning import Shoulder, facing, remove_stock
+from mnclab.machining.turning.grooving import grooves, places
+from mnclab.machining.turning.shoulders import Shoulder, facing, remove_stock
+from mnclab.running.performing import perform
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()

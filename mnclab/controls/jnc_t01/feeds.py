@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import first_word
+from mnclab.machine.adding import speed_at
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.machine.rows import speed_at
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()

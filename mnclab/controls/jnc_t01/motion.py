@@ -13,8 +13,8 @@ from mnclab.controls.word_address.motion import first_word
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import locked
-from mnclab.machining.threading import lead_along
+from mnclab.machining.turning.threading import lead_along
+from mnclab.running.performing import locked
 
 FUNCTIONS = FunctionTable()
 AXES = {"X": 0, "Z": 2}

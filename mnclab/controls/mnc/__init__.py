@@ -15,9 +15,9 @@ from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
-from mnclab.machine.bulk import PlainWords
 from mnclab.machine.control import Control
 from mnclab.path.compensation import Compensation
+from mnclab.running.bulk import PlainWords
 
 #: Order inside a block (adopted reading MNC-BLOCK-ORDER).
 PHASES = (

@@ -9,11 +9,11 @@ from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, in_mm
 from mnclab.machine.cycle import CycleTable, own_feed, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes import drill
+from mnclab.machining.holes.drilling import drill
 from mnclab.machining.steps import Go, Step
-from mnclab.machining.turning import facing
+from mnclab.machining.turning.shoulders import facing
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 

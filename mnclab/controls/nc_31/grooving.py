@@ -8,10 +8,10 @@ from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, in_mm, rapid_mark
 from mnclab.machine.cycle import CycleTable, own_feed, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
-from mnclab.machining.grooving import grooves, places
 from mnclab.machining.steps import RAPID, Step
-from mnclab.machining.turning import facing
+from mnclab.machining.turning.grooving import grooves, places
+from mnclab.machining.turning.shoulders import facing
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 

@@ -15,11 +15,11 @@ from mnclab.controls.nc_31.targets import FROM_START, SWITCH, FromStart, apart, 
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import locked, perform
 from mnclab.machining.depths import infeeds
+from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Go, Step, Thread
-from mnclab.machining.tapping import tap
-from mnclab.machining.threading import lead_along, thread_passes
+from mnclab.machining.turning.threading import lead_along, thread_passes
+from mnclab.running.performing import locked, perform
 from mnclab.text.program import INCREMENTAL, RAPID_MARK
 
 CYCLES = CycleTable()

@@ -13,9 +13,17 @@ from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.targets import FROM_START, SWITCH, FromStart, apart, feed_word, here, in_mm, rapid_mark
 from mnclab.machine.cycle import CycleTable, own_feed, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machining.steps import RAPID, Go, Step
-from mnclab.machining.turning import Shoulder, around, count_of_breaks, count_of_levels, facing, loops, roughing
+from mnclab.machining.turning.shoulders import (
+    Shoulder,
+    around,
+    count_of_breaks,
+    count_of_levels,
+    facing,
+    loops,
+    roughing,
+)
+from mnclab.running.performing import perform
 from mnclab.text.program import INCREMENTAL
 
 CYCLES = CycleTable()

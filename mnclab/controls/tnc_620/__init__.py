@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from mnclab.controls.tnc_620 import datum_tables, later, reader
+from mnclab.controls.tnc_620 import later
 from mnclab.controls.tnc_620.cycles import (
     boring,
     contours,
@@ -17,7 +17,6 @@ from mnclab.controls.tnc_620.cycles import (
     drilling,
     engraving,
     face_milling,
-    facing,
     pecking,
     pockets,
     program_call,
@@ -29,9 +28,9 @@ from mnclab.controls.tnc_620.cycles import (
     threads,
     tilting,
     transformations,
+    walled_faces,
 )
 from mnclab.controls.tnc_620.cycles import patterns as point_patterns
-from mnclab.controls.tnc_620.iso_names import ISO_NAMES
 from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
@@ -46,7 +45,7 @@ from mnclab.controls.tnc_620.language import (
     motion,
     parameters,
     pattern_calls,
-    patterns,
+    pattern_definitions,
     polar,
     pole,
     program,
@@ -54,11 +53,14 @@ from mnclab.controls.tnc_620.language import (
 )
 from mnclab.controls.tnc_620.later_parameters import strange_parameters
 from mnclab.controls.tnc_620.probing import presets
-from mnclab.machine.bulk import PlainWords
+from mnclab.controls.tnc_620.reading import reader
+from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.controls.tnc_620.tables import datum_tables
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.settings import Setting
 from mnclab.path.compensation import Compensation
+from mnclab.running.bulk import PlainWords
 
 #: Order inside a block: M functions that act at its start, the statement, calls, M functions that act at its end.
 PHASES = ("start", "motion", "call", "end", "last")
@@ -97,7 +99,7 @@ FUNCTIONS = feeds.in_all_forms(
     pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | machine_datum.FUNCTIONS | feed_rules.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
-    | pattern_calls.FUNCTIONS | patterns.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
+    | pattern_calls.FUNCTIONS | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in (
@@ -105,7 +107,7 @@ for chapter in (
     drilling, boring, pecking,
     tapping, threads, thread_drilling,
     point_patterns,
-    pockets, slots, studs, facing,
+    pockets, slots, studs, walled_faces,
     contours,
     transformations, datums, tilting,
     special, engraving, face_milling,
@@ -134,7 +136,7 @@ MEANINGS = {
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
     "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
-    **{f"PATTERN DEF {address}": meaning for address, meaning in patterns.MEANINGS.items()},
+    **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip
 
 _KLARTEXT = re.compile(

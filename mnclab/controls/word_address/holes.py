@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machining.steps import Go
+from mnclab.running.performing import perform
 
 
 def upside_down(bottom: float, r_level: float) -> Iterator[tuple[str, str]]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.geometry.offsets import left
-from mnclab.path.compensation.corners import corners, remaining
 from mnclab.path.compensation.elements import Elements, Mask
-from mnclab.path.compensation.rows import tool_centre_path
+from mnclab.path.compensation.joining import corners, remaining
+from mnclab.path.compensation.moving_ends import tool_centre_path
 from mnclab.path.compensation.rules import SPIKE_TURN, Compensation, Report
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind, Rule

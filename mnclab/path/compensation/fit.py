@@ -21,13 +21,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.chords import Chunks, Walls, around, chunks, facing
 from mnclab.geometry.curves import Curves, distance
-from mnclab.geometry.facing import Chunks, Walls, around, chunks, facing
 from mnclab.geometry.offsets import beside
 from mnclab.path.compensation import neighbours
-from mnclab.path.compensation.corners import ends, remaining
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.heights import at_height, meet
+from mnclab.path.compensation.joining import ends, remaining
 from mnclab.path.compensation.passes import crossed, given_up, run_past
 from mnclab.path.compensation.rules import CLEAR, Compensation, Gouge, Report
 from mnclab.path.compensation.tips import clearance, near_tips

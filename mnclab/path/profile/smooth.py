@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from mnclab.path.profile import ramps
 from mnclab.path.profile.lookahead import reachable, running_sum
-from mnclab.path.profile.rows import Rows
+from mnclab.path.profile.motions import Rows
 
 SHARE = 0.5  # of a ramp from rest to the greatest speed: the least length of a group of short rows
 SHARP = 0.64  # of its neighbours: a corner with less v² gets a knot

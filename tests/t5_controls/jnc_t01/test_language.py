@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 import mnclab
 from mnclab import Kind, Setup
 from mnclab.controls.jnc_t01.reader import looks_like
-from mnclab.machine.bulk import SHORTEST
 from mnclab.path.toolpath import COLUMNS
+from mnclab.running.bulk import SHORTEST
 
 
 def run(*lines, start=(50, 0), **setup):

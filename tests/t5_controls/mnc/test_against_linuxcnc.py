@@ -8,7 +8,7 @@ import pytest
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from mnclab.machine import bulk
+from mnclab.running import bulk
 
 AUTHORITIES = Path(__file__).parents[2] / "authorities"
 KINDS = {"rapid": Kind.RAPID, "line": Kind.LINE, "arc": Kind.ARC}

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Alarm, Kind, Limits, Setup, Tool
-from mnclab.machine import bulk as tiers
 from mnclab.path.kinds import Rule
 from mnclab.path.toolpath import COLUMNS
+from mnclab.running import bulk as tiers
 
 SETTINGS = {setting.name: setting for setting in mnclab.controls["mnc"].settings}
 TOOLS = {0: Tool(), 1: Tool(radius=2, length=50), 2: Tool(radius=3, length=30, dl=1)}

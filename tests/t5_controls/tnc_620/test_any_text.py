@@ -11,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.machine import calls
+from mnclab.running import flow
 
 PROGRAM = """\
 0 BEGIN PGM PART MM
@@ -80,7 +80,7 @@ PIECES = [
 @pytest.fixture(autouse=True)
 def short_programs(monkeypatch: pytest.MonkeyPatch) -> None:
     """Mutated repeats may be long: the limit of executed blocks is lowered."""
-    monkeypatch.setattr(calls, "LONGEST", 3000)
+    monkeypatch.setattr(flow, "LONGEST", 3000)
 
 
 @settings(max_examples=300, deadline=None)

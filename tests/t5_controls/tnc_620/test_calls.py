@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.machine import pattern
-from mnclab.machine.interpreter import Interpreter
 from mnclab.machine.machine import Machine
 from mnclab.path.toolpath import COLUMNS
+from mnclab.running import repeating
+from mnclab.running.interpreter import Interpreter
 
 CYCLE = "CYCL DEF 200 D\nQ200=2\nQ201=-15\nQ206=250\nQ202=0\nQ210=0\nQ203={Q203}\nQ204={Q204}\nQ211=0\n"
 D = "2 " + CYCLE.format(Q203=0, Q204=20)  # lines 3 to 11
@@ -224,11 +224,11 @@ def test_holes_repeated_as_columns_are_the_holes_one_by_one(
     head = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n"
     text = f"{head}{cycle}{frame}{HIGH}PATTERN DEF {points}\nCYCL CALL PAT {feed}\nL X+9\n"
     fast = mnc.run(text, "tnc-620")
-    kept, pattern.FEWEST = pattern.FEWEST, 10**9
+    kept, repeating.FEWEST = repeating.FEWEST, 10**9
     try:
         slow = mnc.run(text, "tnc-620")
     finally:
-        pattern.FEWEST = kept
+        repeating.FEWEST = kept
     assert fast.ok and slow.ok and len(holes(fast)) == 2 * count * (4 if "Q202=4" in cycle else 1)
     for name in COLUMNS:
         one, other = getattr(fast.toolpath, name), getattr(slow.toolpath, name)

@@ -7,8 +7,8 @@ from shapely import LineString, MultiPolygon, Point, Polygon, union_all
 import mnclab
 from mnclab import Kind, Setup, Tool
 from mnclab.controls.tnc_620.cycles.contours import contour_region
-from mnclab.machine.interpreter import Interpreter
 from mnclab.machine.machine import Machine
+from mnclab.running.interpreter import Interpreter
 
 CIRCLE_A = "LBL 1\nL X+{a} Y+50 RR\nCC X+35 Y+50\nC X+{a} Y+50 DR-\nLBL 0\n"
 CIRCLE_B = "LBL 2\nL X+{b} Y+50 {side}\nCC X+65 Y+50\nC X+{b} Y+50 DR-\nLBL 0\n"

@@ -16,7 +16,7 @@ import mnclab as mnc
 from mnclab import Kind
 from mnclab.geometry import frames
 from mnclab.machine.machine import Machine
-from mnclab.machining.holes import guided
+from mnclab.machining.holes.drilling import guided
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-drilling.json"
 EXAMPLES = json.loads(FILE.read_text(encoding="utf-8"))

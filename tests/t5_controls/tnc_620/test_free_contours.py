@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab.controls.tnc_620.cycles.contours import contour_region
-from mnclab.machine.interpreter import Interpreter
 from mnclab.machine.machine import Machine
+from mnclab.running.interpreter import Interpreter
 
 EXAMPLES = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-klartext.json"
 (C20,) = [e for e in json.loads(EXAMPLES.read_text(encoding="utf-8")) if e["code"] == "FK"]

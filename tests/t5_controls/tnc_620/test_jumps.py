@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.machine import calls
+from mnclab.running import flow
 
 
 @pytest.mark.parametrize(
@@ -103,7 +103,7 @@ ENDLESS = {
 
 @pytest.mark.parametrize("name", ENDLESS)
 def test_a_program_without_an_end_is_stopped(name: str, inside, monkeypatch) -> None:
-    monkeypatch.setattr(calls, "LONGEST", 2000)
+    monkeypatch.setattr(flow, "LONGEST", 2000)
     blocks, line = ENDLESS[name]
     run = inside(blocks)
     (alarm,) = run.alarms

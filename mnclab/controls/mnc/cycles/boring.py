@@ -18,10 +18,10 @@ from mnclab.controls.mnc.cycles.prepared import (
 )
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import MILLS, SHIFTS, remark, with_the_spindle
-from mnclab.machining.helical import bore_milling, turns
-from mnclab.machining.holes import back_bore, back_to_axis, bore, ream
+from mnclab.machining.holes.drilling import back_bore, back_to_axis, bore, ream
+from mnclab.machining.holes.helical import bore_milling, turns
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 

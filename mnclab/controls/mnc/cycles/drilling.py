@@ -16,11 +16,11 @@ from mnclab.controls.mnc.cycles.prepared import (
 )
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes import drill, gun_drill
+from mnclab.machining.holes.drilling import drill, gun_drill
 from mnclab.machining.steps import Go, Wait
+from mnclab.running.performing import perform
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()

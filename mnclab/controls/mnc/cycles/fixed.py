@@ -14,11 +14,11 @@ from mnclab.controls.word_address.holes import approach, initial_level, leave, n
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import TAPS, depth_scale
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes import drill, ream
-from mnclab.machining.tapping import tap
+from mnclab.machining.holes.drilling import drill, ream
+from mnclab.machining.holes.tapping import tap
+from mnclab.running.performing import perform
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()

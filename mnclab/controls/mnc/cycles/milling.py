@@ -12,14 +12,14 @@ from typing import Any, ClassVar
 
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import MILLS, remark
-from mnclab.machining.clearing import Clearing, numbered
 from mnclab.machining.depths import MOST
-from mnclab.machining.face_milling import Layer, face
-from mnclab.machining.facing import lines, rows
-from mnclab.machining.residue import within
+from mnclab.machining.milling.clearing import Clearing, numbered
+from mnclab.machining.milling.face_lines import lines, rows
+from mnclab.machining.milling.face_steps import Layer, face
+from mnclab.machining.milling.residue import within
 from mnclab.machining.steps import Go
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 STRATEGY: dict[float, str] = {

@@ -15,15 +15,15 @@ from functools import partial
 from mnclab.controls.mnc.cycles.milling import MillingCycle, clearance, feed, second_feed
 from mnclab.machine.cycle import CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import remark, tool
-from mnclab.machining import concentric
-from mnclab.machining.clearing import Clearing
 from mnclab.machining.depths import infeeds
-from mnclab.machining.entries import Entry
-from mnclab.machining.finishing import quarter_circles
-from mnclab.machining.pocket_milling import Down, Feeds, Room, finish_floor, finish_walls, rough, way_down
+from mnclab.machining.milling import concentric
+from mnclab.machining.milling.clearing import Clearing
+from mnclab.machining.milling.entries import Entry
+from mnclab.machining.milling.finishing import quarter_circles
+from mnclab.machining.milling.pocket_steps import Down, Feeds, Room, finish_floor, finish_walls, rough, way_down
 from mnclab.machining.steps import Go, Step
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 

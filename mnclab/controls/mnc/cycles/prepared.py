@@ -12,10 +12,10 @@ from typing import Any
 from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, param
-from mnclab.machine.interpreter import run_cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machining.steps import Go
+from mnclab.running.interpreter import run_cycle
+from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
 SPINDLE = {1: "M3", -1: "M4", 0: "M5"}

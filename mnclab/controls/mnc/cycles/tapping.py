@@ -8,9 +8,9 @@ from typing import ClassVar
 from mnclab.controls.mnc.cycles.prepared import PreparedCycle, depth
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import TAPS
-from mnclab.machining.tapping import tap
+from mnclab.machining.holes.tapping import tap
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 

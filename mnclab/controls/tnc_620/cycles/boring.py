@@ -16,8 +16,8 @@ from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, SHIFTS, tool, with_the_spindle
 from mnclab.machining.depths import DRIFT
-from mnclab.machining.helical import bore_milling, steepest_pitch, turns
-from mnclab.machining.holes import back_bore, back_to_axis, bore
+from mnclab.machining.holes.drilling import back_bore, back_to_axis, bore
+from mnclab.machining.holes.helical import bore_milling, steepest_pitch, turns
 from mnclab.machining.steps import Step
 
 CYCLES = CycleTable()

@@ -12,15 +12,15 @@ from typing import Any, ClassVar, NamedTuple
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machine.cycle import Cycle, CycleTable, param
-from mnclab.machine.following import follow
-from mnclab.machine.interpreter import unit_of
+from mnclab.machine.flow import Recording
 from mnclab.machine.machine import INF, Machine
-from mnclab.machine.recording import Recording
 from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.depths import infeeds
-from mnclab.machining.pockets import rings
-from mnclab.machining.residue import left_by
+from mnclab.machining.milling.residue import left_by
+from mnclab.machining.milling.rings import rings
 from mnclab.path.outline import outline
+from mnclab.running.following import follow
+from mnclab.running.interpreter import unit_of
 
 CYCLES = CycleTable()
 FEEDS = ("FAUTO", "FU", "FZ")

@@ -7,7 +7,7 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.cycles.addresses import FAR
-from mnclab.controls.tnc_620.datum_tables import row_of
+from mnclab.controls.tnc_620.tables.datum_tables import row_of
 from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine

@@ -11,7 +11,7 @@ from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.depths import infeeds
-from mnclab.machining.holes import drill, ream
+from mnclab.machining.holes.drilling import drill, ream
 from mnclab.machining.steps import Go, Step, Wait
 
 CYCLES = CycleTable()

@@ -12,11 +12,11 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.settings import Setting
 from mnclab.machine.true_size import MILLS
-from mnclab.machining.engraving import Glyph, cells, engrave, length, on_arc, on_line
+from mnclab.machining.milling.engraving import Glyph, cells, engrave, length, on_arc, on_line
 from mnclab.machining.steps import Go
+from mnclab.running.performing import perform
 from mnclab.text.strings import TextFormula
 
 CYCLES = CycleTable()

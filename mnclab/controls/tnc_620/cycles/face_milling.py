@@ -9,13 +9,13 @@ from typing import ClassVar
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import MILLS
-from mnclab.machining.clearing import Clearing, numbered
 from mnclab.machining.depths import DRIFT
-from mnclab.machining.face_milling import Layer, face
-from mnclab.machining.facing import lines, rows
+from mnclab.machining.milling.clearing import Clearing, numbered
+from mnclab.machining.milling.face_lines import lines, rows
+from mnclab.machining.milling.face_steps import Layer, face
 from mnclab.machining.steps import Go
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 MOST = 20_000  # lines of one cycle, all its levels together

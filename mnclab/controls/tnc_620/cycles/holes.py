@@ -8,9 +8,9 @@ from collections.abc import Iterable, Iterator
 
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import tool
 from mnclab.machining.steps import RAPID, Go, Step
+from mnclab.running.performing import perform
 
 
 class Hole(AtSurface):

@@ -18,12 +18,12 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import MILLS, tool
 from mnclab.machining.depths import infeeds
-from mnclab.machining.pocket_milling import Feeds
+from mnclab.machining.milling.pocket_steps import Feeds
 from mnclab.machining.steps import Go
 from mnclab.path.tool import Tool
+from mnclab.running.performing import perform
 
 ANY_FEED = ("FAUTO", "FU", "FZ")
 ORIGIN = (0.0, 0.0)

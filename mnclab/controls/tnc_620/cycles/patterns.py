@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.machine.cycle import Cycle, CycleTable
-from mnclab.machine.interpreter import run_cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.pattern import at_each
 from mnclab.machine.true_size import faults, is_round
 from mnclab.machining import patterns
+from mnclab.running.interpreter import run_cycle
+from mnclab.running.repeating import at_each
 
 CYCLES = CycleTable()
 MOST = 100_000  # points

@@ -13,7 +13,7 @@ from mnclab.controls.tnc_620.cycles.holes import Hole, moving, rate
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import advanced_stops, infeeds
-from mnclab.machining.holes import Guided, drill, guided, gun_drill
+from mnclab.machining.holes.drilling import Guided, drill, guided, gun_drill
 from mnclab.machining.steps import Go, Step
 
 CYCLES = CycleTable()

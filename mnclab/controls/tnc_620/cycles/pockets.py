@@ -18,13 +18,13 @@ from mnclab.controls.tnc_620.cycles.milling import FigureMilling
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import tool
-from mnclab.machining import concentric
-from mnclab.machining.clearing import Clearing
-from mnclab.machining.entries import Descent, Entry, onto_floor, vertical
-from mnclab.machining.finishing import half_circles, quarter_circles
-from mnclab.machining.pocket_milling import Down, Feeds, Room, finish_floor, finish_walls, rough, way_down
+from mnclab.machining.milling import concentric
+from mnclab.machining.milling.clearing import Clearing
+from mnclab.machining.milling.entries import Descent, Entry, onto_floor, vertical
+from mnclab.machining.milling.finishing import half_circles, quarter_circles
+from mnclab.machining.milling.pocket_steps import Down, Feeds, Room, finish_floor, finish_walls, rough, way_down
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.language.flow import call_program
-from mnclab.machine import programs
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
+from mnclab.running import files
 from mnclab.text.alarm import Alarm
 
 CYCLES = CycleTable()
@@ -22,7 +22,7 @@ class ProgramCall(Cycle):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """There is a program of this name."""
         try:
-            programs.called(m, self.program_name, self.code)
+            files.called(m, self.program_name, self.code)
         except Alarm as missing:
             yield "program_name", missing.message.removeprefix(f"{self.code} ")
 

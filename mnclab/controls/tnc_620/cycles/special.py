@@ -12,10 +12,10 @@ from typing import ClassVar
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import TAPS
 from mnclab.machining.steps import Spin, Step, Thread, Wait
 from mnclab.path.recorder import NAN
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 

@@ -20,13 +20,13 @@ from mnclab.controls.tnc_620.cycles.milling import ANY_FEED, FigureMilling
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import tool
-from mnclab.machining import studs
-from mnclab.machining.clearing import Clearing
-from mnclab.machining.pocket_milling import Feeds
+from mnclab.machining.milling import studs
+from mnclab.machining.milling.clearing import Clearing
+from mnclab.machining.milling.pocket_steps import Feeds
+from mnclab.machining.milling.stud_steps import Lifting, mill_stud
 from mnclab.machining.steps import Go
-from mnclab.machining.stud_milling import Lifting, mill_stud
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 

@@ -11,11 +11,11 @@ from mnclab.controls.tnc_620.cycles.holes import oriented
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import TAPS
 from mnclab.machining.depths import infeeds
+from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Go, Spin, Step
-from mnclab.machining.tapping import tap
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 

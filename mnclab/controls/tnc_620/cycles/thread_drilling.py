@@ -10,7 +10,7 @@ from mnclab.controls.tnc_620.cycles.threads import ThreadMilling
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import MOST, infeeds
-from mnclab.machining.holes import drill
+from mnclab.machining.holes.drilling import drill
 from mnclab.machining.steps import Step
 
 CYCLES = CycleTable()

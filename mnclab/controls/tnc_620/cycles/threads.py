@@ -1,6 +1,6 @@
 """Thread milling (chapter 5.5 to 5.10): what its cycles share, and 262, 263 and 267. 264 and 265 begin in solid material.
 
-The geometry is that of :mod:`mnclab.machining.thread_milling`. Readings where the manual is silent: feeds of the thread,
+The geometry is that of :mod:`mnclab.machining.holes.thread_milling`. Readings where the manual is silent: feeds of the thread,
 that of the approach among them, are those of the cutting edge; a depth of 0 leaves its step out, and a cycle whose depths
 are all 0 is refused where it has several; 262 is not executed, as its manual says.
 """
@@ -16,10 +16,10 @@ from mnclab.controls.tnc_620.cycles import addresses, thread_parameters
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.performing import perform
 from mnclab.machine.true_size import MILLS_THREADS
+from mnclab.machining.holes.thread_milling import Path, centre_feed, chamfer, countersink, helices, mill_thread, path_of
 from mnclab.machining.steps import RAPID, Go, Step
-from mnclab.machining.thread_milling import Path, centre_feed, chamfer, countersink, helices, mill_thread, path_of
+from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 
@@ -72,7 +72,7 @@ class ThreadMilling(AtSurface):
         return path_of(self.nominal_diameter, m.radius, self.lead, self.external)
 
     def a_step(self) -> int:
-        """Threads per step of :func:`~mnclab.machining.thread_milling.helices`."""
+        """Threads per step of :func:`~mnclab.machining.holes.thread_milling.helices`."""
         return 0
 
     def passes(self) -> list[tuple[float, float]]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from mnclab.controls.tnc_620.language.parameters import PREASSIGNED, text
-from mnclab.machine import programs
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
+from mnclab.running import files
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
@@ -83,7 +83,7 @@ _OF_A_PROGRAM: tuple[str, ...] = ("name", "unit")  # what BEGIN PGM says
 def call_program(m: Machine, name: str, what: str, word: Word | None) -> None:
     """Run another program here, with its own QL parameters; ``what`` is the statement that calls it."""
     place = m._span(word)
-    index = programs.called(m, name, what, place)
+    index = files.called(m, name, what, place)
     kept = {key: m.memory.pop(key) for key in _OF_A_PROGRAM if key in m.memory}
     unit = m.variable_unit
     with m.variables.own_level():

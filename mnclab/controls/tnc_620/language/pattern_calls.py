@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from mnclab.controls.tnc_620.cycles.defaults import defaults
 from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM, planes, ready, run_at
 from mnclab.controls.tnc_620.language.motion import feed
-from mnclab.controls.tnc_620.language.patterns import Pattern
+from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
-from mnclab.machine.pattern import at_each
+from mnclab.running.repeating import at_each
 
 FUNCTIONS = FunctionTable()
 CODE = "CYCL CALL PAT"

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from mnclab.controls.tnc_620.cycles.chain import cancel
 from mnclab.controls.tnc_620.language import parameters
-from mnclab.controls.tnc_620.words import INCH
+from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum

@@ -1,0 +1,282 @@
+"""Roughing schemes of turning on one profile, side by side: strokes, way, time, what is cut and what is left.
+
+Coordinates (z, r) and areas of the half section above the axis, mm and mm²; feeds mm/rev, rapids mm/min, times s.
+
+    material = between profile and blank       rest        = what the tool covers on its way along the profile, and no stroke
+    removed  = material under the strokes      unreachable = what is left of the material besides
+
+The source ranks: loop, then semi-finish, then pick-up, whose idle strokes are longer. On the three zones of the
+catalogue (10 mm deep, a = 4, 0.3 mm/rev, 800 rev/min, plunges at half, rapids 10 m/min; tool of 95 and 50 degrees) ::
+
+                     open              semi-open          closed
+                     cut  rapid  s     cut  rapid  s      cut  rapid  s
+    loop             156  177  40.1    134  155  34.4      90   69  26.5
+    semi-finish *    156  178  40.1    148  155  38.0     104   58  30.0
+    pick-up          156  177  40.1    148  170  38.1     104   93  30.2
+    semi-finish      208  230  53.4    190  198  48.7
+
+* after the penultimate pass; in the closed zone both forms are one. So the ranking holds, by the idle strokes as the
+source says, where the clean-up takes the place of the last pass. After the last pass it cuts the whole contour once
+more, and costs more than all idle strokes at rapid save. In an open zone there is nothing to pick up, and all are alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from mnclab.comparison.table import Table
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.regions import Region
+from mnclab.geometry.sweeps import CHORD_ERROR, broad, outlined, swept, under
+from mnclab.machining.turning.passes import FRONT, LIFT
+from mnclab.machining.turning.profiles import checked, edges_of, reachable
+from mnclab.machining.turning.schemes import SCHEMES
+from mnclab.machining.turning.strokes import PLUNGE, RAPID, ROLES, Plan
+from mnclab.machining.turning.zones import CLOSED, COMBINED, OPEN, SEMI_OPEN, zone_of
+from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
+from mnclab.path.profile import Profile
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath
+
+if TYPE_CHECKING:
+    from mnclab.show.plot.picture import Picture
+
+Schemes = Iterable[str] | Mapping[str, "str | Plan | Callable[[Contour, float, float, Tool], Plan]"]
+
+#: Every column of a comparison: what it is and how it is written.
+COLUMNS = {
+    "scheme": ("scheme", "{}"),
+    "passes": ("passes", "{}"),
+    "length": ("cutting length, mm", "{:.1f}"),
+    "rapid": ("rapid length, mm", "{:.1f}"),
+    "time": ("time, s", "{:.1f}"),
+    "removed": ("removed, mm²", "{:.2f}"),
+    "rest": ("rest, mm²", "{:.2f}"),
+    "ridge": ("highest ridge, mm", "{:.2f}"),
+    "unreachable": ("unreachable, mm²", "{:.2f}"),
+}
+#: Which schemes the source names for a zone.
+SUITED = {
+    OPEN: ("loop", "zigzag", "pick-up", "semi-finish"),
+    SEMI_OPEN: ("loop", "zigzag", "pick-up", "semi-finish", "equidistant", "contour"),
+    CLOSED: ("descent", "zigzag", "pick-up", "semi-finish"),
+    COMBINED: ("combined",),
+}
+LEAST = 1e-6  # mm²
+TURNER = Tool(number=1, kind="turning", main_angle=95.0, auxiliary_angle=30.0)
+
+
+@dataclass(frozen=True, eq=False)
+class TurningTrial:
+    """One scheme on one profile: its plan, the whole path, and what comes of it."""
+
+    name: str
+    plan: Plan
+    profile: Contour
+    blank: float
+    tools: tuple[Tool, ...]
+    path: Toolpath
+    limits: Limits | None
+    rapid_rate: float
+
+    @cached_property
+    def reached(self) -> Contour:
+        """The lowest way of the first tool's tip over the profile."""
+        return reachable(self.profile, self.tools[0])
+
+    @cached_property
+    def _outlines(self) -> list[Floats]:
+        bottom = min(float(self.profile.points[:, 1].min()), min(s.r for s in self.plan.strokes))
+        return [edges_of(tool, self.blank - bottom + 10.0) for tool in self.tools]
+
+    @cached_property
+    def _cover(self) -> list[tuple[bool, Any]]:
+        """Of every stroke, whether it is a rapid, and what the tool covers on it."""
+        begin, found = self.plan.start, []
+        for s in self.plan.strokes:
+            here = (s.z, s.r)
+            way = Contour([begin, here], [s.bulge, 0.0], closed=False)
+            found.append((s.role == RAPID, swept(self._outlines[s.tool - 1], way)))
+            begin = here
+        return found
+
+    @cached_property
+    def _areas(self) -> tuple[Any, Any, Any]:
+        """Material, what of it the tool can reach, and what of it the strokes cover, as shapely areas."""
+        material = under(self.profile, self.blank).intersection(self._box(0.0, self.blank))
+        reach = material.intersection(swept(self._outlines[0], self.reached))
+        cut = None
+        for rapid, cover in self._cover:
+            if not rapid:
+                cut = cover if cut is None else cut.union(cover)
+        return material, reach if len(self.tools) == 1 else material, cut
+
+    def _box(self, low: float, high: float) -> Any:
+        z = self.profile.points[[0, -1], 0]
+        return under(Contour([(z[0], low), (z[1], low)], closed=False), high)
+
+    @cached_property
+    def removed(self) -> float:
+        """The area of material that the strokes take, mm²."""
+        material, _, cut = self._areas
+        return float(material.intersection(cut).area)
+
+    @cached_property
+    def rest(self) -> Region:
+        """What the tool could have cut and has left standing."""
+        _, reach, cut = self._areas
+        return outlined(broad(reach.difference(cut), 2 * CHORD_ERROR))
+
+    @cached_property
+    def unreachable(self) -> Region:
+        """What the edges of the tool leave behind corners and above open ends, where no stroke has cut it."""
+        material, reach, cut = self._areas
+        if material.area - reach.area <= LEAST:
+            return Region(())
+        return outlined(broad(material.difference(reach).difference(cut), 2 * CHORD_ERROR))
+
+    @cached_property
+    def ridge(self) -> float:
+        """How far the rest stands above the profile at most, mm: 0 is a uniform allowance."""
+        corners = [loop.points for loop in self.rest.loops]
+        return float(self.reached.distance(np.vstack(corners)).max()) if corners else 0.0
+
+    @cached_property
+    def gouged(self) -> float:
+        """The area below the profile that the strokes cut, with the tip or a flank, mm²: 0 unless something is wrong."""
+        part = self._box(-1.0, self.blank).difference(under(self.profile, self.blank + 1.0))
+        return float(broad(part.intersection(self._areas[2]), 2 * CHORD_ERROR).area)
+
+    @cached_property
+    def struck(self) -> float:
+        """The area of material that rapids run through before it has gone, mm²: 0 unless something is wrong."""
+        left, struck = self._box(0.0, self.blank), 0.0
+        for rapid, cover in self._cover:
+            if rapid:
+                struck += float(broad(left.intersection(cover), 2 * CHORD_ERROR).area)
+            else:
+                left = left.difference(cover)
+        return struck
+
+    @cached_property
+    def time(self) -> float:
+        """Seconds: by the feed-rate profile where axis limits are given, else length over feed."""
+        if self.limits is not None:
+            return Profile(self.path, self.limits).time
+        feed = np.where(np.isinf(self.path.feed), self.rapid_rate, self.path.feed)
+        return float((self.path.lengths / feed).sum() * 60)
+
+    @property
+    def row(self) -> dict[str, Any]:
+        """The values of :data:`COLUMNS`."""
+        rapid = self.path.kind == Kind.RAPID
+        return {
+            "scheme": self.name,
+            "passes": self.plan.passes,
+            "length": float(self.path.lengths[~rapid].sum()),
+            "rapid": float(self.path.lengths[rapid].sum()),
+            "time": self.time,
+            "removed": self.removed,
+            "rest": self.rest.area,
+            "ridge": self.ridge,
+            "unreachable": self.unreachable.area,
+        }
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TurningComparison(Table[TurningTrial]):
+    """Trials of several schemes on one profile; a table when shown."""
+
+    titles: ClassVar = COLUMNS
+    trials: tuple[TurningTrial, ...]
+
+    def plot(self, **options: Any) -> Picture:
+        """The strokes side by side, rapids dashed, what is left hatched (needs matplotlib)."""
+        from mnclab.show.plot.turning_schemes import plot_schemes
+
+        return plot_schemes(self, **options)
+
+
+def compare(
+    profile: Contour, blank: float, tool: Tool | tuple[Tool, ...] = TURNER, schemes: Schemes | None = None, *, depth: float = 2.0,
+    step: float | None = None, feed: float = 0.3, feeds: Mapping[str, float] | None = None, spindle: float = 800.0,
+    surface: float | None = None, rapid: float = 10_000.0, lift: float = LIFT, front: float = FRONT,
+    limits: Limits | None = None,
+) -> TurningComparison:  # fmt: skip
+    """Try roughing schemes on a profile (z, r) under a blank of a radius and put what comes of it side by side.
+
+    `schemes` are names of :data:`SCHEMES` (by default those :data:`SUITED` to the zone), or a mapping from names to a
+    scheme, a `Plan`, or a function of profile, blank, depth and tool; a plan for two tools needs both. `depth` of a pass
+    and `step` of the descent (by default the width of the tool, or the depth) in mm; `feed` in mm/rev, `feeds` by
+    role; `spindle` in rev/min: with a cutting speed `surface` in m/min it is the greatest speed. With axis `limits`
+    the time comes from the feed-rate profile.
+    """
+    tools = tool if isinstance(tool, tuple) else (tool,)
+    contour = checked(profile)
+    by_role = {role: feed for role in ROLES} | {PLUNGE: feed / 2} | dict(feeds or {})
+    if unknown := set(by_role) - set(ROLES):
+        raise ValueError(f"there is no role {min(unknown)!r}; known: {', '.join(ROLES)}")
+    for name, value in (
+        ("spindle speed", spindle),
+        ("rapid rate", rapid),
+        *((f"feed of {k}", v) for k, v in by_role.items()),
+    ):
+        if not value > 0:
+            raise ValueError(f"the {name} must be greater than 0, got {value:g}")
+    wanted = SUITED[zone_of(contour, blank)] if schemes is None else schemes
+    named = wanted if isinstance(wanted, Mapping) else {name: name for name in wanted}
+    trials = []
+    for name, how in named.items():
+        if isinstance(how, str):
+            if how not in SCHEMES:
+                raise ValueError(f"there is no scheme {how!r}; known: {', '.join(SCHEMES)}")
+            along = (tools[0].width or depth) if step is None else step
+            plan = SCHEMES[how](contour, blank, along if how == "descent" else depth, tools[0], lift=lift, front=front)
+        else:
+            plan = how if isinstance(how, Plan) else how(contour, blank, depth, tools[0])
+        path = toolpath(plan, by_role, spindle, surface, tools)
+        trials.append(TurningTrial(name, plan, contour, blank, tools, path, limits, rapid))
+    return TurningComparison(tuple(trials))
+
+
+def toolpath(
+    plan: Plan, feeds: Mapping[str, float], spindle: float = 800.0, surface: float | None = None,
+    tools: tuple[Tool, ...] = (TURNER,),
+) -> Toolpath:  # fmt: skip
+    """A plan as the path of a lathe: X the radius; feeds in mm/rev by role, speeds as in :func:`compare`."""
+    ends = np.array([(s.r, 0.0, s.z) for s in plan.strokes])
+    vertices = np.vstack([(plan.start[1], 0.0, plan.start[0]), ends])
+    rapid = np.array([s.role == RAPID for s in plan.strokes])
+    bulge = np.array([s.bulge for s in plan.strokes])
+    centre = np.full((len(ends), 3), np.nan)
+    for k in np.flatnonzero(bulge):
+        piece = Contour(vertices[k : k + 2][:, [2, 0]], [bulge[k], 0.0], closed=False)
+        centre[k] = piece.centres[0][1], 0.0, piece.centres[0][0]
+    middle = np.maximum((vertices[1:, 0] + vertices[:-1, 0]) / 2, 1e-6)
+    speed = np.full(len(ends), spindle)
+    if surface is not None:
+        speed = np.minimum(spindle, 1000 * surface / (2 * np.pi * middle))
+    per_rev = np.array([np.nan if s.role == RAPID else feeds[s.role] for s in plan.strokes])
+    labels = [f"{s.role} {s.number}" if s.number else s.role for s in plan.strokes]
+    known = list(dict.fromkeys(labels))
+    numbers = [tool.number or k for k, tool in enumerate(tools, 1)]
+    columns = {
+        "kind": np.where(rapid, np.uint8(Kind.RAPID), np.where(bulge != 0, np.uint8(Kind.ARC), np.uint8(Kind.LINE))),
+        "centre": centre,
+        "sweep": 4 * np.arctan(bulge),
+        "axis": np.broadcast_to((0.0, 1.0, 0.0), (len(ends), 3)),
+        "feed": np.where(rapid, np.inf, per_rev * speed),
+        "per_rev": per_rev,
+        "surface": np.full(len(ends), np.nan if surface is None else surface),
+        "spindle": speed,
+        "tool": np.array([numbers[min(s.tool, len(numbers)) - 1] for s in plan.strokes]),
+        "label": np.array([known.index(label) for label in labels]),
+        "synchronous": np.array([s.role == "thread" for s in plan.strokes]),
+    }
+    return Toolpath.chain(vertices, columns, labels=known, lathe=True)

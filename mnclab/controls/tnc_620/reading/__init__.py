@@ -1,0 +1,1 @@
+"""Klartext read into blocks."""

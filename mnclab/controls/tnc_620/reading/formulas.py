@@ -1,0 +1,243 @@
+"""How Q parameters, texts and the functions FN are written (catalogue: Q parameters, Q formula, QS, FN).
+
+A formula becomes the words ``target`` and ``value``. FN 0 to 7 are formulas of a fixed form; FN 8 and FN 13 join two
+operands, ``first`` and ``second``; FN 17 and FN 18 name system data by ``ID``, ``NR`` and ``IDX``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import NamedTuple
+
+from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, Cursor, Fault
+from mnclab.text import strings
+from mnclab.text.alarm import Span
+
+Read = Callable[[Cursor], None]
+
+GREATEST = {"": 1999, "L": 499, "R": 499, "S": 1999}
+
+OPERAND = re.compile(rf"[ \t]*(?:[+-][ \t]*)?(?:{NUMBER}|Q[LR]?\d+)", FLAGS)
+_OPERAND = rf"(?:[+-]\s*)?(?:{NUMBER}|Q[LR]?\d+)"
+_TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})(?!\d)[ \t]*", FLAGS)
+_EQUALS = re.compile(r"=[ \t]*", FLAGS)
+_UNDEFINED = re.compile(r"SET[ \t]+UNDEFINED", FLAGS)
+_ERROR = re.compile(r"[ \t]*ERROR[ \t]*=", FLAGS)
+_WRITE, _READ = re.compile(r"[ \t]*SYSWRITE(?![A-Z])", FLAGS), re.compile(r"[ \t]*SYSREAD(?![A-Z])", FLAGS)
+_SYSTEM = [(name, re.compile(rf"[ \t]*{name}", FLAGS)) for name in ("ID", "NR", "IDX")]
+
+
+class Form(NamedTuple):
+    """What must follow ``FN n: Q1 =``, and how it looks."""
+
+    pattern: re.Pattern[str]
+    example: str
+
+
+FORMS = {
+    number: Form(re.compile(pattern, FLAGS), f"FN {number}: Q1 = {example}")
+    for number, (pattern, example) in enumerate([
+        (_OPERAND, "+2"),
+        (rf"{_OPERAND}\s*\+\s*{_OPERAND}", "+2 + +3"),
+        (rf"{_OPERAND}\s*-\s*{_OPERAND}", "+2 - +3"),
+        (rf"{_OPERAND}\s*\*\s*{_OPERAND}", "+2 * +3"),
+        (rf"{_OPERAND}\s*(?:DIV|/)\s*{_OPERAND}", "+2 DIV +3"),
+        (rf"SQRT\s*{_OPERAND}", "SQRT +2"),
+        (rf"SIN\s*{_OPERAND}", "SIN -Q5"),
+        (rf"COS\s*{_OPERAND}", "COS -Q5"),
+    ])
+}  # fmt: skip
+PAIRS = {8: "LEN", 13: "ANG"}
+
+
+def assignment(target: str, begin: int) -> Read:
+    """The formula of ``Q1 = …``; its target was read already."""
+
+    def read(cursor: Cursor) -> None:
+        formula(cursor, target, begin)
+
+    return read
+
+
+def formula(cursor: Cursor, target: str, begin: int, form: Form | None = None) -> None:
+    """A Q parameter takes the value of a formula."""
+    start = value_begins(cursor, target, begin)
+    rest = cursor.rest().rstrip()
+    if form and not form.pattern.fullmatch(rest):
+        raise Fault(f"the function must have the form {form.example}", start, len(rest))
+    if form is None and strings.is_number(rest):
+        value: object = strings.parse_number(rest, span(cursor, start))
+    elif rest.startswith('"'):
+        raise Fault(f"{target} holds a number, not a text", start, len(rest), "texts stand in QS parameters")
+    else:
+        value = cursor.expression(start, cursor.stop)
+    cursor.at = cursor.stop
+    cursor.add("value", value, start)
+
+
+def text_assignment(target: str, begin: int) -> Read:
+    """The texts of ``QS1 = …``; its target was read already."""
+
+    def read(cursor: Cursor) -> None:
+        start = value_begins(cursor, target, begin)
+        value = strings.parse_text(cursor.rest(), span(cursor, start))
+        cursor.at = cursor.stop
+        cursor.add("value", value, start)
+
+    return read
+
+
+def text_formula(cursor: Cursor, begin: int, end: int) -> strings.TextFormula:
+    """The text between two places: that of a QS parameter."""
+    return strings.parse_text(cursor.text[begin:end].strip(), span(cursor, begin))
+
+
+def declared_text(cursor: Cursor) -> None:
+    """DECLARE STRING QS1 = …"""
+    begin = cursor.blanks()
+    found = cursor.match(_TARGET)
+    if found is None or found.group(1).upper() != "S" or not cursor.match(_EQUALS):
+        raise Fault("DECLARE STRING needs a QS parameter and =", begin, hint='for example DECLARE STRING QS1 = "A"')
+    text_assignment(f"QS{int(found.group(2))}", begin)(cursor)
+
+
+def value_begins(cursor: Cursor, target: str, begin: int) -> int:
+    """Add the target; the place where its value begins, which must be there."""
+    add_target(cursor, target, begin)
+    start = cursor.blanks()
+    if cursor.done:
+        raise Fault(f"{target} = needs a value", start)
+    return start
+
+
+def add_target(cursor: Cursor, target: str, begin: int) -> None:
+    """The word of a parameter that gets a value, if there is one of this number."""
+    kind = target[1] if target[1].isalpha() else ""
+    if int(target[1 + len(kind) :]) > GREATEST[kind]:
+        allowed = "QS0 to QS1999 are" if kind == "S" else "Q0 to Q1999, QL0 to QL499 and QR0 to QR499 are"
+        raise Fault(f"{target} does not exist: {allowed} allowed", begin, len(target))
+    cursor.builder.word("target", target, begin, len(target))
+
+
+def span(cursor: Cursor, offset: int) -> Span:
+    """The place in the text where a formula begins."""
+    return cursor.builder.span(offset)
+
+
+# --- FN ---------------------------------------------------------------------------------------------------------------
+
+
+def numeric_target(cursor: Cursor, number: int, example: str) -> tuple[str, int]:
+    """The parameter that FN gives a value, and where it stands."""
+    begin = cursor.blanks()
+    found = cursor.match(_TARGET)
+    if found is None:
+        raise Fault(f"FN {number} needs a Q parameter and =", begin, hint=example)
+    name = f"Q{found.group(1).upper()}{int(found.group(2))}"
+    if name[1] in "SC":
+        raise Fault(
+            f"FN {number} gives a number: {name} cannot hold it", begin, len(name), "take a Q, QL or QR parameter"
+        )
+    return name, begin
+
+
+def needs_equals(cursor: Cursor, number: int, example: str) -> None:
+    """The = after the parameter."""
+    if not cursor.match(_EQUALS):
+        raise Fault(f"FN {number} needs a Q parameter and =", cursor.blanks(), hint=example)
+
+
+def arithmetic(number: int) -> Read:
+    """FN 0 to FN 7; FN 0 can also take a value away."""
+
+    def read(cursor: Cursor) -> None:
+        example = FORMS[number].example
+        name, begin = numeric_target(cursor, number, example)
+        if number == 0 and (found := cursor.match(_UNDEFINED)):
+            add_target(cursor, name, begin)
+            cursor.add("undefined", None, found.start())
+            return
+        needs_equals(cursor, number, example)
+        formula(cursor, name, begin, FORMS[number])
+
+    return read
+
+
+def pair(number: int) -> Read:
+    """FN 8 and FN 13: an operand, a word, an operand."""
+
+    def read(cursor: Cursor) -> None:
+        word = PAIRS[number]
+        example = f"FN {number}: Q1 = +5 {word} +4"
+        name, begin = numeric_target(cursor, number, example)
+        needs_equals(cursor, number, example)
+        start = value_begins(cursor, name, begin)
+        operand(cursor, "first", example)
+        if not cursor.match(re.compile(rf"[ \t]*{word}(?![A-Z])", FLAGS)):
+            raise Fault(f"the function must have the form {example}", start, max(1, cursor.stop - start))
+        operand(cursor, "second", example)
+
+    return read
+
+
+def operand(cursor: Cursor, address: str, example: str) -> None:
+    """A number or a Q parameter with its sign."""
+    begin = cursor.blanks()
+    found = cursor.match(OPERAND)
+    if found is None:
+        raise Fault("a number or a Q parameter was expected", begin, hint=f"for example {example}")
+    cursor.add(address, cursor.expression(found.start(), found.end()), begin)
+
+
+def error(cursor: Cursor) -> None:
+    """FN 14: ERROR = number."""
+    if not cursor.match(_ERROR):
+        raise Fault("FN 14 needs ERROR = and a number", cursor.blanks(), hint="for example FN 14: ERROR = 1000")
+    operand(cursor, "number", "FN 14: ERROR = 1000")
+
+
+def system_data(cursor: Cursor, example: str) -> None:
+    """ID, NR and, where there are several, IDX."""
+    for name, pattern in _SYSTEM:
+        begin = cursor.blanks()
+        if cursor.match(pattern):
+            at = cursor.at
+            found = cursor.match(OPERAND)
+            if found is None:
+                raise Fault(f"{name} needs a number", begin, at - begin)
+            cursor.add(name, cursor.expression(found.start(), found.end()), begin)
+        elif name != "IDX":
+            raise Fault(f"{name} is missing", begin, hint=f"for example {example}")
+
+
+def system_write(cursor: Cursor) -> None:
+    """FN 17: SYSWRITE ID n NR n = value."""
+    example = "FN 17: SYSWRITE ID 990 NR 6 = +1"
+    if not cursor.match(_WRITE):
+        raise Fault("FN 17 needs SYSWRITE", cursor.blanks(), hint=f"for example {example}")
+    system_data(cursor, example)
+    needs = cursor.blanks()
+    if not cursor.match(_EQUALS):
+        raise Fault("= and a value are missing", needs, hint=f"for example {example}")
+    operand(cursor, "value", example)
+
+
+def system_read(cursor: Cursor) -> None:
+    """FN 18: SYSREAD Q1 = ID n NR n IDX n."""
+    example = "FN 18: SYSREAD Q25 = ID210 NR4 IDX3"
+    if not cursor.match(_READ):
+        raise Fault("FN 18 needs SYSREAD", cursor.blanks(), hint=f"for example {example}")
+    name, begin = numeric_target(cursor, 18, example)
+    needs_equals(cursor, 18, example)
+    add_target(cursor, name, begin)
+    system_data(cursor, example)
+
+
+FN: dict[int, Read] = {
+    **{number: arithmetic(number) for number in FORMS},
+    **{number: pair(number) for number in PAIRS},
+    14: error,
+    17: system_write,
+    18: system_read,
+}

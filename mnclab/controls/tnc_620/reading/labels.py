@@ -1,0 +1,123 @@
+"""How the course of a program is written: labels, calls, jumps, other programs (catalogue: LBL, CALL LBL, FN, CALL PGM)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from mnclab.controls.tnc_620.reading.formulas import operand
+from mnclab.controls.tnc_620.reading.words import FLAGS, TEXT, Cursor, Fault
+from mnclab.text import strings
+
+Read = Callable[[Cursor], None]
+
+_WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
+_TEXT_PARAMETER = re.compile(r"[ \t]*QS[ \t]?\d{1,6}(?!\d)", FLAGS)
+_REPEAT = re.compile(r"REP[ \t]*(\d{1,9})(?:[ \t]*/[ \t]*\d{1,9})?", FLAGS)
+_IF = re.compile(r"[ \t]*IF(?![A-Z])", FLAGS)
+_DEFINED = re.compile(r"[ \t]*(?:[+][ \t]*)?(Q[LRS]?\d{1,6})[ \t]+IS[ \t]+(UNDEFINED|DEFINED)(?![A-Z])", FLAGS)
+_GOTO = re.compile(r"[ \t]*GOTO[ \t]+LBL(?![A-Z])", FLAGS)
+_PGM = re.compile(r"[ \t]*PGM(?![A-Z])", FLAGS)
+
+COMPARISONS = {9: "EQU", 10: "NE", 11: "GT", 12: "LT"}
+
+
+def label(cursor: Cursor, parameter: bool = False) -> str:
+    """The number or the name of a label, or where it is called also a QS parameter; how a program lists it."""
+    begin = cursor.blanks()
+    if found := cursor.match(TEXT):
+        cursor.add("label", found.group(1), begin)
+        if not found.group(1).strip():
+            raise Fault("the name of a label is empty", begin, cursor.at - begin)
+        return f'"{found.group(1)}"'
+    if found := cursor.match(_WHOLE):
+        value = float(found.group(1))
+        if value > 65535:
+            raise Fault(f"a label must be a number from 0 to 65535, got {value:g}", begin, cursor.at - begin)
+        cursor.add("label", value, begin)
+        return f"{value:g}"
+    if parameter and (found := cursor.match(_TEXT_PARAMETER)):
+        cursor.add("label", strings.parse_text(found.group().strip(), cursor.builder.span(begin)), begin)
+        return ""
+    raise Fault("a label must be a whole number or a name in quotes", begin, hint='for example LBL 1 or LBL "HOLES"')
+
+
+def set_label(cursor: Cursor) -> None:
+    """LBL: a jump target; LBL 0 is an end and none."""
+    begin = cursor.blanks()
+    name = label(cursor)
+    builder = cursor.builder
+    if name in builder.labels:
+        raise Fault(f"LBL {name} is set twice", begin, cursor.at - begin, "a label stands for one place in the program")
+    if name != "0":
+        builder.labels[name] = builder.blocks[-1][0]
+
+
+def call_label(cursor: Cursor) -> None:
+    """CALL LBL: the label, and how often a section is repeated; of n/n the second counts down while it runs."""
+    label(cursor, parameter=True)
+    begin = cursor.blanks()
+    if found := cursor.match(_REPEAT):
+        cursor.add("REP", float(found.group(1)), begin)
+
+
+def jump(number: int) -> Read:
+    """FN 9 to FN 12: two operands, a comparison, and the label to go to."""
+    word = COMPARISONS[number]
+    example = f"FN {number}: IF +Q1 {word} +Q3 GOTO LBL 5"
+
+    def read(cursor: Cursor) -> None:
+        if not cursor.match(_IF):
+            raise Fault(f"FN {number} needs IF", cursor.blanks(), hint=f"for example {example}")
+        begin = cursor.blanks()
+        if number == 9 and (found := cursor.match(_DEFINED)):
+            cursor.builder.word("parameter", found.group(1).upper(), found.start(1), len(found.group(1)))
+            cursor.builder.word("state", found.group(2).upper(), found.start(2), len(found.group(2)))
+        else:
+            operand(cursor, "first", example)
+            begin = cursor.blanks()
+            if not cursor.match(re.compile(rf"{word}(?![A-Z])", FLAGS)):
+                raise Fault(f"FN {number} compares with {word}", begin, hint=f"for example {example}")
+            operand(cursor, "second", example)
+        begin = cursor.blanks()
+        if not cursor.match(_GOTO):
+            raise Fault("GOTO LBL is missing", begin, hint=f"for example {example}")
+        label(cursor, parameter=True)
+
+    return read
+
+
+JUMPS: dict[int, Read] = {number: jump(number) for number in COMPARISONS}
+
+
+def program_name_of(cursor: Cursor, address: str, what: str) -> None:
+    """The name of another program up to the end of the line, with or without quotes."""
+    begin = cursor.blanks()
+    name = cursor.rest().rstrip()
+    cursor.at = begin + len(name)
+    name = name[1:-1].strip() if len(name) > 1 and name[0] == name[-1] == '"' else name
+    if not name.strip('"\\/: '):
+        raise Fault(f"{what} needs the name of a program", begin, max(1, cursor.at - begin))
+    cursor.add(address, name, begin)
+
+
+def call_program(cursor: Cursor) -> None:
+    """CALL PGM: the name of another program."""
+    program_name_of(cursor, "name", "CALL PGM")
+
+
+def select_program(cursor: Cursor) -> None:
+    """SEL PGM: the name of another program, also in a QS parameter."""
+    begin = cursor.blanks()
+    if _TEXT_PARAMETER.fullmatch(cursor.rest().rstrip()):
+        value = strings.parse_text(cursor.rest(), cursor.builder.span(begin))
+        cursor.at = cursor.stop
+        cursor.add("name", value, begin)
+    else:
+        program_name_of(cursor, "name", "SEL PGM")
+
+
+def program_of_cycle(cursor: Cursor) -> None:
+    """12.1: the word PGM and the name of a program."""
+    cursor.match(_PGM)
+    program_name_of(cursor, "PGM", "CYCL DEF 12")

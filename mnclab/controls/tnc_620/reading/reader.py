@@ -1,0 +1,294 @@
+"""Reading conversational programs: lines into blocks.
+
+A block is a number, a statement and its words; ``/`` before or after the number marks a block that may be passed over,
+``;`` begins a comment, ``*`` a structure block. A block goes on over several lines when a line ends in ``~``, in a
+definition whose further lines carry no number, and in the sub-blocks n.0, n.1, … of older cycles, which become one block.
+So ``Q200=5`` without a number below a definition is a parameter of it; with a number it is an assignment, and so it is
+where the lines of the definition were joined by ~ and the last one has none. ``Q1 = -5``, the way an assignment is
+written, below parameters that are written ``Q200=5``: a parameter too, for the manual numbers assignments, with a warning.
+
+Plain straight lines (``12 L X+1.5 Y-2 F500 R0``) are found for the whole text at once; every other line is read one by
+one, and a fault ends the reading of its block alone.
+"""
+
+from __future__ import annotations
+
+import re
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.controls.tnc_620.reading.statements import KEYWORDS_ONLY, WORDS, Statement, cycle_parameters, recognize
+from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, LARGEST, Cursor, Fault
+from mnclab.text.alarm import KEPT, Alarm
+from mnclab.text.program import NONE, BulkBlocks, Program, ProgramBuilder, first_words
+from mnclab.text.words import Scan, characters, scan
+
+_UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
+_HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
+_SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
+_WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
+_PLAIN = "FRXYZ"  # letters of plain lines
+MOST_LETTERS = 30  # of a word that may have been meant as a statement
+PIECE = 1 << 14  # lines whose words are looked at together
+
+# A hexadecimal digit for each letter: added over a line of so few words that none overflows, 1 says that a letter stands once.
+_STRANGE = 1 << 4 * len(_PLAIN)
+_ONCE = int("1" * len(_PLAIN), 16)
+_DIGIT_OF_LETTER = np.full(256, _STRANGE, np.int32)
+_PLACE_OF_LETTER, _FORM_OF_LETTER = np.zeros(256, np.int16), np.zeros(256, np.uint8)
+for _place, _letter in enumerate(_PLAIN):
+    _DIGIT_OF_LETTER[ord(_letter)], _PLACE_OF_LETTER[ord(_letter)] = 1 << 4 * _place, _place
+_FORM_OF_LETTER[ord("R")] = NONE
+
+
+def read(text: str, name: str = "program") -> Program:
+    """The blocks of a conversational program."""
+    found = scan(text, leading_number=True, bare="L")
+    builder = ProgramBuilder(text, name, "tnc-620", found.starts, ";")
+    unit = _UNIT.search(text)
+    inch = unit is not None and unit.group(1).upper().split()[-1:] == ["INCH"]
+    plain, bulk = _plain_lines(found, text, inch)
+    lines = _Lines(builder, inch)
+    for line in np.flatnonzero(~plain).tolist():
+        lines.read(line)
+    _check_end(builder, bulk, lines.end)
+    return builder.build(bulk)
+
+
+def _check_end(builder: ProgramBuilder, bulk: BulkBlocks, end: int | None) -> None:
+    """Warn about blocks after END PGM."""
+    if end is not None:
+        heads = builder.heads
+        after = heads[(heads[:, 0] > end) & (heads[:, 1] > 0), 0].astype(int).tolist() + bulk.start[bulk.start > end].tolist()
+        if after:
+            builder.alarm("nothing after END PGM is obeyed", min(after), severity="warning")
+
+
+class _Lines:
+    """Reads lines one by one and remembers which block the next one may belong to."""
+
+    def __init__(self, builder: ProgramBuilder, inch: bool) -> None:
+        self.builder, self.text, self.inch = builder, builder.text, inch
+        self.last = -1  # the line read last
+        self.statement: Statement | None = None  # of the block that may go on
+        self.tilde = False  # the line before ended in ~
+        self.over = False  # the last line of a block was joined by a ~ and has none itself
+        self.skip = self.faulty = self.begun = False
+        self.tight = False  # a parameter of the block is written without blanks
+        self.end: int | None = None  # place of END PGM
+
+    def read(self, line: int) -> None:
+        """One line: a block, a part of the block before it, a comment, or nothing."""
+        if line != self.last + 1:
+            self.statement, self.tilde, self.over = None, False, False  # plain lines stand between
+        self.last = line
+        begin, stop, comment, tilde = self.bounds(line)
+        joined, self.tilde = self.tilde, tilde
+        head = _HEAD.match(self.text, begin, stop)
+        assert head is not None
+        if head.end() >= stop and not head.group(2):
+            self.tilde = tilde or (joined and comment >= 0)
+            if comment >= 0 and self.statement is None:
+                self.builder.block(comment)
+            return
+        at = begin if joined else head.end()
+        try:
+            if joined or (not head.group(2) and self.goes_on(at, stop)):
+                self.over = joined and not tilde
+                self.go_on(Cursor(self.builder, at, stop, self.inch))
+            else:
+                self.over = False
+                start = begin + len(head.group()) - len(head.group().lstrip(" \t"))
+                self.block(start, bool(head.group(1) or head.group(3)), Cursor(self.builder, at, stop, self.inch))
+        except Fault as fault:
+            self.builder.alarm(fault.message, fault.offset, fault.length, fault.hint)
+            self.faulty = True
+        except Alarm as alarm:  # from the reader of formulas, which knows its place
+            self.builder.alarms.append(alarm)
+            self.faulty = True
+
+    def bounds(self, line: int) -> tuple[int, int, int, bool]:
+        """Begin and end of the words, the place of the comment or -1, and whether the line ends in ~."""
+        starts, text = self.builder.line_starts, self.text
+        begin = int(starts[line])
+        end = int(starts[line + 1]) if line + 1 < len(starts) else len(text)
+        content = text[begin:end].rstrip()
+        if begin == 0 and content.startswith("\ufeff"):
+            begin, content = 1, content[1:]
+        tilde = content.endswith("~")
+        if tilde:
+            content = content[:-1]
+        comment, quoted = -1, False
+        if ";" in content:
+            for k, c in enumerate(content):
+                quoted ^= c == '"'
+                if c == ";" and not quoted:
+                    comment, content = begin + k, content[:k]
+                    break
+        return begin, begin + len(content.rstrip(" \t")), comment, tilde
+
+    def goes_on(self, at: int, stop: int) -> bool:
+        """Whether a line without a number belongs to the block before it."""
+        if self.statement is None or self.statement.more is None or self.over or self.text[at] == "*":
+            return False
+        try:
+            begins = recognize(Cursor(self.builder, at, stop, self.inch))
+        except Fault:
+            return False
+        return begins is None or (begins.keyword in ("Q", "QS") and self.statement.more is cycle_parameters)
+
+    def go_on(self, cursor: Cursor) -> None:
+        """A further line of the block before."""
+        if self.statement is None or self.faulty:
+            return
+        if self.statement.more is cycle_parameters:
+            spaced = _SPACED.match(self.text, cursor.at, cursor.stop)
+            if spaced and self.tight:
+                message = f"Q{spaced.group(1)} is read as a parameter of the {self.statement.keyword} above it"
+                hint = "an assignment has a block number, for example 5 Q1 = -9"
+                self.builder.alarm(message, cursor.at, cursor.stop - cursor.at, hint, "warning")
+            self.tight = self.tight or not spaced
+        (self.statement.more or self.statement.read)(cursor)
+        self.close(cursor)
+
+    def block(self, start: int, skip: bool, cursor: Cursor) -> None:
+        """A line that begins a block, or is the next sub-block of one."""
+        before, self.statement = self.statement, None
+        was_faulty, self.faulty, self.tight = self.faulty, False, False
+        if cursor.done or self.text[cursor.at] == "*":
+            self.builder.block(start, skip=skip)
+            return
+        begin = cursor.at
+        try:
+            statement = recognize(cursor)
+        except Fault:
+            self.builder.block(start, skip=skip)
+            raise
+        if statement is not None and statement.part > 0 and before is not None and before.keyword == statement.keyword:
+            self.statement, self.faulty = statement, was_faulty
+            if was_faulty:
+                return
+            self.check_part(before, statement, begin, cursor.at - begin, skip)
+        else:
+            self.builder.block(start, statement.keyword if statement else "", skip)
+            self.statement, self.skip = statement, skip
+            if statement is None:
+                raise self.unknown(cursor)
+            self.check_order(statement, begin, cursor.at - begin)
+            if statement.part > 0:
+                raise Fault(
+                    f"{statement.keyword}.{statement.part} stands without {statement.keyword}.0 before it",
+                    begin,
+                    cursor.at - begin,
+                )
+        statement.read(cursor)
+        self.close(cursor)
+
+    def close(self, cursor: Cursor) -> None:
+        """The end of a line: nothing may be left, and no word may be missing a partner."""
+        if not cursor.done:
+            raise cursor.unexpected()
+
+    def check_part(self, before: Statement, now: Statement, begin: int, length: int, skip: bool) -> None:
+        """Sub-blocks follow each other, all marked with / or none."""
+        if now.part <= before.part:
+            raise Fault(f"{now.keyword}.{now.part} stands after {before.keyword}.{before.part}", begin, length)
+        if skip != self.skip:
+            raise Fault("all sub-blocks of a cycle must be marked with / or none", begin, length)
+
+    def check_order(self, statement: Statement, begin: int, length: int) -> None:
+        """BEGIN PGM stands once; END PGM is the last block that counts."""
+        if statement.keyword == "BEGIN PGM":
+            if self.begun:
+                raise Fault("BEGIN PGM stands twice: a file holds one program", begin, length)
+            self.begun = True
+        if statement.keyword == "END PGM" and self.end is None:
+            self.end = begin
+
+    def unknown(self, cursor: Cursor) -> Fault:
+        """The fault of a line that begins with no statement."""
+        found = _WORD.match(self.text, cursor.at, cursor.stop)
+        word = found.group().upper() if found else ""
+        if not word.isascii() or not word.isalpha() or word == "G":
+            return cursor.unexpected()
+        if len(word) == 1:
+            return Fault(f"{word} begins no statement", cursor.at, hint="a straight line begins with L")
+        near: list[str] = []
+        if len(word) <= MOST_LETTERS and self.builder.alarms.total < KEPT:  # those that follow are only counted
+            first = " ".join(cursor.rest().upper().split(maxsplit=2)[:2])[: 2 * MOST_LETTERS]
+            near = get_close_matches(first, [*WORDS, *KEYWORDS_ONLY, "CYCL DEF", "TCH PROBE"], 1, 0.7)
+            near = near or get_close_matches(word, [*WORDS, *KEYWORDS_ONLY], 2, 0.6)
+        return Fault(
+            f"{word} is no statement of this control", cursor.at, len(word), f"near: {', '.join(near)}" if near else ""
+        )
+
+
+def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_], BulkBlocks]:
+    """Which lines (l,) are plain straight lines, and their blocks.
+
+    The columns of ``found`` are used up: the words that stay are moved to their beginning, in pieces that stay in the
+    cache, because new columns would cost more than the work on them.
+    """
+    with_words = np.flatnonzero(found.count)  # lines
+    count = found.count[with_words]
+    first = first_words(count)
+    good = (count > 1) & (count <= 1 + len(_PLAIN))
+    if "~" in text:  # the line after it goes on with a block
+        good &= ~np.isin(
+            with_words, np.searchsorted(found.starts, np.flatnonzero(characters(text) == ord("~")), "right")
+        )
+
+    address, form = np.empty(len(found.letter), np.int16), np.empty(len(found.letter), np.uint8)
+    columns: list[NDArray[Any]] = [found.value, found.offset, found.length]
+    kept = 0
+    for i in range(0, len(count), PIECE):
+        here = slice(int(first[i]), int(first[min(i + PIECE, len(count))]))
+        letter, heads = found.letter[here], first[i : i + PIECE][: len(count) - i] - first[i]
+        good[i : i + PIECE] &= _plain(letter, found.value[here], found.length[here], heads)
+        keep = np.repeat(good[i : i + PIECE], count[i : i + PIECE])
+        keep[heads] = False
+        letter = letter[keep]
+        to = slice(kept, kept + len(letter))
+        address[to], form[to] = _PLACE_OF_LETTER[letter], _FORM_OF_LETTER[letter]
+        for column in columns:
+            column[to] = column[here][keep]
+        kept = to.stop
+    for column in (*columns, address, form):
+        column.resize(kept, refcheck=False)
+
+    plain = np.zeros(len(found.starts), dtype=bool)
+    plain[with_words[good]] = True
+    starts = found.starts[with_words[good]]
+    if found.indented:
+        data = characters(text)
+        while (indented := (data[starts] == 32) | (data[starts] == 9)).any():
+            starts = starts + indented
+    return plain, BulkBlocks(
+        addresses=tuple("R0" if c == "R" else c for c in _PLAIN),
+        address=address,
+        value=found.value * INCH if inch else found.value,
+        offset=found.offset,
+        length=found.length,
+        keyword="L",
+        start=starts,
+        first=first_words(count[good] - 1),
+        plain=np.ones(int(good.sum()), dtype=bool),
+        form=form,
+    )
+
+
+def _plain(
+    letter: NDArray[np.uint8], value: NDArray[np.float64], length: NDArray[np.int16], heads: NDArray[np.int32]
+) -> NDArray[np.bool_]:
+    """Which lines are an L alone and plain words, each once; of their words (w,), ``heads`` are the first ones."""
+    digits = _DIGIT_OF_LETTER[letter]
+    digits[heads] = 0
+    radius = np.flatnonzero(letter == ord("R"))
+    digits[radius[(value[radius] != 0) | (length[radius] != 2)]] = _STRANGE  # an R that is not R0
+    if max(value.max(), -value.min()) >= LARGEST:
+        digits[np.abs(value) >= LARGEST] = _STRANGE
+    good = (letter[heads] == ord("L")) & (length[heads] == 1)
+    return good & ((np.add.reduceat(digits, heads) & ~_ONCE) == 0)

@@ -1,0 +1,298 @@
+"""Which statements there are, and how the rest of each is read into words.
+
+A statement is known by its keyword (``L``, ``TOOL CALL``, ``CYCL DEF 200``). What the control knows but nobody has built
+is read by its keyword alone: the run refuses it by name where it stands.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import NamedTuple
+
+from mnclab.controls.tnc_620.reading import sub_blocks
+from mnclab.controls.tnc_620.reading.formulas import FN, assignment, declared_text, text_assignment, text_formula
+from mnclab.controls.tnc_620.reading.labels import (
+    JUMPS,
+    call_label,
+    call_program,
+    program_of_cycle,
+    select_program,
+    set_label,
+)
+from mnclab.controls.tnc_620.reading.pattern_words import PatternWords
+from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, TEXT, Cursor, Fault
+
+Read = Callable[[Cursor], None]
+
+
+class Statement(NamedTuple):
+    """A statement that was recognized: its keyword, how to read its rest, and what may follow on further lines."""
+
+    keyword: str
+    read: Read
+    more: Read | None = None
+    """Reads a further line that has no block number; None when only a line ending in ~ can be continued."""
+    part: int = -1
+    """k of a sub-block n.k, -1 for everything else."""
+
+
+def plain(cursor: Cursor) -> None:
+    """Words alone."""
+    cursor.words()
+
+
+def ignored(cursor: Cursor) -> None:
+    """Statements that are refused by their name are not read further."""
+    cursor.at = cursor.stop
+
+
+def with_radius(cursor: Cursor) -> None:
+    """Words where R0 is a radius."""
+    cursor.words(radius=True)
+
+
+def with_axis(cursor: Cursor) -> None:
+    """Words with a letter that names the tool axis."""
+    cursor.words(bare="XYZUVW")
+
+
+def leading(name: str) -> Read:
+    """A number without an address, then words."""
+
+    def read(cursor: Cursor) -> None:
+        begin = cursor.blanks()
+        value = cursor.value()
+        if value is not None:
+            cursor.add(name, value, begin)
+        cursor.words()
+
+    return read
+
+
+def tool_call(cursor: Cursor) -> None:
+    """Number or name of the tool, its axis, and words."""
+    tool(cursor)
+    with_axis(cursor)
+
+
+def tool(cursor: Cursor) -> None:
+    """A tool by number, by name in quotes or in a text parameter; nothing if none of them is there."""
+    begin = cursor.blanks()
+    if found := cursor.match(TEXT):
+        cursor.add("tool", found.group(1).strip(), begin)
+    elif found := cursor.match(_TEXT_PARAMETER):
+        cursor.add("text", f"QS{int(found.group(1))}", begin)
+    elif (value := cursor.value()) is not None:
+        cursor.add("tool", value, begin)
+
+
+def tool_def(cursor: Cursor) -> None:
+    """The tool, and its length and radius when no tool table is active."""
+    tool(cursor)
+    cursor.words(radius=True)
+
+
+def program_name(cursor: Cursor) -> None:
+    """BEGIN PGM and END PGM: name and unit."""
+    begin = cursor.blanks()
+    parts = cursor.rest().rsplit(None, 1)
+    if not parts or parts[-1].upper() not in ("MM", "INCH"):
+        cursor.at = cursor.stop
+        raise Fault(
+            "the unit of the program is missing: MM or INCH must follow its name", begin, max(1, len(" ".join(parts)))
+        )
+    unit_at = begin + cursor.rest().rindex(parts[-1])
+    if len(parts) == 2:
+        cursor.at = begin + len(parts[0])
+        cursor.add("name", parts[0], begin)
+    cursor.at = unit_at + len(parts[-1])
+    cursor.add("unit", parts[-1].upper(), unit_at)
+    cursor.at = cursor.stop
+
+
+def file_name(cursor: Cursor) -> None:
+    """The name of a file, in quotes or up to the end of the line."""
+    begin = cursor.blanks()
+    if found := cursor.match(TEXT):
+        name = found.group(1).strip()
+    else:
+        name = cursor.rest().strip()
+        cursor.at = cursor.stop
+    if not name:
+        raise Fault("the name of a file is missing", begin, hint='for example SEL PATTERN "HOLES"')
+    cursor.add("file", name, begin)
+
+
+# --- cycles -----------------------------------------------------------------------------------------------------------
+
+
+def cycle_parameters(cursor: Cursor) -> None:
+    """Lines ``Q200=+2``; a name before the first of them is a comment in the language of the dialog."""
+    builder = cursor.builder
+    if not any(name.startswith("Q") for name in _addresses(cursor)):
+        first = _PARAMETER_HEAD.search(cursor.text, cursor.at, cursor.stop)
+        name_of_cycle(cursor, first.start() if first else cursor.stop)
+    while not cursor.done:
+        begin = cursor.at
+        found = cursor.match(_PARAMETER_HEAD)
+        if found is None:
+            raise cursor.unexpected()
+        name = f"Q{(found.group(1) or '').upper()}{found.group(2)}"
+        value: object = None
+        if text := cursor.match(TEXT):
+            value = text.group(1)
+        elif named := cursor.match(_STRING):
+            value = text_formula(cursor, named.start(), named.end())
+        elif word := cursor.match(_FEED_WORD):
+            value = re.sub(r"[ \t]", "", word.group()).upper().replace(",", ".")
+        else:
+            value = cursor.value()
+        if value is None:
+            raise Fault(f"{name} needs a number", begin, found.end() - begin)
+        builder.word(name, value, begin, cursor.at - begin)
+
+
+def name_of_cycle(cursor: Cursor, stop: int = -1) -> None:
+    """The name is free; what looks like a word in it would be lost, which is said."""
+    stop = cursor.stop if stop < 0 else stop
+    for found in _LIKE_A_WORD.finditer(cursor.text, cursor.at, stop):
+        message = f"{found.group()} is read as part of the cycle's name and not obeyed"
+        cursor.builder.alarm(message, found.start(), len(found.group()), severity="warning")
+    cursor.at = stop
+
+
+def _addresses(cursor: Cursor) -> list[str]:
+    """Addresses of the words that the block has so far."""
+    names = list(cursor.builder.addresses)
+    return [names[word[0]] for word in cursor.builder.block_words]
+
+
+def contour_labels(cursor: Cursor) -> None:
+    """14.1: the numbers of the labels, ``1/2/3/4``, after a word in the language of the dialog."""
+    cursor.match(_DIALOG)
+    while not cursor.done:
+        cursor.match(_SLASH)
+        begin = cursor.blanks()
+        found = cursor.match(_WHOLE)
+        if found is None:
+            raise Fault("a contour label must be a whole number", begin)
+        cursor.add("LBL", float(found.group(1)), begin)
+
+
+def datum_shift(cursor: Cursor) -> None:
+    """7.1 …: axis words, or the row of a datum table."""
+    begin = cursor.blanks()
+    if cursor.match(_ROW):
+        value = cursor.value()
+        if value is None:
+            raise Fault("# needs the number of a row", begin)
+        cursor.add("#", value, begin)
+    cursor.words()
+
+
+#: How sub-blocks n.1, n.2 … are read; the others are known by their number alone.
+PARTS: dict[str, Read] = {
+    "CYCL DEF 7": datum_shift,
+    **sub_blocks.READERS,
+    "CYCL DEF 10": plain,
+    "CYCL DEF 11": plain,
+    "CYCL DEF 12": program_of_cycle,
+    "CYCL DEF 14": contour_labels,
+}
+
+
+def definition(keyword: str, part: int) -> Statement:
+    """CYCL DEF and TCH PROBE in both formats."""
+    if part < 0:
+        return Statement(keyword, cycle_parameters, cycle_parameters)
+    if part == 0:
+        return Statement(keyword, ignored if keyword.startswith("TCH PROBE") else name_of_cycle, None, 0)
+    read = PARTS.get(f"{keyword}.{part}", PARTS.get(keyword, ignored))
+    return Statement(keyword, read, read, part)
+
+
+# --- recognizing ------------------------------------------------------------------------------------------------------
+
+_FORMS = "LT LN CT LCT PLT PLN PCT PLCT".split()
+WORDS: dict[str, Read] = {
+    "L": plain, "CC": plain, "C": plain, "CT": plain, "LP": plain, "CP": plain, "CTP": plain, "CR": with_radius,
+    "RND": with_radius, "CHF": leading("length"), "FPOL": plain, "FL": plain, "FLT": plain, "FC": with_radius,
+    "FCT": with_radius, "FSELECT": leading("number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
+    "CYCL CALL": plain, "LBL": set_label, "CALL LBL": call_label, "TOOL CALL": tool_call, "TOOL DEF": tool_def,
+    "CALL PGM": call_program, "SEL PGM": select_program, "CALL SELECTED PGM": plain, "DECLARE STRING": declared_text,
+    "SEL PATTERN": file_name, "SEL TABLE": file_name, "PATTERN DEF": plain,  # whose lines PatternWords reads
+    "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
+    **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
+}  # fmt: skip
+
+#: Statements whose rest is not read: keyword -> whether further lines without a number belong to them.
+KEYWORDS_ONLY = {
+    "BLK FORM": False, "SEL CONTOUR": False, "DECLARE CONTOUR": True, "CONTOUR DEF": True,
+    "PLANE": False, "FUNCTION": False, "TRANS DATUM": False, "APPR": False, "DEP": False,
+}  # fmt: skip
+
+_ALL = sorted([*WORDS, *KEYWORDS_ONLY], key=len, reverse=True)
+_KEYWORD = re.compile(f"(?:{'|'.join(re.escape(k) for k in _ALL)})(?![A-Z_])".replace(r"\ ", r"[ \t]+"), FLAGS)
+_CYCLE = re.compile(
+    r"(CYCL[ \t]+DEF|TCH[ \t]+PROBE|GLOBAL[ \t]+DEF)[ \t]*(?:(\d{1,5})(?:\.(\d{1,2}))?(?![.\d]))?", FLAGS
+)
+_FN = re.compile(r"FN[ \t]*(\d{1,3})[ \t]*:?", FLAGS)
+_TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})[ \t]*=", FLAGS)
+_M = re.compile(r"M[ \t]*\d", FLAGS)
+_WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
+_PARAMETER_HEAD = re.compile(r"\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
+_FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
+_STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
+#: A coordinate, another number with a sign, an M function, a feed, a speed.
+_LIKE_A_WORD = re.compile(r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS)
+_DIALOG = re.compile(r"[^\d;~]*")
+_TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
+_SLASH = re.compile(r"[ \t]*/")
+_ROW = re.compile(r"#")
+
+
+def recognize(cursor: Cursor) -> Statement | None:
+    """The statement that begins here, or None; the cursor then stands behind its keyword."""
+    if found := cursor.match(_CYCLE):
+        return _cycle(cursor, found)
+    if found := cursor.match(_KEYWORD):
+        keyword = " ".join(found.group().upper().split())
+        if keyword in KEYWORDS_ONLY:
+            return _known_by_name(cursor, keyword, found.start())
+        if keyword == "PATTERN DEF":
+            elements = PatternWords()
+            return Statement(keyword, elements, elements)
+        return Statement(keyword, WORDS[keyword])
+    if found := cursor.match(_FN):
+        number = int(found.group(1))
+        return Statement(f"FN {number}", FN.get(number) or JUMPS.get(number) or ignored)
+    begin = cursor.at
+    if found := cursor.match(_TARGET):
+        kind = found.group(1).upper()
+        if kind == "C":
+            return Statement("QC", ignored)
+        name = f"Q{kind}{int(found.group(2))}"
+        return Statement("QS", text_assignment(name, begin)) if kind == "S" else Statement("Q", assignment(name, begin))
+    if _M.match(cursor.text, cursor.at, cursor.stop):
+        return Statement("", plain)
+    return None
+
+
+def _known_by_name(cursor: Cursor, keyword: str, begin: int) -> Statement:
+    """A statement whose rest is not read; its form is part of the name."""
+    form = cursor.rest().split()[:1]
+    if keyword in ("APPR", "DEP"):
+        known = _FORMS if keyword == "APPR" else [form for form in _FORMS if form not in ("PLT", "PLN", "PCT")]
+        raise Fault(f"{keyword} must be followed by one of {', '.join(known)}", begin, cursor.at - begin)
+    if form and keyword in ("BLK FORM", "PLANE", "FUNCTION"):
+        keyword = f"{keyword} {form[0].upper()}"
+    return Statement(keyword, ignored, ignored if KEYWORDS_ONLY.get(keyword) else None)
+
+
+def _cycle(cursor: Cursor, found: re.Match[str]) -> Statement:
+    word = " ".join(found.group(1).upper().split())
+    if found.group(2) is None:
+        raise Fault(f"{word} needs the number of a cycle", cursor.at)
+    part = -1 if found.group(3) is None else int(found.group(3))
+    return definition(f"{word} {int(found.group(2))}", part)

@@ -1,0 +1,221 @@
+"""An address and its value, as conversational blocks write them: ``X+10``, ``IY-Q5``, ``FMAX``, ``RL``, ``DR-``.
+
+Values are numbers with a decimal point or comma, or a Q parameter with a sign (then the word holds an expression).
+What stands without a number is a word without a value (``FMAX``, ``FAUTO``, ``RL``, ``RR``, ``R0``); a sense of rotation is
+the word ``DR`` with the text ``+`` or ``-``. Values without an address in the text get one in lower case: ``tool``,
+``label``, ``axis``, ``name``, ``unit``, ``length``, ``number``, ``target``, ``value``. Lengths of an INCH program become mm here.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import Any
+
+from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.text.expression import Expression, parse
+from mnclab.text.nearest import hint as near
+from mnclab.text.program import INCREMENTAL, ProgramBuilder
+
+LARGEST = 1e9  # no coordinate, feed or number of a program is as large
+INCH = 25.4  # mm
+
+FLAGS = re.IGNORECASE | re.ASCII
+BLANKS = " \t"
+
+NUMBER = r"(?:\d+(?:[.,]\d*)?|[.,]\d+)"
+SIGNED = re.compile(rf"[ \t]*(?:([+-])[ \t]*)?({NUMBER})", FLAGS)
+PARAMETER = re.compile(r"[ \t]*(?:[+-][ \t]*)?Q[LR]?\d+", FLAGS)
+TEXT = re.compile(r'[ \t]*"([^"]*)"')
+
+FEEDS = ("FMAX", "FAUTO")
+_OPERATION = re.compile(r"[*/^][ \t]*[\dQ(]", FLAGS)
+_LETTERS = re.compile("[A-Z]{2,}", FLAGS)
+_FEEDS = re.compile(r"F[ \t]*(MAX|AUTO)(?![A-Z])", FLAGS)
+_SIDES = re.compile(r"(?:(RL|RR|RO)(?![A-Z])|(R0)(?![\d.,]))", FLAGS)
+_SENSE = re.compile(r"DR[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
+
+_ADDRESSES = (
+    "X Y Z U V W A B C R LEN CCA PR PA F FU FZ S M T DL DR L REP ROT SCL CCX CCY CCZ CCPR CCPA ABST AN D CLSD "
+    "P1X P1Y P2X P2Y P3X P3Y PDX PDY RX RY RPR RPA RAN PAR DP RCCX RCCY RCCPR RCCPA"
+).split()
+_NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=len, reverse=True))})", FLAGS)
+
+#: Addresses of lengths and of feeds along a path: inches in a program that begins with INCH.
+LENGTHS = frozenset(
+    "X Y Z U V W R LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
+    "DP DEPTH PITCH length".split()
+)
+
+#: Addresses that belong to an M function when they stand directly behind it: ``M103 F20`` beside a feed F of the block.
+OWN = {
+    103: re.compile(r"F(?![A-Z])", FLAGS), 118: re.compile(r"[XYZABC](?![A-Z])", FLAGS), 120: re.compile(r"LA", FLAGS),
+    128: re.compile(r"F(?![A-Z])", FLAGS), 140: re.compile(r"MB[ \t]*(?:MAX)?|F[ \t]*(?:MAX|(?![A-Z]))", FLAGS),
+    94: re.compile(r"[ABC](?![A-Z])", FLAGS), 138: re.compile(r"[ABC](?![A-Z])", FLAGS),
+}  # fmt: skip
+
+_G_NAME = re.compile(r"G[ \t]*(\d{1,4})(?!\d)", FLAGS)
+_LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
+
+
+class Fault(Exception):
+    """What is wrong at a place of the text; the reader makes an alarm of it."""
+
+    def __init__(self, message: str, offset: int, length: int = 1, hint: str = "") -> None:
+        super().__init__(message)
+        self.message, self.offset, self.length, self.hint = message, offset, length, hint
+
+
+class Cursor:
+    """A place in one line of a program, and the builder that takes the words found there."""
+
+    def __init__(self, builder: ProgramBuilder, at: int, stop: int, inch: bool) -> None:
+        self.builder, self.text, self.at, self.stop, self.inch = builder, builder.text, at, stop, inch
+        self.blanks()
+
+    def blanks(self) -> int:
+        """Pass over blanks; the place after them."""
+        while self.at < self.stop and self.text[self.at] in BLANKS:
+            self.at += 1
+        return self.at
+
+    @property
+    def done(self) -> bool:
+        """Whether only blanks are left."""
+        return self.blanks() >= self.stop
+
+    def rest(self) -> str:
+        """What is left of the line."""
+        return self.text[self.at : self.stop]
+
+    def match(self, pattern: re.Pattern[str]) -> re.Match[str] | None:
+        """Take what the pattern matches here."""
+        found = pattern.match(self.text, self.at, self.stop)
+        if found:
+            self.at = found.end()
+        return found
+
+    def add(self, address: str, value: Any, offset: int, flag: int = 0) -> None:
+        """A word from ``offset`` to here; ``value`` as in :class:`mnclab.text.program.Word`."""
+        if self.inch and address in LENGTHS and isinstance(value, float | Expression):
+            value = value * INCH if isinstance(value, float) else replace(value, scale=INCH)
+        self.builder.word(address, value, offset, self.at - offset, flag)
+        if self.builder.blocks and self.builder.full == self.builder.blocks[-1][0]:
+            self.at = self.stop
+
+    # --- values ---------------------------------------------------------------------------------------------------------
+
+    def number(self) -> float | None:
+        """A number with its sign; None if there is none here."""
+        begin = self.at
+        found = self.match(SIGNED)
+        if found is None:
+            return None
+        after = self.text[self.at : min(self.at + 1, self.stop)]
+        if after and after in ".,+-":
+            raise self.unexpected("a number has only one decimal point" if after in ".," else "")
+        value = float(found.group(2).replace(",", "."))
+        if value >= LARGEST:
+            raise Fault(f"a number must be smaller than {LARGEST:g}", begin, self.at - begin)
+        return -value if found.group(1) == "-" else value
+
+    def value(self) -> float | Expression | None:
+        """A number or a Q parameter; None if there is neither here."""
+        found = self.match(PARAMETER)
+        if found is None:
+            return self.number()
+        return self.expression(found.start(), found.end())
+
+    def expression(self, begin: int, end: int) -> Expression:
+        """The formula that stands between two places."""
+        begin += len(self.text[begin:end]) - len(self.text[begin:end].lstrip())
+        return parse(self.text[begin:end], self.builder.span(begin))
+
+    # --- words ----------------------------------------------------------------------------------------------------------
+
+    def words(self, bare: str = "", radius: bool = False) -> None:
+        """Words up to the end of the line.
+
+        ``bare``: letters that may stand without a value and name an axis; ``radius``: R0 is a radius here.
+        """
+        while not self.done:
+            self.word(bare, radius)
+
+    def word(self, bare: str, radius: bool) -> None:
+        """One word."""
+        begin = self.at
+        if found := self.match(_FEEDS):
+            self.add("F" + found.group(1).upper(), None, begin)
+        elif not (radius and self.text[begin + 1 : begin + 2] in "0Oo") and (found := self.match(_SIDES)):
+            self.add(found.group().upper().replace("O", "0"), None, begin)
+        elif found := self.match(_SENSE):
+            self.add("DR", found.group(1), begin)
+        elif found := self.match(_NAMED):
+            address = found.group(2).upper()
+            if address == "CLSD" and self.text[self.at : self.at + 1] in ("+", "-"):
+                self.at += 1
+                self.add(address, self.text[self.at - 1], begin)
+                return
+            value = self.value()
+            if value is not None:
+                self.add(address, value, begin, INCREMENTAL if found.group(1) else 0)
+                if address == "M" and value in OWN:
+                    self.own_words(int(value))
+            elif address in bare and not found.group(1):
+                self.add("axis", address, begin)
+            else:
+                self.at = begin
+                raise self.unexpected()
+        else:
+            raise self.unexpected()
+
+    def own_words(self, code: int) -> None:
+        """Words directly behind an M function that belong to it: ``M103:F`` with or without a number."""
+        while not self.done:
+            begin = self.at
+            found = self.match(OWN[code])
+            if found is None:
+                return
+            self.add(f"M{code}:{''.join(found.group().upper().split())}", self.value(), begin)
+
+    def unexpected(self, message: str = "") -> Fault:
+        """The fault at a character that is no part of a good word, with the repair where the mistake is known."""
+        self.blanks()
+        c = self.text[self.at] if self.at < self.stop else ""
+        if message or not c:
+            return Fault(message or "the block ends too early", self.at)
+        if c in _LOOKS_LATIN:
+            return Fault(f"{c!r} is a Cyrillic letter", self.at, hint=f"write the Latin letter {_LOOKS_LATIN[c]}")
+        if found := _NAMED.match(self.text, self.at, self.stop):
+            return self.without_number(found)
+        if c in "+-" or c.isdigit():
+            hint = "the axis letter is missing" if c in "+-" else "a blank inside a number splits it"
+            return Fault(f"{c!r} needs an address before it", self.at, hint=hint)
+        if c in "Gg":
+            found = _G_NAME.match(self.text, self.at, self.stop)
+            named = ISO_NAMES.get(f"G{int(found[1])}") if found else None
+            other = f"; {found[0].upper()} is {named}" if found and named else "; write L, C, CR or CYCL DEF"
+            return Fault("G has no meaning here", self.at, hint=f"G words belong to DIN/ISO programs{other}")
+        hint = (
+            "the letter O stands where the digit 0 was meant" if c in "Oo" and self.text[self.at - 1].isdigit() else ""
+        )
+        if _OPERATION.match(self.text, self.at, self.stop):
+            hint = "a formula stands in a block of its own, for example Q10 = Q1 / 2"
+        return Fault(f"{c!r} has no meaning here", self.at, hint=hint)
+
+    def without_number(self, found: re.Match[str]) -> Fault:
+        """The fault of an address whose value is missing or odd, or of a whole word where none is taken."""
+        name, after = found.group().upper(), self.text[found.end() : self.stop].lstrip()[:1]
+        for pattern in (PARAMETER, SIGNED):
+            if value := pattern.match(self.text, found.end(), self.stop):
+                word = f"{name}{value.group().strip()}"
+                return Fault(f"{word} has no meaning in this block", self.at, value.end() - found.start())
+        hint = ""
+        if after in ("O", "o"):
+            hint = "the letter O stands where the digit 0 was meant"
+        elif after == "=":
+            hint = "no = between an address and its number"
+        elif letters := _LETTERS.match(self.text, self.at, self.stop):
+            hint = near(letters.group(), FEEDS, 1)
+        what = f", found {after!r}" if after else ""
+        return Fault(f"{name} needs a number{what}", self.at, found.end() - found.start(), hint)

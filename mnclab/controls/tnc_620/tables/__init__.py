@@ -1,0 +1,1 @@
+"""Datum and point tables of the TNC, as files."""

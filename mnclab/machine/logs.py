@@ -1,0 +1,74 @@
+"""Writing down what changes: a log per name, of the steps at which it changed and the values from there on.
+
+A *step* is one execution of a block; :mod:`mnclab.runs.history` reads the logs after the run.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Values = list[Any] | NDArray[Any]
+
+
+class Log:
+    """Changes of one name: steps (k,) in rising order, and the values from there on."""
+
+    __slots__ = ("_chunks", "steps", "values")
+
+    def __init__(self) -> None:
+        self.steps: list[int] = []
+        self.values: list[Any] = []
+        self._chunks: list[tuple[NDArray[np.integer[Any]], Values]] = []
+
+    def extend(self, steps: NDArray[np.integer[Any]], values: Values) -> None:
+        """Changes of many steps at once."""
+        if len(steps):
+            self._chunks += [(np.array(self.steps, dtype=np.int64), self.values), (steps, values)]
+            self.steps, self.values = [], []
+
+    @property
+    def first(self) -> int:
+        """The step of the first change."""
+        chunks = [steps for steps, _ in self._chunks if len(steps)]
+        return int(chunks[0][0]) if chunks else self.steps[0]
+
+    def close(self, last: int) -> tuple[NDArray[np.integer[Any]], Values]:
+        """All changes up to step ``last``."""
+        chunks = [
+            chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])
+        ]
+        if not chunks:
+            return np.empty(0, dtype=np.int64), []
+        steps = np.concatenate([chunk[0] for chunk in chunks])
+        keep = int(np.searchsorted(steps, last, "right"))
+        if len(chunks) == 1:
+            return steps[:keep], chunks[0][1][:keep]
+        if any(isinstance(chunk[1], np.ndarray) for chunk in chunks):
+            return steps[:keep], np.concatenate([np.asarray(chunk[1]) for chunk in chunks])[:keep]
+        return steps[:keep], [value for chunk in chunks for value in chunk[1]][:keep]
+
+
+class Logs:
+    """The logs while a program runs."""
+
+    def __init__(self) -> None:
+        self.by_name: dict[str, Log] = {}
+
+    def add(self, name: str, step: int, value: Any) -> None:
+        """A name has a new value from this step on."""
+        log = self.by_name.get(name)
+        if log is None:
+            log = self.by_name[name] = Log()
+        steps = log.steps
+        if steps and steps[-1] == step:
+            log.values[-1] = value
+        else:
+            steps.append(step)
+            log.values.append(value)
+
+    def extend(self, name: str, steps: NDArray[np.integer[Any]], values: Values) -> None:
+        """New values at many steps."""
+        self.by_name.setdefault(name, Log()).extend(steps, values)

@@ -1,0 +1,1 @@
+"""Holes: drilled, bored, tapped, milled."""

@@ -1,0 +1,1 @@
+"""Areas, pockets, studs and faces, milled."""

@@ -1,0 +1,179 @@
+"""Facing a rectangle some sides of which are walls: where lines lie and end, the way along the walls, and the steps.
+
+    open side: lines end as far outside as they may        wall: the tool centre stays c = R + allowance in front of it
+
+Two walls that meet have a round corner; lines end on it. Places count from the middle of the rectangle. Lengths in mm,
+feeds in mm/min.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.shapes import QUARTER
+from mnclab.machining.milling.clearing import begin, numbered
+from mnclab.machining.milling.face_lines import rows
+from mnclab.machining.steps import RAPID, Along, Go, Step
+
+Place = tuple[float, float]
+SIDES = (-2, 1, 2, -1)  # below, right, above, left: -2 is the side where Y is least, 1 that where X is greatest
+
+
+class Line(NamedTuple):
+    """One line, and whether its ends lie outside, in the clear."""
+
+    begin: Place
+    end: Place
+    begins_outside: bool
+    ends_outside: bool
+
+
+@dataclass(frozen=True)
+class Walled:
+    """A rectangle, `length` along X and `width` along Y, its walls among :data:`SIDES`, and their corner radius."""
+
+    length: float
+    width: float
+    walls: frozenset[int] = frozenset()
+    corner: float = 0.0
+
+    def lines(
+        self, radius: float, stepover: float, *, axis: int, ahead: int, across: int, outside: float, over: float,
+        first: float, allowance: float = 0.0, one_way: bool = False,
+    ) -> tuple[Line, ...]:  # fmt: skip
+        """Lines along X (`axis` 0) or Y (1) in the sense `ahead`, one after the other in the sense `across`.
+
+        They begin `outside` the rectangle and end `over` its edge; those that turn round begin `over` it too. The first
+        one lies `first` inside the edge, the edge of the tool is at the far edge on the last one; walls come before.
+        """
+        c = radius + allowance
+        size = (self.length, self.width) if axis == 0 else (self.width, self.length)
+        long, wide = size[0] / 2, size[1] / 2
+        low = -wide + (c if self._wall(1 - axis, -across) else first)
+        high = wide - (c if self._wall(1 - axis, across) else radius)
+        if high < low:
+            low = high = high if self._wall(1 - axis, across) else low
+        found = []
+        for k, place in enumerate(rows(low, high, stepover)):
+            near, far = -long - (over if k and not one_way else outside), long + over
+            v = across * place
+            if near_wall := self._wall(axis, -ahead):
+                near = -self._reach(axis, -ahead, v, c, long)
+            if far_wall := self._wall(axis, ahead):
+                far = self._reach(axis, ahead, v, c, long)
+            ends = [
+                (near, not near_wall and (over >= outside or not k or one_way)),
+                (far, not far_wall and over >= outside),
+            ]
+            if k % 2 and not one_way:
+                ends.reverse()
+            (a, a_out), (b, b_out) = ends
+            one, other = (ahead * a, v), (ahead * b, v)
+            found.append(Line(one[:: -1 if axis else 1], other[:: -1 if axis else 1], a_out, b_out))  # type: ignore[arg-type]
+        return tuple(found)
+
+    def along(self, radius: float, *, outside: Place, allowance: float = 0.0) -> tuple[Contour, ...]:
+        """The ways along walls that meet, counter-clockwise; each begins and ends `outside` (in X, in Y) the open sides."""
+        if len(self.walls) == 4:
+            raise ValueError("a rectangle between four walls is a pocket")
+        c, first = radius + allowance, next((k for k in range(4) if SIDES[k] not in self.walls), 0)
+        chains: list[list[int]] = [[]]
+        for side in (SIDES[(first + k) % 4] for k in range(1, 4)):
+            if side in self.walls:
+                chains[-1].append(side)
+            elif chains[-1]:
+                chains.append([])
+        return tuple(self._way(chain, c, outside) for chain in chains if chain)
+
+    def _way(self, chain: list[int], c: float, outside: Place) -> Contour:
+        half = np.array([self.length, self.width]) / 2
+        q = max(0.0, self.corner - c)
+        points: list[np.ndarray] = []
+        bulge: list[float] = []
+        for k, side in enumerate(chain):
+            ahead, level = AHEAD[side], OUTWARDS[side] * (half - c)
+            span = np.abs(ahead)
+            begins = level - ahead * (half + outside if not k else half - c - q)
+            ends = level + ahead * (half + outside if k == len(chain) - 1 else half - c - q)
+            points += [begins * span + level * (1 - span), ends * span + level * (1 - span)]
+            bulge += [0.0, QUARTER if q > 0 and k < len(chain) - 1 else 0.0]
+        some = np.append(np.hypot(*np.diff(points, axis=0).T) > 1e-9, True)
+        return Contour(np.array(points)[some], np.array(bulge)[some], closed=False)
+
+    def _wall(self, axis: int, sense: int) -> bool:
+        return (axis + 1) * sense in self.walls
+
+    def _reach(self, axis: int, sense: int, place: float, c: float, long: float) -> float:
+        """How far a line at a place goes before a wall, or the round corner that it has with another one."""
+        q, wide = max(0.0, self.corner - c), (self.width if axis == 0 else self.length) / 2
+        into = abs(place) - (wide - c - q)
+        if not self._wall(1 - axis, 1 if place > 0 else -1) or into <= 0:
+            return long - c
+        return long - c - q + math.sqrt(max(q * q - into * into, 0.0))
+
+
+AHEAD = {-2: np.array([1, 0]), 1: np.array([0, 1]), 2: np.array([-1, 0]), -1: np.array([0, -1])}
+OUTWARDS = {-2: np.array([0, -1]), 1: np.array([1, 0]), 2: np.array([0, 1]), -1: np.array([-1, 0])}
+
+
+class Feeds(NamedTuple):
+    """Along lines and wherever material may be, and through the air at depth."""
+
+    mill: float
+    position: float
+
+
+class Heights(NamedTuple):
+    """Of one level: where it is, what stood above it, and the way up from either."""
+
+    level: float
+    top: float
+    lift: float
+
+
+def over_lines(name: str, lines: Sequence[Line], at: Heights, feeds: Feeds, *, one_way: bool) -> Iterator[Step]:
+    """From the first line, at its level, over all of them.
+
+    One way, the tool lifts after a line and goes straight back to the start of the next one; where that begins at a wall
+    it lifts higher than all that stands.
+    """
+    before = None
+    for label, line in zip(numbered("line", len(lines)), lines, strict=True):
+        if before and one_way:
+            high = at.level + at.lift if line.begins_outside else at.top + at.lift
+            yield Go(f"{name}, lift", high)
+            yield Go(f"{name}, back", None, RAPID, *line.begin)
+            yield Go(f"{name}, down", at.level, feeds.position if line.begins_outside else feeds.mill)
+        elif before:
+            clear = before.ends_outside and line.begins_outside
+            yield Go(f"{name}, link", None, feeds.position if clear else feeds.mill, *line.begin)
+        yield Along(f"{name}, {label}", Contour([line.begin, line.end], closed=False), feeds.mill)
+        before = line
+
+
+def past_walls(name: str, ways: Sequence[Contour], feed: float) -> Iterator[Step]:
+    """Along the walls at the level where the tool is, to take away what lines leave in front of them."""
+    for label, way in zip(numbered("along the walls", len(ways)), ways, strict=True):
+        yield Go(f"{name}, link", None, feed, *begin(way).tolist())
+        yield Along(f"{name}, {label}", way, feed)
+
+
+def finish_along(
+    ways: Sequence[Contour], levels: Sequence[float], above: float, feeds: Feeds
+) -> Iterator[Step]:  # fmt: skip
+    """Each way on every level, from outside to outside; between them the tool goes at the clearance level."""
+    for which, way in zip(numbered("side finishing", len(ways)), ways, strict=True):
+        for label, level in zip(numbered("infeed", len(levels)), levels, strict=True):
+            name = f"{which}, {label}"
+            yield Go(f"{name}, to the clearance level", above)
+            yield Go(f"{name}, over the start", None, RAPID, *begin(way).tolist())
+            yield Go(f"{name}, down", level, feeds.position)
+            yield Along(name, way, feeds.mill)
+    if ways:
+        yield Go("side finishing, lift", above)

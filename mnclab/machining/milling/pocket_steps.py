@@ -1,0 +1,156 @@
+"""Milling a pocket step by step: down, outwards on its passes, off the wall, layer by layer; then its walls and its floor.
+
+x and y count from the middle of the pocket, where the tool begins and where it comes back to; the clearance lies above the
+level that is being cut, as everything above it has gone already. Lengths in mm, feeds in mm/min, angles in rad.
+
+    rough     ↓ ○ ◯ ⬭ (quarter circle off the wall) ↑ to the middle         for each layer
+    walls     ↓ beside the wall, a quarter circle to it, round, off, ↑       for each infeed
+    floor     ↓ ○ ◯ ⬭ along the finished wall                                once
+
+Which of them run, how deep and how fast is the cycle's affair.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+from mnclab.geometry.contours import Contour
+from mnclab.machining.milling.clearing import Clearing, begin, numbered
+from mnclab.machining.milling.cutting_edge import along
+from mnclab.machining.milling.entries import Descent, Entry, descend, helix, pendulum, vertical
+from mnclab.machining.milling.finishing import LEAST, leaving
+from mnclab.machining.steps import Go, Step
+
+Down = Callable[[float, float], Descent]
+
+
+class Room(NamedTuple):
+    """Where the tool centre may go: from the middle to the nearer walls, to the farther ones, and the way to these (rad)."""
+
+    half_width: float
+    half_length: float
+    direction: float = 0.0
+
+
+class Feeds(NamedTuple):
+    """Feeds on a level and down to it; None is the one that is active.
+
+    With `edge`, the radius of the tool, the feed of closed passes and of the arcs up to the wall counts at the cutting edge.
+    """
+
+    level: float | None
+    plunge: float | None
+    edge: float = 0.0
+
+
+def way_down(entry: Entry, room: Room, radius: float, climb: bool, top: float, bottom: float) -> Descent:
+    """Down in the middle of a pocket with a tool of a `radius`.
+
+    A helix is as wide as the tool radius, or as the room; a ramp swings along the pocket. Raises ValueError where there
+    is no room for it.
+    """
+    middle = (0.0, 0.0)
+    if entry.kind == "vertical" or entry.angle == 90:
+        return vertical(middle, top, bottom)
+    if entry.kind == "helix":
+        wish = min(radius if entry.size is None else entry.size, room.half_width)
+        return helix(middle, wish, top, bottom, entry.angle, start=room.direction, clockwise=not climb)
+    least = 4 * radius if entry.size is None else entry.size
+    return pendulum(middle, room.direction, top, bottom, entry.angle, least=least, room=2 * room.half_length)
+
+
+def rough(
+    clearing: Clearing, levels: Sequence[float], *, surface: float, clearance: float, down: Down, feeds: Feeds,
+    departure: float, side: int, end: float | None = None,
+) -> Iterator[Step]:  # fmt: skip
+    """Every layer from the `surface` down; `departure` is the radius off the wall, on the left of it for `side` 1.
+
+    The tool lifts by the clearance after each of them, after the last one to the height `end` if that is given.
+    """
+    top = surface
+    for name, level in zip(numbered("layer", len(levels)), levels, strict=True):
+        yield from clear(name, clearing, down(top, level), feeds, departure, side)
+        yield from _back(name, level + clearance if end is None or level != levels[-1] else end)
+        top = level
+
+
+def rough_slot(
+    line: Contour, passes: Callable[[Contour], Clearing], levels: Sequence[float], *, surface: float, above: float,
+    clearance: float, down: Down, feeds: Feeds, side: int,
+) -> Iterator[Step]:  # fmt: skip
+    """Every layer of a slot about its centre line, which begins at (0, 0); after each the tool leaves the slot.
+
+    `passes` clear it from the line outwards, which is followed from the end where the way down has led; `above` is the
+    height outside.
+    """
+    top = surface
+    for name, level in zip(numbered("layer", len(levels)), levels, strict=True):
+        way = down(top, level)
+        here = way.contour.points[-1]
+        back = math.dist(here, line.points[-1]) < math.dist(here, line.points[0])
+        yield Go(f"{name}, to the clearance level", top + clearance)
+        yield from clear(name, passes(line.reversed() if back else line), way, feeds, 0.0, side, middle=False)
+        yield from _back(name, above)
+        top = level
+
+
+def finish_walls(
+    wall: Contour, levels: Sequence[float], *, above: float, clearance: float, feeds: Feeds, arcs: Sequence[Contour],
+    side: int,
+) -> Iterator[Step]:  # fmt: skip
+    """Round the wall, which is on the right for `side` 1, on every level: up to it and off it on two arcs, if there are any."""
+    x, y = begin(arcs[0] if arcs else wall).tolist()
+    yield Go("side finishing, to the clearance level", above)
+    for name, level in zip(numbered("side finishing", len(levels)), levels, strict=True):
+        yield Go(f"{name}, over the start", x=x, y=y)
+        yield Go(f"{name}, down", level, feeds.plunge)
+        if arcs:
+            yield from along(f"{name}, to the wall", arcs[0], feeds.level, feeds.edge, side)
+        yield from along(name, wall, feeds.level, feeds.edge, side)
+        if arcs:
+            yield from along(f"{name}, off the wall", arcs[1], feeds.level, feeds.edge, side)
+        yield from _back(name, level + clearance)
+
+
+def finish_floor(
+    clearing: Clearing, level: float, *, top: float, clearance: float, down: Down, feeds: Feeds, departure: float,
+    side: int, end: float | None = None,
+) -> Iterator[Step]:  # fmt: skip
+    """From `top`, what roughing has left, to the floor; then outwards, the last round along the finished wall.
+
+    At the end the tool lifts by the clearance, or to the height `end`.
+    """
+    name = "floor finishing"
+    yield Go(f"{name}, to the clearance level", top + clearance)
+    yield from clear(name, clearing, down(top, level), feeds, departure, side)
+    yield from _back(name, level + clearance if end is None else end)
+
+
+def clear(
+    name: str, clearing: Clearing, down: Descent, feeds: Feeds, departure: float, side: int, *, middle: bool = True
+) -> Iterator[Step]:
+    """Down, over all passes and off the last one, at feed throughout; by way of the `middle` if so wished."""
+    if len(down.heights) > 2:
+        yield Go(f"{name}, down to what is cut", float(down.heights[0]), feeds.plunge)
+        x, y = begin(down.contour).tolist()
+        yield Go(f"{name}, to the {down.label}", None, feeds.level, x, y)
+    yield from descend(down._replace(label=f"{name}, {down.label}"), feeds.plunge, feeds.level)
+    if middle:
+        yield Go(f"{name}, to the centre", None, feeds.level, 0.0, 0.0)
+    for label, contour in zip(clearing.labels, clearing.passes, strict=True):
+        x, y = begin(contour).tolist()
+        yield Go(f"{name}, link", None, feeds.level, x, y)
+        yield from along(f"{name}, {label}", contour, feeds.level, feeds.edge if contour.closed else 0.0, side)
+    if clearing.passes and clearing.passes[-1].closed and departure > LEAST:
+        off = leaving(clearing.passes[-1], departure, side)
+        yield from along(f"{name}, off the wall", off, feeds.level, feeds.edge, side)
+
+
+# ---- beneath ----
+
+
+def _back(name: str, height: float) -> Iterator[Step]:
+    yield Go(f"{name}, lift", height)
+    yield Go(f"{name}, to the centre", x=0.0, y=0.0)

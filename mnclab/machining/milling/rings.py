@@ -1,0 +1,166 @@
+"""Clearing an area with islands on rings that follow its contours, from the inside out. Lengths in mm.
+
+    C = area inset by R + allowance         where the centre of a tool of radius R may go
+    rings = boundaries of C inset by 0, k, 2·k …        until nothing is left
+
+With a stepover k ≤ R the tool clears all that it can reach: what a last ring encloses is nearer to it than k.
+With k > R a core may stand inside a last ring; it gets a ring of its own, at R from the last one. What still
+stands then, in sharp corners and along narrow arms between two rings, is the price of so wide a step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour, Curve, Floats, cross, left
+from mnclab.geometry.regions import Region
+from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise, room_for
+
+MOST_RINGS = 2000
+SHARP = 1e-6  # rad and mm, the least turn of a corner and the shortest element
+
+
+@dataclass(frozen=True, eq=False)
+class Ring:
+    """A closed pass: its `level` in stepovers inward from the boundary of the tool-centre area, and what it goes round."""
+
+    level: float
+    island: bool
+    contour: Contour
+
+
+def rings(
+    region: Region,
+    radius: float,
+    stepover: float,
+    *,
+    allowance: float = 0.0,
+    climb: bool = True,
+    corner_radius: float = 0.0,
+) -> Clearing:
+    """Passes that clear `region` with a tool of `radius`, leaving `allowance` at its walls.
+
+    Rings round islands come first, then those along the walls, both from the inside out. In climb milling,
+    the spindle turning clockwise, walls are followed counter-clockwise and islands clockwise. `corner_radius`
+    rounds the inside corners of the passes along the final contour, as measured on the tool centre.
+    """
+    if corner_radius < 0:
+        raise ValueError(f"the corner radius must not be negative, got {corner_radius:g}")
+    centres = room_for(region, radius, stepover, allowance)
+    return piecewise(centres, radius, lambda part: _piece(part, radius, stepover, climb, corner_radius))
+
+
+def rounded(loop: Contour, radius: float) -> Contour:
+    """A closed contour with an arc of this radius, touching both sides, in place of every corner to the left.
+
+    A corner stays sharp where the arc does not fit between its neighbours.
+    """
+    turns, curves, sweeps, lengths = loop.turns(), loop.curves, loop.sweeps, loop.lengths
+    ahead = loop.tangents()[0]
+    taken = np.zeros((2, len(lengths)))  # of each element, at its start and at its end
+    arcs: dict[int, tuple[Floats, Floats, float]] = {}  # corner: where the arc begins and ends, its bulge
+    sharp = (turns > SHARP) & (turns < np.pi - SHARP) & (radius > 0)
+    for i in np.flatnonzero(sharp).tolist():
+        corner, half = loop.points[i], (np.pi - turns[i]) / 2
+        bisector = np.cos(half) * ahead[i] + np.sin(half) * left(ahead[i])
+        inner = curves[i - 1].moved_left(radius, sweeps[i - 1]), curves[i].moved_left(radius, sweeps[i])
+        if min(inner[0].radius, inner[1].radius) <= 0:
+            continue
+        centre = inner[0].meeting(inner[1], corner + radius / np.sin(half) * bisector)
+        first, last = curves[i - 1].foot(centre), curves[i].foot(centre)
+        arms = first - centre, last - centre
+        cut = _way(curves[i - 1], sweeps[i - 1], first, corner), _way(curves[i], sweeps[i], corner, last)
+        room = lengths[i - 1] - taken[0, i - 1], lengths[i] - taken[1, i]
+        touches = np.allclose([np.hypot(*arm) for arm in arms], radius, rtol=0, atol=1e-6)
+        if touches and 0 < cut[0] <= room[0] and 0 < cut[1] <= room[1]:
+            taken[1, i - 1], taken[0, i] = cut
+            sweep = np.arctan2(cross(*arms), np.dot(*arms))
+            arcs[i] = first, last, float(np.tan(sweep / 4))
+    kept = np.tan(sweeps * np.clip(1 - taken.sum(axis=0) / lengths, 0, 1) / 4)
+    points, bulge = [], []
+    for i, corner in enumerate(loop.points):
+        if i in arcs:
+            first, last, bent = arcs[i]
+            points += [first, last]
+            bulge += [bent, kept[i]]
+        else:
+            points.append(corner)
+            bulge.append(kept[i])
+    full = Contour(points, bulge)
+    some = full.lengths > SHARP  # two arcs may use up what was between them
+    return Contour(full.points[some], full.bulge[some])
+
+
+def _way(curve: Curve, sweep: float, start: Floats, end: Floats) -> float:
+    """The signed way from start to end along a line, or along an arc in the sense of its sweep."""
+    if np.isinf(curve.radius):
+        return float((end - start) @ curve.direction)
+    arms = start - curve.point, end - curve.point
+    return float(curve.radius * np.sign(sweep) * np.arctan2(cross(*arms), np.dot(*arms)))
+
+
+def _piece(centres: Region, radius: float, stepover: float, climb: bool, corner_radius: float) -> Piece:
+    """The rings of one connected piece of the tool-centre area, in order and joined."""
+    passes = tuple(ring.contour for ring in rings_in_order(centres, radius, stepover, corner_radius))
+    linked = links(centres, passes, stepover)
+    turned = passes if climb else tuple(ring.reversed() for ring in passes)
+    return Piece(centres, turned, linked, numbered("ring", len(passes)))
+
+
+def rings_in_order(centres: Region, radius: float, stepover: float, corner_radius: float = 0.0) -> Iterator[Ring]:
+    """The rings of one connected piece of the tool-centre area, islands first, each from the inside out."""
+    return _ordered(list(_rings(centres, radius, stepover, corner_radius)))
+
+
+def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[Ring]:
+    """The rings of a piece, with a core ring wherever one more step would leave a core standing."""
+    if np.ptp(centres.loops[0].bounds, axis=0).min() / 2 > MOST_RINGS * stepover:
+        raise ValueError(f"a stepover of {stepover:g} makes more than {MOST_RINGS} rings")
+    level, here = 0, centres
+    while here.loops:
+        for loop in here.loops:
+            face = rounded(loop, corner_radius) if level == 0 else loop
+            yield Ring(level, loop.area < 0, face)
+        level += 1
+        deeper = centres.inset(level * stepover)
+        if stepover > radius:
+            cores = centres.inset((level - 1) * stepover + radius).parts
+            for core in cores:
+                if not any(core.contains(loop.points[:1])[0] for loop in deeper.loops):
+                    for loop in core.loops:
+                        yield Ring(level - 1 + radius / stepover, loop.area < 0, loop)
+        here = deeper
+
+
+def _ordered(todo: list[Ring]) -> Iterator[Ring]:
+    """Rings from the inside out, each begun where it comes nearest to the end of the one before.
+
+    A ring round an island waits for the deeper rings about it; a ring along a wall for all islands and for
+    the deeper rings within it. Of those that need not wait the nearest comes next: one branch at a time.
+    """
+    starts = np.array([ring.contour.points[0] for ring in todo])
+    level = np.array([ring.level for ring in todo])
+    island = np.array([ring.island for ring in todo])
+    within = np.array([ring.contour.winding(starts) != 0 for ring in todo])  # [i, k]: k lies within i
+    deeper = level[None, :] > level[:, None]
+    waits = np.where(island[:, None], within.T & island & deeper, island | (within & deeper))
+    left_over = np.ones(len(todo), dtype=bool)
+    here: Floats | None = None
+    while left_over.any():
+        free = np.flatnonzero(left_over & ~(waits & left_over).any(axis=1))
+        if here is None:
+            k = free[np.argmax(level[free])]
+            contour = todo[k].contour
+            way = contour.lengths[: int(contour.lengths.argmax())].sum() + contour.lengths.max() / 2
+        else:
+            spot = here
+            k = min(free, key=lambda k: float(todo[k].contour.distance(spot)[0]))
+            contour = todo[k].contour
+            way = contour.nearest(spot)
+        left_over[k] = False
+        ring = replace(todo[k], contour=contour.started_at(way))
+        here = ring.contour.points[0]
+        yield ring

@@ -1,0 +1,83 @@
+"""All strategies that clear an area, by name, and what they leave cleared as well.
+
+Every one takes a region, the tool radius and the greatest stepover, and `allowance` (what stays at the walls) and
+`climb`; it returns a `Clearing`. Lengths in mm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+from mnclab.geometry.sweeps import covered, left_over, long_axes, polygons
+from mnclab.machining.milling.clearing import Clearing, Piece, links
+from mnclab.machining.milling.lines import one_way, zigzag
+from mnclab.machining.milling.rings import rings
+from mnclab.machining.milling.spirals import spiral
+from mnclab.machining.milling.trochoids import trochoidal
+
+STRATEGIES: dict[str, Callable[..., Clearing]] = {
+    "rings": rings,
+    "spiral": spiral,
+    "zigzag": zigzag,
+    "one way": one_way,
+    "trochoidal": trochoidal,
+}
+LEAST = 1e-3  # of the tool radius: what is narrower and still stands counts as nothing
+ROUNDS = 4
+
+
+def clear(
+    strategy: str, region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
+    complete: bool = True, **more: Any,
+) -> Clearing:  # fmt: skip
+    """`region` cleared by the strategy of this name, and if wished what it leaves cleared as well.
+
+    Raises ValueError for an unknown name and where the tool does not fit.
+    """
+    if strategy not in STRATEGIES:
+        raise ValueError(f"unknown strategy {strategy!r}; known are {', '.join(STRATEGIES)}")
+    found = STRATEGIES[strategy](region, radius, stepover, allowance=allowance, climb=climb, **more)
+    return completed(found, stepover) if complete else found
+
+
+def completed(clearing: Clearing, stepover: float) -> Clearing:
+    """The same with a pass through everything that the tool can reach and has left standing.
+
+    With a stepover above the tool radius cores and slivers stand between two passes, where they turn. They are narrower
+    than the tool, so a pass along their longest axis takes them.
+    """
+    pieces = tuple(_completed(piece, clearing.radius, stepover) for piece in clearing.pieces)
+    return replace(clearing, pieces=pieces)
+
+
+def _completed(piece: Piece, radius: float, stepover: float) -> Piece:
+    if not piece.centres.loops:
+        return piece
+    reach = polygons(piece.centres).buffer(radius * (1 - LEAST), quad_segs=64)
+    cover, extra = covered(piece.passes, radius), []
+    for _ in range(ROUNDS):
+        new = _through(left_over(reach, cover, LEAST * radius), piece.centres)
+        if not new:
+            break
+        extra += new
+        cover = cover.union(covered(new, radius))
+    if not extra:
+        return piece
+    passes = (*piece.passes, *extra)
+    labels = (*piece.labels, *(f"rest {k} of {len(extra)}" for k in range(1, len(extra) + 1)))
+    return replace(piece, passes=passes, linked=links(piece.centres, passes, stepover), labels=labels)
+
+
+def _through(rest: Region, centres: Region) -> list[Contour]:
+    """A pass through each piece that stands, as far as the tool centre may go."""
+    found = []
+    for a, b in long_axes(rest):
+        if centres.holds(a, b):
+            found.append(Contour([a, b], closed=False))
+        else:
+            found += [Contour([p, p], closed=False) for p in (a, (a + b) / 2, b) if centres.contains([p])[0]]
+    return found

@@ -1,0 +1,155 @@
+"""Trochoidal clearing: circular cuts one after the other along a middle line, never a full slot. Lengths in mm.
+
+    ┌──────────────────────      every disc of tool centres about a point of the middle line touches the walls of the
+    │ (((((((((((((  ─►          tool-centre area; the tool cuts only the arc of its rim that lies outside the disc
+    └──────────────────────      before it, and goes straight back through what is cleared
+
+The next disc is the farthest on that line whose rim is nowhere more than one stepover outside the disc before it:
+|m' - m| + r' - r = k. So what lies within the rim is always cleared, if k ≤ R. In the end the walls are followed, which
+takes away the cusps between the arcs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour, Floats, left
+from mnclab.geometry.regions import Region
+from mnclab.geometry.sweeps import Skeleton, skeleton
+from mnclab.machining.milling.clearing import Clearing, Piece, end, links, numbered, piecewise, room_for
+from mnclab.machining.milling.spirals import half_circles
+
+SMALLEST = 0.05  # of the tool radius: discs of tool centres below that are left to the passes along the walls
+
+
+def trochoid(line: Contour, width: float, radius: float, stepover: float, *, climb: bool = True) -> Clearing:
+    """A slot of a width along an open line, in full circles that advance by `stepover` along it, and on to the next."""
+    reach = width / 2 - radius
+    if not reach > 0:
+        raise ValueError(f"a trochoid needs a slot wider than the tool, got {width:g} for a tool radius of {radius:g}")
+    if not 0 < stepover <= radius:
+        raise ValueError(f"the stepover must lie above 0 and not above the tool radius, got {stepover:g}")
+    count = max(1, int(np.ceil(line.length / stepover - 1e-9)))
+    middles, ahead = line.point_at(line.length * np.arange(count + 1) / count)
+    sense = 1.0 if climb else -1.0
+    first = middles - sense * reach * left(ahead)
+    points = np.stack([first, 2 * middles - first, first], axis=1).reshape(-1, 2)
+    bulge = np.tile([sense, sense, 0.0], count + 1)
+    way = Contour(points, bulge, closed=False)
+    piece = Piece(Region(), (way,), (), ("trochoid",))
+    return Clearing(Region(), (piece,), radius)
+
+
+def trochoidal(
+    region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True
+) -> Clearing:
+    """An area cleared by arcs along its middle line, from its widest place on; `stepover` is the greatest advance."""
+    centres = room_for(region, radius, stepover, allowance)
+    return piecewise(centres, radius, lambda part: _piece(part, radius, min(stepover, radius), climb))
+
+
+def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piece:
+    passes: list[Contour] = []
+    labels: list[str] = []
+    found = skeleton(centres, min(stepover, radius) / 2)
+    for number, (branch, fresh) in enumerate(_branches(found, SMALLEST * radius), 1):
+        arcs = _discs(found.points[branch], centres, radius, stepover, climb, fresh)
+        passes += arcs
+        labels += [f"branch {number}, {name}" for name in numbered("arc", len(arcs))]
+    place = passes[0].points[0] if passes else None
+    here = end(passes[-1]) if passes else centres.loops[0].points[0]
+    for loop in sorted(centres.loops, key=lambda loop: loop.area):
+        ring = loop.started_at(loop.nearest(here))
+        passes.append(ring if climb else ring.reversed())
+        labels.append("island" if loop.area < 0 else "wall")
+        here = ring.points[0]
+    return Piece(centres, tuple(passes), links(centres, passes, stepover), tuple(labels), place)
+
+
+def _discs(points: Floats, centres: Region, radius: float, stepover: float, climb: bool, first: bool) -> list[Contour]:
+    """The arcs along a branch `(n, 2)` of the middle line; the first branch opens on a spiral."""
+    arcs = []
+    centre, reach = points[0], float(centres.distance(points[:1])[0])
+    if first:
+        halves = max(1, int(np.ceil(2 * reach / stepover)))
+        arcs.append(half_circles(centre, 0.0, reach, halves, clockwise=not climb))
+        arcs.append(Contour.circle(centre, reach, np.pi * halves, clockwise=not climb))
+    middles = _finer(points, stepover / 8) if len(points) > 1 else points
+    rooms = centres.distance(middles)
+    while len(middles) > 1:
+        beyond = np.hypot(*(middles - centre).T) + rooms - reach
+        over = np.flatnonzero(beyond > stepover)
+        last = int(over[0]) - 1 if len(over) else len(middles) - 1
+        if last <= 0:
+            last = min(1, len(middles) - 1)
+        new, size = middles[last], float(rooms[last])
+        arc = _outside(new, size, centre, reach, climb) if size >= SMALLEST * radius else None
+        if arc is not None:
+            arcs.append(arc)
+        centre, reach = new, size
+        middles, rooms = middles[last:], rooms[last:]
+    return arcs
+
+
+def _finer(points: Floats, spacing: float) -> Floats:
+    """A line of points with points at most `spacing` apart."""
+    line = Contour(points, closed=False)
+    return line.point_at(np.linspace(0, line.length, max(2, int(np.ceil(line.length / spacing)) + 1)))[0]
+
+
+def _outside(middle: Floats, size: float, before: Floats, reach: float, climb: bool) -> Contour | None:
+    """The arc of a circle outside another one, counter-clockwise in climb milling; None if there is none."""
+    apart = float(np.hypot(*(middle - before)))
+    if apart + size <= reach + 1e-9 or apart < 1e-12:
+        return None
+    ahead = float(np.arctan2(*(middle - before)[::-1]))
+    cosine = (reach**2 - apart**2 - size**2) / (2 * apart * size)
+    half = np.pi if cosine <= -1 else float(np.arccos(min(cosine, 1.0)))
+    half = min(half, np.pi - 1e-6)
+    ways = ahead + np.array([-half, 0.0, half]) * (1 if climb else -1)
+    spots = middle + size * np.stack([np.cos(ways), np.sin(ways)], axis=1)
+    bulge = np.tan(half / 4) * (1 if climb else -1)
+    return Contour(spots, [bulge, bulge, 0.0], closed=False)
+
+
+def _branches(found: Skeleton, least: float) -> Iterator[tuple[np.ndarray, bool]]:
+    """The middle line as chains of points, from its widest one on, and whether a chain begins where none has been.
+
+    Any other begins on one that came before. A line that a narrow place has parted is taken piece by piece.
+    """
+    neighbours: dict[int, list[int]] = {}
+    for a, b in found.edges.tolist():
+        neighbours.setdefault(a, []).append(b)
+        neighbours.setdefault(b, []).append(a)
+    seen = np.zeros(len(found.points), dtype=bool)
+    if neighbours:
+        seen[:] = True
+        seen[list(neighbours)] = False
+    done: set[tuple[int, int]] = set()
+    while not seen.all():
+        widest = int(np.where(seen, -np.inf, found.room).argmax())
+        if found.room[widest] <= least:
+            return
+        if not neighbours:  # of a round area only its centre is left
+            yield np.array([widest]), True
+            return
+        waiting, fresh = [widest], True
+        while waiting:
+            start = waiting[-1]
+            free = [k for k in neighbours[start] if (start, k) not in done]
+            if not free:
+                waiting.pop()
+                continue
+            chain = [start]
+            while free:
+                step = max(free, key=lambda k: found.room[k])
+                done |= {(chain[-1], step), (step, chain[-1])}
+                chain.append(step)
+                free = [k for k in neighbours[step] if (step, k) not in done]
+                if len(free) > 1:
+                    waiting.append(step)
+            seen[chain] = True
+            yield np.array(chain), fresh
+            fresh = False

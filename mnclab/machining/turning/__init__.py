@@ -1,0 +1,1 @@
+"""Turning: roughing, grooves, threads."""

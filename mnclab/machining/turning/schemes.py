@@ -1,0 +1,317 @@
+"""Roughing schemes of turning (NC-31, 3.20.2): strokes of a tool tip from a blank of one radius down to a profile.
+
+Every scheme takes a profile (z, r) as `turning_profiles` has it, with the finishing allowance already on it, the
+radius of the blank and the depth of a pass on the radius, mm; it works on what the tool's angles let it reach, and on
+one zone at a time (`combined` parts the rest). Feeds belong to the `role` of a stroke and are given later.
+
+    loop         pass, lift, back           pick-up      loop, and along the contour up to the level before
+    zigzag       pass there, pass back      semi-finish  loop, then once along the whole contour
+    descent      radial strokes             equidistant  along offsets       contour  along shifted copies
+
+    levels: blank - depth, blank - 2 depth, …, the bottom (catalogue: turning-technology)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour
+from mnclab.machining.turning.clearance import OUT, cleared
+from mnclab.machining.turning.offsets import offset
+from mnclab.machining.turning.passes import (
+    FRONT,
+    LIFT,
+    MOST,
+    POINT,
+    Level,
+    Task,
+    away,
+    down,
+    falls_again,
+    lift_off,
+    off,
+    out,
+    plunge,
+    task,
+    wall,
+    without_drop,
+)  # fmt: skip
+from mnclab.machining.turning.profiles import SAME, between, entry_way, exit_way, lowest, reachable
+from mnclab.machining.turning.strokes import CLEANUP, PICK_UP, PLUNGE, ROUGH, Pen, Plan
+from mnclab.machining.turning.zones import CLOSED, OPEN, filled, zones
+from mnclab.path.tool import Tool
+
+
+def loop(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
+    """Every pass by itself: along Z to the contour, off it, back at rapid, to the next depth.
+
+    In a closed zone the tool goes back to where the pass began and plunges along the contour.
+    """
+    return cleared(_loop(task(profile, blank, depth, tool, **distances)), profile, blank, tool)
+
+
+def _loop(t: Task) -> Plan:
+    pen = Pen(*t.start)
+    for number, level in enumerate(t.levels, 1):
+        pen.number = number
+        down(pen, t, number - 1)
+        pen.feed(level.left, level.r, ROUGH)
+        if number < len(t.levels) or level.first is None:
+            lift_off(pen, t, level)
+        else:
+            off(pen, t, level)
+    return out(pen, t, "loop")
+
+
+def pick_up(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
+    """As the loop, but each pass goes on along the contour up to the level of the pass before: no ridges are left."""
+    t = task(profile, blank, depth, tool, **distances)
+    pen = Pen(*t.start)
+    above = t.blank
+    for number, level in enumerate(t.levels, 1):
+        pen.number = number
+        down(pen, t, number - 1)
+        pen.feed(level.left, level.r, ROUGH)
+        pen.along(between(t.profile, level.last, exit_way(t.profile, above)), PICK_UP)
+        if number < len(t.levels) or level.first is None:
+            height = min(pen.r + t.lift, t.blank)
+            lift_off(pen, t, level, None if level.first is None else wall(t, above, level, height))
+        above = level.r
+    return cleared(out(pen, t, "pick-up"), profile, blank, tool)
+
+
+def semi_finish(
+    profile: Contour, blank: float, depth: float, tool: Tool = POINT, after: str = "last", **distances: Any
+) -> Plan:
+    """Passes as in the loop; after the last one, or the penultimate, once along the whole contour.
+
+    After the `penultimate` pass the contour stroke takes what the last pass would have taken.
+    """
+    if after not in ("last", "penultimate"):
+        raise ValueError(f'the clean-up follows the "last" or the "penultimate" pass, got {after!r}')
+    return cleared(_semi_finish(task(profile, blank, depth, tool, **distances), after), profile, blank, tool)
+
+
+def _semi_finish(t: Task, after: str = "last") -> Plan:
+    roughing = len(t.levels) - (after == "penultimate")
+    pen = Pen(*t.start)
+    for number, level in enumerate(t.levels[:roughing], 1):
+        pen.number = number
+        down(pen, t, number - 1)
+        pen.feed(level.left, level.r, ROUGH)
+        if number < len(t.levels) or level.first is None:
+            lift_off(pen, t, level)
+    pen.number = roughing + 1
+    bottom = t.levels[-1]
+    if bottom.first is None:  # from the face along everything
+        pen.rapid(t.front, float(t.profile.points[0, 1]))
+        pen.along(t.profile, CLEANUP)
+    elif roughing < len(t.levels):
+        down(pen, t, roughing)
+        pen.along(between(t.profile, bottom.first, t.profile.length), CLEANUP)
+    else:
+        pen.number = roughing
+        pen.along(between(t.profile, bottom.last, t.profile.length), CLEANUP)
+    return out(pen, t, "semi-finish")
+
+
+def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
+    """Passes there and back without an idle stroke; to the next level along the contour, at feed.
+
+    The tool must cut in both directions.
+    """
+    t = task(profile, blank, depth, tool, **distances)
+    pen = Pen(*t.start)
+    above: Level | None = None
+    for number, level in enumerate(t.levels, 1):
+        pen.number = number
+        if number % 2:  # from the right
+            if above is None:
+                down(pen, t, 0)
+            elif level.first is None:
+                pen.feed(t.front, level.r, ROUGH)
+            else:
+                plunge(pen, t, above, level)
+            pen.feed(level.left, level.r, ROUGH)
+        else:
+            assert above is not None
+            wall = between(t.profile, level.last, above.last)
+            pen.along(wall.reversed() if wall is not None else None, ROUGH)
+            pen.feed(level.left, level.r, ROUGH)
+            pen.feed(level.right, level.r, ROUGH)
+        above = level
+    last = t.levels[-1]
+    if len(t.levels) % 2 and last.first is None:
+        lift_off(pen, t, last)
+    elif len(t.levels) % 2:
+        off(pen, t, last)
+    return cleared(out(pen, t, "zigzag"), profile, blank, tool)
+
+
+def descent(
+    profile: Contour, blank: float, step: float, tool: Tool = POINT, lift: float = LIFT, front: float = FRONT
+) -> Plan:  # fmt: skip
+    """Radial strokes to the contour, one `step` apart; `tool.width` is the width of its edge, its left corner the tip.
+
+    A tool with a width stands clear of the first wall and ends at the last one.
+    """
+    if not step > 0 or (tool.width and step > tool.width + SAME):
+        most = f" and at most the tool width {tool.width:g}" if tool.width else ""
+        raise ValueError(f"the step must be greater than 0{most}, got {step:g}")
+    t = task(profile, blank, blank, tool, lift, front)
+    right, left = (float(z) for z in t.profile.points[[0, -1], 0])
+    first = right - (tool.width or step)
+    count = math.floor((first - left) / step + 1e-9)
+    if count > MOST:
+        raise ValueError(f"a step of {step:g} gives {count} strokes, allowed are {MOST}")
+    places = [first - k * step for k in range(count + 1)] if first >= left - SAME else []
+    if tool.width and (not places or places[-1] > left + SAME) and right - left >= tool.width - SAME:
+        places.append(left)
+    cuts = [(z, r) for z in places if (r := lowest(t.profile, z)) < blank - SAME]
+    if not cuts:
+        raise ValueError("no stroke fits between the walls")
+    pen = Pen(cuts[0][0], t.outside)
+    for number, (z, r) in enumerate(cuts, 1):
+        pen.number = number
+        pen.rapid(z, t.outside)
+        pen.feed(z, r, PLUNGE)
+        pen.rapid(z, t.outside)
+    return cleared(pen.plan("descent"), profile, blank, tool)
+
+
+def equidistant(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
+    """Strokes along offsets of the contour, one `depth` apart along its normal; the last one is the contour.
+
+    Outside corners of an offset are sharp. What of it lies outside the blank is left out.
+    """
+    t = task(profile, blank, depth, tool, **distances, slanting=True)
+    strokes: list[tuple[bool, Contour]] = []
+    for k in range(MOST):
+        found = list(_within(offset(t.profile, k * depth, t.front), blank, t.front))
+        if not found:
+            break
+        strokes = [*found, *strokes]
+    else:
+        raise ValueError(f"a depth of {depth:g} gives more than {MOST} strokes")
+    pen = Pen(*t.start)
+    for number, (free, stroke) in enumerate(strokes, 1):
+        pen.number = number
+        begin = stroke.points[0]
+        pen.rapid(t.front if free else float(begin[0]), t.blank if number == 1 else t.outside)
+        pen.rapid(*begin)
+        pen.along(stroke, ROUGH)
+        if pen.r < t.blank - SAME:
+            away(pen, t._replace(profile=stroke), t.blank)
+        pen.rapid(pen.z, t.outside)
+        if free:
+            pen.rapid(t.front, t.outside)
+    return cleared(pen.plan("equidistant"), profile, blank, tool)
+
+
+def contour(
+    profile: Contour, blank: float, depth: float, tool: Tool = POINT, shift: tuple[float, float] | None = None,
+    passes: int | None = None, lift: float = LIFT, front: float = FRONT,
+) -> Plan:  # fmt: skip
+    """The contour again and again, shifted less each time: by `shift` (r, z) at first, by nothing at last.
+
+    Without `shift` and `passes` the copies lie one `depth` apart on the radius.
+    """
+    t = task(profile, blank, depth, tool, lift, front, slanting=True)
+    count = len(t.levels) if passes is None else passes
+    if count < 1:
+        raise ValueError(f"at least one pass is needed, got {count}")
+    dr, dz = ((count - 1) * depth, 0.0) if shift is None else shift
+    if dr < 0 or dz < 0:
+        raise ValueError(f"the shift must lead away from the contour, got {dr:g}, {dz:g}")
+    z0, r0 = t.start[0], float(t.profile.points[0, 1])
+    pen = Pen(z0 + dz, t.blank)
+    for number, k in enumerate(range(count - 1, -1, -1), 1):
+        pen.number = number
+        share = k / (count - 1) if count > 1 else 0.0
+        zs, rs = z0 + dz * share, t.blank + dr * share
+        pen.rapid(zs, rs)
+        pen.rapid(zs, r0 + dr * share)
+        copy = Contour(t.profile.points + (dz * share, dr * share), t.profile.bulge, closed=False)
+        pen.along(copy, ROUGH)
+        if pen.r < t.blank - SAME:
+            away(pen, t._replace(profile=copy), t.blank)
+        pen.rapid(pen.z, rs)
+        pen.rapid(zs, rs)
+    return cleared(pen.plan("contour"), profile, blank, tool)
+
+
+def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
+    """A profile of several zones, each by the scheme that the source names for it.
+
+    Open and semi-open: the loop, the semi-open section with a clean-up. With a closed zone: the dry sections together by
+    the loop, every closed one by passes, and one clean-up along the whole contour at the end.
+    """
+    reached = without_drop(reachable(profile, tool))
+    found = zones(reached, blank)
+    wet = [zone.profile for zone in found if zone.kind == CLOSED]
+    dry = [zone for zone in found if zone.kind != CLOSED]
+    lift, front = distances.get("lift", LIFT), distances.get("front", FRONT)
+    edges = replace(tool, width=0.0)  # what is reached already minds the width
+    plans = []
+    t = None
+    if wet and dry:  # passes at the rims too, so that every closed zone is free from above
+        above = filled(reached)
+        sections = [zone.profile for zone in dry] if falls_again(above) else [above]
+        rims = [float(pool.points[0, 1]) for pool in wet]
+        tasks = [task(section, blank, depth, edges, lift, front, rims) for section in sections]
+        plans += [_loop(each) for each in tasks]
+        t = tasks[0]
+    else:
+        for zone in dry:
+            simple = task(zone.profile, blank, depth, edges, **distances)
+            plans.append(_loop(simple) if zone.kind == OPEN else _semi_finish(simple))
+    for pool in wet:
+        simple = task(pool, min(blank, float(pool.points[0, 1])), depth, edges, **distances)
+        plans.append(_loop(simple) if t else _semi_finish(simple))
+    pen = Pen(plans[0].start[0], blank)
+    for plan in plans:
+        pen.append(plan, blank + OUT)
+    if t is not None:
+        pen.number += 1
+        pen.rapid(pen.z, t.outside)
+        pen.rapid(t.front, t.outside)
+        pen.rapid(t.front, float(reached.points[0, 1]))
+        pen.along(reached, CLEANUP)
+        if pen.r < blank - SAME:
+            away(pen, t._replace(profile=reached), blank)
+        pen.rapid(pen.z, t.outside)
+    return cleared(pen.plan("combined"), profile, blank, tool)
+
+
+#: The schemes by name; `descent` takes its step where the others take the depth.
+SCHEMES: dict[str, Callable[..., Plan]] = {
+    "loop": loop, "zigzag": zigzag, "descent": descent, "pick-up": pick_up, "semi-finish": semi_finish,
+    "equidistant": equidistant, "contour": contour, "combined": combined,
+}  # fmt: skip
+
+
+def _within(stroke: Contour, blank: float, front: float) -> Iterator[tuple[bool, Contour]]:
+    """The parts of a stroke below the radius of the blank, and whether they begin in front of the face."""
+    r = stroke.points[:, 1]
+    below = between(stroke, 0.0, stroke.length)
+    while below is not None and (r < blank - SAME).any():
+        first = entry_way(below, blank)
+        begin = 0.0 if first is None else first
+        rest = between(below, begin, below.length)
+        assert rest is not None
+        over = np.flatnonzero(rest.points[:, 1] > blank + SAME)
+        if not len(over):
+            yield first is None, rest
+            return
+        wall = Contour(rest.points[: over[0] + 1], rest.bulge[: over[0] + 1], closed=False)
+        end = exit_way(wall, blank)
+        part = between(rest, 0.0, end)
+        if part is not None and (part.points[:, 1] < blank - SAME).any():
+            yield first is None, part
+        below = between(rest, wall.length, rest.length)
+        r = below.points[:, 1] if below is not None else r[:0]

@@ -1,0 +1,167 @@
+"""Look-ahead over a whole path: when the tool is where, and how fast.
+
+1. :mod:`~mnclab.path.profile.motions`: what each row and each corner allows by itself.
+2. :mod:`~mnclab.path.profile.lookahead`: from that the speeds at the nodes between rows, by two scans.
+3. :mod:`~mnclab.path.profile.turns`: arcs that do not reach their feed are cut finer and planned again.
+4. :mod:`~mnclab.path.profile.smooth`: under a jerk limit, S-curves over groups of rows instead of trapezoids.
+5. Rows without motion take their own time; rapids may run axis by axis (:mod:`~mnclab.path.profile.rapids`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
+from mnclab.path.profile.bends import divided
+from mnclab.path.profile.lookahead import reachable
+from mnclab.path.profile.motions import PIECE, Rows, measure
+from mnclab.path.profile.rapids import Rapids
+from mnclab.path.profile.smooth import Groups, smooth
+from mnclab.path.profile.turns import FEWEST, PART, Turns
+from mnclab.path.toolpath import Toolpath
+from mnclab.text.given import check_number
+
+SURFACE = 64  # parts of a row at constant cutting speed, in each of which the feed is constant
+
+Array = NDArray[np.float64]
+
+
+@dataclass
+class Plan:
+    """The planned rows (n,) of ``path``; ``row`` (n,) of the path that was asked for, None if they are the same.
+
+    ``v`` (n + 1,) the speeds at the nodes, ``top`` (n,) the greatest speed within a row, ``up`` and ``down`` (n,) the
+    accelerations used (mm, s), ``seconds`` (n,); ``groups`` under a jerk limit.
+    ``ramps`` are rows that are one ramp from end to end, whatever ``up`` and ``down`` say.
+    """
+
+    path: Toolpath
+    row: NDArray[np.int64] | None
+    rows: Rows
+    v: Array
+    top: Array
+    up: Array
+    down: Array
+    seconds: Array
+    rapids: Rapids | None = None
+    ramps: NDArray[np.int64] | None = None
+    groups: Groups | None = None
+
+
+def plan(
+    path: Toolpath,
+    limits: Limits,
+    override: float = 1.0,
+    rapid_motion: str = "line",
+    waits: NDArray[np.bool_] | None = None,
+) -> Plan:
+    """Plan a path under limits; ``override`` is the feed override, 1 for 100 %.
+
+    ``rapid_motion`` holds unless the limits say otherwise; ``waits`` (n,) says which SPINDLE rows wait until the spindle
+    has its speed (MNC: G26), all by default. An Alarm for an override outside 0.001 … 100.
+    """
+    check_number(override, "the feed override (1 for 100 %)", above=0, at_least=0.001, at_most=100)
+    override = float(override)
+    row = None
+    turning = np.isfinite(path.surface) & np.isfinite(path.per_rev)
+    if turning.any():
+        path, row = divided(path, np.where(turning & path.is_motion, SURFACE, 1))
+        waits = None if waits is None else waits[row]
+    rows = measure(path, limits, override)
+    found = _s_curves(path, row, rows) if len(rows.j) else _trapezoids(path, row, rows)
+    slow = _slow_arcs(found)
+    if not len(rows.j) and slow.any():
+        found, parts = _turned(found, slow, limits, override)
+        waits = None if waits is None else waits[parts]
+        path, rows = found.path, found.rows
+    _events(found, limits, waits)
+    motion = limits.rapid_motion or rapid_motion
+    if motion != "line" and (rapid := np.flatnonzero((path.kind == Kind.RAPID) & (rows.length > 0))).size:
+        found.rapids = Rapids(path, rapid, limits, motion)
+        found.seconds[rapid] = found.rapids.seconds
+    return found
+
+
+def _trapezoids(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows, w: Array | None = None) -> Plan:
+    """Speeds at the nodes (v² may be given) and times of the rows, each up, along and down at constant acceleration."""
+    n = len(path)
+    gain = 2 * rows.a
+    gain *= rows.length
+    if w is None:
+        w = reachable(rows.corner, gain)
+    v, top, seconds = np.sqrt(w), np.empty(n), np.empty(n)
+    for i in range(0, n, PIECE):
+        part = slice(i, min(n, i + PIECE))
+        w0, w1, g, a = w[i:-1][:PIECE], w[i + 1 :][:PIECE], gain[part], rows.a[part]
+        both = w0 + w1
+        high = np.minimum(rows.cap[part], 0.5 * (both + g))
+        np.maximum(high, np.maximum(w0, w1), out=high)
+        root = np.sqrt(high, out=top[part])
+        rest = g - (2 * high - both)  # 2 a times what is run at the top
+        np.maximum(rest, 0.0, out=rest)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            rest /= 2 * root
+        rest += 2 * root - v[i:-1][:PIECE] - v[i + 1 :][:PIECE]
+        np.divide(rest, a, out=seconds[part])
+    still = rows.length == 0
+    if still.any():
+        seconds[still] = 0.0
+    return Plan(path, row, rows, v, top, rows.a, rows.a, seconds)
+
+
+def _slow_arcs(found: Plan) -> NDArray[np.bool_]:
+    """Arcs (n,) that do not reach their feed."""
+    arcs = (found.path.kind == Kind.ARC) & (found.rows.length > 0)
+    if not arcs.any():
+        return arcs
+    return np.asarray(arcs & (found.top < found.rows.feed * (1 - 1e-12)))
+
+
+def _turned(found: Plan, slow: NDArray[np.bool_], limits: Limits, override: float) -> tuple[Plan, NDArray[np.int64]]:
+    """The plan with some arcs cut finer, and the row (m,) that each of its rows was part of."""
+    counts = np.where(slow, np.maximum(np.ceil(np.abs(found.path.sweep) / PART), FEWEST), 1).astype(np.int64)
+    path, part = divided(found.path, counts)
+    turns = Turns(path, np.flatnonzero(slow[part]), np.append(0, np.cumsum(counts[slow])), limits)
+    caps = np.full(len(path), np.nan)
+    caps[turns.rows] = turns.cap
+    rows = measure(path, limits, override, caps)
+    w = turns.speeds_at(rows.corner, rows.a, rows.length)
+    w0, w1 = w[turns.rows], w[turns.rows + 1]
+    row = part if found.row is None else found.row[part]
+    again = _trapezoids(path, row, rows, w)
+    again.ramps = turns.rows
+    again.top[turns.rows] = np.sqrt(np.maximum(w0, w1))
+    again.seconds[turns.rows] = 2 * turns.length / (np.sqrt(w0) + np.sqrt(w1))
+    return again, part
+
+
+def _s_curves(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows) -> Plan:
+    """The same under a jerk limit."""
+    w = reachable(rows.corner, 2 * rows.a * rows.length)
+    v, top, seconds, groups = smooth(rows, w)
+    return Plan(path, row, rows, v, top, rows.a, rows.a, seconds, groups=groups)
+
+
+def _events(found: Plan, limits: Limits, waits: NDArray[np.bool_] | None) -> None:
+    """Time for dwells, tool changes and for the spindle to reach its speed."""
+    kind, seconds = found.path.kind, found.seconds
+    if (turns := (found.rows.length == 0) & np.isfinite(found.path.time)).any():  # rotary axes alone
+        seconds[turns] = found.path.time[turns]
+    events = np.flatnonzero(kind > Kind.PROBE)
+    if not len(events):
+        return
+    seconds[events] = 0.0
+    kinds = kind[events]
+    dwell = events[kinds == Kind.DWELL]
+    seconds[dwell] = np.nan_to_num(found.path.time[dwell])
+    seconds[events[kinds == Kind.TOOL]] = limits.tool_change
+    if limits.spindle_acceleration is not None:
+        starts = events[kinds == Kind.SPINDLE]
+        speed = np.clip(found.path.spindle, -limits.spindle, limits.spindle)
+        before = np.where(starts > 0, speed[starts - 1], 0.0)
+        time = np.abs(speed[starts] - before) / limits.spindle_acceleration
+        seconds[starts] = time if waits is None else np.where(waits[starts], time, 0.0)

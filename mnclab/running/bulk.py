@@ -1,0 +1,334 @@
+"""Runs of plain blocks, obeyed at once.
+
+Programs from a CAM system are long runs of plain motion: axis words, a feed now and then, arcs. Here such a run becomes
+columns: modal words are filled forward, increments summed, one matrix takes all points to the machine, arcs are vector
+formulas. The one-by-one tier is the definition; this one must give the same rows, history and final state.
+
+A block that would raise an alarm or a remark ends the run *before* it and goes to the other tier, which words it: one
+text for one fault. The pieces grow while all is well and start small again after such a block.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry import frames
+from mnclab.geometry.arcs import centre_from_radius, sweep
+from mnclab.path.kinds import Kind
+from mnclab.running.repeating import repeat_hole
+from mnclab.text.program import Program
+
+if TYPE_CHECKING:
+    from mnclab.machine.control import Control
+    from mnclab.machine.machine import Machine
+
+SHORTEST, LARGEST = 32, 1 << 15  # blocks obeyed at once: below, one by one is faster; above, the cache is lost
+
+LETTERS = "GXYZIJKRF"  # the addresses of plain words
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+NOTHING: Array = np.empty(0)
+NO_MOTION = 99  # the sense of a G word that is none
+
+
+@dataclass(frozen=True)
+class PlainWords:
+    """How a control reads its plain blocks.
+
+    ``motions`` maps the value of a G word to the code of its motion and its sense (0 rapid, 1 line, ±2 arcs, sign as in
+    +2 counter-clockwise); a control without such words has one entry, None. ``ready`` says whether plain words mean
+    plain motion now, ``absolute`` whether positions are absolute. Addresses other than :data:`LETTERS` change nothing in
+    a plain block (R0 of Klartext): its reader calls no other block plain. ``helices`` says whether arcs with a third
+    coordinate need no word of their own now, and hears how many more were made. ``letters`` are the addresses that the
+    control has; ``straight_arcs``: an arc without R and centre is a straight line, ``whole_circles``: one without
+    coordinates is a circle; where they are not, that is a fault.
+    """
+
+    motions: Mapping[float | None, tuple[str, int]]
+    ready: Callable[[Machine], bool]
+    absolute: Callable[[Machine], bool] = lambda m: True
+    keyword: str = ""
+    tolerance: Callable[[Machine], float] = lambda m: 0.01
+    helices: Callable[[Machine, int], bool] = lambda m, count: False
+    letters: str = LETTERS
+    straight_arcs: bool = False
+    whole_circles: bool = True
+
+
+@dataclass
+class _Run:
+    """A run worked out: what its rows are, and where it must stop."""
+
+    points: Array  # (n + 1, 3) programmed
+    tips: Array  # (n + 1, 3) machine
+    motion: NDArray[np.int64]  # (n,) sense codes
+    feed: Array  # (n,) modal feed after each block
+    moves: Mask
+    fault: Mask
+    arc: Mask
+    centre: Array = field(default_factory=lambda: NOTHING)  # (n, 3) and angle (n,) where there is an arc
+    angle: Array = field(default_factory=lambda: NOTHING)
+    helix: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))  # which blocks are
+
+
+class Bulk:
+    """Finds and obeys the runs of one program."""
+
+    def __init__(self, control: Control, machine: Machine, program: Program, faulty: set[int]) -> None:
+        self.rule: PlainWords | None = control.bulk
+        self.machine, self.program, self.group = machine, program, control.motion
+        self.enabled = self.rule is not None and machine.settings.get("bulk", True)
+        self.not_before, self.size, self.last = 0, SHORTEST, 0
+        self.next_break = -1
+        if self.rule is None:
+            return
+        plain = program.plain.copy()
+        plain[list(faulty)] = False
+        if self.rule.keyword and self.rule.keyword in program.keywords:
+            plain &= program.keyword == program.keywords.index(self.rule.keyword)
+        self.index = {name: k for k, name in enumerate(program.addresses) if len(name) == 1 and name in LETTERS}
+        strange = [k for name, k in self.index.items() if name not in self.rule.letters]
+        if strange and len(of_them := np.flatnonzero(np.isin(program.address, strange))):
+            plain[np.searchsorted(program.first, of_them, "right") - 1] = False
+        self.breaks = np.append(np.flatnonzero(~plain), len(program))
+        self.enabled = self.enabled and len(program) - len(self.breaks) + 1 >= SHORTEST
+        self.codes = {value: code for value, (code, _) in self.rule.motions.items()}
+        self.senses = {code: sense for code, sense in self.rule.motions.values()}
+        self.next_break = int(self.breaks[0])
+
+    def obey(self, first: int, stop: int) -> int:
+        """Obey the plain blocks from ``first`` on; how many were, 0 if that one goes to the other tier."""
+        if first < self.last:  # a jump, a call or a repeat has led back: what was found there counts no more
+            self.not_before, self.next_break = 0, -1
+        self.last = first
+        if not self.enabled or first < self.not_before:
+            return 0
+        if first > self.next_break or self.next_break - first < SHORTEST:
+            self.next_break = int(self.breaks[np.searchsorted(self.breaks, first)])
+        end = min(self.next_break, stop, first + self.size)
+        if end - first < SHORTEST:
+            self.not_before = end if self.next_break > first else first + 1
+            return 0
+        rule = self.rule
+        assert rule is not None
+        if self.machine.position_cycle:
+            done = repeat_hole(self, first, end, SHORTEST)
+            self.size = min(8 * self.size, LARGEST) if done == end - first - 1 else SHORTEST
+            return done
+        if self.machine.per_rev or self.machine.pending or not rule.ready(self.machine):
+            return 0
+        run = self.work_out(first, end)
+        good = int(np.argmax(run.fault)) if run.fault.any() else end - first
+        if good:
+            self.commit(run, first, good)
+        if good < end - first:
+            self.not_before, self.size = first + good + 1, SHORTEST
+        else:
+            self.size = min(2 * self.size, LARGEST)
+        return good
+
+    # --- what the run is ---------------------------------------------------------------------------------------------
+
+    def columns(self, first: int, end: int) -> dict[str, Array]:
+        """The words of the blocks by address (n,), nan where not written; an address that is never written is left out."""
+        program, n = self.program, end - first
+        a, b = int(program.first[first]), int(program.first[end])
+        address, value = program.address[a:b], program.value[a:b]
+        found: dict[str, Array] = {}
+        block: NDArray[np.int64] | None = None
+        for name, index in self.index.items():
+            words = np.flatnonzero(address == index)
+            if len(words) == n:  # a block has it once, so every block has it
+                found[name] = value[words]
+            elif len(words):
+                if block is None:
+                    block = np.repeat(np.arange(n), np.diff(program.first[first : end + 1]))
+                found[name] = np.full(n, np.nan)
+                found[name][block[words]] = value[words]
+        return found
+
+    def work_out(self, first: int, end: int) -> _Run:
+        """Everything about the blocks [first, end), faults included."""
+        machine, rule = self.machine, self.rule
+        assert rule is not None
+        words, n = self.columns(first, end), end - first
+        points, moves = machine.recorder.room(n), np.zeros(n, dtype=bool)
+        same = machine._shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed == tuple(points[0].tolist())
+        if not same:
+            points = np.empty((n + 1, 3))
+            points[0] = machine.programmed
+        absolute = rule.absolute(machine)
+        for k, axis in enumerate("XYZ"):
+            start = machine.programmed[k]
+            if axis not in words:
+                points[1:, k] = start
+                continue
+            written = ~np.isnan(words[axis])
+            moves |= written
+            if absolute:
+                points[1:, k] = _filled(start, words[axis])
+            else:
+                points[:, k] = np.cumsum(np.concatenate([[start], np.where(written, words[axis], 0.0)]))
+        tips = points if same else self.to_machine(points)  # no copy: memory costs more than the work on it
+
+        no_feed = np.nan if machine.feed is None else machine.feed
+        feed = _filled(no_feed, words["F"]) if "F" in words else np.full(n, no_feed)
+        motion, fault = self.motions(words.get("G"), n)
+        arc = shaped = np.zeros(n, dtype=bool)
+        for name in "IJKR":
+            if name in words:
+                shaped = shaped | ~np.isnan(words[name])
+        if shaped.any():
+            arc = (np.abs(motion) == 2) & shaped
+            fault |= shaped & ~arc
+            fault |= arc & ~moves & (not rule.whole_circles)
+            moves |= arc
+        fault |= moves & (np.abs(motion) == 2) & ~shaped & (not rule.straight_arcs)
+        go = int(np.argmax(moves)) if moves.any() else n  # until then the tool stands where it stood
+        begin = tuple(tips[0].tolist())
+        if begin != machine.tip:  # a transformation was switched, or the register was turned there and back
+            tips = tips.copy() if tips is points else tips
+            tips[: go + 1] = machine.tip
+
+        fault |= moves & (motion != 0) & np.isnan(feed)  # without a feed
+        if "F" in words:
+            fault |= words["F"] <= 0
+        run = _Run(points, tips, motion, feed, moves, fault, arc)
+        if arc.any():
+            self.arcs(run, words)
+            run.fault[go] |= arc[go] and math.dist(begin, machine.tip) > rule.tolerance(machine)
+        run.moves = moves & (_differ(tips[1:], tips[:-1]) | arc)
+        return run
+
+    def to_machine(self, points: Array) -> Array:
+        """Program coordinates (n, 3) to machine coordinates."""
+        shift = self.machine._shift
+        return frames.apply(self.machine._matrix, points) if shift is None else points + np.array(shift)
+
+    def motions(self, g: Array | None, n: int) -> tuple[NDArray[np.int64], Mask]:
+        """The sense of each block's motion, and which blocks have a G word that is none."""
+        if None in self.codes:
+            return np.full(n, self.senses[self.codes[None]]), np.zeros(n, dtype=bool) if g is None else ~np.isnan(g)
+        active = self.machine.modal.get(self.group, "")
+        start = next((value for value, code in self.codes.items() if code == active), None)
+        values = np.full(n, start, dtype=float) if g is None else _filled(np.nan if start is None else start, g)
+        sense = np.full(n, NO_MOTION)
+        for value in set(self.codes) if g is not None else {start}:
+            if value is not None:
+                sense[values == value] = self.senses[self.codes[value]]
+        return sense, sense == NO_MOTION
+
+    def arcs(self, run: _Run, words: dict[str, Array]) -> None:
+        """Centres and sweeps of the arcs; what is doubtful is a fault."""
+        from mnclab.machine.machine import PLANES
+
+        machine, rule = self.machine, self.rule
+        assert rule is not None
+        first, second, normal = PLANES[machine.plane]
+        k = np.flatnonzero(run.arc)
+        s, e = run.points[k][:, [first, second]], run.points[k + 1][:, [first, second]]
+        sense = np.sign(run.motion[k])
+        tolerance = rule.tolerance(machine)
+        nothing = np.full(len(k), np.nan)
+        to_centre = np.stack([words[name][k] if name in words else nothing for name in "IJK"], axis=1)
+        radii = words["R"][k] if "R" in words else nothing
+        c = s + np.nan_to_num(to_centre[:, [first, second]])
+        at_start, at_end = np.hypot(*(s - c).T), np.hypot(*(e - c).T)
+        fault = (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance) | ~np.isnan(to_centre[:, normal])
+        if (by := np.flatnonzero(~np.isnan(radii))).size:
+            radius, chord = radii[by], np.hypot(*(e - s)[by].T)
+            c[by], shortage = centre_from_radius(s[by], e[by], radius, sense[by])
+            fault[by] = (shortage > tolerance) | (chord < 1e-3) | (radius == 0) | ~np.isnan(to_centre[by]).all(axis=1)
+        run.fault[k] |= fault
+        rises = run.points[k, normal] != run.points[k + 1, normal]
+        if rises.any() and rule.helices(machine, 0):
+            run.helix = k[rises]
+        else:
+            run.fault[k] |= rises  # the other tier remarks on it
+        angle = sweep(s, e, c, sense)
+        centre = run.points[k].copy()
+        centre[:, [first, second]] = c
+        if machine._shift is None:
+            run.fault[k] |= not machine.keeps_circles
+            angle = angle * machine.orientation
+        run.centre, run.angle = np.full(run.tips[1:].shape, np.nan), np.zeros(len(run.moves))
+        run.centre[k], run.angle[k] = self.to_machine(centre), angle
+
+    # --- doing it ----------------------------------------------------------------------------------------------------
+
+    def commit(self, run: _Run, first: int, count: int) -> None:
+        """Make the rows, the history and the state of the first ``count`` blocks."""
+        machine = self.machine
+        step = machine.flow.begin_many(first, count)
+        steps = np.arange(step, step + count, dtype=np.int32)
+        machine.step = step + count - 1
+        self.log(run, steps, count)
+        if helices := int(np.searchsorted(run.helix, count)):
+            assert self.rule is not None
+            self.rule.helices(machine, helices)
+        machine.programmed = tuple(run.points[count].tolist())
+        machine.tip = tuple(run.tips[count].tolist())
+        machine.source_line = int(self.program.line_of(first + count - 1))
+        moved = np.flatnonzero(run.moves[:count])
+        if len(moved):  # last: rows closed up may take the room where the points were worked out
+            self.rows(run, first, steps, moved if len(moved) < count else slice(0, count))
+
+    def rows(self, run: _Run, first: int, steps: NDArray[np.int32], moved: NDArray[np.int64] | slice) -> None:
+        """Hand the rows of the blocks that move to the recorder."""
+        motion, arc = run.motion[moved], run.arc[moved]
+        kind = np.where(motion == 0, Kind.RAPID, np.where(arc, Kind.ARC, Kind.LINE)).astype(np.uint8)
+        lines = np.asarray(self.program.line_of(slice(first, first + len(run.moves))))
+        columns: dict[str, NDArray[Any]] = {
+            "kind": kind,
+            "line": lines[moved].astype(np.int32, copy=False),
+            "step": steps[moved],
+            "feed": np.where(motion == 0, np.inf, run.feed[moved]),
+            "state": np.asarray(self.machine.state()),
+        }
+        if arc.any():
+            columns |= {"centre": run.centre[moved], "sweep": run.angle[moved]}
+        self.machine.recorder.bulk(columns, run.tips[1:][moved])
+
+    def log(self, run: _Run, steps: NDArray[np.int32], count: int) -> None:
+        """Changes of position, feed and motion, step by step."""
+        machine, history = self.machine, self.machine.logs
+        changed = np.flatnonzero(_differ(run.points[1 : count + 1], run.points[:count]))
+        everywhere = len(changed) == count  # then no copy is needed
+        points = run.points[1 : count + 1] if everywhere else run.points[changed + 1]
+        history.extend("position", steps if everywhere else steps[changed], points)
+
+        feed = run.feed[:count]
+        start = np.nan if machine.feed is None else machine.feed
+        changed = np.flatnonzero(~np.isnan(feed) & (feed != np.concatenate([[start], feed[:-1]])))
+        if len(changed):
+            history.extend("feed", steps[changed], feed[changed])
+            machine.feed = float(feed[-1])
+            machine._state = None
+
+        names = {sense: code for code, sense in self.senses.items()}
+        if self.group and None not in self.codes:
+            active = self.senses.get(machine.modal.get(self.group, ""), 99)
+            motion = run.motion[:count]
+            changed = np.flatnonzero(motion != np.concatenate([[active], motion[:-1]]))
+            if len(changed):
+                history.extend(self.group, steps[changed], [names[int(m)] for m in motion[changed]])
+                machine.modal[self.group] = names[int(motion[-1])]
+
+
+def _differ(a: Array, b: Array) -> Mask:
+    """Which points (n, 3) are not equal; column by column, which is faster than along rows."""
+    return (a[:, 0] != b[:, 0]) | (a[:, 1] != b[:, 1]) | (a[:, 2] != b[:, 2])
+
+
+def _filled(start: float, column: Array) -> Array:
+    """The last value that is not nan, going down a column (n,) that begins after ``start``."""
+    at = np.flatnonzero(column == column)
+    if len(at) == len(column):
+        return column
+    return np.repeat(np.concatenate([[start], column[at]]), np.diff(at, prepend=0, append=len(column)))

@@ -1,0 +1,301 @@
+"""The course of a program: sections, labels, jumps, repeats, subprograms, other programs.
+
+A *step* is one execution of a block. A section of blocks is run by a plain loop; a call of a label or of another program
+is a section run inside another; a jump goes on elsewhere in the same section. Functions steer with its
+methods ``call``, ``call_program``, ``jump``, ``repeat`` and ``leave``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.machine.flow import Recording
+from mnclab.machine.lasting import lasting_over_passes
+from mnclab.running.loops import Loop, Loops
+from mnclab.running.recording import record
+from mnclab.text.alarm import Alarm, Span
+from mnclab.text.program import Program
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+
+DEEPEST = 20  # nested calls
+LONGEST = 500_000  # blocks that repeats and calls may add, one by one
+CERTAIN = 4  # times the limit of blocks: more than what passes along the same way may differ by
+ROWS_A_BLOCK = 20  # of the text, beside the rows that the setting most_rows allows
+
+
+class Steps(NamedTuple):
+    """Which block and which program each step executed (s,)."""
+
+    block: NDArray[np.int32]
+    program: NDArray[np.int16]
+
+
+class Course:
+    """Where the program is: the running section, the depth of calls, the log of steps.
+
+    ``programs`` are the main program and those it has called, each once; ``switch`` is called with the index of one when
+    its blocks are to be obeyed from now on.
+    """
+
+    def __init__(
+        self, program: Program, obey: Callable[[int], None], bulk: Callable[[int, int], int], switch: Callable[[int], None]
+    ) -> None:
+        self.programs = [program]
+        self.obey, self.bulk, self.switch = obey, bulk, switch
+        self.machine: Machine
+        self.spent = 0  # of the limit, by blocks that take as long as many
+        self.depth, self.calls = 0, 0  # calls: subprograms alone, without repeats
+        self.limit, self.in_bulk = (
+            LONGEST + len(program),
+            0,
+        )  # steps obeyed in bulk do not count: they end by themselves
+        self.watched: Callable[[int], None] = lambda steps: None  # hears now and then how many steps were begun
+        self.returning = self.over = False  # the subprogram, the called program ends
+        self.target = -1  # block to go on at, after a jump
+        self.found: dict[tuple[str, str], int] = {}  # indices of programs by folder of the caller, and name
+        self.running = [0]  # the main program and those called, the innermost last
+        self.current = 0  # block being obeyed
+        self.loops = Loops()
+        self._chunks: list[tuple[int, NDArray[np.int64] | range]] = []  # program, blocks
+        self._blocks: list[int] = []
+        self._counted = 0
+
+    @property
+    def program(self) -> Program:
+        """The running program."""
+        return self.programs[self.running[-1]]
+
+    # --- running -----------------------------------------------------------------------------------------------------
+
+    def section(self, first: int, stop: int, least: int = 0) -> None:
+        """Run the blocks [first, stop) of the running program; a jump to one outside [least, stop) ends the section."""
+        machine, block = self.machine, first
+        while block < stop and not (machine.ended or self.over):
+            done = self.bulk(block, stop)
+            if done:
+                block += done
+                continue
+            self.current = block
+            self.obey(block)
+            if self.returning:
+                return
+            block += 1
+            if self.target >= 0:
+                if not least <= self.target < stop:
+                    return
+                block, self.target = self.target, -1
+
+    def call(self, label: str, span: Span | None = None) -> None:
+        """Run from a label to the end of its subprogram."""
+        self.enter(span)
+        here = self.current
+        self.calls += 1
+        self.loops.running.append(Loop(self.running[-1], here, 0, self.machine.step))
+        self.section(self.index_of(label, span) + 1, len(self.program))
+        self.loops.running.pop()
+        self.calls -= 1
+        self.depth, self.returning, self.current = self.depth - 1, False, here
+
+    def call_program(self, index: int, span: Span | None = None) -> None:
+        """Run another program, from its first block to its end; its rows have no label of a cycle that called it."""
+        machine = self.machine
+        if index in self.running:
+            name = self.programs[index].name
+            raise Alarm(f"{name} is running already: a program cannot call itself, nor one that calls it", span)
+        self.enter(span)
+        kept = self.current, self.calls, machine.source_line, machine.label
+        self.calls, machine.label = 0, ""
+        self.loops.running.append(Loop(self.running[-1], self.current, 0, machine.step))
+        with self.inside(index):
+            self.section(0, len(self.program))
+        self.loops.running.pop()
+        self.current, self.calls, machine.source_line, machine.label = kept
+        self.depth, self.over = self.depth - 1, False
+
+    def record(self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
+        """Obey a label for its contour; nothing moves."""
+        return record(m, label, span, after)
+
+    @contextmanager
+    def inside(self, index: int) -> Iterator[None]:
+        """Blocks and labels are those of another program."""
+        if index == self.running[-1]:
+            yield
+            return
+        self._flush()
+        self.running.append(index)
+        self._change_program()
+        yield  # after an alarm the place stays where it happened: the run is over
+        self._flush()
+        self.running.pop()
+        self._change_program()
+
+    def _change_program(self) -> None:
+        """Blocks are those of another program from now on."""
+        self.machine.program, self.machine._state = self.running[-1], None  # rows carry it
+        self.switch(self.running[-1])
+
+    def add(self, program: Program) -> int:
+        """Another program that may be called; its index."""
+        self.programs.append(program)
+        self.limit += len(program)
+        self.machine.recorder.most = self.most_rows
+        return len(self.programs) - 1
+
+    @property
+    def called(self) -> bool:
+        """Whether the running program was called by another."""
+        return len(self.running) > 1
+
+    def end_program(self) -> None:
+        """Go back to the calling program."""
+        self.over = True
+
+    def jump(self, label: str, span: Span | None = None) -> None:
+        """Go on at a label."""
+        self.target = self.index_of(label, span)
+        if self.target <= self.current:
+            self.loops.back(self.machine, self.target, span)
+
+    def ask(self, *values: Any) -> None:
+        """A function is about to decide where the program goes on; the values of the words that it reads for that."""
+        self.loops.ask(self.machine.step, values)
+
+    def repeat(self, first: int, stop: int, times: int, span: Span | None = None) -> None:
+        """Run the blocks [first, stop) a number of times more; a jump out of them ends that."""
+        self.enter(span)
+        here, recorder, before = self.current, self.machine.recorder, None
+        loop = Loop(self.running[-1], here, times, self.machine.step)
+        self.loops.running.append(loop)
+        for loop.done in range(1, times + 1):
+            loop.begun, begin, made = self.machine.step, self.begun - self.in_bulk, recorder.made
+            self.section(first, stop, least=first)
+            if self.returning or self.over or self.target >= 0 or self.machine.ended:
+                break
+            if loop.done > 2:
+                continue
+            blocks, rows = (self.begun - self.in_bulk - begin) * times, made + (recorder.made - made) * (times - loop.done)
+            if blocks > CERTAIN * self.limit and not self.loops.asked_since(loop.begun):
+                self._too_long(self.begun - 1, here)
+            if rows > recorder.most:  # and will be, if this pass was like the one before
+                now = lasting_over_passes(self.machine)
+                if before == now:
+                    self.current = here
+                    self.too_many_rows(rows)
+                before = now
+        self.loops.running.pop()
+        self.depth, self.current = self.depth - 1, here
+
+    def enter(self, span: Span | None) -> None:
+        """Go one call deeper."""
+        if self.depth >= DEEPEST:
+            raise Alarm(f"calls are nested deeper than {DEEPEST}", span or self.span_of_step(self.machine.step))
+        self.depth += 1
+
+    def leave(self) -> None:
+        """End the running subprogram; nothing in the main program."""
+        self.returning = self.calls > 0
+
+    def index_of(self, label: str, span: Span | None = None) -> int:
+        """The block of a label."""
+        if label not in self.program.labels:
+            known = ", ".join(list(self.program.labels)[:8])
+            hint = f"labels of this program: {known}" if known else "this program has no labels"
+            raise Alarm(f"label {label} does not exist", span or self.span_of_step(self.machine.step), hint=hint)
+        return self.program.labels[label]
+
+    # --- steps -------------------------------------------------------------------------------------------------------
+
+    def span_of_block(self, block: int) -> Span:
+        """The place of a block of the running program."""
+        return self.program.span_of_block(block)._replace(program=self.running[-1])
+
+    @property
+    def begun(self) -> int:
+        """How many blocks were executed so far."""
+        return self._counted + len(self._blocks)
+
+    def begin(self, block: int) -> int:
+        """Note the execution of a block; the number of its step."""
+        blocks = self._blocks
+        step = self._counted + len(blocks)
+        if step - self.in_bulk >= self.limit:
+            self._too_long(step, block)
+        if not step & 1023:
+            self.watched(step)
+        blocks.append(block)
+        return step
+
+    def spend(self, work: int) -> None:
+        """Count a block as so many more of the limit: it takes as long as they do."""
+        self.limit, self.spent = self.limit - work, self.spent + work
+
+    def _too_long(self, step: int, block: int) -> NoReturn:
+        """Stop at a block: there are too many to obey."""
+        self.machine.step = step
+        work = f"{LONGEST} blocks" if self.spent < LONGEST // 10 else f"as much work as {LONGEST} blocks"
+        message = f"jumps, repeats and calls ran {work} without an end{self.loops.told(self.machine)}"
+        raise Alarm(message, self.span_of_block(block))
+
+    @property
+    def most_rows(self) -> int:
+        """How many rows a run may have."""
+        blocks = sum(len(program) for program in self.programs)
+        return int(self.machine.settings["most_rows"]) + ROWS_A_BLOCK * blocks
+
+    def too_many_rows(self, count: int) -> NoReturn:
+        """Stop where the path would have so many rows."""
+        allowed = int(self.machine.settings["most_rows"])
+        raise Alarm(
+            f"the path would have {count} rows, more than the setting most_rows ({allowed}) and {ROWS_A_BLOCK} for each "
+            f"block of the text allow{self.loops.told(self.machine)}",
+            self.span_of_block(self.current),
+        )
+
+    def begin_many(self, first: int, count: int) -> int:
+        """Note the execution of blocks in a row; the number of the first step."""
+        if self.begun + count > self.most_rows + self.limit:  # that move nothing
+            self._too_long(self.begun - 1, first)
+        self._flush()
+        self.watched(self._counted)
+        self._chunks.append((self.running[-1], range(first, first + count)))
+        self._counted += count
+        self.in_bulk += count
+        return self._counted - count
+
+    def _flush(self) -> None:
+        if self._blocks:
+            self._chunks.append((self.running[-1], np.array(self._blocks, dtype=np.int64)))
+            self._counted += len(self._blocks)
+            self._blocks = []
+
+    def steps(self) -> Steps:
+        """All steps so far."""
+        self._flush()
+        blocks, programs = np.empty(self._counted, dtype=np.int32), np.zeros(self._counted, dtype=np.int16)
+        at = 0
+        for program, chunk in self._chunks:
+            part = np.arange(chunk.start, chunk.stop) if isinstance(chunk, range) else chunk
+            blocks[at : at + len(part)] = part
+            programs[at : at + len(part)] = program
+            at += len(part)
+        alone = len(self.programs) == 1  # a constant column costs nothing
+        return Steps(blocks, np.broadcast_to(np.int16(0), (len(blocks),)) if alone else programs)
+
+    def span_of_step(self, step: int) -> Span | None:
+        """The place of the block that a step executed."""
+        if step < 0:
+            return None
+        self._flush()
+        for program, chunk in self._chunks:
+            if step < len(chunk):
+                return self.programs[program].span_of_block(int(chunk[step]))._replace(program=program)
+            step -= len(chunk)
+        return None

@@ -1,0 +1,330 @@
+"""The loop over blocks: words are handed out, each function takes its own, and what is left is an alarm.
+
+What a block means depends on its keyword, its addresses, its G and M words, and on little of the machine's state: the
+modal motion and an active cycle. So the handing out is *planned* once for each kind of block and kept; obeying a block
+is then a walk through its plan, in the order of the control's phases. Handing words out anew for every block took more
+time than obeying them.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mnclab.machine.control import Control, Function, Words
+from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance, refuse_marks
+from mnclab.machine.machine import Machine
+from mnclab.machine.true_size import MILLS
+from mnclab.machine.waiting import determine
+from mnclab.machining.depths import TooMany
+from mnclab.running.bulk import Bulk
+from mnclab.running.files import alarms_of
+from mnclab.running.flow import Course
+from mnclab.running.handing_out import Plan, Planner
+from mnclab.running.performing import in_plane
+from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
+from mnclab.text.expression import Expression
+from mnclab.text.program import NONE, NUMBER, Program, Word, place_of
+from mnclab.text.progress import progress
+
+WINDOW = 256  # blocks whose words are made at once; more would keep the garbage collector busy
+RECENT = 4  # windows that are kept
+
+
+class Stop(Exception):
+    """The run stops at an alarm that the reader has already reported."""
+
+
+class Loaded:
+    """A program ready to run: its alarms as a run shows them, the blocks that a fault stands in, its bulk tier."""
+
+    def __init__(self, control: Control, machine: Machine, program: Program, index: int) -> None:
+        self.program, self.skips = program, bool(machine.settings.get("block_skip"))
+        self.alarms = [self._passed_over(alarm) for alarm in alarms_of(program, index)]
+        self.told = {self._block_of(alarm) for alarm in self.alarms if alarm.severity == ALARM and alarm.span}
+        self.faulty = set(program.faulty_blocks().tolist())
+        self.bulk = Bulk(control, machine, program, self.faulty)
+
+    def _block_of(self, alarm: Alarm) -> int:
+        """The block in which the reader found a fault: the run stops there."""
+        assert alarm.span is not None
+        offset = int(self.program.line_starts[alarm.span.line - 1]) + alarm.span.column - 1
+        return max(int(np.searchsorted(self.program.start, offset, "right")) - 1, 0)
+
+    def _passed_over(self, alarm: Alarm) -> Alarm:
+        """An alarm of the reader; no more than a warning in a block that is passed over."""
+        if not (self.skips and alarm.span and len(self.program)) or not self.program.skip[self._block_of(alarm)]:
+            return alarm
+        return alarm.changed(severity=WARNING)
+
+
+class Interpreter:
+    """Runs a program, and those it calls, on one machine."""
+
+    def __init__(self, control: Control, machine: Machine, program: Program) -> None:
+        self.control, self.machine, self.program = control, machine, program
+        self.phases = {name: k for k, name in enumerate(control.phases)}
+        self.plans: dict[Any, Plan] = {}
+        self.window = range(0)
+        self.blocks: list[tuple[int, bool, str, list[Word], tuple[Any, ...]]] = []
+        """Of the blocks in the window: line, skip, keyword, words, and of each word its address, with the value where that
+        makes another function."""
+        self.recent: deque[tuple[int, range, list[Any]]] = deque(maxlen=RECENT)  # of which program; window, blocks
+        self.skips = bool(machine.settings.get("block_skip"))
+        main = Loaded(control, machine, program, 0)
+        self.loaded, self.alarms, self.faulty = {0: main}, main.alarms, main.faulty
+        machine.recorder.expected = len(program)
+        machine.flow = Course(program, self.obey, main.bulk.obey, self.switch)
+        machine.flow.machine = machine
+        machine.recorder.most, machine.recorder.refuse = machine.flow.most_rows, machine.flow.too_many_rows
+
+    def switch(self, index: int) -> None:
+        """Obey the blocks of another program from now on."""
+        flow = self.machine.flow
+        self.program = flow.programs[index]
+        if index not in self.loaded:
+            self.loaded[index] = Loaded(self.control, self.machine, self.program, index)
+            self.alarms += self.loaded[index].alarms
+        flow.bulk, self.faulty, self.window = self.loaded[index].bulk.obey, self.loaded[index].faulty, range(0)
+
+    def run(self) -> None:
+        """From the first block to the end, or to the first alarm."""
+        for group, code in self.control.power_on().items():
+            self.machine.set_modal(group, code)
+        if self.machine.setup.variables and not self.control.preassigned:
+            self.machine.alarm(f"Setup(variables=…): programs of {self.control.name} have no variables")
+        if self.control.start:
+            self.control.start(self.machine)
+        with progress("running", len(self.program), "blocks") as self.machine.flow.watched:
+            self.machine.flow.section(0, len(self.program))
+        determine(self.machine)
+        if self.control.finish and not self.machine.ended:
+            self.control.finish(self.machine)
+
+    # --- one block -----------------------------------------------------------------------------------------------------
+
+    def obey(self, index: int) -> None:
+        """Obey one block."""
+        machine, window = self.machine, self.window
+        machine.step = machine.flow.begin(index)
+        if index not in window:
+            window = self.open_window(index)
+        machine.source_line, skip, keyword, words, kinds = self.blocks[index - window.start]
+        if skip and self.skips:
+            return
+        if index in self.faulty:
+            raise Stop if index in self.loaded[machine.program].told else untold_fault(machine, index)
+        before = machine.programmed
+        plan = self.plan_for(keyword, kinds, words)
+        for which, sentence, hint in plan.remarks:
+            machine.warn(sentence, words[which], hint)
+        for (_, what, code, head, _), pick in plan.actions:
+            if machine.pending and not (isinstance(what, Function) and what.collects):
+                determine(machine)
+                before = machine.programmed
+            if isinstance(what, Function):
+                if what.group and what.modal and machine.modal.get(what.group) != what.code:
+                    machine.set_modal(what.group, what.code)
+                what.obey(machine, Words(pick(words), what.code))
+            else:
+                self.take_cycle(what, code, words[head] if head >= 0 else None, pick(words))
+        machine.end_block()
+        if machine.programmed != before:
+            machine.log("position", machine.programmed)
+
+    def open_window(self, index: int) -> range:
+        """Make the next blocks: columns as lists, for plain Python is faster on those. A loop finds them once more."""
+        running = self.machine.program
+        for which, window, blocks in self.recent:
+            if which == running and index in window:
+                self.window, self.blocks = window, blocks
+                return window
+        program, new, codes = self.program, tuple.__new__, self.control.codes
+        window = range(index, min(index + WINDOW, len(program)))
+        here = slice(index, window.stop)
+        a, b = int(program.first[index]), int(program.first[window.stop])
+        offset = program.offset[a:b]
+        line = np.searchsorted(program.line_starts, offset, "right")
+        column = offset - program.line_starts[line - 1] + 1
+        place = place_of(line, column, program.length[a:b])
+        columns = program.address[a:b], program.value[a:b], program.form[a:b], place, program.flag[a:b]
+        names, payload = program.addresses, program.payload
+        words = [
+            new(Word, (names[k], v if form == NUMBER else None if form == NONE else payload[int(v)], at, flag))
+            for k, v, form, at, flag in zip(*(part.tolist() for part in columns), strict=True)
+        ]
+        kinds = [(w[0], w[1]) if w[0] in codes else w[0] for w in words]
+        bounds = (program.first[index : window.stop + 1] - a).tolist()
+        heads = zip(
+            np.asarray(program.line_of(here)).tolist(), program.skip[here].tolist(), program.keyword[here].tolist(),
+            bounds[:-1], bounds[1:], strict=True,
+        )  # fmt: skip
+        keys = program.keywords
+        self.blocks = [(n, skip, keys[k], words[i:j], tuple(kinds[i:j])) for n, skip, k, i, j in heads]
+        self.window = window
+        self.recent.append((running, window, self.blocks))
+        return window
+
+    # --- planning ----------------------------------------------------------------------------------------------------
+
+    def plan_for(self, keyword: str, kinds: tuple[Any, ...], words: list[Word]) -> Plan:
+        """The plan for this kind of block, made when it is first met."""
+        machine = self.machine
+        active = machine.position_cycle.cycle if machine.position_cycle else None
+        calling = machine.modal.get("call")
+        key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None, calling)
+        plan = self.plans.get(key)
+        if plan is None:
+            plan = self.plans[key] = Planner(self.control, machine, self.phases, keyword, words, active).plan()
+        return plan
+
+    # --- cycles --------------------------------------------------------------------------------------------------------
+
+    def take_cycle(self, cycle: type[Cycle], code: str, head: Word | None, given: tuple[Word, ...]) -> None:
+        """A block that defines a cycle, or runs the active one again."""
+        machine = self.machine
+        machine.flow.spend(len(given))
+        values, words = self.assign(cycle, code, given)
+        head = head or Word(code, None, int(place_of(*self.span_here()[:3])))
+        if head.flag:
+            refuse_marks(cycle, code, head)
+        marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
+        values, words = values | dict.fromkeys(marks, 1.0), words | marks
+        again = machine.position_cycle
+        same = again is not None and (again.cycle is cycle or (cycle.shares and again.cycle.shares))
+        if again is not None and same:  # written again or not, what is modal holds
+            modal = {p.name for p in cycle.parameters() if p.modal}
+            values = {k: v for k, v in again.values.items() if k in modal} | values
+            definition = Definition(cycle, code, values, words, head, again.extra)
+        else:
+            definition = Definition(cycle, code, values, words, head)
+        definition.program = machine.program
+        definition.values = cycle.prepare(values, words, machine, definition.extra)
+        if self.control.storage == "variables" and cycle.in_variables:
+            store(machine, definition)
+        if cycle.runs == "definition":
+            self.execute(definition)
+            return
+        machine.set_modal("cycle", cycle.code)
+        if code != cycle.code:
+            machine.warn(f"{code} is another name of {cycle.code} ({cycle.title})", head)
+        if cycle.runs == "call":
+            if self.control.storage == "variables":  # which may still change
+                verify(definition)
+            else:
+                instance(definition)
+            machine.cycle, machine.position_cycle = definition, None
+            if machine.modal.get("call"):
+                machine.set_modal("call", "")  # a new cycle ends the modal call of the old one
+        else:
+            machine.cycle, machine.position_cycle = None, definition
+            self.execute(definition)
+
+    def span_here(self) -> Span:
+        """The place of the block being obeyed."""
+        return self.program.span_of_block(self.machine.flow.current)
+
+    def assign(self, cycle: type[Cycle], code: str, given: tuple[Word, ...]) -> tuple[dict[str, Any], dict[str, Word]]:
+        """Values and words by parameter name; repeated addresses go to parameters in their order."""
+        values: dict[str, Any] = {}
+        words: dict[str, Word] = {}
+        for word in given:
+            fitting = (p for p in cycle.parameters() if word.address in (p.address, *p.aliases))
+            parameter = next(p for p in fitting if p.several or p.name not in words)
+            value = self.value_of(parameter, code, word, cycle.in_variables)
+            words.setdefault(parameter.name, word)
+            values[parameter.name] = (*values.get(parameter.name, ()), value) if parameter.several else value
+        return values, words
+
+    def value_of(self, parameter: Parameter, code: str, word: Word, in_variables: bool = True) -> Any:
+        """The number of a parameter; a word in place of a number only where it is allowed."""
+        if word.value == "PREDEF" and self.control.predefined:
+            return self.control.predefined(self.machine, code, parameter, word)
+        if isinstance(word.value, str) and parameter.type != "text":
+            if word.value.rstrip("0123456789.") not in parameter.also:
+                allowed = f"a number{', ' + ', '.join(parameter.also) if parameter.also else ''}"
+                self.machine.alarm(
+                    f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word
+                )
+            return self.control.named(self.machine, word) if self.control.named else word.value
+        if parameter.type == "text":  # a number in the place of a text may be computed
+            return self.machine.value(word) if isinstance(word.value, Expression) else word.value
+        if word.value is None or isinstance(word.value, str):
+            return word.value
+        value = self.machine.value(word)
+        if in_variables and self.control.storage == "variables" and parameter.is_variable:
+            self.machine.variables[parameter.address] = value  # exactly as written
+        return value * unit_of(self.machine, parameter)
+
+    def execute(self, definition: Definition) -> None:
+        """Bind a definition and make its moves."""
+        run_cycle(self.machine, definition)
+
+
+def untold_fault(machine: Machine, index: int) -> Alarm:
+    """What stops a run where the reader found so many faults of a kind that it only counts them."""
+    span = machine.flow.span_of_block(index)
+    return Alarm("this block is faulty: it has one of the many faults that are only counted", span)
+
+
+def unit_of(machine: Machine, parameter: Parameter) -> float:
+    """What a number of a parameter that lives in a variable is multiplied with: 25.4 for lengths and feeds in inches."""
+    return machine.variable_unit if parameter.in_units else 1.0
+
+
+def store(machine: Machine, definition: Definition) -> None:
+    """Write what was not given as a number (defaults, FAUTO) into its variable; FMAX and texts have none."""
+    for parameter in definition.cycle.parameters():
+        if not parameter.is_variable:
+            continue
+        word, value = definition.words.get(parameter.name), definition.values.get(parameter.name, parameter.default)
+        if word is not None and isinstance(word.value, float | Expression):
+            continue
+        if isinstance(value, int | float):
+            machine.variables[parameter.address] = float(value) / unit_of(machine, parameter)
+        else:
+            machine.variables.pop(parameter.address, None)
+
+
+def verify(definition: Definition) -> None:
+    """Range and presence of the parameters, where a cycle is defined."""
+    for parameter in definition.cycle.parameters():
+        value = definition.values.get(parameter.name)
+        check_value(definition, parameter, value)
+        if value is None and parameter.required and definition.values.get(parameter.instead) is None:
+            raise fault(definition, parameter, "is missing")
+
+
+def run_cycle(machine: Machine, definition: Definition, **instead: float) -> None:
+    """Bind a definition with the values as they stand now, check it, and make its moves.
+
+    ``instead`` are values by name that count for this call in place of its own, where the cycle has such parameters.
+    """
+    definition = as_it_stands(machine, definition)
+    label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
+    plane = "XY" if definition.cycle.does == MILLS else machine.plane  # in which m.radius and m.scale count
+    try:
+        with in_plane(machine, plane):
+            bound = bind(definition, machine)
+            if instead:
+                names = {p.name for p in definition.cycle.parameters()} & instead.keys()
+                bound = replace(bound, **{name: instead[name] for name in names})
+            bound.moves(machine)
+    except TooMany as error:
+        raise fault(definition, None, str(error)) from None
+    machine.label = label
+
+
+def as_it_stands(machine: Machine, definition: Definition) -> Definition:
+    """A definition with the numbers that its variables have now."""
+    if machine.control.storage == "variables" and definition.cycle.in_variables:
+        numbers = {
+            p.name: machine.variables[p.address] * unit_of(machine, p)
+            for p in definition.cycle.parameters()
+            if p.is_variable and p.address in machine.variables
+        }
+        return replace(definition, values=definition.values | numbers)
+    return definition

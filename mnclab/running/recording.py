@@ -1,0 +1,73 @@
+"""Reading a contour from a label: its blocks are obeyed, but the tool does not move.
+
+The same interpreter runs the label on a machine whose frames, rows and modal state are set aside: corners are applied,
+the radius is not compensated. Afterwards everything is as before, except variables that the label wrote; alarms keep the
+line they stand in. A transformation inside the label replaces or adds to that of the program as it would outside; the
+contour is told in the coordinates of the program that calls, and the next label of the same contour goes on with it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mnclab.geometry import frames
+from mnclab.geometry.frames import Matrix
+from mnclab.machine.flow import Recording
+from mnclab.machine.waiting import determine
+from mnclab.path import corners
+from mnclab.path.fault import PathFault
+from mnclab.path.toolpath import Toolpath
+from mnclab.text.alarm import Alarm, Span
+
+if TYPE_CHECKING:
+    from mnclab.machine.machine import Machine
+
+#: What a recorded label may change for good.
+_OUTLIVES = ("alarms", "variables", "measured", "tables", "step", "logs", "flow")
+_NOWHERE = (float("nan"), float("nan"), 0.0)
+
+
+def record(m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
+    """Obey a label for its contour; an Alarm when it has none or does not begin with both coordinates.
+
+    ``after`` is the label before it in the same contour, whose transformations still act.
+    """
+    kept, outer = dict(vars(m)), m._matrix
+    m.frames, m.memory = (after or m).frames.copy(), dict((after or m).memory)
+    m.compose()
+    m.recorder, m.programmed_pieces, m.settled = m.recorder.another(_NOWHERE), [], []
+    m.modal, m._state, m.recorded_only = dict(m.modal), None, True
+    m.tip = m.programmed = _NOWHERE
+    m.side, m.feed, m.exact_here = 0, m.feed or 1.0, False
+    try:
+        with m.variables.own_level():
+            m.flow.call(label, span)
+            determine(m)
+        path = corners.apply(m.recorder.take())
+        chain, memory = m.frames, m.memory
+    except PathFault as fault:
+        raise Alarm(fault.message, m.flow.span_of_step(fault.step), hint=fault.hint) from None
+    finally:
+        for name, value in kept.items():
+            if name not in _OUTLIVES:
+                setattr(m, name, value)
+    path = _within(path.motion, outer)
+    if not len(path):
+        raise Alarm(f"label {label} describes no contour", span)
+    if np.isnan(path.end).any():
+        raise Alarm(f"the contour of label {label} must begin with both coordinates of the plane", span)
+    first = path[0].end.tolist()
+    side = int(path.side[1] if len(path) > 1 else path.side[0])
+    return Recording(path[1:], side, (first[0], first[1], first[2]), chain, memory)
+
+
+def _within(path: Toolpath, outer: Matrix) -> Toolpath:
+    """A path of the machine in the coordinates inside a frame (of equal scales)."""
+    back = frames.inverse(outer)
+    sense = 1 if np.linalg.det(outer[:3, :3]) > 0 else -1  # a mirror turns arcs and sides over
+    places = {name: frames.apply(back, getattr(path, name)) for name in ("start", "end", "centre")}
+    axis = frames.apply(back, path.axis) - back[:3, 3]
+    axis /= np.linalg.norm(axis, axis=-1, keepdims=True)
+    return path.replace(**places, axis=axis, sweep=path.sweep * sense, side=path.side * sense)

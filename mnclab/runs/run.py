@@ -1,0 +1,379 @@
+"""Running a program: text and machine in, path, history and alarms out.
+
+Frames were to be indices in the history; they change so seldom that the log holds the matrices themselves, one name for
+each frame of the chain ("frame datum"), and ``run.frames`` is the chain at the end.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from html import escape
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.machine.control import Control
+from mnclab.machine.machine import Machine
+from mnclab.machine.machine_file import load
+from mnclab.machine.settling import paths, shifted, stop_at_travel
+from mnclab.machine.setup import Setup, Tables
+from mnclab.path.compensation import Gouge
+from mnclab.path.kinds import Kind
+from mnclab.path.limits import Limits
+from mnclab.path.profile import Profile
+from mnclab.path.toolpath import Toolpath
+from mnclab.running.flow import Steps
+from mnclab.running.interpreter import Interpreter, Stop
+from mnclab.runs import still_spindle
+from mnclab.runs.explanation import Explanation
+from mnclab.runs.history import History
+from mnclab.runs.moments import Moments, when
+from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, several
+from mnclab.text.columns import fixed
+from mnclab.text.given import shown, whole
+from mnclab.text.program import Block, Program
+from mnclab.workpiece.blank import Blank, Box, Revolved, blank
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pyvista
+    from matplotlib.figure import Figure
+
+    from mnclab.show.player import Player
+
+
+class Moment(NamedTuple):
+    """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
+    the block changed; ``rows`` are the rows of the toolpath that it made.
+
+    A moment inside a block (:meth:`Run.when`) has the row of the toolpath, the share of it (0 to 1) that was done, and
+    the tool tip there, mm; -1 for a row where the block moved nothing.
+    """
+
+    step: int
+    line: int
+    block: Block
+    position: tuple[float, float, float]
+    state: dict[str, Any]
+    changed: dict[str, Any]
+    rows: slice
+    row: int = -1
+    share: float = 1.0
+    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+class Run:
+    """The result of running a program: both paths, alarms, history, and where the machine stands.
+
+    ``gouges`` are the places where a compensated tool does not fit: the one that was refused, or with the setting
+    ``gouge = "mark"`` all of them.
+    """
+
+    def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
+        self.program, self.setup, self.control = program, setup, control
+        self.programs = tuple(machine.flow.programs)
+        self.steps = Steps._make(fixed(column) for column in machine.flow.steps())
+        self.programmed: Toolpath
+        self.toolpath: Toolpath
+        self.programmed, self.toolpath = paths(machine)
+        self.alarms = by_place([*alarms, *still_spindle.remarks(machine, self.toolpath)])
+        for alarm in self.alarms:
+            if alarm.source is None:
+                alarm.source = self.programs[alarm.span.program if alarm.span else 0]
+        if machine.cut is not None:
+            self.steps = Steps(self.steps.block[: machine.cut], self.steps.program[: machine.cut])
+        self.history = History(machine.logs, len(self.steps.block))
+        self.variables: dict[str, Any] = self._as_of_end("", machine.variables)
+        self.measured: dict[str, Any] = self._as_of_end("measured ", machine.measured)
+        self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
+        self.frames = machine.frames
+        self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
+        self.settings = dict(machine.settings)
+
+    def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
+        """Values as the history has them after the last step that counts."""
+        last = len(self.steps.block) - 1
+        found = {name: self.history.value(prefix + name, last) for name in values}
+        return {name: value for name, value in found.items() if value is not None}
+
+    def _tables_of_history(self) -> Tables:
+        """The tables with only those writes that came before a fault."""
+        tables, last = Tables(self.setup), len(self.steps.block) - 1
+        for name in self.history:
+            table, _, row = name.partition(" ")
+            if table in ("tools", "datums", "presets"):
+                getattr(tables, table)[int(row)] = self.history.value(name, last)
+        return tables
+
+    @property
+    def ok(self) -> bool:
+        """Whether no alarm of severity "alarm" was raised."""
+        return not any(alarm.severity == ALARM for alarm in self.alarms)
+
+    def at(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Moment:
+        """The machine after the ``pass_``-th execution of a line (of one of ``programs``), or after a step.
+
+        A line within a block of several lines means the block.
+        An Alarm if there is none.
+        """
+        if step is None:
+            if line is None:
+                raise Alarm("at() needs a line or a step", hint="run.at(line=5)")
+            line, pass_ = whole(line, "the line"), whole(pass_, "pass_")
+            found = self._executions(line, whole(program, "the number of the program"))
+            if not 1 <= pass_ <= len(found):
+                raise Alarm(f"line {line} was executed {len(found)} times, pass_ {pass_} does not exist")
+            step = int(found[pass_ - 1])
+        step = whole(step, "the step")
+        if not 0 <= step < len(self.steps.block):
+            raise Alarm(f"step must be 0 … {len(self.steps.block) - 1}, got {step}")
+        which = int(self.steps.program[step])
+        block = self.programs[which][int(self.steps.block[step])]
+        block = replace(block, span=block.span._replace(program=which))
+        position = self.history.value("position", step)
+        path = self.toolpath
+        a, b = np.searchsorted(path.step, [step, step + 1]).tolist() if len(path) else (0, 0)
+        tip = path.end[b - 1] if b else path.start[0] if len(path) else np.array(self.setup.start)
+        state, changed = self.history.at(step), self.history.changes(step)
+        row = b - 1 if b > a else -1
+        return Moment(
+            step, block.span.line, block, position, state, changed, slice(a, b), row, 1.0, tuple(tip.tolist())
+        )
+
+    @property
+    def stock(self) -> Blank | None:
+        """The blank in the coordinates of the toolpath: that of the setup, else the last one that the program gives."""
+        if self.setup.stock is not None:
+            found = blank(self.setup.stock)
+            return found and found.moved(-self.toolpath.origin)
+        given = [value for _, value in self.history.changed("stock")]
+        if not given or isinstance(given[-1], Revolved):
+            return given[-1] if given else None
+        return None if given[-1].maximum is None else Box(given[-1].minimum, given[-1].maximum)
+
+    def _executions(self, line: int, program: int) -> NDArray[np.intp]:
+        """The steps that executed the block of a line."""
+        if not 0 <= program < len(self.programs):
+            return np.empty(0, dtype=np.intp)
+        first, last = self.programs[program].lines()
+        blocks = np.flatnonzero((first <= line) & (line <= last))
+        return np.flatnonzero(np.isin(self.steps.block, blocks) & (self.steps.program == program))
+
+    def lines(self) -> NDArray[np.integer[Any]]:
+        """The line of each step (s,), in the program that ``steps.program`` names."""
+        found = np.asarray(self.program.line_of(np.minimum(self.steps.block, len(self.program) - 1)))
+        for index, program in enumerate(self.programs[1:], 1):
+            here = self.steps.program == index
+            found = np.where(here, program.line_of(np.where(here, self.steps.block, 0)), found)
+        return found
+
+    def when(self, condition: str) -> Moments:
+        """The moments at which a condition becomes true: ``run.when("z < -5")``, ``run.when("Q5 > 3")``.
+
+        Names are those of variables, and x y z d (tool tip, mm), a b c (rotary axes, degrees), feed, spindle, tool, radius,
+        side, line. The place is exact, within lines and arcs too, unless coordinates are multiplied or in a function; see
+        :mod:`mnclab.runs.moments`, and ``.exact`` of the result.
+        """
+        if not isinstance(condition, str):
+            raise TypeError(f'a condition is a text such as "z < -5", got {type(condition).__name__}')
+        return when(self, condition)
+
+    def explain(
+        self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0
+    ) -> Explanation:
+        """A block in plain words: what each word means and changed, and the way from the programmed point to the tool.
+
+        The block is named as for :meth:`at`.
+        """
+        return Explanation(self, self.at(line, pass_, step, program))
+
+    def profile(self, limits: Limits | str | None = None, *, override: float = 1.0) -> Profile:
+        """When the tool is where, and how fast, under the limits of a machine: those of the setup, others, or those
+        of a named machine ("small-mill"; see ``data/machines``).
+
+        ``override`` is the feed override, 1 for 100 %, from 0.001 to 100. How a rapid goes is the
+        control's (its setting ``rapid_motion``) unless the limits say;
+        the program waits for the spindle unless its supervision is off (MNC G25).
+        """
+        path, spindle = self.toolpath, self.toolpath.kind == Kind.SPINDLE
+        waits = np.ones(len(path), dtype=bool)
+        if "supervision" in self.history:
+            waits[spindle] = [self.history.value("supervision", int(step)) != "G25" for step in path.step[spindle]]
+        motion = str(self.settings.get("rapid_motion", "line"))
+        if isinstance(limits, str):
+            limits = load(limits).limits
+        limits = self.setup.limits if limits is None else limits
+        if not isinstance(limits, Limits):
+            raise Alarm(f"limits must be Limits or the name of a machine, got {shown(limits)}", hint='"small-mill"')
+        return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
+
+    def again(self, setup: Setup) -> Run:
+        """The same program on the same control, with another setup."""
+        if not isinstance(setup, Setup):
+            raise TypeError(f"setup must be a Setup, got {type(setup).__name__}")
+        return run_program(self.program, self.control, setup)
+
+    # --- doors -------------------------------------------------------------------------------------------------------
+
+    def plot(self, **options: Any) -> Figure:
+        """Views of the path: from above and the side for a mill, X and Z for a lathe.
+
+        ``colour`` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
+        colour of the cuts shows;
+        ``arrows=False``, ``marks=False`` and ``stock=False`` leave out arrowheads, crosses at zero points and poles, and
+        the outline of the blank; ``view`` "XY",
+        "XZ", "YZ" or "ZX"; ``frame`` "all" or "cuts"; ``size`` in inches; ``ax`` axes of one's own. All of them are
+        explained in ``mnclab.show.plot.path.plot_path``.
+        """
+        from mnclab.show.plot.path import plot_run
+
+        return plot_run(self, **options)
+
+    def plot_speed(self, **options: Any) -> Figure:
+        """Spindle speed and diameter over the way of a lathe's tool; ``most`` is the greatest speed, rev/min."""
+        from mnclab.show.plot.lathe import plot_speed_of
+
+        return plot_speed_of(self, **options)
+
+    def player(self, limits: Limits | str | None = None, **options: Any) -> Player:
+        """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
+
+        ``limits`` are those of :meth:`profile`. ``height`` in pixels, ``theme`` "auto", "light" or "dark", ``speed`` 1
+        for real time. ``.save(path)`` writes it as a file that needs no network, as ``run.save("part.html")`` does.
+        """
+        from mnclab.show.player import player
+
+        return player(self, self.profile(limits), **options)
+
+    def plot_compensation(self, **options: Any) -> Figure:
+        """The contour, the tool-centre path beside it, and how its corners were found.
+
+        ``rules=("G160", "G161", "G162")`` and ``radii=(2, 5)`` run the program once more for each and show the results
+        side by side; ``discs=True`` draws the tool; more in ``mnclab.show.plot.compensation.compensation``.
+        """
+        from mnclab.show.plot.compensation import compensation
+
+        return compensation(self, **options)
+
+    def scene(self, colour: str = "kind", **options: Any) -> pyvista.Plotter:
+        """Path, tool and blank in three dimensions (needs pyvista); shows itself as a still picture.
+
+        ``colour`` of the cuts: "kind", "feed", "tool", "z", "line"; ``row``: where the tool stands; ``stock``:
+        another blank, or False. All of them are explained in ``mnclab.show.scene.scene``.
+        """
+        from mnclab.show.scene import scene
+
+        return scene(self, colour, **options)
+
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player), dxf,
+        ngc, stl, gltf, glb, vtk.
+
+        Pictures take the options of :meth:`plot`; ``true_size=True`` makes an svg in true millimetres.
+        """
+        from mnclab.show.export import save
+
+        return save(self, path, **options)
+
+    def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
+        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program.
+
+        ``options`` are those of :meth:`plot`.
+        """
+        from mnclab.show.report import save_report
+
+        return save_report(self, path, title, **options)
+
+    # --- shown -------------------------------------------------------------------------------------------------------
+
+    def summary(self) -> dict[str, Any]:
+        """The figures of the card."""
+        path = self.toolpath
+        lengths, rapid = path.lengths, path.kind == 0
+        with np.errstate(divide="ignore", invalid="ignore"):
+            cutting_time = np.where(~rapid & (lengths > 0), lengths / path.feed * 60, 0.0)
+        dwell = np.nansum(np.where(path.kind == 4, path.time, 0.0))
+        return {
+            "program": self.program.title,
+            "control": self.control.title,
+            "blocks": len(self.program),
+            "moves": int(path.is_motion.sum()),
+            "cutting length": float(lengths[~rapid].sum()),
+            "rapid length": float(lengths[rapid].sum()),
+            "time at feed": float(np.nansum(cutting_time) + dwell),
+            "alarms": sum(alarm.count for alarm in self.alarms if alarm.severity == ALARM),
+            "warnings": sum(alarm.count for alarm in self.alarms if alarm.severity != ALARM),
+        }
+
+    def __repr__(self) -> str:
+        s = self.summary()
+        head = (
+            f"<Run {s['program']} on {self.control.name}: "
+            f"{several(s['blocks'], 'block')}, {several(s['moves'], 'move')}, "
+            f"cutting {s['cutting length']:.3f} mm, rapid {s['rapid length']:.3f} mm, {s['time at feed']:.1f} s at feed>"
+        )
+        shown, more = first_of(self.alarms)
+        return "\n".join([head, *map(str, shown), *filter(None, [more])])
+
+    def _repr_html_(self) -> str:
+        s = self.summary()
+        cells = {
+            "blocks": s["blocks"],
+            "moves": s["moves"],
+            "cutting": f"{s['cutting length']:.3f} mm",
+            "rapid": f"{s['rapid length']:.3f} mm",
+            "time at feed": f"{s['time at feed']:.1f} s",
+        }
+        head = "".join(f"<th>{name}</th>" for name in cells)
+        body = "".join(f"<td>{value}</td>" for value in cells.values())
+        title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
+        verdict = "" if self.alarms else "<p>no alarms</p>"
+        return f"<div>{title}<table><tr>{head}</tr><tr>{body}</tr></table>{verdict}{card_html(self.alarms)}</div>"
+
+
+@contextmanager
+def collector_paused() -> Iterator[None]:
+    """Without the garbage collector: running makes no reference cycles, and it would look at every kept row again."""
+    running = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if running:
+            gc.enable()
+
+
+def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
+    """Run a program that was read; with ``strict`` the first alarm is raised instead of collected."""
+    if not isinstance(setup, Setup | None):
+        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
+    setup = (Setup() if setup is None else setup).kept()  # somebody may have written into its tables, and may again
+    machine = Machine(control, setup)
+    interpreter = Interpreter(control, machine, program)
+    alarms = interpreter.alarms
+    broken = False
+    try:
+        with collector_paused():
+            interpreter.run()
+    except Stop:
+        broken = True
+    except Alarm as alarm:
+        broken = True
+        alarms.append(alarm)
+    try:
+        machine.settle(unfinished=broken)
+    except Alarm as alarm:
+        alarms.append(alarm)
+    try:
+        stop_at_travel(machine)
+    except Alarm as alarm:
+        alarms.append(alarm)
+    result = Run(program, setup, control, machine, alarms + machine.alarms)
+    if strict and not result.ok:
+        raise next(found for found in result.alarms if found.severity == ALARM)
+    return result
