@@ -11,8 +11,7 @@ pair is two parameters, ``instead`` ties them, and :meth:`Cycle.prepare` makes o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cache
 from html import escape
@@ -20,8 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from mnclab.machine import true_size
 from mnclab.machining.depths import TooMany
-from mnclab.text.alarm import Alarm
-from mnclab.text.program import GROUP_MARK, INCREMENTAL, RAPID_MARK, Word
+from mnclab.text.program import Word
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
@@ -193,8 +191,19 @@ class Cycle:
         """
         yield from ()
 
-    def moves(self, m: Machine) -> None:
-        """The motion of the cycle, in verbs of the machine."""
+    def moves(self, m: Machine) -> Iterable[Any] | None:
+        """The steps of the cycle (:mod:`mnclab.machining.steps`); it reads the machine and changes nothing.
+
+        Steps are made while they are carried out: what is asked of the machine after the first ``yield`` is asked later.
+        """
+
+    def about(self, m: Machine) -> tuple[float, float]:
+        """Where x and y of the steps count from: where the tool stands at the call."""
+        return m.programmed[0], m.programmed[1]
+
+    def modal_feed(self, m: Machine) -> float | None:
+        """The feed of moves that say none, in the units of the modal feed; None: the modal feed itself."""
+        return None
 
 
 MOST_PASSES = 20_000  # of one cycle, all its levels together
@@ -237,67 +246,6 @@ class Definition:
     program: int = 0  # which of Run.programs the words stand in
 
 
-def bind(definition: Definition, m: Machine) -> Cycle:
-    """The frozen cycle with its values, or an Alarm at the word that is wrong.
-
-    What is wrong with the machine and no word of the definition stands where the cycle is called.
-    """
-    bound = instance(definition)
-    refuse_frame(definition, m)
-    for name, sentence in bound.check(m):
-        sentence += true_size.remark(m) if "the tool" in sentence else ""
-        if not name and definition.cycle.runs == "call":
-            m.alarm(f"{definition.code} {sentence}")
-        raise fault(definition, named(definition, name), sentence)
-    return bound
-
-
-def refuse_frame(definition: Definition, m: Machine) -> None:
-    """An Alarm at a cycle that cannot run under the frame of the machine."""
-    for sentence in true_size.faults(definition.cycle.does, m):
-        if definition.cycle.runs == "call":
-            m.alarm(f"{definition.code} {sentence}")
-        raise fault(definition, None, sentence)
-
-
-def instance(definition: Definition) -> Cycle:
-    """The frozen cycle with its values, which are there, within their limits and without contradiction."""
-    cycle, values = definition.cycle, {}
-    for parameter in cycle.parameters():
-        value = definition.values.get(parameter.name)
-        if value is None and parameter.required and definition.values.get(parameter.instead) is None:
-            other = named(definition, parameter.instead)
-            raise fault(definition, parameter, "is missing" + (f", and so is {other.address}" if other else ""))
-        if value is None:
-            value = parameter.default
-        check_value(definition, parameter, value)
-        values[parameter.name] = value
-    made = cycle(**values)
-    for name, sentence in made.contradictions():
-        raise fault(definition, named(definition, name), sentence)
-    return made
-
-
-def named(definition: Definition, name: str) -> Parameter | None:
-    """The parameter of a name; None for the cycle as a whole."""
-    return next((p for p in definition.cycle.parameters() if p.name == name), None)
-
-
-def check_value(definition: Definition, parameter: Parameter, value: Any) -> None:
-    """An Alarm when a number, or one of several, is outside what its parameter allows."""
-    for number in value if isinstance(value, tuple) else (value,):
-        if isinstance(number, int | float) and parameter.refuses(number):
-            raise fault(definition, parameter, f"must be {parameter.allowed}, got {number:.10g}")
-
-
-def refuse_marks(cycle: type[Cycle], code: str, head: Word) -> None:
-    """An Alarm at a mark of the calling word that the cycle has no use for; the mark of a group is the reader's."""
-    known = GROUP_MARK | sum(p.mark for p in cycle.parameters())
-    for mark, sign in ((RAPID_MARK, "~"), (INCREMENTAL, "@")):
-        if head.flag & mark & ~known:
-            raise Alarm(f"the mark {sign} has no meaning on {code}", head.span)
-
-
 def too_many(name: str, levels: Callable[[], object]) -> Iterator[tuple[str, str]]:
     """A fault of the parameter that makes more levels or turns than any hole has."""
     try:
@@ -310,31 +258,6 @@ def few_passes(name: str, levels: int, passes: int) -> Iterator[tuple[str, str]]
     """A fault where nobody would wait for so many passes."""
     if levels * passes > MOST_PASSES:
         yield name, f"makes {levels} levels of {passes} passes, more than {MOST_PASSES} together"
-
-
-def fault(definition: Definition, parameter: Parameter | None, sentence: str) -> Alarm:
-    """An alarm that names code, address and meaning, at the word or, when it is missing, at the cycle's own word."""
-    word = definition.words.get(parameter.name) if parameter else None
-    word = word or definition.head
-    name = f" {parameter.address} ({parameter.meaning})" if parameter else ""
-    return Alarm(
-        f"{definition.code}{name} {sentence}", word.span._replace(program=definition.program) if word else None
-    )
-
-
-@contextmanager
-def own_feed(m: Machine, feed: float | None) -> Iterator[None]:
-    """Inside, moves run at the feed of a cycle, in the units of the modal feed (mm/min or mm/rev); None keeps that one.
-
-    The history does not see it: the feed of the program stays what it was.
-    """
-    kept = m.feed
-    if feed is not None:
-        m.feed, m._state = feed, None
-    try:
-        yield
-    finally:
-        m.feed, m._state = kept, None
 
 
 def help_table(cycle: type[Cycle]) -> str:

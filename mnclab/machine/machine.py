@@ -8,7 +8,8 @@ the same point in machine coordinates. A change of frame says which of the two i
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
@@ -155,6 +156,21 @@ class Machine:
             self._state = None
             if name not in self.modal:
                 self.log(name, value)
+
+    @contextmanager
+    def within(self, **values: Any) -> Iterator[None]:
+        """Inside, attributes that rows carry have other values; the history does not see it."""
+        if not values:
+            yield
+            return
+        kept = {name: getattr(self, name) for name in values}
+        vars(self).update(values)
+        self._state = None
+        try:
+            yield
+        finally:
+            vars(self).update(kept)
+            self._state = None
 
     def set_modal(self, group: str, code: str) -> None:
         """A function of a group is active from now on."""

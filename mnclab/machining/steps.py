@@ -1,4 +1,7 @@
-"""What a tool does at a hole or in a pocket, step by step: plain data, made by strategies, carried out by a machine.
+"""What a cycle does, step by step: plain data, made by strategies and cycles, carried out by a machine.
+
+A cycle yields its steps and changes nothing itself. Some steps have an answer, which ``yield`` returns:
+``contact = yield Touch(…)``. The steps at the end of this file concern the machine and the program, no tool.
 
 z is a coordinate along the tool axis, x and y count from the axis of the hole or the middle of the pocket; mm, mm/min,
 rev/min, s, angles of turns in rad. None keeps a coordinate. A feed of inf is rapid, a feed of None the feed that is
@@ -8,9 +11,10 @@ active. ``label`` says what is happening, for listings and pictures.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, Floats
 
 RAPID = math.inf
 
@@ -36,11 +40,12 @@ class Turn(NamedTuple):
 
 
 class Along(NamedTuple):
-    """Along a contour of the plane, level, from its start, where the tool stands."""
+    """Along a contour of the plane from its start, where the tool stands; level, or at the ``heights`` of its points."""
 
     label: str
     contour: Contour
     feed: float | None = None
+    heights: Sequence[float] | None = None
 
 
 class Thread(NamedTuple):
@@ -81,4 +86,61 @@ class Coolant(NamedTuple):
     on: bool
 
 
-Step = Go | Turn | Along | Thread | Wait | Spin | Orient | Coolant
+class Touch(NamedTuple):
+    """Towards a point until the ball of the probe touches the part; the answer is the contact.
+
+    Coordinates are those of the south pole of the ball; ``ball`` is its radius, that of the tool if there is none.
+    ``miss="return"`` makes no contact an answer and not an alarm.
+    """
+
+    label: str
+    x: float
+    y: float
+    z: float
+    feed: float
+    ball: float | None = None
+    miss: str = "alarm"
+
+
+class Each(NamedTuple):
+    """What ``visit(x, y)`` yields, at each of the points (n, 2); visits that are alike are made as columns."""
+
+    points: Floats
+    visit: Callable[[float, float], Iterable[Any]]
+    label: str = ""
+
+
+class Call(NamedTuple):
+    """The cycle that the program defined last, here; ``instead`` are values by name in place of its own."""
+
+    instead: Mapping[str, float]
+    label: str = ""
+
+
+class Record(NamedTuple):
+    """Read the contour of a label, nothing moves; the answer is the recording. ``after`` is the one that it goes on from."""
+
+    name: str
+    after: Any = None
+    label: str = ""
+
+
+class Say(NamedTuple):
+    """A warning at the block."""
+
+    text: str
+    hint: str = ""
+    label: str = ""
+
+
+class Write(NamedTuple):
+    """A value that stays: a "variable", "measured" value, a row of "tools", "datums" or "presets", a "frame", a "modal" group,
+    "memory" of the control, all with their ``key``; or an attribute of the machine that rows carry ("tolerance")."""
+
+    what: str
+    value: Any
+    key: Any = None
+    label: str = ""
+
+
+Step = Go | Turn | Along | Thread | Wait | Spin | Orient | Coolant | Touch | Each | Call | Record | Say | Write

@@ -9,24 +9,21 @@ time than obeying them.
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mnclab.machine.control import Control, Function, Words
-from mnclab.machine.cycle import Cycle, Definition, Parameter, bind, check_value, fault, instance, refuse_marks
+from mnclab.machine.cycle import Cycle, Definition
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import MILLS
 from mnclab.machine.waiting import determine
-from mnclab.machining.depths import TooMany
+from mnclab.running.binding import assign, instance, refuse_marks, store, verify
 from mnclab.running.bulk import Bulk
 from mnclab.running.files import alarms_of
 from mnclab.running.flow import Course
 from mnclab.running.handing_out import Plan, Planner
-from mnclab.running.performing import in_plane
-from mnclab.text.alarm import ALARM, WARNING, Alarm, Span
-from mnclab.text.expression import Expression
+from mnclab.running.performing import run_cycle
+from mnclab.text.alarm import ALARM, WARNING, Alarm
 from mnclab.text.program import NONE, NUMBER, Program, Word, place_of
 from mnclab.text.progress import progress
 
@@ -187,8 +184,8 @@ class Interpreter:
         """A block that defines a cycle, or runs the active one again."""
         machine = self.machine
         machine.flow.spend(len(given))
-        values, words = self.assign(cycle, code, given)
-        head = head or Word(code, None, int(place_of(*self.span_here()[:3])))
+        values, words = assign(machine, cycle, code, given)
+        head = head or Word(code, None, int(place_of(*self.program.span_of_block(machine.flow.current)[:3])))
         if head.flag:
             refuse_marks(cycle, code, head)
         marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
@@ -206,7 +203,7 @@ class Interpreter:
         if self.control.storage == "variables" and cycle.in_variables:
             store(machine, definition)
         if cycle.runs == "definition":
-            self.execute(definition)
+            run_cycle(machine, definition)
             return
         machine.set_modal("cycle", cycle.code)
         if code != cycle.code:
@@ -221,110 +218,9 @@ class Interpreter:
                 machine.set_modal("call", "")  # a new cycle ends the modal call of the old one
         else:
             machine.cycle, machine.position_cycle = None, definition
-            self.execute(definition)
-
-    def span_here(self) -> Span:
-        """The place of the block being obeyed."""
-        return self.program.span_of_block(self.machine.flow.current)
-
-    def assign(self, cycle: type[Cycle], code: str, given: tuple[Word, ...]) -> tuple[dict[str, Any], dict[str, Word]]:
-        """Values and words by parameter name; repeated addresses go to parameters in their order."""
-        values: dict[str, Any] = {}
-        words: dict[str, Word] = {}
-        for word in given:
-            fitting = (p for p in cycle.parameters() if word.address in (p.address, *p.aliases))
-            parameter = next(p for p in fitting if p.several or p.name not in words)
-            value = self.value_of(parameter, code, word, cycle.in_variables)
-            words.setdefault(parameter.name, word)
-            values[parameter.name] = (*values.get(parameter.name, ()), value) if parameter.several else value
-        return values, words
-
-    def value_of(self, parameter: Parameter, code: str, word: Word, in_variables: bool = True) -> Any:
-        """The number of a parameter; a word in place of a number only where it is allowed."""
-        if word.value == "PREDEF" and self.control.predefined:
-            return self.control.predefined(self.machine, code, parameter, word)
-        if isinstance(word.value, str) and parameter.type != "text":
-            if word.value.rstrip("0123456789.") not in parameter.also:
-                allowed = f"a number{', ' + ', '.join(parameter.also) if parameter.also else ''}"
-                self.machine.alarm(
-                    f"{code} {parameter.address} ({parameter.meaning}) must be {allowed}, got {word.value}", word
-                )
-            return self.control.named(self.machine, word) if self.control.named else word.value
-        if parameter.type == "text":  # a number in the place of a text may be computed
-            return self.machine.value(word) if isinstance(word.value, Expression) else word.value
-        if word.value is None or isinstance(word.value, str):
-            return word.value
-        value = self.machine.value(word)
-        if in_variables and self.control.storage == "variables" and parameter.is_variable:
-            self.machine.variables[parameter.address] = value  # exactly as written
-        return value * unit_of(self.machine, parameter)
-
-    def execute(self, definition: Definition) -> None:
-        """Bind a definition and make its moves."""
-        run_cycle(self.machine, definition)
-
+            run_cycle(machine, definition)
 
 def untold_fault(machine: Machine, index: int) -> Alarm:
     """What stops a run where the reader found so many faults of a kind that it only counts them."""
     span = machine.flow.span_of_block(index)
     return Alarm("this block is faulty: it has one of the many faults that are only counted", span)
-
-
-def unit_of(machine: Machine, parameter: Parameter) -> float:
-    """What a number of a parameter that lives in a variable is multiplied with: 25.4 for lengths and feeds in inches."""
-    return machine.variable_unit if parameter.in_units else 1.0
-
-
-def store(machine: Machine, definition: Definition) -> None:
-    """Write what was not given as a number (defaults, FAUTO) into its variable; FMAX and texts have none."""
-    for parameter in definition.cycle.parameters():
-        if not parameter.is_variable:
-            continue
-        word, value = definition.words.get(parameter.name), definition.values.get(parameter.name, parameter.default)
-        if word is not None and isinstance(word.value, float | Expression):
-            continue
-        if isinstance(value, int | float):
-            machine.variables[parameter.address] = float(value) / unit_of(machine, parameter)
-        else:
-            machine.variables.pop(parameter.address, None)
-
-
-def verify(definition: Definition) -> None:
-    """Range and presence of the parameters, where a cycle is defined."""
-    for parameter in definition.cycle.parameters():
-        value = definition.values.get(parameter.name)
-        check_value(definition, parameter, value)
-        if value is None and parameter.required and definition.values.get(parameter.instead) is None:
-            raise fault(definition, parameter, "is missing")
-
-
-def run_cycle(machine: Machine, definition: Definition, **instead: float) -> None:
-    """Bind a definition with the values as they stand now, check it, and make its moves.
-
-    ``instead`` are values by name that count for this call in place of its own, where the cycle has such parameters.
-    """
-    definition = as_it_stands(machine, definition)
-    label, machine.label = machine.label, f"{definition.cycle.code} {definition.cycle.title}"
-    plane = "XY" if definition.cycle.does == MILLS else machine.plane  # in which m.radius and m.scale count
-    try:
-        with in_plane(machine, plane):
-            bound = bind(definition, machine)
-            if instead:
-                names = {p.name for p in definition.cycle.parameters()} & instead.keys()
-                bound = replace(bound, **{name: instead[name] for name in names})
-            bound.moves(machine)
-    except TooMany as error:
-        raise fault(definition, None, str(error)) from None
-    machine.label = label
-
-
-def as_it_stands(machine: Machine, definition: Definition) -> Definition:
-    """A definition with the numbers that its variables have now."""
-    if machine.control.storage == "variables" and definition.cycle.in_variables:
-        numbers = {
-            p.name: machine.variables[p.address] * unit_of(machine, p)
-            for p in definition.cycle.parameters()
-            if p.is_variable and p.address in machine.variables
-        }
-        return replace(definition, values=definition.values | numbers)
-    return definition

@@ -1,43 +1,98 @@
-"""Steps at a hole or in a pocket carried out by a machine: each becomes a verb, under the name of its cycle and its own label.
+"""Cycles carried out: a cycle is bound, and each of its steps becomes a verb of the machine.
 
-The axis of the hole is where the tool stands in the plane XY, and the holes of every control lie along Z.
+Rows are labelled with the code of the cycle and the label of the step. The holes of every control lie along Z.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Generator, Iterable, Sequence
+from dataclasses import replace
+from typing import Any
 
-from mnclab.machining.steps import Along, Coolant, Go, Orient, Spin, Step, Thread, Turn, Wait
-from mnclab.running.following import follow
+import numpy as np
 
-if TYPE_CHECKING:
-    from mnclab.machine.machine import Machine
+from mnclab.geometry.contours import Contour
+from mnclab.machine.cycle import Definition
+from mnclab.machine.machine import Machine
+from mnclab.machine.true_size import MILLS
+from mnclab.machining.depths import TooMany
+from mnclab.machining.steps import (
+    Along,
+    Call,
+    Coolant,
+    Each,
+    Go,
+    Orient,
+    Record,
+    Say,
+    Spin,
+    Step,
+    Thread,
+    Touch,
+    Turn,
+    Wait,
+    Write,
+)  # fmt: skip
+from mnclab.running.binding import as_it_stands, bind, fault
+from mnclab.running.repeating import at_each
+
+Place = tuple[float, float]
 
 
-def perform(m: Machine, name: str, steps: Iterable[Step], about: tuple[float, float] | None = None) -> None:
+def run_cycle(m: Machine, definition: Definition, **instead: float) -> None:
+    """Bind a definition with the values as they stand now, check it, and carry its steps out.
+
+    ``instead`` are values by name that count for this call in place of its own, where the cycle has such parameters.
+    """
+    definition = as_it_stands(m, definition)
+    label, m.label = m.label, f"{definition.cycle.code} {definition.cycle.title}"
+    plane = {"plane": "XY"} if definition.cycle.does == MILLS and m.plane != "XY" else {}  # m.radius and m.scale count there
+    try:
+        with m.within(**plane):
+            bound = bind(definition, m)
+            if instead:
+                names = {p.name for p in definition.cycle.parameters()} & instead.keys()
+                bound = replace(bound, **{name: instead[name] for name in names})
+            steps, about = bound.moves(m), bound.about(m)
+            if steps is not None:
+                feed = bound.modal_feed(m)
+                with m.within(**({} if feed is None else {"feed": feed})):
+                    perform(m, bound.code, steps, about)
+    except TooMany as error:
+        raise fault(definition, None, str(error)) from None
+    m.label = label
+
+
+def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = None) -> None:
     """Carry the steps out; rows are labelled ``name`` and the label of the step.
 
-    x and y count from ``about``, which is where the tool stands if nothing else is said.
+    x and y count from ``about``, which is where the tool stands if nothing else is said. A generator is sent the answer of
+    a step that has one: the contact of a Touch, the contour of a Record.
     """
     x, y = m.programmed[:2] if about is None else about
-    for step in steps:
+    ask: Callable[[Any], Step] = steps.send if isinstance(steps, Generator) else partial_next(steps)
+    answer: Any = None
+    while True:
+        try:
+            step = ask(answer)
+        except StopIteration:
+            return
+        answer = None
         m.label = f"{name} {step.label}"
         match step:
             case Go():
                 to = None if step.x is None else x + step.x, None if step.y is None else y + step.y, step.z
                 m.line(*to, f=step.feed)
             case Along():
-                with in_plane(m, "XY"):
-                    follow(m, step.contour, step.feed, about=(x, y))
+                with m.within(plane="XY"):
+                    follow(m, step.contour, step.feed, step.heights, about=(x, y))
             case Wait():
                 m.dwell(step.seconds)
             case Thread():
-                with locked(m, step.pitch):
+                with m.within(feed=step.pitch, per_rev=True, synchronous=True):
                     m.line(x=None if step.x is None else x + step.x, z=step.z)
             case Turn():
-                with in_plane(m, "XY"):
+                with m.within(plane="XY"):
                     m.turn((x + step.centre[0], y + step.centre[1]), step.angle, step.z, step.feed)
             case Spin():
                 m.spindle(step.speed, step.turning)
@@ -45,29 +100,66 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: tuple[float, fl
                 m.orient(step.angle)
             case Coolant():
                 m.coolant()
+            case Touch():
+                answer = m.touch(x + step.x, y + step.y, step.z, f=step.feed, ball=step.ball, miss=step.miss)
+            case Each():
+                at_each(m, step.points, visiting(m, name, step, (x, y)))
+            case Call():
+                assert m.cycle is not None
+                run_cycle(m, m.cycle, **step.instead)
+            case Record():
+                answer = m.record(step.name, after=step.after)
+            case Say():
+                m.warn(f"{name} {step.text}", hint=step.hint)
+            case Write():
+                write(m, step)
 
 
-@contextmanager
-def locked(m: Machine, pitch: float) -> Iterator[None]:
-    """Inside, moves run at ``pitch`` mm for each revolution whatever the scale, spindle and feed locked.
+def partial_next(steps: Iterable[Step]) -> Callable[[Any], Step]:
+    """One step after the other of what asks for no answers."""
+    following = iter(steps)
+    return lambda answer: next(following)
 
-    The history does not see it.
+
+def visiting(m: Machine, name: str, step: Each, about: Place) -> Callable[[float, float], None]:
+    """What is made at each of the places."""
+    return lambda x, y: perform(m, name, step.visit(x, y), about)
+
+
+def write(m: Machine, step: Write) -> None:
+    """Change what a cycle says that it changes."""
+    match step.what:
+        case "variable":
+            m.variables[step.key] = step.value
+        case "measured":
+            m.measured[step.key] = step.value
+        case "tools" | "datums" | "presets":
+            m.write_table(step.what, step.key, step.value)
+        case "frame":
+            m.set_frame(step.key, step.value)
+        case "modal":
+            m.set_modal(step.key, step.value)
+        case "memory":
+            m.memory[step.key] = step.value
+        case _:
+            m.change(step.what, step.value)
+
+
+def follow(
+    m: Machine, contour: Contour, feed: float | None, heights: Sequence[float] | np.ndarray | None = None,
+    about: Place = (0.0, 0.0),
+) -> None:  # fmt: skip
+    """Run along a contour at a feed (None: the modal one) from where it begins: the tool must be there.
+
+    `heights` are the tool-axis coordinates of its n points, or none for a level contour; its own coordinates count from
+    `about`. A circle of two halves is one full circle.
     """
-    kept = m.feed, m.per_rev, m.synchronous
-    m.feed, m.per_rev, m.synchronous, m._state = pitch, True, True, None
-    try:
-        yield
-    finally:
-        m.feed, m.per_rev, m.synchronous = kept
-        m._state = None
-
-
-@contextmanager
-def in_plane(m: Machine, plane: str) -> Iterator[None]:
-    """Inside, arcs lie in a plane, whatever the program has chosen."""
-    kept = m.plane
-    m.plane, m._state = plane, None
-    try:
-        yield
-    finally:
-        m.plane, m._state = kept, None
+    elements, (x0, y0) = contour.walk, about
+    if contour.closed and len(elements) == 2 and np.array_equal(np.abs(contour.bulge), [1.0, 1.0]):
+        elements = elements[1:]
+    for k, ((x, y), sweep, (cx, cy)) in enumerate(elements):
+        z = None if heights is None else float(heights[(k + 1) % len(heights)])
+        if sweep:
+            m.arc(x0 + x, y0 + y, z, sense=1 if sweep > 0 else -1, centre={0: x0 + cx, 1: y0 + cy}, f=feed)
+        else:
+            m.line(x0 + x, y0 + y, z, f=feed)

@@ -14,7 +14,6 @@ from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machining.turning.threading import lead_along
-from mnclab.running.performing import locked
 
 FUNCTIONS = FunctionTable()
 AXES = {"X": 0, "Z": 2}
@@ -159,7 +158,7 @@ def thread(m: Machine, words: Words) -> None:
     way = [to.get(axis, start[k]) - start[k] for axis, k in (("x", 0), ("z", 2))]
     m.label = "G32 thread"
     if any(way):
-        with locked(m, lead_along(way[0], way[1], pitch)):
+        with m.within(per_rev=True, synchronous=True, feed=lead_along(way[0], way[1], pitch)):
             m.line(**to, word=head)
     m.label = ""
 

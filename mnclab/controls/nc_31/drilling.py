@@ -7,7 +7,7 @@ from itertools import chain
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, in_mm
-from mnclab.machine.cycle import CycleTable, own_feed, param, too_many
+from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill
@@ -60,7 +60,7 @@ class DeepDrilling(FromStart):
         """The hole, then aside."""
         z1 = m.programmed[2]
         gap = m.settings["parameter_8"] / discretes.TRAVEL
-        with own_feed(m, in_mm(self.feed)):
+        with m.within(feed=m.feed if self.feed is None else in_mm(self.feed)):
             perform(m, "G73", deep_hole(z1, self.z / discretes.Z, self.peck / discretes.Z, gap), (0.0, 0.0))
         if self.x is not None:
             perform(m, "G73", [Go("aside", x=self.x / discretes.X)], (0.0, 0.0))
@@ -95,7 +95,7 @@ class RadialDrilling(FromStart):
         x1 = m.programmed[0]
         gap = m.settings["parameter_8"] / discretes.TRAVEL
         hole = deep_hole(x1, self.x / discretes.X, self.depth(m) / discretes.X, gap)
-        with own_feed(m, in_mm(self.feed)):
+        with m.within(feed=m.feed if self.feed is None else in_mm(self.feed)):
             perform(m, "G72", facing(hole), (0.0, 0.0))
         if self.z is not None:
             perform(m, "G72", [Go("aside", z=self.z / discretes.Z)], (0.0, 0.0))

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, in_mm, rapid_mark
-from mnclab.machine.cycle import CycleTable, own_feed, param, too_many
+from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import RAPID, Step
 from mnclab.machining.turning.grooving import grooves, places
@@ -44,7 +44,7 @@ class Grooving(FromStart):
         x1, _, z1 = m.programmed
         x, z = self.x / discretes.X, self.z / discretes.Z
         shift = RAPID if self.rapid_step else None
-        with own_feed(m, in_mm(self.feed)):
+        with m.within(feed=m.feed if self.feed is None else in_mm(self.feed)):
             if self.face:
                 cuts: Iterator[Step] = facing(grooves(z1, z, places(x1, x, self.pitch / discretes.X), shift=shift))
             else:

@@ -19,7 +19,7 @@ from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Go, Step, Thread
 from mnclab.machining.turning.threading import lead_along, thread_passes
-from mnclab.running.performing import locked, perform
+from mnclab.running.performing import perform
 from mnclab.text.program import INCREMENTAL, RAPID_MARK
 
 CYCLES = CycleTable()
@@ -159,6 +159,6 @@ def thread_move(m: Machine, words: Words) -> None:
     if not (dx or dz):
         m.alarm("G32 has no way to go: its end is where the tool stands", head)
     m.label = "G32 synchronised start" if head.flag & INCREMENTAL else "G32"
-    with locked(m, lead_along(dx, dz, pitch_of(m, feed))):
+    with m.within(per_rev=True, synchronous=True, feed=lead_along(dx, dz, pitch_of(m, feed))):
         m.line(**ends, word=head)
     m.label = ""

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.targets import FROM_START, SWITCH, FromStart, apart, feed_word, here, in_mm, rapid_mark
-from mnclab.machine.cycle import CycleTable, own_feed, param
+from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import RAPID, Go, Step
 from mnclab.machining.turning.shoulders import (
@@ -95,7 +95,7 @@ class LongitudinalPass(FromStart):
         else:
             start, shoulder = (x1, z1), Shoulder(finish=x, corner=bevel[1], rim=bevel[0], far=z)
         infeed = RAPID if self.rapid_infeed else None
-        with own_feed(m, in_mm(self.feed)):
+        with m.within(feed=m.feed if self.feed is None else in_mm(self.feed)):
             cut(m, self, around(start, shoulder, label="contour", infeed=infeed))
 
 
@@ -168,7 +168,7 @@ class LongitudinalRoughing(FromStart):
         passes = roughing(start[0], shoulder, self.depth(m))
         chip, retract = (m.settings[f"parameter_{n}"] / discretes.TRAVEL for n in (10, 11))
         infeed = RAPID if self.rapid_infeed else None
-        with own_feed(m, in_mm(self.feed)):
+        with m.within(feed=m.feed if self.feed is None else in_mm(self.feed)):
             cut(m, self, loops(start, passes, infeed=infeed, chip=chip, chip_retract=retract))
         cut(m, self, around(start, shoulder, label="clean-up", infeed=infeed))
         if self.to_contour:

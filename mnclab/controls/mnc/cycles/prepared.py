@@ -14,8 +14,7 @@ from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Go
-from mnclab.running.interpreter import run_cycle
-from mnclab.running.performing import perform
+from mnclab.running.performing import perform, run_cycle
 
 FUNCTIONS = FunctionTable()
 SPINDLE = {1: "M3", -1: "M4", 0: "M5"}

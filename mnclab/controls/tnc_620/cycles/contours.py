@@ -19,8 +19,8 @@ from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.residue import left_by
 from mnclab.machining.milling.rings import rings
 from mnclab.path.outline import outline
-from mnclab.running.following import follow
-from mnclab.running.interpreter import unit_of
+from mnclab.running.binding import unit_of
+from mnclab.running.performing import follow
 
 CYCLES = CycleTable()
 FEEDS = ("FAUTO", "FU", "FZ")

@@ -21,7 +21,7 @@ from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import faults, is_round
 from mnclab.machining import patterns
-from mnclab.running.interpreter import run_cycle
+from mnclab.running.performing import run_cycle
 from mnclab.running.repeating import at_each
 
 CYCLES = CycleTable()

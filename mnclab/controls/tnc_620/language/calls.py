@@ -11,9 +11,10 @@ from contextlib import contextmanager
 from mnclab.controls.tnc_620.language.motion import coordinates, feed
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.cycle import Definition, instance, refuse_frame
+from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
-from mnclab.running.interpreter import as_it_stands, run_cycle
+from mnclab.running.binding import as_it_stands, instance, refuse_frame
+from mnclab.running.performing import run_cycle
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
