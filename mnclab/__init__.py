@@ -88,9 +88,9 @@ def compare_turning(profile: object, blank: float, *arguments: object, **options
 
 
 def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) -> "Deviation":
-    """Two runs, or two paths, laid over one another: the largest deviation (mm) and where; ``.plot()`` shows both.
+    """Two runs, or two paths, laid over one another: the largest deviation (mm) and where; `.plot()` shows both.
 
-    Two programs, two controls, two tool radii, two limits (of their setups: the times differ); ``step`` mm is how
+    Two programs, two controls, two tool radii, two limits (of their setups: the times differ); `step` mm is how
     closely the paths are looked at.
     """
     from mnclab.comparison.deviation import deviation
@@ -132,7 +132,7 @@ def panel(template: str, control: str | None = None, /, **numbers: object) -> ob
 
 
 def load_ipython_extension(shell: object) -> None:
-    """What ``%load_ext mnclab`` calls: makes the cell magic ``%%mnc``."""
+    """What `%load_ext mnclab` calls: makes the cell magic `%%mnc`."""
     from mnclab.show.magic import load_ipython_extension as load
 
     load(shell)

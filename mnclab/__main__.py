@@ -1,7 +1,7 @@
-"""mnclab from a shell: check, run, plot, report, time, help, lab; ``python -m mnclab`` is the same as ``mnclab``.
+"""mnclab from a shell: check, run, plot, report, time, help, lab; `python -m mnclab` is the same as `mnclab`.
 
 Exit status: 0 clean, 1 alarms, 2 a command line that makes no sense, 130 stopped by Ctrl-C. Alarms go to stderr, one
-line each, in the form that editors understand: ``FILE:LINE:COLUMN: alarm: message (hint)``.
+line each, in the form that editors understand: `FILE:LINE:COLUMN: alarm: message (hint)`.
 """
 
 from __future__ import annotations
@@ -149,7 +149,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def say(alarm: Alarm, file: str = "") -> None:
-    """One line for an alarm; ``file`` is what it is about when it stands in no program."""
+    """One line for an alarm; `file` is what it is about when it stands in no program."""
     line = alarm.headline
     if alarm.source is None and alarm.span is None:
         hint = f" ({alarm.hint})" if alarm.hint else ""

@@ -1,8 +1,8 @@
 """Two paths laid over one another: how far each is from the other, and where they are farthest apart.
 
 The distance of a place is that to the nearest place of the other path, whatever its number or order of moves; the
-greatest of all, in both directions, is the Hausdorff distance. Arcs are chords within ``chord_error``; a path is looked at
-every ``step`` mm, so that the result is too small by less than half a step,
+greatest of all, in both directions, is the Hausdorff distance. Arcs are chords within `chord_error`; a path is looked at
+every `step` mm, so that the result is too small by less than half a step,
 and wrong by the chord error at most besides.
 """
 
@@ -45,7 +45,7 @@ class Traces:
 class Deviation:
     """Where two paths differ.
 
-    ``one`` and ``other`` are the traces, ``names`` and ``paths`` what was compared, ``times`` s of both.
+    `one` and `other` are the traces, `names` and `paths` what was compared, `times` s of both.
     """
 
     paths: tuple[Toolpath, Toolpath]
@@ -75,7 +75,7 @@ class Deviation:
         return *(pair if k == 0 else pair[::-1]), int(self.paths[k].line[trace.row[at]]), k
 
     def first(self, tolerance: float = 0.001) -> int | None:
-        """The first row of the second path that is more than ``tolerance`` mm away from the first; None if there is none."""
+        """The first row of the second path that is more than `tolerance` mm away from the first; None if there is none."""
         away = np.flatnonzero(self.other.distance > tolerance)
         return int(self.other.row[away[0]]) if len(away) else None
 
@@ -124,7 +124,7 @@ def deviation(
     one: Toolpath, other: Toolpath, names: tuple[str, str] = ("first", "second"),
     step: float | None = None, chord_error: float = 1e-4, times: tuple[float, float] | None = None,
 ) -> Deviation:  # fmt: skip
-    """Lay two paths over one another; ``step`` mm, by default a four-thousandth of the longer one."""
+    """Lay two paths over one another; `step` mm, by default a four-thousandth of the longer one."""
     longest = max(one.length, other.length, 1e-3)
     if step is None:
         step = longest / PLACES

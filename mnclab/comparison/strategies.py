@@ -117,7 +117,7 @@ class Trial:
 
     @property
     def row(self) -> dict[str, Any]:
-        """The values of :data:`COLUMNS`."""
+        """The values of `COLUMNS`."""
         rapid = self.path.kind == Kind.RAPID
         rate = self.engagement.width * self.depth * self.feed / 1000
         weight = self.engagement.step
@@ -161,7 +161,7 @@ def compare(
 ) -> Comparison:  # fmt: skip
     """Try strategies on an area with one tool (a `Tool`, or its radius) and put what comes of it side by side.
 
-    `strategies` are names of :data:`STRATEGIES`, or a mapping from names to a strategy, a `Clearing`, or a function of
+    `strategies` are names of `STRATEGIES`, or a mapping from names to a strategy, a `Clearing`, or a function of
     region, tool radius and stepover. `overlap` is the share of the tool diameter that two passes have in common;
     `stepover` says it in mm instead. `limit` is the engagement in degrees above which the share is counted. With axis
     `limits` the time comes from the feed-rate profile. Raises ValueError where the tool does not fit.

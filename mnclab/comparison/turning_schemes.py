@@ -174,7 +174,7 @@ class TurningTrial:
 
     @property
     def row(self) -> dict[str, Any]:
-        """The values of :data:`COLUMNS`."""
+        """The values of `COLUMNS`."""
         rapid = self.path.kind == Kind.RAPID
         return {
             "scheme": self.name,
@@ -211,7 +211,7 @@ def compare(
 ) -> TurningComparison:  # fmt: skip
     """Try roughing schemes on a profile (z, r) under a blank of a radius and put what comes of it side by side.
 
-    `schemes` are names of :data:`SCHEMES` (by default those :data:`SUITED` to the zone), or a mapping from names to a
+    `schemes` are names of `SCHEMES` (by default those `SUITED` to the zone), or a mapping from names to a
     scheme, a `Plan`, or a function of profile, blank, depth and tool; a plan for two tools needs both. `depth` of a pass
     and `step` of the descent (by default the width of the tool, or the depth) in mm; `feed` in mm/rev, `feeds` by
     role; `spindle` in rev/min: with a cutting speed `surface` in m/min it is the greatest speed. With axis `limits`
@@ -249,7 +249,7 @@ def toolpath(
     plan: Plan, feeds: Mapping[str, float], spindle: float = 800.0, surface: float | None = None,
     tools: tuple[Tool, ...] = (TURNER,),
 ) -> Toolpath:  # fmt: skip
-    """A plan as the path of a lathe: X the radius; feeds in mm/rev by role, speeds as in :func:`compare`."""
+    """A plan as the path of a lathe: X the radius; feeds in mm/rev by role, speeds as in `compare`."""
     ends = np.array([(s.r, 0.0, s.z) for s in plan.strokes])
     vertices = np.vstack([(plan.start[1], 0.0, plan.start[0]), ends])
     rapid = np.array([s.role == RAPID for s in plan.strokes])

@@ -1,8 +1,8 @@
 """Who speaks: a folder a control, each built of functions, cycles and a reader.
 
-May import everything below; a control imports ``word_address``, never another control. A new control is a folder whose
-``__init__`` builds one ``Control`` and one line in :data:`MODULES`; third parties use the entry-point group
-``mnclab.controls``.
+May import everything below; a control imports `word_address`, never another control. A new control is a folder whose
+`__init__` builds one `Control` and one line in `MODULES`; third parties use the entry-point group
+`mnclab.controls`.
 """
 
 from __future__ import annotations

@@ -30,15 +30,15 @@ def run(
 ) -> Run:
     """Read and run a part program.
 
-    ``source``: a text, or the path of a file. ``control``: a name of ``mnclab.controls``; None asks the file's suffix, then
-    the text, and refuses to guess when two fit. Faults are collected in ``run.alarms``; ``strict`` raises the first.
+    `source`: a text, or the path of a file. `control`: a name of `mnclab.controls`; None asks the file's suffix, then
+    the text, and refuses to guess when two fit. Faults are collected in `run.alarms`; `strict` raises the first.
     """
     program = source if isinstance(source, Program) else read(source, control)
     return run_program(program, CONTROLS[program.control], setup, strict=strict)
 
 
 def read(source: str | Path, control: str | None = None) -> Program:
-    """Read a part program into blocks without running it; see :func:`run` for the arguments."""
+    """Read a part program into blocks without running it; see `run` for the arguments."""
     text, name, encoding = _text_of(source, control)
     program = read_text(text, name, control, "" if encoding == "str" else str(Path(name).parent))
     object.__setattr__(program, "encoding", encoding)
@@ -72,7 +72,7 @@ def _point_out_another(program: Program) -> None:
 def modern(source: str | Path | Program | Run, control: str | None = None) -> Notation:
     """A program beside itself in modern notation: one command a line, millimetres, decimal points (NC-31).
 
-    ``source`` and ``control`` are those of :func:`run`, or a run. An Alarm where the control's own notation is modern.
+    `source` and `control` are those of `run`, or a run. An Alarm where the control's own notation is modern.
     """
     program = source.program if isinstance(source, Run) else source
     program = program if isinstance(program, Program) else read(program, control)
@@ -106,9 +106,9 @@ def _text_of(source: str | Path, control: str | None) -> tuple[str, str, str]:
 def _names_a_file(text: str, control: str | None) -> bool:
     """Whether a line is the name of a file that is not there, and no program.
 
-    One word with the suffix of a control (``part.mnc``) is a name. Words with such a suffix (``CALL PGM part.h``), or one
-    word with a path separator (``jobs/part``, ``/N10G0X5``), are a name where the control does not read them as blocks;
-    a slash that has no two letters beside one another (``X10/2``) divides.
+    One word with the suffix of a control (`part.mnc`) is a name. Words with such a suffix (`CALL PGM part.h`), or one
+    word with a path separator (`jobs/part`, `/N10G0X5`), are a name where the control does not read them as blocks;
+    a slash that has no two letters beside one another (`X10/2`) divides.
     """
     name = text.strip()
     suffixed = PurePath(name).suffix.lower() in {suffix for one in CONTROLS.values() for suffix in one.suffixes}
@@ -205,7 +205,7 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
     """The parameter table of a cycle, the meaning of a function or setting; "settings" is the table of all settings, and
     the name of a control alone the table of its codes.
 
-    Without ``control`` that of the only control which has the code. An Alarm with the nearest codes if there is none.
+    Without `control` that of the only control which has the code. An Alarm with the nearest codes if there is none.
     """
     code = code.name if isinstance(code, Control) else code
     if not isinstance(code, str):

@@ -1,7 +1,7 @@
 """Arcs in a plane: the centre from a radius, the sweep from a centre.
 
 Points are (..., 2) in mm in the axes of the plane, angles in radians, positive counter-clockwise. There are two of each:
-for a million arcs, and for one in plain numbers, to the last bit the same (so ``arctan2`` and ``hypot`` are numpy's).
+for a million arcs, and for one in plain numbers, to the last bit the same (so `arctan2` and `hypot` are numpy's).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def sweep(start: ArrayLike, end: ArrayLike, centre: ArrayLike, sense: ArrayLike)
 
 
 def sweep_of_one(start: Pair, end: Pair, centre: Pair, sense: int) -> float:
-    """:func:`sweep` of one arc."""
+    """`sweep` of one arc."""
     (sx, sy), (ex, ey), (cx, cy) = start, end, centre
     ax, ay, bx, by = sx - cx, sy - cy, ex - cx, ey - cy
     if math.hypot(ex - sx, ey - sy) < FULL:
@@ -57,7 +57,7 @@ def centre_from_radius(start: ArrayLike, end: ArrayLike, radius: ArrayLike, sens
 
 
 def centre_of_one(start: Pair, end: Pair, radius: float, sense: int) -> tuple[tuple[float, float], float]:
-    """:func:`centre_from_radius` of one arc."""
+    """`centre_from_radius` of one arc."""
     (sx, sy), (ex, ey) = start, end
     dx, dy = ex - sx, ey - sy
     half = float(np.hypot(dx, dy)) / 2
@@ -67,7 +67,7 @@ def centre_of_one(start: Pair, end: Pair, radius: float, sense: int) -> tuple[tu
 
 
 def tangent_arc_of_one(start: Pair, end: Pair, travel: Pair) -> tuple[tuple[float, float], int] | None:
-    """Centre and sense of the arc from start to end that begins along the unit vector ``travel``; None if there is none.
+    """Centre and sense of the arc from start to end that begins along the unit vector `travel`; None if there is none.
 
     With alpha from the travel to the chord d, the radius is |d| / (2 sin alpha). The sense is 0 for a straight line: where
     the end lies ahead, within a millionth of a millimetre; straight behind the start no arc leads there.

@@ -14,7 +14,7 @@ BATCH = 1 << 18  # pairs handed out at once
 
 
 def near(low: Array, high: Array, gap: float) -> Iterator[tuple[Index, Index]]:
-    """Pairs a < b of boxes (n, 2) nearer than ``gap`` mm along both axes, each pair once, in batches."""
+    """Pairs a < b of boxes (n, 2) nearer than `gap` mm along both axes, each pair once, in batches."""
     n = len(low)
     if n < 2:
         return

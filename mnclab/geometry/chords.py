@@ -33,8 +33,8 @@ BATCH = 1 << 16  # pairs of walls worked on at once
 
 
 class Walls(NamedTuple):
-    """n walls in the order of travel: curves, unit normals towards the tool at start and end (n, 2), ``joined`` (n,):
-    whether the wall begins where the one before ends, ``s`` (n,) the side: +1 left, -1 right; ``group`` (n,): only walls
+    """n walls in the order of travel: curves, unit normals towards the tool at start and end (n, 2), `joined` (n,):
+    whether the wall begins where the one before ends, `s` (n,) the side: +1 left, -1 right; `group` (n,): only walls
     of one group are compared, and they follow each other."""
 
     curves: Curves
@@ -46,7 +46,7 @@ class Walls(NamedTuple):
 
 
 class Chords(NamedTuple):
-    """m chords: the walls ``i`` < ``j`` (m,), the points ``p`` on i and ``q`` on j (m, 2), and the length (m,) mm."""
+    """m chords: the walls `i` < `j` (m,), the points `p` on i and `q` on j (m, 2), and the length (m,) mm."""
 
     i: Index
     j: Index
@@ -56,9 +56,9 @@ class Chords(NamedTuple):
 
 
 def facing(walls: Walls, width: Array, coarse: Chunks) -> Chords:
-    """The shortest chord of every pair of walls that is shorter than ``width`` (n,) mm, the same within a group.
+    """The shortest chord of every pair of walls that is shorter than `width` (n,) mm, the same within a group.
 
-    ``coarse`` are their :func:`chunks`.
+    `coarse` are their `chunks`.
     """
     found = [chords(walls, i, j) for i, j in _pairs(walls, width, coarse)]
     if not found:
@@ -93,7 +93,7 @@ class Chunks(NamedTuple):
 
 
 def chunks(walls: Walls, size: int = COARSE) -> Chunks:
-    """Chunks of ``size`` walls; the last may be shorter."""
+    """Chunks of `size` walls; the last may be shorter."""
     n = len(walls.s)
     step = size * max(1, PIECE // size)  # a piece at a time stays in the cache
     pieces = [_chunks(walls, k, min(k + step, n), size) for k in range(0, n, step)]
@@ -136,7 +136,7 @@ def _chunks(walls: Walls, begin: int, end: int, size: int) -> Chunks:
 
 
 def around(coarse: Chunks, at: Array, reach: float, n: int) -> Index:
-    """The walls of all n in chunks whose boxes are nearer than ``reach`` to a point (2,)."""
+    """The walls of all n in chunks whose boxes are nearer than `reach` to a point (2,)."""
     there = ((coarse.low - reach <= at) & (coarse.high + reach >= at)).all(axis=1)
     k = (np.flatnonzero(there)[:, None] * COARSE + np.arange(COARSE)).ravel()
     return k[k < n]
@@ -166,7 +166,7 @@ def _batches(pairs: Iterator[tuple[Index, Index]], more: tuple[Index, Index]) ->
 
 
 def _inside(a: Index, b: Index, size: int, n: int) -> Iterator[tuple[Index, Index]]:
-    """The parts of chunks a and b (k,), each with each, where a chunk has ``size`` of them and there are n in all."""
+    """The parts of chunks a and b (k,), each with each, where a chunk has `size` of them and there are n in all."""
     one, two = np.divmod(np.arange(size * size), size)
     step = max(1, BATCH // (size * size))
     for k in range(0, len(a), step):

@@ -15,7 +15,7 @@ SLACK = 1e-9  # of a curve: beyond its ends a point is still on it
 
 
 class Curves(NamedTuple):
-    """n lines and arcs: ``start``, ``end``, ``centre`` (n, 2) mm, radius ``r`` (n,), nan for lines, ``sweep`` (n,) rad."""
+    """n lines and arcs: `start`, `end`, `centre` (n, 2) mm, radius `r` (n,), nan for lines, `sweep` (n,) rad."""
 
     start: Array
     end: Array
@@ -129,7 +129,7 @@ def _on(p: Array, curve: Curves) -> NDArray[np.bool_]:
 
 
 def _square(centre: Array, curve: Curves) -> tuple[Array, Array]:
-    """Where lines through ``centre`` (n, 2) meet the whole curves at a right angle: near points and far ones (n, 2)."""
+    """Where lines through `centre` (n, 2) meet the whole curves at a right angle: near points and far ones (n, 2)."""
     near = foot(centre, curve)
     return near, np.where(curve.arc[:, None], 2 * curve.centre - near, near)
 

@@ -1,6 +1,6 @@
 """4x4 frames: shift, turn, mirror, scale; and chains of named ones.
 
-A frame maps local coordinates to outer ones: ``outer = M @ (x, y, z, 1)``. Lengths in mm, angles in radians.
+A frame maps local coordinates to outer ones: `outer = M @ (x, y, z, 1)`. Lengths in mm, angles in radians.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def shift(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Matrix:
 
 
 def turn(angle: float, axis: str = "z", about: ArrayLike = (0.0, 0.0, 0.0)) -> Matrix:
-    """A right-handed rotation by ``angle`` rad about an axis through ``about``."""
+    """A right-handed rotation by `angle` rad about an axis through `about`."""
     first, second = {"z": (0, 1), "x": (1, 2), "y": (2, 0)}[axis]
     c, s = np.cos(angle), np.sin(angle)
     matrix = np.eye(4)
@@ -46,7 +46,7 @@ def mirror(axes: str, about: ArrayLike = (0.0, 0.0, 0.0)) -> Matrix:
 
 
 def around(matrix: Matrix, point: ArrayLike) -> Matrix:
-    """The same map with ``point`` as its fixed point instead of the origin."""
+    """The same map with `point` as its fixed point instead of the origin."""
     centre = np.asarray(point, dtype=np.float64)
     moved = matrix.copy()
     moved[:3, 3] += centre - matrix[:3, :3] @ centre
@@ -124,7 +124,7 @@ class FrameChain:
         return product
 
     def before(self, name: str) -> Matrix:
-        """The product of the frames outside ``name``."""
+        """The product of the frames outside `name`."""
         product = IDENTITY
         for key, frame in self._frames.items():
             if key == name:

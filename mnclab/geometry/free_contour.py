@@ -1,14 +1,14 @@
 """Contours given by what is known of them: a chain of lines and arcs, solved in numbers.
 
 An element is told by any of its data: where it ends, its direction, length, radius, centre, points on it or beside it,
-that it joins the one before tangentially. Each datum is an equation between few unknowns (:mod:`.quadratics`):
+that it joins the one before tangentially. Each datum is an equation between few unknowns (`.quadratics`):
 
     joint       p = (x, y)
     line        unit normal n to the left of the travel, and c:  n·p = c;  it goes along (n_y, -n_x)
     arc         centre C and signed radius ρ, positive counter-clockwise:  |p - C|² = ρ²
     tangent     at p with normal n:  p = C - ρ n;  hence n·C - c = ρ for a line, |C - D|² = (ρ - σ)² for another circle
 
-What the data leave open is kept by :mod:`.readings`: a line at a distance from a point passes it on either side, a line
+What the data leave open is kept by `.readings`: a line at a distance from a point passes it on either side, a line
 meets a circle twice. Readings come in this order: element after element in the order of the chain; where a line meets a
 curve, the place farther along the line first; a line at a distance to the right of its point first; of other places the
 one with the smaller y, then the larger x, first.
@@ -59,7 +59,7 @@ def normal_of(angle: float) -> Pair:
 
 
 class Element(NamedTuple):
-    """A line (``normal``, ``offset``) or an arc (``centre``, ``radius`` signed) between two joints of the chain."""
+    """A line (`normal`, `offset`) or an arc (`centre`, `radius` signed) between two joints of the chain."""
 
     start: Pair
     end: Pair
@@ -70,7 +70,7 @@ class Element(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """A solved element: ``centre`` is None for a line, ``sense`` +1 for a counter-clockwise arc, -1 for a clockwise one."""
+    """A solved element: `centre` is None for a line, `sense` +1 for a counter-clockwise arc, -1 for a clockwise one."""
 
     start: tuple[float, float]
     end: tuple[float, float]
@@ -79,7 +79,7 @@ class Piece(NamedTuple):
 
 
 class FreeContour(Readings):
-    """A chain of elements from a known point (mm); ``heading`` is the direction (rad) in which the path arrives there."""
+    """A chain of elements from a known point (mm); `heading` is the direction (rad) in which the path arrives there."""
 
     def __init__(self, start: tuple[float, float], heading: float | None = None) -> None:
         super().__init__()
@@ -92,7 +92,7 @@ class FreeContour(Readings):
     # --- telling what is known ------------------------------------------------------------------------------------------
 
     def unknown_pair(self, place: float, dim: int = 1) -> Pair:
-        """Two unknowns: a point, or with ``dim`` 0 a unit vector."""
+        """Two unknowns: a point, or with `dim` 0 a unit vector."""
         pair = Pair(self.unknown(place, dim), self.unknown(place, dim))
         if dim == 0:
             self.equal(pair.dot(pair) - 1.0, None)
@@ -178,7 +178,7 @@ class FreeContour(Readings):
         self.positive(self.elements[k].radius * sign, label)
 
     def radius(self, k: int, value: float, sign: int, label: Label) -> None:
-        """The radius of an arc, mm; ``sign`` 0 where its sense is not known."""
+        """The radius of an arc, mm; `sign` 0 where its sense is not known."""
         radius = self.elements[k].radius
         if sign:
             self.equal(radius - sign * value, label)
@@ -218,7 +218,7 @@ class FreeContour(Readings):
         self.size = max(self.size, distance)
 
     def level(self, k: int) -> Form:
-        """n·p of the line that carries an element, or of the tangent where an arc begins; n is its :meth:`normal`."""
+        """n·p of the line that carries an element, or of the tangent where an arc begins; n is its `normal`."""
         element = self.elements[k]
         return element.offset if element.normal is not None else self.normal(k).dot(element.start)
 

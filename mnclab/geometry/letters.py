@@ -1,7 +1,7 @@
 """Letters of single strokes for an engraving tool: lines and arcs, drawn for this library.
 
-A glyph is written as strokes between ``/``. A stroke is its points ``x,y``; a number with a sign between two of them is the
-sweep of an arc in degrees, counter-clockwise where it is positive; ``dot x,y`` is a small circle. The unit is 1/21 of the
+A glyph is written as strokes between `/`. A stroke is its points `x,y`; a number with a sign between two of them is the
+sweep of an arc in degrees, counter-clockwise where it is positive; `dot x,y` is a small circle. The unit is 1/21 of the
 height of a capital: x counts from the middle of the letter, the baseline is 0, small letters are 14 high.
 
 The widths are the advance widths of DejaVu Sans (a measure of that face; its outlines are not used here).

@@ -1,7 +1,7 @@
 """Where lines and circles meet: the corners of equidistants and the centres of roundings.
 
-An element is given by a point ``q`` (n, 2) on it, its unit tangent ``t`` (n, 2) there, and for a circle its centre
-``c`` (n, 2) and radius ``r`` (n,); ``r`` is nan for a line. Lengths in mm.
+An element is given by a point `q` (n, 2) on it, its unit tangent `t` (n, 2) there, and for a circle its centre
+`c` (n, 2) and radius `r` (n,); `r` is nan for a line. Lengths in mm.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class Element(NamedTuple):
     r: Array
 
     def only(self, mask: NDArray[np.bool_]) -> Element:
-        """Those where ``mask`` (n,) holds."""
+        """Those where `mask` (n,) holds."""
         return Element(self.q[mask], self.t[mask], self.c[mask], self.r[mask])
 
 
@@ -43,7 +43,7 @@ def left(v: Array) -> Array:
 
 
 def beside(p: Array, t: Array, shift: Array) -> Array:
-    """Points p (n, 2), or one (1, 2), moved by ``shift`` (n,) along the left normals of vectors t (n, 2)."""
+    """Points p (n, 2), or one (1, 2), moved by `shift` (n,) along the left normals of vectors t (n, 2)."""
     moved = np.empty(t.shape)
     np.subtract(p[:, 0], shift * t[:, 1], out=moved[:, 0])
     np.add(p[:, 1], shift * t[:, 0], out=moved[:, 1])
@@ -51,7 +51,7 @@ def beside(p: Array, t: Array, shift: Array) -> Array:
 
 
 def meet(first: Element, second: Element, near: Array) -> Array:
-    """The common point (n, 2) of two elements that lies nearer to ``near`` (n, 2); nan where there is none."""
+    """The common point (n, 2) of two elements that lies nearer to `near` (n, 2); nan where there is none."""
     p, q = meetings(first, second)
     closer = np.hypot(*(p - near).T) <= np.hypot(*(q - near).T)
     return np.where(closer[:, None], p, q)

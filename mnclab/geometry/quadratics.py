@@ -47,7 +47,7 @@ class Work:
 
 
 class Form:
-    """A polynomial of degree two at most: ``const``, ``linear`` {i: a}, ``square`` {(i, j): a} with i <= j."""
+    """A polynomial of degree two at most: `const`, `linear` {i: a}, `square` {(i, j): a} with i <= j."""
 
     __slots__ = ("const", "linear", "square")
 
@@ -133,7 +133,7 @@ class Form:
 
 
 class System:
-    """Equations in some unknowns as arrays, lengths in units of ``size`` mm, the other unknowns taken from ``values``."""
+    """Equations in some unknowns as arrays, lengths in units of `size` mm, the other unknowns taken from `values`."""
 
     def __init__(
         self, forms: Sequence[Form], unknowns: Sequence[int], values: Array, dims: Sequence[int], size: float
@@ -169,9 +169,9 @@ class System:
             c[row] += factor * self.values[i]
 
     def solve(self, work: Work | None = None, newton: bool = False) -> list[Array] | None:
-        """All real solutions (v,), in mm; None if there are infinitely many, or without ``newton`` if they would need it.
+        """All real solutions (v,), in mm; None if there are infinitely many, or without `newton` if they would need it.
 
-        ``work`` is what the search may cost; nothing bounds it without.
+        `work` is what the search may cost; nothing bounds it without.
         """
         self.work = work or Work(np.inf)
         a, b, c = self.a, self.b, self.c
@@ -311,7 +311,7 @@ def _solved(rows: Array, rest: Array) -> tuple[Array, Array]:
 
 
 def _reduced(matrix: Array, v: int, tolerance: float) -> tuple[Array, list[int], list[int]]:
-    """Gauss and Jordan's elimination of the first ``v`` columns, with rows and columns of the pivots."""
+    """Gauss and Jordan's elimination of the first `v` columns, with rows and columns of the pivots."""
     matrix, left = matrix.copy(), np.abs(matrix[:, :v])
     rows: list[int] = []
     columns: list[int] = []
@@ -407,7 +407,7 @@ def newton_from(
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Solutions (m, v) of xᵀAx + bx + c = 0 (k equations) reached from starts (n, v), and which of them are single (m,).
 
-    Levenberg's damping fades with the residual, so that the last steps are Newton's. Of many starts, for which ``work``
+    Levenberg's damping fades with the residual, so that the last steps are Newton's. Of many starts, for which `work`
     is counted, those that have arrived rest; at a solution
     that is not single steps stay long, and only many of them show what it is.
     """

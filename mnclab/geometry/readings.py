@@ -1,10 +1,10 @@
 """Data told one by one, and what they leave open: the *readings*, each a set of values for what is settled so far.
 
-Data are equations of the second degree between numbered unknowns (:mod:`.quadratics`), conditions that something is positive,
-and choices between several lists of equations. After each datum :meth:`Readings.follow` settles whatever a few neighbouring
+Data are equations of the second degree between numbered unknowns (`.quadratics`), conditions that something is positive,
+and choices between several lists of equations. After each datum `Readings.follow` settles whatever a few neighbouring
 unknowns settle among themselves; several solutions make several readings, a contradiction takes a reading away.
 
-The search is bounded: every system that is tried costs some of the :class:`~.quadratics.Work` of the contour, which
+The search is bounded: every system that is tried costs some of the `Work` of the contour, which
 grows with what is settled. What a reading has tried in vain is not tried again while nothing new is known of it. Before
 systems of many unknowns are looked into, one look at the whole tells which unknowns are free to move, and those are left
 alone.
@@ -30,7 +30,7 @@ LOOKED_AT = 64  # unknowns that hang together and are looked at as a whole: 12 e
 class Reading(NamedTuple):
     """The unknowns (nan where not settled), and which of several solutions was taken at which unknown.
 
-    Of the first ``told`` equations and conditions those are kept, by number, that wait for unknowns. ``vain``: windows
+    Of the first `told` equations and conditions those are kept, by number, that wait for unknowns. `vain`: windows
     that settle nothing by their equations, as both stand now.
     """
 
@@ -43,7 +43,7 @@ class Reading(NamedTuple):
 
 
 class Contradiction(Exception):
-    """Data that no contour fulfils; ``label`` is that of the datum, ``gap`` by how much it is missed (mm, or nan)."""
+    """Data that no contour fulfils; `label` is that of the datum, `gap` by how much it is missed (mm, or nan)."""
 
     def __init__(self, label: Label, gap: float) -> None:
         super().__init__(f"{label} contradicts what is known")
@@ -58,7 +58,7 @@ class TooManyReadings(Exception):
 
 
 class Readings:
-    """What has been told, and the readings that agree with all of it. ``places`` orders the unknowns: neighbours are near."""
+    """What has been told, and the readings that agree with all of it. `places` orders the unknowns: neighbours are near."""
 
     def __init__(self) -> None:
         self.dims: list[int] = []
@@ -72,7 +72,7 @@ class Readings:
         self.paid: set[int] = set()  # unknowns that have brought some work
 
     def rank(self, values: Array, before: Array, window: Sequence[int]) -> list[float]:
-        """What solutions for the unknowns of a window are sorted by; ``before`` is what was settled without them."""
+        """What solutions for the unknowns of a window are sorted by; `before` is what was settled without them."""
         return [round(float(values[i]), 6) for i in window]
 
     def order_of(self, place: float) -> float:
@@ -82,7 +82,7 @@ class Readings:
     # --- telling --------------------------------------------------------------------------------------------------------
 
     def unknown(self, place: float, dim: int = 1) -> Form:
-        """A new unknown, a length or (``dim`` 0) a component of a unit vector."""
+        """A new unknown, a length or (`dim` 0) a component of a unit vector."""
         self.dims.append(dim)
         self.places.append(place)
         self.readings = [r._replace(values=np.append(r.values, np.nan)) for r in self.readings]
@@ -122,7 +122,7 @@ class Readings:
     def follow(self, thoroughly: bool = False) -> None:
         """Settle in every reading what can be settled; raises Contradiction when none is left.
 
-        ``thoroughly``: unknowns that hang together in large numbers are solved too, until a reading turns out that the
+        `thoroughly`: unknowns that hang together in large numbers are solved too, until a reading turns out that the
         data leave open, which comes first then; Exhausted where the search ends before.
         """
         self.conflict = None
@@ -291,7 +291,7 @@ class Readings:
 
 
 def _full(size: int, spans: Spans, widest: int) -> list[tuple[int, int]]:
-    """Width and first place of the windows in a row of ``size`` that hold at least as many equations as unknowns."""
+    """Width and first place of the windows in a row of `size` that hold at least as many equations as unknowns."""
     upto = np.zeros((size + widest, widest + 1), dtype=np.int32)  # equations from a place on, by their width
     for first, items in spans.items():
         for last, _, _ in items:

@@ -41,7 +41,7 @@ def swept(outline: Floats, way: Contour) -> Any:
 
 
 def under(contour: Contour, level: float) -> Any:
-    """The area between a contour (x, y) and a level of y, as a shapely area; arcs as in :func:`swept`."""
+    """The area between a contour (x, y) and a level of y, as a shapely area; arcs as in `swept`."""
     import shapely
 
     points = contour.points_within(CHORD_ERROR)

@@ -39,7 +39,7 @@ def direction(pair: str, angles: Mapping[str, float]) -> NDArray[np.float64]:
 
 def positions(pair: str, tool_axis: ArrayLike, now: Mapping[str, float]) -> list[Angles]:
     """Both ways to turn the tool axis into a direction (3,), each angle from -pi to pi; first the one with the inner axis from
-    0 to pi (or, where the carrier lies across the tool, within a quarter turn). An angle that is free stays as it is ``now``.
+    0 to pi (or, where the carrier lies across the tool, within a quarter turn). An angle that is free stays as it is `now`.
     """
     x, y, z = np.asarray(tool_axis, dtype=np.float64) / np.linalg.norm(tool_axis)
     outer, inner = pair[0], pair[1]

@@ -2,7 +2,7 @@
 
 The feed of a move is known beforehand, except where it depends on the way: a move in a given time is as fast as it is
 long, and at constant cutting speed the spindle follows X, and a feed per revolution follows the spindle. Such a row has
-the mean feed of its way, the speed at its end, and in the columns ``surface``, ``speed_limit`` and ``spindle_x`` what
+the mean feed of its way, the speed at its end, and in the columns `surface`, `speed_limit` and `spindle_x` what
 the speed on the way follows from.
 """
 

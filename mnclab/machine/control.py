@@ -1,7 +1,7 @@
 """A control: a reader, its functions, its cycles, the order inside a block, its settings.
 
-Functions register themselves in a :class:`FunctionTable`; the table *is* the help. ``group`` gives modality: functions
-of one group replace each other and only one may stand in a block. ``takes`` names the addresses that a function uses
+Functions register themselves in a `FunctionTable`; the table *is* the help. `group` gives modality: functions
+of one group replace each other and only one may stand in a block. `takes` names the addresses that a function uses
 in its block; the interpreter hands out the words and refuses those that nobody takes.
 """
 
@@ -28,9 +28,9 @@ Reader = Callable[[str, str], Program]
 
 
 class Words(dict[str, Word]):
-    """The words handed to a function: the word that called it, and those it takes. ``words["X"]`` is the first X.
+    """The words handed to a function: the word that called it, and those it takes. `words["X"]` is the first X.
 
-    ``words.words`` has all of them in the order handed out, ``code`` is the code that was called.
+    `words.words` has all of them in the order handed out, `code` is the code that was called.
     """
 
     __slots__ = ("code", "words")
@@ -49,9 +49,9 @@ class Words(dict[str, Word]):
 class Function:
     """A preparatory, auxiliary or word function of a control.
 
-    ``moves``: belongs to the motion of the block, and runs for later blocks while it is modal. ``still``: a block with it
-    moves nothing. ``ends_cycle``: an active cycle is over before the motion of the block. ``owns``: the words of the block
-    are its own, and a motion function beside it only becomes active. ``collects``: motion that waits for later blocks may
+    `moves`: belongs to the motion of the block, and runs for later blocks while it is modal. `still`: a block with it
+    moves nothing. `ends_cycle`: an active cycle is over before the motion of the block. `owns`: the words of the block
+    are its own, and a motion function beside it only becomes active. `collects`: motion that waits for later blocks may
     go on waiting; before any other function it is made.
     """
 
@@ -92,9 +92,9 @@ class FunctionTable(dict[str, Function]):
         collects: bool = False,
         source: str = "",
     ) -> Callable[[AnyObey], AnyObey]:
-        """Register one function for several codes; ``title`` may differ by code.
+        """Register one function for several codes; `title` may differ by code.
 
-        Codes are separated by blanks, or by commas where one holds a blank: ``"CALL LBL,"`` is one code.
+        Codes are separated by blanks, or by commas where one holds a blank: `"CALL LBL,"` is one code.
         """
 
         def register(obey: AnyObey) -> AnyObey:
@@ -129,25 +129,25 @@ class FunctionTable(dict[str, Function]):
 class Control:
     """A control as one value; nothing is inherited, two controls that agree share a function.
 
-    ``codes`` are the addresses whose value makes a code (G and M). ``word_functions``: an address may be a function by
-    itself (F, S, T), which a control of keywords does not want, where C is a statement and an axis. ``motion`` is the
-    group whose modal function runs when axis words are left over. ``storage`` says where cycle parameters live until
-    the call ("instance" or "variables"). ``together`` raises alarms for a keyword and words that may
+    `codes` are the addresses whose value makes a code (G and M). `word_functions`: an address may be a function by
+    itself (F, S, T), which a control of keywords does not want, where C is a statement and an axis. `motion` is the
+    group whose modal function runs when axis words are left over. `storage` says where cycle parameters live until
+    the call ("instance" or "variables"). `together` raises alarms for a keyword and words that may
     not stand in one block; it is asked once for each kind of block.
-    ``refused`` maps codes that are known but not built, or do not exist, to the sentence that says so. ``one_command``:
+    `refused` maps codes that are known but not built, or do not exist, to the sentence that says so. `one_command`:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
-    ``meanings`` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
-    ("G4 P"). ``relative`` are words so written that count from the last position under G91, beside coordinates;
-    ``told`` says what the value of a word of a function means (the last argument: how many of its address stand before);
-    ``absolute_with`` codes in whose block coordinates are absolute even then; ``marks`` says what the marks on a word of a
+    `meanings` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
+    ("G4 P"). `relative` are words so written that count from the last position under G91, beside coordinates;
+    `told` says what the value of a word of a function means (the last argument: how many of its address stand before);
+    `absolute_with` codes in whose block coordinates are absolute even then; `marks` says what the marks on a word of a
     function or cycle do (the last argument: whether the word calls it).
-    ``to_turn`` says what makes the spindle turn, as a hint.
-    ``names`` leads from other names of cycles (DIN/ISO) to their codes; help knows them.
-    ``named`` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; ``predefined``
-    what PREDEF stands for in a parameter of a cycle of a code; ``calls_again`` whether a modal call of a cycle (a modal
+    `to_turn` says what makes the spindle turn, as a hint.
+    `names` leads from other names of cycles (DIN/ISO) to their codes; help knows them.
+    `named` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; `predefined`
+    what PREDEF stands for in a parameter of a cycle of a code; `calls_again` whether a modal call of a cycle (a modal
     function of the group "call") calls it in a block with a keyword and words.
-    ``preassigned`` are variables that the control keeps itself; names that begin with ``local_variables`` belong to one
-    program. ``modern`` writes a program in the notation of today, where the control's own is another.
+    `preassigned` are variables that the control keeps itself; names that begin with `local_variables` belong to one
+    program. `modern` writes a program in the notation of today, where the control's own is another.
     """
 
     name: str

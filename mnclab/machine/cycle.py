@@ -1,12 +1,12 @@
 """How a cycle declares itself, once: from its class come binding, checks, the help table, the form and tests.
 
-A defined cycle is a :class:`Definition` (values and the words they came from); it is *bound* to a frozen instance of
-its class when it is called, and checked there. ``runs`` says when: "definition" (as soon as it is read), "call" (by M99,
+A defined cycle is a `Definition` (values and the words they came from); it is *bound* to a frozen instance of
+its class when it is called, and checked there. `runs` says when: "definition" (as soon as it is read), "call" (by M99,
 CYCL CALL, …) or "position" (at each following position while it is active).
 
 One line a parameter, and one address a parameter: a coordinate that may be written as X or as an increment U was meant to
 be one declaration with two addresses, but then neither help nor the comparison with the manual's table showed U. Such a
-pair is two parameters, ``instead`` ties them, and :meth:`Cycle.prepare` makes one level of both where they are written.
+pair is two parameters, `instead` ties them, and `Cycle.prepare` makes one level of both where they are written.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Parameter:
-    """One address of a cycle: what it means and what is allowed. ``meaning`` is a short noun phrase; alarms quote it.
+    """One address of a cycle: what it means and what is allowed. `meaning` is a short noun phrase; alarms quote it.
 
-    A parameter with a ``mark`` (a bit of ``Word.flag``) has no word of its own: it is 1 when the word that calls the
+    A parameter with a `mark` (a bit of `Word.flag`) has no word of its own: it is 1 when the word that calls the
     cycle carries the mark, and its default when not; its address is the mark's sign.
     """
 
@@ -123,9 +123,9 @@ def param(
 ) -> Any:
     """Declare one parameter of a cycle in one line of its class.
 
-    No ``default`` means required, unless ``instead`` of it another is given (a parameter by its name);
-    ``default_means`` says in words what a default of None stands for. ``several``: the address may be repeated, and the
-    value is a tuple. ``also`` lists words allowed in place of a number (FAUTO, FMAX, …). ``example`` is a value to begin
+    No `default` means required, unless `instead` of it another is given (a parameter by its name);
+    `default_means` says in words what a default of None stands for. `several`: the address may be repeated, and the
+    value is a tuple. `also` lists words allowed in place of a number (FAUTO, FMAX, …). `example` is a value to begin
     with where the cycle is tried out; it must obey the limits, or the declaration is a ValueError.
     """
     first, *others = (address,) if isinstance(address, str) else address
@@ -142,7 +142,7 @@ def param(
 
 @dataclass(frozen=True)
 class Cycle:
-    """A cycle bound to its values. Subclasses declare parameters, :meth:`contradictions`, :meth:`check` and :meth:`moves`."""
+    """A cycle bound to its values. Subclasses declare parameters, `contradictions`, `check` and `moves`."""
 
     code: ClassVar[str] = ""
     title: ClassVar[str] = ""
@@ -157,7 +157,7 @@ class Cycle:
     own_spindle: ClassVar[bool] = False
     """Whether it turns the spindle itself, so that none need turn before it."""
     does: ClassVar[str] = true_size.VISITS
-    """What decides whether it can run under a scale; see :mod:`mnclab.machine.true_size`."""
+    """What decides whether it can run under a scale; see `machine.true_size`."""
 
     @classmethod
     @cache
@@ -176,7 +176,7 @@ class Cycle:
     ) -> dict[str, Any]:
         """Turn what a block wrote into what stays; for cycles that resolve levels when they are programmed.
 
-        ``kept`` lives as long as the cycle is active.
+        `kept` lives as long as the cycle is active.
         """
         return values
 
@@ -192,9 +192,9 @@ class Cycle:
         yield from ()
 
     def moves(self, m: Machine) -> Iterable[Any] | None:
-        """The steps of the cycle (:mod:`mnclab.machining.steps`); it reads the machine and changes nothing.
+        """The steps of the cycle (`machining.steps`); it reads the machine and changes nothing.
 
-        Steps are made while they are carried out: what is asked of the machine after the first ``yield`` is asked later.
+        Steps are made while they are carried out: what is asked of the machine after the first `yield` is asked later.
         """
 
     def about(self, m: Machine) -> tuple[float, float]:

@@ -1,6 +1,6 @@
 """What a machine, its functions and its cycles may ask of the course of the program that it obeys.
 
-:mod:`mnclab.running.flow` is that course; a machine that nobody runs a program on can do with less.
+`running.flow` is that course; a machine that nobody runs a program on can do with less.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 
 class Recording(NamedTuple):
-    """A contour as its label describes it: ``path`` in program coordinates from ``start`` on, and its side (+1 left,
-    -1 right, 0 none). ``frames`` and ``memory`` are the transformations at its end."""
+    """A contour as its label describes it: `path` in program coordinates from `start` on, and its side (+1 left,
+    -1 right, 0 none). `frames` and `memory` are the transformations at its end."""
 
     path: Toolpath
     side: int

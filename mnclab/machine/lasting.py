@@ -60,7 +60,7 @@ def _attributes(m: Machine, less: frozenset[str]) -> tuple[Any, ...]:
 
 
 def frozen(value: Any, within: tuple[Any, ...] = ()) -> Any:
-    """A value that stays as it is now, to be compared with a later one; ``within`` are the things that hold it."""
+    """A value that stays as it is now, to be compared with a later one; `within` are the things that hold it."""
     if isinstance(value, float):
         return value if value == value else "nan"
     if isinstance(value, str | int | None):

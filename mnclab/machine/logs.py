@@ -1,6 +1,6 @@
 """Writing down what changes: a log per name, of the steps at which it changed and the values from there on.
 
-A *step* is one execution of a block; :mod:`mnclab.runs.history` reads the logs after the run.
+A *step* is one execution of a block; `runs.history` reads the logs after the run.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Log:
         return int(chunks[0][0]) if chunks else self.steps[0]
 
     def close(self, last: int) -> tuple[NDArray[np.integer[Any]], Values]:
-        """All changes up to step ``last``."""
+        """All changes up to step `last`."""
         chunks = [
             chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])
         ]

@@ -1,7 +1,7 @@
 """The machine: the only thing that changes while a program runs.
 
 Functions and cycles speak to it in verbs, in coordinates of the program (mm, mm/min, rev/min, degrees, seconds). It keeps two
-points: :attr:`Machine.programmed`, the register in program coordinates before any compensation, and :attr:`Machine.tip`,
+points: `Machine.programmed`, the register in program coordinates before any compensation, and `Machine.tip`,
 the same point in machine coordinates. A change of frame says which of the two it keeps.
 """
 
@@ -217,7 +217,7 @@ class Machine:
     # --- frames ------------------------------------------------------------------------------------------------------
 
     def set_frame(self, name: str, matrix: Matrix | None, keep: str = "tip") -> None:
-        """Replace one frame of the chain; ``keep`` "tip" (the program reads the place anew) or "programmed"."""
+        """Replace one frame of the chain; `keep` "tip" (the program reads the place anew) or "programmed"."""
         self.frames.set(name, matrix)
         self.compose()
         if keep == "tip":
@@ -285,7 +285,7 @@ class Machine:
         self, x: float | None = None, y: float | None = None, z: float | None = None,
         f: float | None = None, word: Word | None = None, joint: Any = None,
     ) -> None:  # fmt: skip
-        """A straight line at feed ``f`` mm/min, by default the modal feed."""
+        """A straight line at feed `f` mm/min, by default the modal feed."""
         if f == INF:
             return self.rapid(x, y, z)
         self._go(Kind.LINE, self.target(x, y, z), self.feed_of(f, word), joint)
@@ -435,7 +435,7 @@ class Machine:
         self, x: float | None = None, y: float | None = None, z: float | None = None, *,
         f: float, ball: float | None = None, word: Word | None = None, miss: str = "alarm",
     ) -> Touch:  # fmt: skip
-        """Move the probe towards a point until its ball touches the part; see :mod:`mnclab.machine.touching`."""
+        """Move the probe towards a point until its ball touches the part; see `machine.touching`."""
         return touch(self, self.target(x, y, z), f, self.radius if ball is None else ball, word, miss)
 
     def probe_to(self, tip: tuple[float, float, float], f: float) -> None:
@@ -451,7 +451,7 @@ class Machine:
     # --- settling ----------------------------------------------------------------------------------------------------
 
     def settle(self, unfinished: bool = False) -> None:
-        """Run the passes on the rows not yet settled; see :mod:`mnclab.machine.settling`."""
+        """Run the passes on the rows not yet settled; see `machine.settling`."""
         settle(self, unfinished)
 
     def observe(self) -> None:

@@ -1,7 +1,7 @@
 """Machines written in files (TOML): the limits of the axes, and what was assumed to name them.
 
-The named ones lie in ``data/machines``. A file has ``title``, ``assumes`` (a list of sentences) and the table
-``[limits]``, whose keys are the fields of :class:`~mnclab.path.limits.Limits`.
+The named ones lie in `data/machines`. A file has `title`, `assumes` (a list of sentences) and the table
+`[limits]`, whose keys are the fields of `Limits`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ PLACES = (_PACKAGE / "data" / "machines", _PACKAGE.parent / "data" / "machines")
 
 
 class MachineFile(NamedTuple):
-    """A machine: its ``name``, a ``title``, what was assumed, and its limits."""
+    """A machine: its `name`, a `title`, what was assumed, and its limits."""
 
     name: str
     title: str

@@ -30,7 +30,7 @@ def set_angles(m: Machine, to: Angles) -> None:
 
 
 def turn_axes(m: Machine, to: Angles, f: float | None) -> None:
-    """Turn to angles (degrees) while the tip stands; ``f`` is in degrees a minute, infinite at rapid, None the modal feed.
+    """Turn to angles (degrees) while the tip stands; `f` is in degrees a minute, infinite at rapid, None the modal feed.
 
     The time of a rapid turn is not known: no limits of rotary axes are.
     """

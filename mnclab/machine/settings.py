@@ -1,7 +1,7 @@
 """Settings: what a control leaves to its parameters, to the operator, or to the reader of its manual.
 
-A setting is declared once, in the ``settings`` of its control; from there come the check of what a Setup says, the table
-of ``mnclab.help("settings", control)`` and the values that functions and cycles find in ``Machine.settings``.
+A setting is declared once, in the `settings` of its control; from there come the check of what a Setup says, the table
+of `mnclab.help("settings", control)` and the values that functions and cycles find in `Machine.settings`.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from mnclab.text.tables import html_table
 
 
 class Setting(NamedTuple):
-    """One choice. Its kind is that of the default: true or false, a number, or one of ``choices`` (value -> meaning).
+    """One choice. Its kind is that of the default: true or false, a number, or one of `choices` (value -> meaning).
 
-    ``source`` is the section of the manual, or the name of the reading where the manual leaves it open.
+    `source` is the section of the manual, or the name of the reading where the manual leaves it open.
     """
 
     name: str
@@ -84,7 +84,7 @@ def with_every(declared: Iterable[Setting]) -> tuple[Setting, ...]:
 def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str, source: Any = None) -> dict[str, Any]:
     """Values by name: the defaults, and what a Setup gives instead. An Alarm names what is unknown or not allowed.
 
-    ``source`` is the file of the setup, if there is one: the alarm shows the line of the setting in it.
+    `source` is the file of the setup, if there is one: the alarm shows the line of the setting in it.
     """
     known = {setting.name: setting for setting in declared}
     for name in given:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def settle(m: Machine, unfinished: bool = False) -> None:
-    """Corners, compensation, leads; ``unfinished`` says that an alarm broke the program off.
+    """Corners, compensation, leads; `unfinished` says that an alarm broke the program off.
 
     A fault is an Alarm at the block of its row, and the machine notes the step from which nothing counts.
     """

@@ -101,14 +101,14 @@ def _refuse(what: str, must: str, value: Any, example: str) -> NoReturn:
 class Setup:
     """Everything a program finds on the machine; never changed by a run, which keeps a copy that nobody can write to.
 
-    ``start`` is the spindle reference in machine coordinates, mm. ``part`` and ``stock`` stand in machine coordinates.
-    ``files`` maps names to texts or paths of other programs and tables. ``settings`` overrides the declared choices of
-    the control (``mnclab.help("settings", control)``). ``correctors`` are offsets along the axes, mm, of the controls whose
+    `start` is the spindle reference in machine coordinates, mm. `part` and `stock` stand in machine coordinates.
+    `files` maps names to texts or paths of other programs and tables. `settings` overrides the declared choices of
+    the control (`mnclab.help("settings", control)`). `correctors` are offsets along the axes, mm, of the controls whose
     words D or L name them. Tools given without a number get the one they are listed under.
-    ``variables`` have their values before the program begins: what another program left (``run.variables``).
-    ``stock`` is the blank: two corners, or a body of revolution (``mnclab.workpiece.blank.cylinder``); pictures show it.
-    ``source`` is the file that the setup was read from: an alarm about one of its settings shows its line.
-    ``kinematics`` and ``true_tools`` are not built yet. Tables are kept as copies; an Alarm names what cannot be.
+    `variables` have their values before the program begins: what another program left (`run.variables`).
+    `stock` is the blank: two corners, or a body of revolution (`mnclab.workpiece.blank.cylinder`); pictures show it.
+    `source` is the file that the setup was read from: an alarm about one of its settings shows its line.
+    `kinematics` and `true_tools` are not built yet. Tables are kept as copies; an Alarm names what cannot be.
     """
 
     tools: Mapping[int, Tool] = field(default_factory=lambda: MAGAZINE)
@@ -164,7 +164,7 @@ class Setup:
                 raise Alarm(f"Setup({name}=…) is not built yet: {says}")
 
     def _check_workpiece(self) -> None:
-        """An Alarm unless ``stock`` is a blank and ``part`` something that a probe can touch."""
+        """An Alarm unless `stock` is a blank and `part` something that a probe can touch."""
         try:
             body = None if self.stock is None else blank(self.stock)
             good = self.stock is None or (body is not None and bool(np.isfinite(body.bounds).all()))

@@ -117,7 +117,7 @@ def load(path: str | Path) -> Setup:
 
 
 def parse(path: str | Path, build: Callable[[dict[str, Any], File], Result], what: str) -> Result:
-    """What ``build`` makes of the table in a TOML file; alarms show the line of the file."""
+    """What `build` makes of the table in a TOML file; alarms show the line of the file."""
     if not isinstance(path, str | Path) or not str(path):
         raise Alarm(f"the {what} must be the name of a file, got {shown(path)}")
     path = Path(path)
@@ -223,7 +223,7 @@ def _stock(table: Mapping[str, Any], file: File) -> Blank:
 
 
 def record(kind: Any, value: Any, file: File, *keys: str) -> Any:
-    """A Tool, Datum, Limits or Probe from a table of its fields, or a datum from a list; ``keys`` lead to it in the file."""
+    """A Tool, Datum, Limits or Probe from a table of its fields, or a datum from a list; `keys` lead to it in the file."""
     where = ".".join(keys)
     with file.at(*keys):
         if kind is Datum and isinstance(value, list):
@@ -283,7 +283,7 @@ def _table(value: Any, where: str) -> Mapping[str, Any]:
 
 
 def check_names(table: Mapping[str, Any], known: Any, where: str, file: File, *keys: str) -> None:
-    """An Alarm for the first name that is not known; ``keys`` lead to the table in the file."""
+    """An Alarm for the first name that is not known; `keys` lead to the table in the file."""
     for name in table:
         if name not in known:
             with file.at(*keys, name):

@@ -24,9 +24,9 @@ class Touch(NamedTuple):
 
 
 def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, miss: str) -> Touch:
-    """Move the tip (the south pole of the ball) towards a point in program coordinates at feed ``f``.
+    """Move the tip (the south pole of the ball) towards a point in program coordinates at feed `f`.
 
-    No contact is an alarm, or with ``miss="return"`` a touch that did not hit. Radius compensation is refused.
+    No contact is an alarm, or with `miss="return"` a touch that did not hit. Radius compensation is refused.
     """
     if m.side:
         m.alarm("a probe cannot move under radius compensation", word)

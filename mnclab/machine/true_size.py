@@ -20,7 +20,7 @@ from mnclab.path.tool import Tool
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
-#: What a cycle does (``Cycle.does``), as far as its frame must care.
+#: What a cycle does (`Cycle.does`), as far as its frame must care.
 VISITS, MILLS, TAPS, MILLS_THREADS, SHIFTS = "visits points", "mills", "taps", "mills threads", "shifts a boring bar"
 SAME = 1e-9
 
@@ -99,7 +99,7 @@ def remark(m: Machine) -> str:
 def with_the_spindle(m: Machine, steps: Iterable[Step], frame: Matrix = IDENTITY) -> Iterator[Step]:
     """Steps off the axis of a hole as far as they are long, in the direction of the oriented spindle.
 
-    ``frame`` is the part of the frame that the direction follows; none of it: it is one of the machine.
+    `frame` is the part of the frame that the direction follows; none of it: it is one of the machine.
     """
     whole = m.frames.matrix[:3, :3]
     for step in steps:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 class Variables(dict[str, Any]):
     """Q parameters and the like, numbers and texts; every change is logged.
 
-    What the control itself keeps in a variable (``Control.preassigned``: the radius of the tool, …) is worked out when
+    What the control itself keeps in a variable (`Control.preassigned`: the radius of the tool, …) is worked out when
     it is asked for.
     """
 

@@ -1,6 +1,6 @@
 """Motion that waits: blocks whose moves can be made only when later blocks have told more.
 
-They stand in ``machine.pending``. The interpreter has them made before it obeys anything that does not belong to them,
+They stand in `machine.pending`. The interpreter has them made before it obeys anything that does not belong to them,
 and at the end of a program or of a recorded label.
 """
 

@@ -9,7 +9,7 @@ MOST = 10_000  # levels of one hole
 
 
 class TooMany(ValueError):
-    """A way that would need more than :data:`MOST` levels."""
+    """A way that would need more than `MOST` levels."""
 
 
 def infeeds(

@@ -17,7 +17,7 @@ TURN = 2 * math.pi
 
 
 def row(start: Pair, spacing: float, count: int, rotation: float = 0.0) -> Points:
-    """Points on a straight line from ``start``, ``spacing`` apart in the direction ``rotation``."""
+    """Points on a straight line from `start`, `spacing` apart in the direction `rotation`."""
     along = np.arange(count)[:, None] * spacing
     return np.array(start) + along * [math.cos(rotation), math.sin(rotation)]
 
@@ -25,7 +25,7 @@ def row(start: Pair, spacing: float, count: int, rotation: float = 0.0) -> Point
 def grid(start: Pair, spacing: Pair, count: tuple[int, int], rotation: float = 0.0, lean: Pair = (0.0, 0.0)) -> Points:
     """Columns along the first axis, rows along the second, row by row, to and fro.
 
-    The whole is turned about ``start`` by ``rotation``; ``lean`` turns each of its two axes further, and the spacing
+    The whole is turned about `start` by `rotation`; `lean` turns each of its two axes further, and the spacing
     along them stays.
     """
     i, j = (index.ravel() for index in np.meshgrid(np.arange(count[0]), np.arange(count[1])))
@@ -34,7 +34,7 @@ def grid(start: Pair, spacing: Pair, count: tuple[int, int], rotation: float = 0
 
 
 def frame(start: Pair, spacing: Pair, count: tuple[int, int], rotation: float = 0.0, lean: Pair = (0.0, 0.0)) -> Points:
-    """The outer points of a grid, once around from ``start``, the first row first."""
+    """The outer points of a grid, once around from `start`, the first row first."""
     last, top = count[0] - 1, count[1] - 1
     if last == 0 or top == 0:
         return grid(start, spacing, count, rotation, lean)
@@ -47,7 +47,7 @@ def frame(start: Pair, spacing: Pair, count: tuple[int, int], rotation: float = 
 def _placed(
     i: NDArray[np.integer], j: NDArray[np.integer], start: Pair, spacing: Pair, rotation: float, lean: Pair
 ) -> Points:
-    """The points of columns ``i`` and rows ``j`` of a grid."""
+    """The points of columns `i` and rows `j` of a grid."""
     first, second = rotation + lean[0], rotation + lean[1]
     u = np.array([math.cos(first), math.sin(first)]) * spacing[0]
     v = np.array([-math.sin(second), math.cos(second)]) * spacing[1]
@@ -55,15 +55,15 @@ def _placed(
 
 
 def circle(centre: Pair, radius: float, start: float, step: float, count: int) -> Points:
-    """Points on a circle from the angle ``start``, each turned by ``step`` from the one before."""
+    """Points on a circle from the angle `start`, each turned by `step` from the one before."""
     angle = start + np.arange(count) * step
     return np.array(centre) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
 
 
 def step_between(start: float, end: float, count: int, closed: bool = False) -> float:
-    """The angle from point to point when ``count`` points lie from ``start`` to ``end``.
+    """The angle from point to point when `count` points lie from `start` to `end`.
 
-    The last one lies on ``end``; on a ``closed`` circle the end is the start again, and the last lies one step before.
+    The last one lies on `end`; on a `closed` circle the end is the start again, and the last lies one step before.
     """
     gaps = count if closed else count - 1
     return (end - start) / gaps if gaps else 0.0

@@ -1,11 +1,11 @@
 """What a cycle does, step by step: plain data, made by strategies and cycles, carried out by a machine.
 
-A cycle yields its steps and changes nothing itself. Some steps have an answer, which ``yield`` returns:
-``contact = yield Touch(…)``. The steps at the end of this file concern the machine and the program, no tool.
+A cycle yields its steps and changes nothing itself. Some steps have an answer, which `yield` returns:
+`contact = yield Touch(…)`. The steps at the end of this file concern the machine and the program, no tool.
 
 z is a coordinate along the tool axis, x and y count from the axis of the hole or the middle of the pocket; mm, mm/min,
 rev/min, s, angles of turns in rad. None keeps a coordinate. A feed of inf is rapid, a feed of None the feed that is
-active. ``label`` says what is happening, for listings and pictures.
+active. `label` says what is happening, for listings and pictures.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Turn(NamedTuple):
 
 
 class Along(NamedTuple):
-    """Along a contour of the plane from its start, where the tool stands; level, or at the ``heights`` of its points."""
+    """Along a contour of the plane from its start, where the tool stands; level, or at the `heights` of its points."""
 
     label: str
     contour: Contour
@@ -49,7 +49,7 @@ class Along(NamedTuple):
 
 
 class Thread(NamedTuple):
-    """A straight move by ``pitch`` (mm of its way, positive) for each revolution of the spindle."""
+    """A straight move by `pitch` (mm of its way, positive) for each revolution of the spindle."""
 
     label: str
     z: float | None
@@ -89,8 +89,8 @@ class Coolant(NamedTuple):
 class Touch(NamedTuple):
     """Towards a point until the ball of the probe touches the part; the answer is the contact.
 
-    Coordinates are those of the south pole of the ball; ``ball`` is its radius, that of the tool if there is none.
-    ``miss="return"`` makes no contact an answer and not an alarm.
+    Coordinates are those of the south pole of the ball; `ball` is its radius, that of the tool if there is none.
+    `miss="return"` makes no contact an answer and not an alarm.
     """
 
     label: str
@@ -103,7 +103,7 @@ class Touch(NamedTuple):
 
 
 class Each(NamedTuple):
-    """What ``visit(x, y)`` yields, at each of the points (n, 2); visits that are alike are made as columns."""
+    """What `visit(x, y)` yields, at each of the points (n, 2); visits that are alike are made as columns."""
 
     points: Floats
     visit: Callable[[float, float], Iterable[Any]]
@@ -111,14 +111,14 @@ class Each(NamedTuple):
 
 
 class Call(NamedTuple):
-    """The cycle that the program defined last, here; ``instead`` are values by name in place of its own."""
+    """The cycle that the program defined last, here; `instead` are values by name in place of its own."""
 
     instead: Mapping[str, float]
     label: str = ""
 
 
 class Record(NamedTuple):
-    """Read the contour of a label, nothing moves; the answer is the recording. ``after`` is the one that it goes on from."""
+    """Read the contour of a label, nothing moves; the answer is the recording. `after` is the one that it goes on from."""
 
     name: str
     after: Any = None
@@ -135,7 +135,7 @@ class Say(NamedTuple):
 
 class Write(NamedTuple):
     """A value that stays: a "variable", "measured" value, a row of "tools", "datums" or "presets", a "frame", a "modal" group,
-    "memory" of the control, all with their ``key``; or an attribute of the machine that rows carry ("tolerance")."""
+    "memory" of the control, all with their `key`; or an attribute of the machine that rows carry ("tolerance")."""
 
     what: str
     value: Any

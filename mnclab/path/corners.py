@@ -20,7 +20,7 @@ from mnclab.path.toolpath import COLUMNS, Toolpath
 
 
 class Rounding(NamedTuple):
-    """A corner replaced by a tangent arc; ``step`` is that of the block that asks for it, nan keeps the feed."""
+    """A corner replaced by a tangent arc; `step` is that of the block that asks for it, nan keeps the feed."""
 
     radius: float
     step: int
@@ -36,7 +36,7 @@ class Rounding(NamedTuple):
 
 
 class Chamfer(NamedTuple):
-    """A corner between two lines cut off ``length`` mm before and after it; ``step`` and ``feed`` as in a rounding."""
+    """A corner between two lines cut off `length` mm before and after it; `step` and `feed` as in a rounding."""
 
     length: float
     step: int
@@ -59,7 +59,7 @@ CHAMFER: dict[str, Any] = {"kind": Kind.LINE, "sweep": 0.0}
 def apply(path: Toolpath, unfinished: bool = False) -> Toolpath:
     """The path with its corners replaced; itself when it has none. Raises PathFault.
 
-    ``unfinished``: the program broke off, so the end of a last row that waits for its joint is unknown and the row is
+    `unfinished`: the program broke off, so the end of a last row that waits for its joint is unknown and the row is
     left out.
     """
     which = [isinstance(joint, Corner) for joint in path.joints]
@@ -90,7 +90,7 @@ class _Work:
         return row + 1 + int(after[0])
 
     def element(self, row: int, at_end: bool, offset: float) -> Element:
-        """A row shifted to its left by ``offset``, seen from its end or its start."""
+        """A row shifted to its left by `offset`, seen from its end or its start."""
         view = self.view
         q = (self.end if at_end else self.begin)[row : row + 1, :2]
         t = (view.tangent_end if at_end else view.tangent_start)[row : row + 1]
@@ -191,7 +191,7 @@ class _Work:
         return used
 
     def result(self, count: int) -> Toolpath:
-        """The first ``count`` rows of the path, with their corners."""
+        """The first `count` rows of the path, with their corners."""
         order = sorted(self.inserted, key=lambda item: item[0])
         path, view = self.path, self.view
         like = np.array([item[1] for item in order], dtype=np.int64)

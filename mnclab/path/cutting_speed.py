@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 def spindle_speed(surface: ArrayLike, radius: ArrayLike, limit: ArrayLike) -> Array:
-    """The spindle speed at radii (n,) of either sign, mm: rev/min, at most ``limit``.
+    """The spindle speed at radii (n,) of either sign, mm: rev/min, at most `limit`.
 
     >>> float(spindle_speed(31.41592653589793, -20, 3000))
     250.0
@@ -25,7 +25,7 @@ def spindle_speed(surface: ArrayLike, radius: ArrayLike, limit: ArrayLike) -> Ar
 
 
 def mean_turn(surface: float, radii: Array, limit: float) -> float:
-    """Mean time of one turn, min, along a way that is straight between equally distant places at ``radii`` (k,).
+    """Mean time of one turn, min, along a way that is straight between equally distant places at `radii` (k,).
 
     A turn takes max(2 π |r| / (1000 v), 1 / limit); its integral over r is known, so the mean of a straight way is exact.
     """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class PathFault(Exception):
-    """What does not fit, at the ``step`` of the row concerned."""
+    """What does not fit, at the `step` of the row concerned."""
 
     def __init__(self, message: str, step: int, hint: str = "") -> None:
         super().__init__(message)

@@ -18,7 +18,7 @@ SMALLEST = 1e-9  # mm, radius of the contour at a corner
 
 
 class FeedRule(NamedTuple):
-    """What holds from a ``step`` on: the share of the feed that a move may have downwards, and whether the feed of
+    """What holds from a `step` on: the share of the feed that a move may have downwards, and whether the feed of
     compensated arcs counts at the cutting edge ("", "inside" or "everywhere")."""
 
     step: int

@@ -23,7 +23,7 @@ MOTION_KINDS = (Kind.RAPID, Kind.LINE, Kind.ARC, Kind.PROBE)
 
 
 class Rule(IntEnum):
-    """Which rule of radius compensation made a row of the tool-centre path; column ``rule``.
+    """Which rule of radius compensation made a row of the tool-centre path; column `rule`.
 
     A row along the contour is called after the way its end was found: where the next offset begins (SIDE), where both
     offsets are prolonged to (OUTSIDE_STRAIGHT) or cut off (INSIDE). OUTSIDE_ARC rows are inserted about a corner.

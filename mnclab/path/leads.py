@@ -35,9 +35,9 @@ MISFIT = 0.1  # mm: more than arcs may miss their ends by
 class Lead(NamedTuple):
     """How a contour is approached or left.
 
-    ``form`` is "LT" (a tangent line of ``length`` mm), "LN" (a line square to the contour), "CT" (an arc of ``radius`` mm
-    and ``angle`` rad) or "LCT" (a line and a tangent arc). A negative radius turns away from the tool's side ``side``
-    (+1 left, -1 right, 0 none). ``departs``: from the contour. ``feed`` is that of the line to H, infinite at rapid.
+    `form` is "LT" (a tangent line of `length` mm), "LN" (a line square to the contour), "CT" (an arc of `radius` mm
+    and `angle` rad) or "LCT" (a line and a tangent arc). A negative radius turns away from the tool's side `side`
+    (+1 left, -1 right, 0 none). `departs`: from the contour. `feed` is that of the line to H, infinite at rapid.
     """
 
     form: str
@@ -69,7 +69,7 @@ class Way(NamedTuple):
 
 
 def way(lead: Lead, start: Point, to: Point, t: Point) -> Way:
-    """The way from ``start`` to the place ``to`` where the contour begins with the tangent ``t`` (all (2,)).
+    """The way from `start` to the place `to` where the contour begins with the tangent `t` (all (2,)).
 
     A departure is asked for backwards: the side, the tangent and the sweep turn over. Raises PathFault.
     """
@@ -117,9 +117,9 @@ def _turned(v: Point, angle: float) -> Point:
 
 
 def apply(path: Toolpath, contour: Toolpath, unfinished: bool = False) -> Toolpath:
-    """The tool-centre ``path`` with its leads; itself when it has none. Raises PathFault.
+    """The tool-centre `path` with its leads; itself when it has none. Raises PathFault.
 
-    ``contour`` is the same before the compensation: its elements give the tangents. ``unfinished``: the program broke
+    `contour` is the same before the compensation: its elements give the tangents. `unfinished`: the program broke
     off, so an approach may still wait for its contour and is left out.
     """
     rows = [int(row) for row in np.flatnonzero(path.joint >= 0) if isinstance(_joint(path, int(row)), Lead)]

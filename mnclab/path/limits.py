@@ -30,13 +30,13 @@ TRAVEL = "travel=((0, 400), (0, 300), (-200, 0)): from and to of X, Y and Z, mac
 
 @dataclass(frozen=True)
 class Limits:
-    """Per axis, or one number for all: ``rapid`` mm/min, ``acceleration`` mm/s², ``jerk`` mm/s³ (None: no limit).
+    """Per axis, or one number for all: `rapid` mm/min, `acceleration` mm/s², `jerk` mm/s³ (None: no limit).
 
-    ``rapid`` is the greatest speed of an axis, at feed too. ``corner_speed`` (:data:`CORNERS`) says how fast a corner is
-    taken, ``corner_tolerance`` mm how far it may be cut (0 stops wherever an axis would jump), ``corner_jump`` mm/min by
-    how much the speed of an axis may jump under "jump". ``rapid_motion`` (:data:`RAPIDS`) is how a rapid goes, None: as
-    the control has it. ``spindle`` is the greatest speed, rev/min; ``spindle_acceleration`` rev/min in a second, None: at
-    once; ``tool_change`` seconds. ``travel`` holds how far each axis goes, ``((x0, x1), (y0, y1), (z0, z1))`` mm, in machine
+    `rapid` is the greatest speed of an axis, at feed too. `corner_speed` (`CORNERS`) says how fast a corner is
+    taken, `corner_tolerance` mm how far it may be cut (0 stops wherever an axis would jump), `corner_jump` mm/min by
+    how much the speed of an axis may jump under "jump". `rapid_motion` (`RAPIDS`) is how a rapid goes, None: as
+    the control has it. `spindle` is the greatest speed, rev/min; `spindle_acceleration` rev/min in a second, None: at
+    once; `tool_change` seconds. `travel` holds how far each axis goes, `((x0, x1), (y0, y1), (z0, z1))` mm, in machine
     coordinates of the spindle reference (a lathe's X as radius; inf: without an end): a run stops where it is left.
     The defaults are those of a small machining centre whose spindle and tool changer take no time.
 

@@ -28,7 +28,7 @@ def figure(value: float, decimals: int = 4) -> str:
 
 
 def point(xyz: np.ndarray) -> str:
-    """``X1 Y2 Z3``."""
+    """`X1 Y2 Z3`."""
     return " ".join(f"{axis}{figure(value)}" for axis, value in zip("XYZ", xyz, strict=True))
 
 
@@ -52,7 +52,7 @@ def words(move: Move) -> str:
 
 
 def _rotary(move: Move) -> str:
-    """`` A90`` for each rotary axis that does not stand at zero."""
+    """` A90` for each rotary axis that does not stand at zero."""
     return "".join(
         f" {axis}{figure(np.degrees(value))}" for axis, value in zip("ABC", move.rotary, strict=True) if value
     )

@@ -20,7 +20,7 @@ def spokes(path: Toolpath, rows: NDArray[np.integer]) -> tuple[Array, Array]:
 
 
 def points_at(path: Toolpath, rows: NDArray[np.integer], share: Array) -> Array:
-    """Points (n, 3) of ``rows`` (n,) at shares (n,) of their way; of events, where the tool is."""
+    """Points (n, 3) of `rows` (n,) at shares (n,) of their way; of events, where the tool is."""
     start, end = path.start[rows], path.end[rows]
     xyz = start + share[:, None] * (end - start)
     arc = np.flatnonzero(path.kind[rows] == Kind.ARC)
@@ -41,7 +41,7 @@ def points_at(path: Toolpath, rows: NDArray[np.integer], share: Array) -> Array:
 
 
 def turns_of_sum(cosine: Array, sine: Array, pitch: Array, sweep: Array) -> Array:
-    """Shares t (n, k) at which ``cosine`` cos(sweep t) + ``sine`` sin(sweep t) + ``pitch`` t turns back, in any order; 0
+    """Shares t (n, k) at which `cosine` cos(sweep t) + `sine` sin(sweep t) + `pitch` t turns back, in any order; 0
     where there are fewer than k. All arguments are (n,)."""
     size = np.hypot(cosine, sine)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -72,7 +72,7 @@ class PlaneView:
         return sense * np.stack([-spoke[:, 1], spoke[:, 0]], axis=-1) / np.where(length > 0, length, 1.0)
 
     def to_space(self, rows: NDArray[np.int64], uvw: Array) -> Array:
-        """Points (m, 3) of the planes of ``rows`` in machine axes."""
+        """Points (m, 3) of the planes of `rows` in machine axes."""
         if self.flat:
             return uvw
         if len(self.basis) == 1:

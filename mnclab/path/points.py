@@ -19,7 +19,7 @@ def points(path: Toolpath, chord_error: float = 0.01) -> tuple[NDArray[np.float6
     """Points (m, 3) along the motion rows and the row (m,) each belongs to.
 
     The first point is where the first motion begins; then every row ends with its own end point. An arc of radius r
-    is cut into pieces of at most ``2 acos(1 - e / r)``, whose sagitta is the chord error e (mm).
+    is cut into pieces of at most `2 acos(1 - e / r)`, whose sagitta is the chord error e (mm).
     """
     if not chord_error > 0:
         raise ValueError(f"chord_error must be greater than 0 mm, got {chord_error:g}")

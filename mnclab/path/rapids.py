@@ -18,7 +18,7 @@ from mnclab.path.toolpath import COLUMNS, Toolpath
 
 
 def broken(path: Toolpath, speed: PerAxis) -> Toolpath:
-    """The path with every rapid along several axes divided where one of them arrives; ``speed`` mm/min, per axis or all.
+    """The path with every rapid along several axes divided where one of them arrives; `speed` mm/min, per axis or all.
 
     Speeds alone count: acceleration is left to the profile. The path itself where nothing is divided.
     """

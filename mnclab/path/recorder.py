@@ -49,7 +49,7 @@ ROW = ("kind", "line", "step", "label", "x", "y", "z", "cx", "cy", "cz", "sweep"
 
 
 class Recorder:
-    """Collects rows; :meth:`take` hands over what has come since the last time."""
+    """Collects rows; `take` hands over what has come since the last time."""
 
     def __init__(self, start: tuple[float, float, float]) -> None:
         self.rows = array("d")  # one after the other; a list of tuples would be slower to make columns of
@@ -78,12 +78,12 @@ class Recorder:
 
     @property
     def count(self) -> int:
-        """Rows not yet taken that are columns already; :attr:`rows` come on top."""
+        """Rows not yet taken that are columns already; `rows` come on top."""
         return self._count
 
     @property
     def most(self) -> float:
-        """How many rows there may be; :attr:`refuse` is called before there are more."""
+        """How many rows there may be; `refuse` is called before there are more."""
         return self._most
 
     @most.setter
@@ -142,7 +142,7 @@ class Recorder:
         return index
 
     def add(self, row: tuple[Any, ...]) -> None:
-        """One row, the values in the order of :data:`ROW`."""
+        """One row, the values in the order of `ROW`."""
         self.rows.extend(row)
         if len(self.rows) >= self._full:
             if self.made > self.most:
@@ -151,10 +151,10 @@ class Recorder:
             self._flush()
 
     def bulk(self, columns: dict[str, NDArray[Any]], ends: NDArray[np.float64]) -> None:
-        """Rows (n,) as columns: ``kind`` and what differs from :data:`PLAIN`; one value stands for all.
+        """Rows (n,) as columns: `kind` and what differs from `PLAIN`; one value stands for all.
 
-        A column but ``kind`` may also be (k, n / k), which is read row by row: what repeats need not be written out.
-        ``ends`` (n, 3) may lie in :meth:`room` already.
+        A column but `kind` may also be (k, n / k), which is read row by row: what repeats need not be written out.
+        `ends` (n, 3) may lie in `room` already.
         """
         self._flush()
         self._append(columns, ends)
@@ -233,7 +233,7 @@ class Recorder:
         self._append({**named, "centre": centre}, table[:, 4:7])
 
     def take(self) -> Toolpath:
-        """The rows since the last call as a path that begins at :attr:`start`, which moves on to its end."""
+        """The rows since the last call as a path that begins at `start`, which moves on to its end."""
         self._flush()
         chunks, self._done = self._done, []
         if not chunks:
@@ -273,7 +273,7 @@ def _refuse(count: int) -> NoReturn:
 
 
 def _plain(name: str, column: NDArray[np.float64]) -> NDArray[Any]:
-    """One value for all rows of a column (n,) where it is that of :data:`PLAIN`, so that it costs nothing."""
+    """One value for all rows of a column (n,) where it is that of `PLAIN`, so that it costs nothing."""
     if name == "state" or name not in PLAIN:
         return column[0] if name == "state" and (column == column[0]).all() else column
     usual = PLAIN[name]

@@ -1,12 +1,12 @@
-"""The path of a tool as columns; ``path[i]`` is a row for people.
+"""The path of a tool as columns; `path[i]` is a row for people.
 
 Units of the whole library: **mm, mm/min, rev/min, s; radians inside, degrees in programs and in anything shown.**
-Positions are those of the tool tip along the machine's axes, relative to :attr:`Toolpath.origin` (the machine position
+Positions are those of the tool tip along the machine's axes, relative to `Toolpath.origin` (the machine position
 of the first work offset a program selects); a lathe's X is a radius.
 
-A column that is constant is a stride-0 broadcast and costs nothing. ``start`` and ``end`` of a whole path are two views
+A column that is constant is a stride-0 broadcast and costs nothing. `start` and `end` of a whole path are two views
 of one array of vertices, so that every row begins where the one before ended; a selection of rows has arrays of its own.
-Columns are read-only: what is to be changed is copied first (:meth:`Toolpath.replace` takes other columns).
+Columns are read-only: what is to be changed is copied first (`Toolpath.replace` takes other columns).
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
 
 
 class Move(NamedTuple):
-    """One row of a toolpath; the fields are those of :data:`COLUMNS`."""
+    """One row of a toolpath; the fields are those of `COLUMNS`."""
 
     kind: Kind
     line: int
@@ -92,10 +92,10 @@ class Move(NamedTuple):
 
 
 class Toolpath:
-    """Moves and events in columns of n rows; the names and meanings are in :data:`COLUMNS`.
+    """Moves and events in columns of n rows; the names and meanings are in `COLUMNS`.
 
-    ``labels`` and ``joints`` are what the columns of these names index; ``origin`` (3,) is the machine position, mm,
-    that all positions are relative to; ``lathe`` says that pictures and listings show X (a radius) and Z.
+    `labels` and `joints` are what the columns of these names index; `origin` (3,) is the machine position, mm,
+    that all positions are relative to; `lathe` says that pictures and listings show X (a radius) and Z.
     """
 
     kind: NDArray[np.uint8]
@@ -149,7 +149,7 @@ class Toolpath:
 
     @classmethod
     def chain(cls, vertices: NDArray[np.float64], columns: dict[str, NDArray[Any]], **more: Any) -> Toolpath:
-        """A continuous path through ``vertices`` (n + 1, 3); the other columns (n, ...)."""
+        """A continuous path through `vertices` (n + 1, 3); the other columns (n, ...)."""
         return cls({**columns, "start": vertices[:-1], "end": vertices[1:]}, **more)
 
     # --- rows and slices -------------------------------------------------------------------------------------------
@@ -176,12 +176,12 @@ class Toolpath:
         return (self[i] for i in range(self._n))
 
     def replace(self, **columns: NDArray[Any]) -> Toolpath:
-        """The same path with other columns; if ``kind`` is given, all of them must be."""
+        """The same path with other columns; if `kind` is given, all of them must be."""
         whole = {name: columns.get(name, getattr(self, name)) for name in COLUMNS}
         return Toolpath(whole, self.labels, self.joints, self.origin, self.lathe)
 
     def annotated(self, **more: Any) -> Toolpath:
-        """The same columns with other ``labels``, ``joints``, ``origin`` or ``lathe``."""
+        """The same columns with other `labels`, `joints`, `origin` or `lathe`."""
         kept = {"labels": self.labels, "joints": self.joints, "origin": self.origin, "lathe": self.lathe}
         return Toolpath({name: getattr(self, name) for name in COLUMNS}, **{**kept, **more})
 
@@ -233,18 +233,18 @@ class Toolpath:
         return np.stack([np.minimum(motion.start, low).min(axis=0), np.maximum(motion.start, high).max(axis=0)])
 
     def points(self, chord_error: float = 0.01) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Points (m, 3) along the motion within ``chord_error`` mm of every arc, and the row (m,) of each."""
+        """Points (m, 3) along the motion within `chord_error` mm of every arc, and the row (m,) of each."""
         from mnclab.path.points import points
 
         return points(self, chord_error)
 
     def labelled(self, piece: str) -> Toolpath:
-        """The rows whose label has ``piece`` in it, such as "helix" or "layer 1 of 3, ring"; it may be none."""
+        """The rows whose label has `piece` in it, such as "helix" or "layer 1 of 3, ring"; it may be none."""
         found = [number for number, label in enumerate(self.labels) if piece in label]
         return self[np.isin(self.label, found)]
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """A dict of one-dimensional arrays for pandas, polars or pyarrow; vectors become ``end_x``, ``end_y``, …"""
+        """A dict of one-dimensional arrays for pandas, polars or pyarrow; vectors become `end_x`, `end_y`, …"""
         flat: dict[str, NDArray[Any]] = {}
         for name, (_, shape, _, _) in COLUMNS.items():
             column = getattr(self, name)
@@ -269,9 +269,9 @@ class Toolpath:
         return table(self)
 
     def plot(self, **options: Any) -> Figure:
-        """Views of the path, coloured by ``colour`` "kind", "feed", "tool", "line" or "z".
+        """Views of the path, coloured by `colour` "kind", "feed", "tool", "line" or "z".
 
-        All options are explained in ``mnclab.show.plot.path.plot_path``; zero points and poles only a run knows.
+        All options are explained in `mnclab.show.plot.path.plot_path`; zero points and poles only a run knows.
         """
         from mnclab.show.plot.path import plot_path
 

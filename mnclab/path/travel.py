@@ -32,9 +32,9 @@ class Beyond(NamedTuple):
 
 
 def first_beyond(path: Toolpath, start: Array, travel: Array) -> Beyond | None:
-    """The first row that leads out of ``travel`` (3, 2), mm; None if none does.
+    """The first row that leads out of `travel` (3, 2), mm; None if none does.
 
-    ``start`` (3,) is the spindle reference before the path, machine coordinates; a machine that stands outside may return.
+    `start` (3,) is the spindle reference before the path, machine coordinates; a machine that stands outside may return.
     """
     if not len(path):
         return None

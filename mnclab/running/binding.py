@@ -1,6 +1,6 @@
 """From the words of a block to a cycle that can run: values by name, defaults, limits, contradictions, faults.
 
-A word goes to the parameter of its address; the values make a :class:`~mnclab.machine.cycle.Definition`, which is bound to
+A word goes to the parameter of its address; the values make a `Definition`, which is bound to
 a frozen cycle when it runs.
 """
 

@@ -41,12 +41,12 @@ NO_MOTION = 99  # the sense of a G word that is none
 class PlainWords:
     """How a control reads its plain blocks.
 
-    ``motions`` maps the value of a G word to the code of its motion and its sense (0 rapid, 1 line, ±2 arcs, sign as in
-    +2 counter-clockwise); a control without such words has one entry, None. ``ready`` says whether plain words mean
-    plain motion now, ``absolute`` whether positions are absolute. Addresses other than :data:`LETTERS` change nothing in
-    a plain block (R0 of Klartext): its reader calls no other block plain. ``helices`` says whether arcs with a third
-    coordinate need no word of their own now, and hears how many more were made. ``letters`` are the addresses that the
-    control has; ``straight_arcs``: an arc without R and centre is a straight line, ``whole_circles``: one without
+    `motions` maps the value of a G word to the code of its motion and its sense (0 rapid, 1 line, ±2 arcs, sign as in
+    +2 counter-clockwise); a control without such words has one entry, None. `ready` says whether plain words mean
+    plain motion now, `absolute` whether positions are absolute. Addresses other than `LETTERS` change nothing in
+    a plain block (R0 of Klartext): its reader calls no other block plain. `helices` says whether arcs with a third
+    coordinate need no word of their own now, and hears how many more were made. `letters` are the addresses that the
+    control has; `straight_arcs`: an arc without R and centre is a straight line, `whole_circles`: one without
     coordinates is a circle; where they are not, that is a fault.
     """
 
@@ -103,7 +103,7 @@ class Bulk:
         self.next_break = int(self.breaks[0])
 
     def obey(self, first: int, stop: int) -> int:
-        """Obey the plain blocks from ``first`` on; how many were, 0 if that one goes to the other tier."""
+        """Obey the plain blocks from `first` on; how many were, 0 if that one goes to the other tier."""
         if first < self.last:  # a jump, a call or a repeat has led back: what was found there counts no more
             self.not_before, self.next_break = 0, -1
         self.last = first
@@ -263,7 +263,7 @@ class Bulk:
     # --- doing it ----------------------------------------------------------------------------------------------------
 
     def commit(self, run: _Run, first: int, count: int) -> None:
-        """Make the rows, the history and the state of the first ``count`` blocks."""
+        """Make the rows, the history and the state of the first `count` blocks."""
         machine = self.machine
         step = machine.flow.begin_many(first, count)
         steps = np.arange(step, step + count, dtype=np.int32)
@@ -327,7 +327,7 @@ def _differ(a: Array, b: Array) -> Mask:
 
 
 def _filled(start: float, column: Array) -> Array:
-    """The last value that is not nan, going down a column (n,) that begins after ``start``."""
+    """The last value that is not nan, going down a column (n,) that begins after `start`."""
     at = np.flatnonzero(column == column)
     if len(at) == len(column):
         return column

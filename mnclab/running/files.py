@@ -1,7 +1,7 @@
-"""Other programs and tables, found by their name: in ``Setup.files``, then beside the calling file, never elsewhere.
+"""Other programs and tables, found by their name: in `Setup.files`, then beside the calling file, never elsewhere.
 
 Names are compared without regard to case. A type that is not written is that of the control; a directory counts only for
-``Setup.files``, where a name may be a whole path of the control, since the folders of the control are not those here.
+`Setup.files`, where a name may be a whole path of the control, since the folders of the control are not those here.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 
 def called(m: Machine, name: str, what: str, span: Span | None = None) -> int:
-    """The index in ``flow.programs`` of the program of a name, read when it is first called; an Alarm if there is none.
+    """The index in `flow.programs` of the program of a name, read when it is first called; an Alarm if there is none.
 
-    ``what`` begins the sentence of the alarm: the statement that calls.
+    `what` begins the sentence of the alarm: the statement that calls.
     """
     flow = m.flow
     index = flow.found.get((flow.program.folder, name))
@@ -49,7 +49,7 @@ class Found(NamedTuple):
 
 
 def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "program") -> Found:
-    """The file that a statement (``what``) names; an Alarm if there is none. A ``kind`` other than programs names its type."""
+    """The file that a statement (`what`) names; an Alarm if there is none. A `kind` other than programs names its type."""
     caller, suffixes = m.flow.program, m.control.suffixes
     wanted = _spelt(name, suffixes)
     files = {_spelt(known, suffixes): (known, source) for known, source in m.setup.files.items()}

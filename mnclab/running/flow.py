@@ -2,7 +2,7 @@
 
 A *step* is one execution of a block. A section of blocks is run by a plain loop; a call of a label or of another program
 is a section run inside another; a jump goes on elsewhere in the same section. Functions steer with its
-methods ``call``, ``call_program``, ``jump``, ``repeat`` and ``leave``.
+methods `call`, `call_program`, `jump`, `repeat` and `leave`.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Steps(NamedTuple):
 class Course:
     """Where the program is: the running section, the depth of calls, the log of steps.
 
-    ``programs`` are the main program and those it has called, each once; ``switch`` is called with the index of one when
+    `programs` are the main program and those it has called, each once; `switch` is called with the index of one when
     its blocks are to be obeyed from now on.
     """
 

@@ -27,9 +27,9 @@ UNKNOWN = ""  # what a decision reads beside variables with numbers
 
 @dataclass
 class Loop:
-    """A call or a repeat that runs, by the block of a program that says so; ``times`` 0 for a call.
+    """A call or a repeat that runs, by the block of a program that says so; `times` 0 for a call.
 
-    ``begun`` is the step at which it, or its pass ``done``, began.
+    `begun` is the step at which it, or its pass `done`, began.
     """
 
     program: int
@@ -41,7 +41,7 @@ class Loop:
 
 @dataclass
 class _Seen:
-    """A jump back as it was made before: at which step, within which passes; how often; the variables at step ``kept``."""
+    """A jump back as it was made before: at which step, within which passes; how often; the variables at step `kept`."""
 
     step: int
     passes: tuple[int, ...]
@@ -53,7 +53,7 @@ class _Seen:
 
 @dataclass
 class _Comparison:
-    """The difference of what a jump compares, at a step; for how many rounds it has evenly grown, by ``growth``."""
+    """The difference of what a jump compares, at a step; for how many rounds it has evenly grown, by `growth`."""
 
     step: int
     difference: float

@@ -42,7 +42,7 @@ Place = tuple[float, float]
 def run_cycle(m: Machine, definition: Definition, **instead: float) -> None:
     """Bind a definition with the values as they stand now, check it, and carry its steps out.
 
-    ``instead`` are values by name that count for this call in place of its own, where the cycle has such parameters.
+    `instead` are values by name that count for this call in place of its own, where the cycle has such parameters.
     """
     definition = as_it_stands(m, definition)
     label, m.label = m.label, f"{definition.cycle.code} {definition.cycle.title}"
@@ -64,9 +64,9 @@ def run_cycle(m: Machine, definition: Definition, **instead: float) -> None:
 
 
 def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = None) -> None:
-    """Carry the steps out; rows are labelled ``name`` and the label of the step.
+    """Carry the steps out; rows are labelled `name` and the label of the step.
 
-    x and y count from ``about``, which is where the tool stands if nothing else is said. A generator is sent the answer of
+    x and y count from `about`, which is where the tool stands if nothing else is said. A generator is sent the answer of
     a step that has one: the contact of a Touch, the contour of a Record.
     """
     x, y = m.programmed[:2] if about is None else about

@@ -32,7 +32,7 @@ _NOWHERE = (float("nan"), float("nan"), 0.0)
 def record(m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
     """Obey a label for its contour; an Alarm when it has none or does not begin with both coordinates.
 
-    ``after`` is the label before it in the same contour, whose transformations still act.
+    `after` is the label before it in the same contour, whose transformations still act.
     """
     kept, outer = dict(vars(m)), m._matrix
     m.frames, m.memory = (after or m).frames.copy(), dict((after or m).memory)

@@ -6,7 +6,7 @@ as they found it but for its place, and the second is the first one moved, every
 only places are worked out here: rows, steps and history of all holes are the second one's, moved. The last hole goes one by
 one again, so that what the machine remembers of its last block is right without any bookkeeping here.
 
-:func:`at_each` does the same for the points of a pattern in one block.
+`at_each` does the same for the points of a pattern in one block.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ _ELSE = [ROW.index(name) for name in ("kind", "label", "sweep", "feed", "time", 
 
 class Visit(NamedTuple):
     """What was done at one place: rows (r, ...) as recorded, and their ends and centres (r, 3) from the place on the
-    machine; the first ``lead`` of them were made before the tool came there, and count from where it came from.
-    ``left`` is where it was left, from the place, on the machine (3,) and in the program (2,)."""
+    machine; the first `lead` of them were made before the tool came there, and count from where it came from.
+    `left` is where it was left, from the place, on the machine (3,) and in the program (2,)."""
 
     rows: Array
     ends: Array
@@ -48,7 +48,7 @@ class Visit(NamedTuple):
 
 def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
     """Obey the plain blocks [first, end) that say the same hole at other places; how many were, one
-    fewer than belong to them, and 0 if fewer than ``least`` do.
+    fewer than belong to them, and 0 if fewer than `least` do.
 
     A block belongs to them if it moves in the plane and all its other words are those of the first block.
     """
@@ -94,7 +94,7 @@ def _obey(m: Machine, block: int) -> None:
 
 
 def at_each(m: Machine, points: Array, make: Callable[[float, float], None]) -> None:
-    """Call ``make`` with x and y at each of the points (n, 2), in their order.
+    """Call `make` with x and y at each of the points (n, 2), in their order.
 
     The first three and the last point are visited one by one. If the second and the third visit leave the machine as they
     found it but for its place, and are the same but for it, the rows of those between are the same rows, moved.

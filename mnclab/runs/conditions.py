@@ -1,8 +1,8 @@
-"""Questions about a run: ``z < -5``, ``Q5 > 3 and not tool == 2``. Read and worked out here, never by ``eval``.
+"""Questions about a run: `z < -5`, `Q5 > 3 and not tool == 2`. Read and worked out here, never by `eval`.
 
-Numbers, names, ``+ - * / ^``, brackets, functions of one argument (angles in degrees), the comparisons
-``< <= > >= == !=`` (also in a chain: ``0 < x < 5``), and ``and``, ``or``, ``not``. Values are numpy arrays, one number a
-place; a comparison with a value that is not known (nan) is neither true nor false. Numbers within :data:`SAME` are equal.
+Numbers, names, `+ - * / ^`, brackets, functions of one argument (angles in degrees), the comparisons
+`< <= > >= == !=` (also in a chain: `0 < x < 5`), and `and`, `or`, `not`. Values are numpy arrays, one number a
+place; a comparison with a value that is not known (nan) is neither true nor false. Numbers within `SAME` are equal.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Truth(NamedTuple):
 
 @dataclass(frozen=True)
 class Node:
-    """A part of a condition: ``what`` it is, its parts, and whether it is true or false instead of a number."""
+    """A part of a condition: `what` it is, its parts, and whether it is true or false instead of a number."""
 
     what: str
     parts: tuple[Node, ...] = ()
@@ -133,7 +133,7 @@ class Condition:
 
 
 def parse(text: str, known: Collection[str]) -> Condition:
-    """Read a condition; names are taken as they are in ``known``, in any case of letters. An Alarm shows what is wrong."""
+    """Read a condition; names are taken as they are in `known`, in any case of letters. An Alarm shows what is wrong."""
     try:
         tree = _Reader(text, known).whole()
     except Alarm as alarm:

@@ -54,7 +54,7 @@ class Stage(NamedTuple):
 
 
 class Explanation:
-    """A block explained; ``meanings``, ``changed`` (name, before, after), ``stages`` and ``moves`` hold what is shown."""
+    """A block explained; `meanings`, `changed` (name, before, after), `stages` and `moves` hold what is shown."""
 
     def __init__(self, run: Run, moment: Moment) -> None:
         self.run, self.moment = run, moment

@@ -1,4 +1,4 @@
-"""What changed at each step: a log per name, looked up by ``searchsorted``.
+"""What changed at each step: a log per name, looked up by `searchsorted`.
 
 A *step* is one execution of a block; a loop runs a block many times, each a step of its own. Names are modal groups
 ("motion", "plane"), values ("feed", "speed", "spindle", "tool"), "position" (the programmed point), frames ("frame
@@ -17,7 +17,7 @@ from mnclab.machine.logs import Logs, Values
 
 
 class History(Mapping[str, Any]):
-    """What was active at each step of a run. ``history["feed"]`` is one value per step, ``history.at(step)`` a dict."""
+    """What was active at each step of a run. `history["feed"]` is one value per step, `history.at(step)` a dict."""
 
     def __init__(self, logs: Logs, steps: int) -> None:
         self.steps = steps
@@ -45,7 +45,7 @@ class History(Mapping[str, Any]):
         return len(self._open)
 
     def value(self, name: str, step: int) -> Any:
-        """What ``name`` was after a step; None if it had no value yet."""
+        """What `name` was after a step; None if it had no value yet."""
         if name not in self._open:
             return None
         at, values = self._log(name)

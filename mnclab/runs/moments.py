@@ -2,10 +2,10 @@
 
 A run is a row of places: the moves of each step, and for a step that moves nothing the place where the tool stands. On a
 move a condition can change only where one of its comparisons changes sign; such a place is found by halving, to the last
-digit, and between two of them one look is enough. Comparisons that are linear in the coordinates (``z < -5``, ``x + 2 y >
-Q5``, and any ``and``, ``or``, ``not`` of such) are exact on lines and arcs, since the arcs are divided where they turn back;
-others (``x^2 + y^2 > 900``, ``abs(x) > 3``) are looked at in :data:`LOOKS` places of each line and quarter of a turn, and
-the result says so (``.exact``). So are spindle and feed at constant cutting speed, which follow the radius.
+digit, and between two of them one look is enough. Comparisons that are linear in the coordinates (`z < -5`, `x + 2 y >
+Q5`, and any `and`, `or`, `not` of such) are exact on lines and arcs, since the arcs are divided where they turn back;
+others (`x^2 + y^2 > 900`, `abs(x) > 3`) are looked at in `LOOKS` places of each line and quarter of a turn, and
+the result says so (`.exact`). So are spindle and feed at constant cutting speed, which follow the radius.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ FOLLOW_RADIUS = {"spindle", "feed"}
 class Moments(tuple["Moment", ...]):
     """The moments at which a condition becomes true, in order; shown as a table.
 
-    ``exact``: whether nothing can lie between two looks.
+    `exact`: whether nothing can lie between two looks.
     """
 
     condition = ""
@@ -103,7 +103,7 @@ class Looks(NamedTuple):
 
 
 def when(run: Run, text: str) -> Moments:
-    """Every moment at which a condition becomes true, also at the very start; see :data:`PLACE` and :data:`COLUMN`."""
+    """Every moment at which a condition becomes true, also at the very start; see `PLACE` and `COLUMN`."""
     numeric = [name for name in run.history if name not in COLUMN and _is_number(run, name)]
     condition = parse(text, [*PLACE, *COLUMN, *numeric])
     if "line" in condition.names:

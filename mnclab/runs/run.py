@@ -1,7 +1,7 @@
 """Running a program: text and machine in, path, history and alarms out.
 
 Frames were to be indices in the history; they change so seldom that the log holds the matrices themselves, one name for
-each frame of the chain ("frame datum"), and ``run.frames`` is the chain at the end.
+each frame of the chain ("frame datum"), and `run.frames` is the chain at the end.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ if TYPE_CHECKING:
 
 class Moment(NamedTuple):
     """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
-    the block changed; ``rows`` are the rows of the toolpath that it made.
+    the block changed; `rows` are the rows of the toolpath that it made.
 
-    A moment inside a block (:meth:`Run.when`) has the row of the toolpath, the share of it (0 to 1) that was done, and
+    A moment inside a block (`Run.when`) has the row of the toolpath, the share of it (0 to 1) that was done, and
     the tool tip there, mm; -1 for a row where the block moved nothing.
     """
 
@@ -70,8 +70,8 @@ class Moment(NamedTuple):
 class Run:
     """The result of running a program: both paths, alarms, history, and where the machine stands.
 
-    ``gouges`` are the places where a compensated tool does not fit: the one that was refused, or with the setting
-    ``gouge = "mark"`` all of them.
+    `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
+    `gouge = "mark"` all of them.
     """
 
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
@@ -116,7 +116,7 @@ class Run:
         return not any(alarm.severity == ALARM for alarm in self.alarms)
 
     def at(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Moment:
-        """The machine after the ``pass_``-th execution of a line (of one of ``programs``), or after a step.
+        """The machine after the `pass_`-th execution of a line (of one of `programs`), or after a step.
 
         A line within a block of several lines means the block.
         An Alarm if there is none.
@@ -165,7 +165,7 @@ class Run:
         return np.flatnonzero(np.isin(self.steps.block, blocks) & (self.steps.program == program))
 
     def lines(self) -> NDArray[np.integer[Any]]:
-        """The line of each step (s,), in the program that ``steps.program`` names."""
+        """The line of each step (s,), in the program that `steps.program` names."""
         found = np.asarray(self.program.line_of(np.minimum(self.steps.block, len(self.program) - 1)))
         for index, program in enumerate(self.programs[1:], 1):
             here = self.steps.program == index
@@ -173,11 +173,11 @@ class Run:
         return found
 
     def when(self, condition: str) -> Moments:
-        """The moments at which a condition becomes true: ``run.when("z < -5")``, ``run.when("Q5 > 3")``.
+        """The moments at which a condition becomes true: `run.when("z < -5")`, `run.when("Q5 > 3")`.
 
         Names are those of variables, and x y z d (tool tip, mm), a b c (rotary axes, degrees), feed, spindle, tool, radius,
         side, line. The place is exact, within lines and arcs too, unless coordinates are multiplied or in a function; see
-        :mod:`mnclab.runs.moments`, and ``.exact`` of the result.
+        `runs.moments`, and `.exact` of the result.
         """
         if not isinstance(condition, str):
             raise TypeError(f'a condition is a text such as "z < -5", got {type(condition).__name__}')
@@ -188,16 +188,16 @@ class Run:
     ) -> Explanation:
         """A block in plain words: what each word means and changed, and the way from the programmed point to the tool.
 
-        The block is named as for :meth:`at`.
+        The block is named as for `at`.
         """
         return Explanation(self, self.at(line, pass_, step, program))
 
     def profile(self, limits: Limits | str | None = None, *, override: float = 1.0) -> Profile:
         """When the tool is where, and how fast, under the limits of a machine: those of the setup, others, or those
-        of a named machine ("small-mill"; see ``data/machines``).
+        of a named machine ("small-mill"; see `data/machines`).
 
-        ``override`` is the feed override, 1 for 100 %, from 0.001 to 100. How a rapid goes is the
-        control's (its setting ``rapid_motion``) unless the limits say;
+        `override` is the feed override, 1 for 100 %, from 0.001 to 100. How a rapid goes is the
+        control's (its setting `rapid_motion`) unless the limits say;
         the program waits for the spindle unless its supervision is off (MNC G25).
         """
         path, spindle = self.toolpath, self.toolpath.kind == Kind.SPINDLE
@@ -223,19 +223,19 @@ class Run:
     def plot(self, **options: Any) -> Figure:
         """Views of the path: from above and the side for a mill, X and Z for a lathe.
 
-        ``colour`` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
+        `colour` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
         colour of the cuts shows;
-        ``arrows=False``, ``marks=False`` and ``stock=False`` leave out arrowheads, crosses at zero points and poles, and
-        the outline of the blank; ``view`` "XY",
-        "XZ", "YZ" or "ZX"; ``frame`` "all" or "cuts"; ``size`` in inches; ``ax`` axes of one's own. All of them are
-        explained in ``mnclab.show.plot.path.plot_path``.
+        `arrows=False`, `marks=False` and `stock=False` leave out arrowheads, crosses at zero points and poles, and
+        the outline of the blank; `view` "XY",
+        "XZ", "YZ" or "ZX"; `frame` "all" or "cuts"; `size` in inches; `ax` axes of one's own. All of them are
+        explained in `mnclab.show.plot.path.plot_path`.
         """
         from mnclab.show.plot.path import plot_run
 
         return plot_run(self, **options)
 
     def plot_speed(self, **options: Any) -> Figure:
-        """Spindle speed and diameter over the way of a lathe's tool; ``most`` is the greatest speed, rev/min."""
+        """Spindle speed and diameter over the way of a lathe's tool; `most` is the greatest speed, rev/min."""
         from mnclab.show.plot.lathe import plot_speed_of
 
         return plot_speed_of(self, **options)
@@ -243,8 +243,8 @@ class Run:
     def player(self, limits: Limits | str | None = None, **options: Any) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
 
-        ``limits`` are those of :meth:`profile`. ``height`` in pixels, ``theme`` "auto", "light" or "dark", ``speed`` 1
-        for real time. ``.save(path)`` writes it as a file that needs no network, as ``run.save("part.html")`` does.
+        `limits` are those of `profile`. `height` in pixels, `theme` "auto", "light" or "dark", `speed` 1
+        for real time. `.save(path)` writes it as a file that needs no network, as `run.save("part.html")` does.
         """
         from mnclab.show.player import player
 
@@ -253,8 +253,8 @@ class Run:
     def plot_compensation(self, **options: Any) -> Figure:
         """The contour, the tool-centre path beside it, and how its corners were found.
 
-        ``rules=("G160", "G161", "G162")`` and ``radii=(2, 5)`` run the program once more for each and show the results
-        side by side; ``discs=True`` draws the tool; more in ``mnclab.show.plot.compensation.compensation``.
+        `rules=("G160", "G161", "G162")` and `radii=(2, 5)` run the program once more for each and show the results
+        side by side; `discs=True` draws the tool; more in `mnclab.show.plot.compensation.compensation`.
         """
         from mnclab.show.plot.compensation import compensation
 
@@ -263,8 +263,8 @@ class Run:
     def scene(self, colour: str = "kind", **options: Any) -> pyvista.Plotter:
         """Path, tool and blank in three dimensions (needs pyvista); shows itself as a still picture.
 
-        ``colour`` of the cuts: "kind", "feed", "tool", "z", "line"; ``row``: where the tool stands; ``stock``:
-        another blank, or False. All of them are explained in ``mnclab.show.scene.scene``.
+        `colour` of the cuts: "kind", "feed", "tool", "z", "line"; `row`: where the tool stands; `stock`:
+        another blank, or False. All of them are explained in `mnclab.show.scene.scene`.
         """
         from mnclab.show.scene import scene
 
@@ -274,7 +274,7 @@ class Run:
         """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player), dxf,
         ngc, stl, gltf, glb, vtk.
 
-        Pictures take the options of :meth:`plot`; ``true_size=True`` makes an svg in true millimetres.
+        Pictures take the options of `plot`; `true_size=True` makes an svg in true millimetres.
         """
         from mnclab.show.export import save
 
@@ -283,7 +283,7 @@ class Run:
     def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
         """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program.
 
-        ``options`` are those of :meth:`plot`.
+        `options` are those of `plot`.
         """
         from mnclab.show.report import save_report
 
@@ -349,7 +349,7 @@ def collector_paused() -> Iterator[None]:
 
 
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
-    """Run a program that was read; with ``strict`` the first alarm is raised instead of collected."""
+    """Run a program that was read; with `strict` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
     setup = (Setup() if setup is None else setup).kept()  # somebody may have written into its tables, and may again

@@ -1,7 +1,7 @@
 """A part program to type in: its text, its alarms and its picture, all of them while one types; and a file to save to.
 
 The front end holds typing back while the kernel is busy, so that nothing need be delayed here; a change that comes back
-to the same text draws nothing. Programs are run and figures drawn in the one drawing thread of :mod:`mnclab.show.forms`:
+to the same text draws nothing. Programs are run and figures drawn in the one drawing thread of `show.forms`:
 where that takes long, one types on beside the last good picture, and texts typed over in the meantime are not run.
 """
 
@@ -70,8 +70,8 @@ class Document:
 def editor(path: str | Path, control: str | None = None, setup: Setup | None = None, *, view: str = "auto") -> Any:
     """Text, alarms and picture of a part program side by side (needs ipywidgets and matplotlib).
 
-    A file that does not exist yet is made when it is saved. The result has ``text``, ``button`` and ``status`` (boxes),
-    ``run`` (the last run) and ``document``.
+    A file that does not exist yet is made when it is saved. The result has `text`, `button` and `status` (boxes),
+    `run` (the last run) and `document`.
     """
     require("ipywidgets", "editors")
     require("matplotlib", "pictures")

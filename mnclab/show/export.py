@@ -2,7 +2,7 @@
 (dxf), plain blocks (ngc), bodies and lines in space (stl, gltf, glb, vtk).
 
 The suffix says what is written, and exactly one file is. The same run gives the same bytes; text is UTF-8 with plain
-line ends on every system. A new kind of file is a function here and a line in :data:`WRITERS`.
+line ends on every system. A new kind of file is a function here and a line in `WRITERS`.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = None, **options: Any) -> Path:
     """Write a run to one file and return its path; an Alarm when nothing of this suffix can be written.
 
-    Figures take the options of :meth:`Run.plot`; an svg also ``true_size=True``, a drawing in true millimetres.
-    ``picture`` draws another figure of the run than the views of its path.
+    Figures take the options of `Run.plot`; an svg also `true_size=True`, a drawing in true millimetres.
+    `picture` draws another figure of the run than the views of its path.
     """
     if not isinstance(path, str | Path):
         raise Alarm(f"a file is written to a path, got {shown(path)}")
@@ -71,7 +71,7 @@ def write_svg(run: Any, path: Path, true_size: bool = False, **options: Any) -> 
 
 
 def write_csv(run: Any, path: Path) -> None:
-    """The columns of the toolpath under their names; ``kind`` and ``label`` as text, numbers with all their digits."""
+    """The columns of the toolpath under their names; `kind` and `label` as text, numbers with all their digits."""
     columns = {name: _texts(column) for name, column in run.toolpath.columns().items()}
     columns |= {"kind": _kinds(run.toolpath), "label": _labels(run.toolpath)}
     with path.open("w", encoding="utf-8", errors="replace", newline="") as file:
@@ -81,7 +81,7 @@ def write_csv(run: Any, path: Path) -> None:
 
 
 def write_json(run: Any, path: Path) -> None:
-    """The run as one JSON object, see :func:`document`."""
+    """The run as one JSON object, see `document`."""
     with path.open("w", encoding="utf-8", newline="\n") as file:
         json.dump(document(run), file, allow_nan=False)
         file.write("\n")
@@ -121,7 +121,7 @@ def _labels(path: Toolpath) -> list[str]:
 
 
 def _texts(column: NDArray[Any]) -> Iterable[str]:
-    """A column as text; ``repr`` of a float is the shortest text that reads back as the same number."""
+    """A column as text; `repr` of a float is the shortest text that reads back as the same number."""
     if column.dtype == np.bool_:
         column = column.astype(np.uint8)
     if len(column) and column.strides == (0,):  # a constant

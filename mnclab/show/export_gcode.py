@@ -5,7 +5,7 @@ file runs under G40, for the tools it was made for. The path is followed exactly
 asked for one (G61.1). Threads are G33, whose K is the way per turn of the spindle. The X of a lathe is a radius (G8).
 
 What RS-274 has no plain word for is written another way or told in a comment: arcs in tilted planes become chords
-within :data:`CHORD` mm, a probing move is a cut that ends where the probe touched.
+within `CHORD` mm, a probing move is a cut that ends where the probe touched.
 """
 
 from __future__ import annotations

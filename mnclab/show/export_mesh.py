@@ -2,9 +2,9 @@
 
 - STL holds the cuts as thin tubes and the tool where it ends, to lay over a part in another program. STL knows
   triangles alone: no colour, no rapids, no unit (the numbers are millimetres).
-- glTF (``.gltf``, or ``.glb`` in one binary piece) holds lines in the colours of the pictures, the tool and the blank;
+- glTF (`.gltf`, or `.glb` in one binary piece) holds lines in the colours of the pictures, the tool and the blank;
   metres and Y upwards, as the format wants it.
-- VTK (legacy ``.vtk``) holds a polyline for every move, double precision, with the columns of the path beside them:
+- VTK (legacy `.vtk`) holds a polyline for every move, double precision, with the columns of the path beside them:
   for ParaView and pyvista.
 """
 
@@ -86,7 +86,7 @@ class Gltf:
         self.meshes.append({"name": name, "primitives": [part | {"material": self.material(name, colour, alpha)}]})
 
     def document(self, uri: str | None) -> bytes:
-        """The JSON part, with the buffer beside it or in it as ``uri``."""
+        """The JSON part, with the buffer beside it or in it as `uri`."""
         count = len(self.meshes)
         nodes = [{"name": mesh["name"], "mesh": k} for k, mesh in enumerate(self.meshes)]
         root: dict[str, Any] = {"name": "tool path", "matrix": TO_GLTF}

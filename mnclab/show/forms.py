@@ -1,7 +1,7 @@
 """Boxes for numbers, with a picture that follows: a form from the declaration of a cycle, a panel from a template.
 
 Number boxes, not sliders: a slider has no name for a screen reader and fires a false change when it appears.
-JupyterLab calls widgets from another thread than cells, so figures are drawn in **one** thread, :data:`DRAWING`, and
+JupyterLab calls widgets from another thread than cells, so figures are drawn in **one** thread, `DRAWING`, and
 without pyplot; nobody else starts threads. ipywidgets is imported inside the functions that use it.
 """
 
@@ -38,10 +38,10 @@ Number = float | tuple[float, float, float]
 def panel(
     template: str, control: str | None = None, /, *, setup: Setup | None = None, view: str = "auto", **numbers: Number
 ) -> Any:
-    """Number boxes for the places ``{name}`` of a program, with picture and alarms that follow.
+    """Number boxes for the places `{name}` of a program, with picture and alarms that follow.
 
-    ``numbers`` gives each place its first value, or ``(value, least, greatest)``; a whole number stays whole. The
-    result has ``boxes`` (by name) and ``run``, the last run.
+    `numbers` gives each place its first value, or `(value, least, greatest)`; a whole number stays whole. The
+    result has `boxes` (by name) and `run`, the last run.
     """
     require("ipywidgets", "forms")
     if not isinstance(template, str):
@@ -67,8 +67,8 @@ def panel(
 def compensation_panel(run: Run, **options: Any) -> Any:
     """A box for the tool radius and a choice for outside corners, with contour and tool-centre path that follow.
 
-    ``options`` are those of :func:`mnclab.show.plot.compensation.compensation`. The result has ``boxes`` ("radius", and
-    "corners" where the control has a choice) and ``run``, the last run.
+    `options` are those of `show.plot.compensation.compensation`. The result has `boxes` ("radius", and
+    "corners" where the control has a choice) and `run`, the last run.
     """
     require("ipywidgets", "forms")
     import ipywidgets
@@ -102,8 +102,8 @@ def compensation_panel(run: Run, **options: Any) -> Any:
 def form(code: str, control: str) -> Any:
     """The parameters of a cycle as boxes, required ones first, with a picture of the cycle run alone.
 
-    A parameter that may be left out has a box to tick before its word is written. The result has ``boxes`` (by name of
-    the parameter), ``ticks`` and ``run``, the last run.
+    A parameter that may be left out has a box to tick before its word is written. The result has `boxes` (by name of
+    the parameter), `ticks` and `run`, the last run.
     """
     require("ipywidgets", "forms")
     help_page = help_on(code, control)
@@ -137,8 +137,8 @@ def form(code: str, control: str) -> Any:
 def profile_panel(profile: Profile, **options: Any) -> Any:
     """Number boxes for the limits of a machine, with the profile and its times following.
 
-    A jerk of 0 means no limit. ``options`` are those of :func:`mnclab.show.plot.profile.plot_profile`. The result has
-    ``boxes`` (by name) and ``profile``, the last one planned.
+    A jerk of 0 means no limit. `options` are those of `show.plot.profile.plot_profile`. The result has
+    `boxes` (by name) and `profile`, the last one planned.
     """
     require("ipywidgets", "forms")
     import ipywidgets
@@ -200,12 +200,12 @@ def _number_box(name: str, number: Number) -> Any:
 
 
 def _name(p: Parameter) -> str:
-    """What is written beside a box: ``K depth of one peck [mm]``."""
+    """What is written beside a box: `K depth of one peck [mm]`."""
     return f"{p.address} {p.meaning}" + (f" [{p.unit}]" if p.unit and p.unit != "choice" and not p.mark else "")
 
 
 def _parameter_box(p: Parameter, width: float) -> Any:
-    """The box that fits the kind and limits of a parameter, its name ``width`` em wide; the tooltip says the rest."""
+    """The box that fits the kind and limits of a parameter, its name `width` em wide; the tooltip says the rest."""
     import ipywidgets
 
     value = trial.first_value(p)
@@ -272,7 +272,7 @@ def _live(
     also: Mapping[str, Any] | None = None,
     listed: bool = False,
 ) -> Any:
-    """Rows of boxes on the left, the picture on the right, the program (if ``listed``) and alarms below."""
+    """Rows of boxes on the left, the picture on the right, the program (if `listed`) and alarms below."""
     import ipywidgets
 
     picture, program, alarms = _html(), _html(), _html()
@@ -301,7 +301,7 @@ def _live(
 
 
 def picture_of(run: Run, view: str) -> str:
-    """The views of a run as an HTML image with a name; to be drawn in :data:`DRAWING`."""
+    """The views of a run as an HTML image with a name; to be drawn in `DRAWING`."""
     from mnclab.show.plot.path import image
 
     return image(run, view)

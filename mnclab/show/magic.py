@@ -1,11 +1,11 @@
-"""``%load_ext mnclab`` and then ``%%mnc``: a cell that is a part program. The only file that imports IPython.
+"""`%load_ext mnclab` and then `%%mnc`: a cell that is a part program. The only file that imports IPython.
 
     %%mnc --control tnc-620 --tools my_tools --name first
     BEGIN PGM FIRST MM
     …
 
-The run is bound to ``run`` (or to another name), its card with the alarms and their carets stands under the cell, and
-the picture below. What a name such as ``my_tools`` means is looked up in the notebook; ``--setup`` also takes a file.
+The run is bound to `run` (or to another name), its card with the alarms and their carets stands under the cell, and
+the picture below. What a name such as `my_tools` means is looked up in the notebook; `--setup` also takes a file.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def load_ipython_extension(shell: Any) -> None:
     from IPython.display import display
 
     def mnc(line: str, cell: str) -> None:
-        """Obey the cell as a part program; see ``mnclab.show.magic``."""
+        """Obey the cell as a part program; see `mnclab.show.magic`."""
         name, run, chosen = run_cell(line, cell, shell.user_ns)
         shell.push({name: run})
         if chosen.quiet:

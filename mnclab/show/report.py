@@ -1,6 +1,6 @@
 """A run as a report to hand in or file: figures, tools, time, picture, alarms and the program, as HTML or PDF.
 
-The HTML file stands alone: its style sheet (``report.css``) and its picture are in it.
+The HTML file stands alone: its style sheet (`report.css`) and its picture are in it.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri
 
 @dataclass(frozen=True)
 class Report:
-    """What stands in a report; tables are rows of texts, ``listing`` holds the lines of the program with their numbers."""
+    """What stands in a report; tables are rows of texts, `listing` holds the lines of the program with their numbers."""
 
     title: str
     subtitle: str
@@ -115,7 +115,7 @@ def _tool(number: int, tool: Tool, seconds: float) -> tuple[str, ...]:
 
 
 def save_report(run: Any, path: str | Path, title: str | None = None, **options: Any) -> Path:
-    """Write a report to one file, .html or .pdf; ``options`` are those of the picture (:meth:`Run.plot`)."""
+    """Write a report to one file, .html or .pdf; `options` are those of the picture (`Run.plot`)."""
     if not isinstance(path, str | Path):
         raise Alarm(f"a file is written to a path, got {shown(path)}")
     if not isinstance(title, str | None):

@@ -1,7 +1,7 @@
-"""A run in three dimensions: path, tool and blank in a pyvista ``Plotter``. The only file that imports pyvista.
+"""A run in three dimensions: path, tool and blank in a pyvista `Plotter`. The only file that imports pyvista.
 
-The scene shows itself in Jupyter as a still picture, which works everywhere and needs no server. ``scene.show()`` does
-the same; ``scene.show(jupyter_backend="html")`` turns in the browser and needs ``mnclab[html]``. VTK without OpenGL ends
+The scene shows itself in Jupyter as a still picture, which works everywhere and needs no server. `scene.show()` does
+the same; `scene.show(jupyter_backend="html")` turns in the browser and needs `mnclab[html]`. VTK without OpenGL ends
 the whole process without a word, so what it needs is looked for first. A plotter belongs to the thread that made it.
 """
 
@@ -53,10 +53,10 @@ def scene(
 ) -> pyvista.Plotter:
     """The path of a run with its tool and blank, seen from the front, right and above.
 
-    ``colour`` of the cuts: "kind", "feed" (mm/min), "tool", "z" (mm) or "line"; rapids are thin and red in all of them.
-    ``row``: where the tool stands, by default at the end. ``stock``: whether the blank of the setup or the program
+    `colour` of the cuts: "kind", "feed" (mm/min), "tool", "z" (mm) or "line"; rapids are thin and red in all of them.
+    `row`: where the tool stands, by default at the end. `stock`: whether the blank of the setup or the program
     is shown, or another one, mm in the coordinates of the path: two opposite corners (3,) or a body of
-    :mod:`mnclab.workpiece.blank`. ``size`` in pixels.
+    `workpiece.blank`. `size` in pixels.
 
     An Alarm says in a sentence what is missing: pyvista, or something for VTK to draw with.
     """
@@ -112,12 +112,12 @@ def _class() -> Any:
     import pyvista
 
     class Scene(pyvista.Plotter):
-        """A ``pyvista.Plotter`` whose picture is shown by Jupyter; ``alt`` says in words what it shows."""
+        """A `pyvista.Plotter` whose picture is shown by Jupyter; `alt` says in words what it shows."""
 
         alt = "scene"
 
         def show(self, *arguments: Any, **options: Any) -> Any:
-            """Show the scene; in Jupyter as a still picture unless ``jupyter_backend`` says otherwise."""
+            """Show the scene; in Jupyter as a still picture unless `jupyter_backend` says otherwise."""
             if options.setdefault("jupyter_backend", "static") in ("html", "client", "server", "trame"):
                 require("trame_pyvista", "scenes that turn", "html", 'jupyter_backend="static" does without')
             return super().show(*arguments, **options)

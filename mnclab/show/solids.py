@@ -47,7 +47,7 @@ def box(low: ArrayLike, high: ArrayLike) -> Body:
 
 
 def revolved(profile: ArrayLike, sides: int = SIDES, bore: float = 0.0) -> Body:
-    """A body of revolution about Z: ``profile`` (k, 2) holds radius and height from the lower end to the upper one."""
+    """A body of revolution about Z: `profile` (k, 2) holds radius and height from the lower end to the upper one."""
     outline = np.asarray(profile, dtype=np.float64)
     if bore > 0:  # back along the inside, and round to the beginning
         outline = np.concatenate([outline, [(bore, outline[-1, 1]), (bore, outline[0, 1])], outline[:1]])
@@ -70,7 +70,7 @@ def revolved(profile: ArrayLike, sides: int = SIDES, bore: float = 0.0) -> Body:
 
 
 def tool_body(tool: Tool, size: float = 10.0) -> Body:
-    """A tool with its tip at 0 0 0 and its shank along +Z; a small peak where the table knows no radius (``size`` mm)."""
+    """A tool with its tip at 0 0 0 and its shank along +Z; a small peak where the table knows no radius (`size` mm)."""
     radius = tool.effective_radius
     if radius <= 0:
         return revolved([(0.0, 0.0), (size / 16, size / 8), (size / 16, size / 4)], 16)
@@ -98,7 +98,7 @@ def strokes(path: Toolpath, chord_error: float) -> tuple[NDArray[np.float64], ND
 
 
 def tubes(path: Toolpath, radius: float, chord_error: float = 0.02, sides: int = TUBE_SIDES) -> Body:
-    """The cuts of a path as prisms of ``radius`` mm around every stroke, each closed by itself."""
+    """The cuts of a path as prisms of `radius` mm around every stroke, each closed by itself."""
     pieces, row = strokes(path, chord_error)
     start, end = pieces[np.isin(path.kind[row], (Kind.LINE, Kind.ARC))].transpose(1, 0, 2)
     travel = end - start

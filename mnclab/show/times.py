@@ -10,7 +10,7 @@ MOST = 10  # lines of the program that a report names
 
 
 def clock(seconds: float) -> str:
-    """A time as people say it: ``1:02:03``, ``2:03`` or ``3.21 s``."""
+    """A time as people say it: `1:02:03`, `2:03` or `3.21 s`."""
     if seconds < 60:
         return f"{seconds:.2f} s"
     if not seconds < 1e12:  # without an end, such as a feed of almost nothing
@@ -21,7 +21,7 @@ def clock(seconds: float) -> str:
 
 
 def report(profile: Profile, machine: Any = None) -> str:
-    """Total, causes, tools and the lines that take longest; ``machine`` (a MachineFile) is named with its assumptions."""
+    """Total, causes, tools and the lines that take longest; `machine` (a MachineFile) is named with its assumptions."""
     lines = [f"time  {clock(profile.time)}   ({profile.time:.3f} s)"]
     if machine is not None:
         lines += [f"on    {machine.title} ({machine.name})", *(f"      {sentence}" for sentence in machine.assumes)]
@@ -39,7 +39,7 @@ def report(profile: Profile, machine: Any = None) -> str:
 
 
 def document(profile: Profile, machine: Any = None) -> dict[str, Any]:
-    """Seconds in all and by cause, tool, kind and line (``line``, or ``program:line`` of a program that was called)."""
+    """Seconds in all and by cause, tool, kind and line (`line`, or `program:line` of a program that was called)."""
     found: dict[str, Any] = {"time": profile.time}
     if machine is not None:
         found["machine"] = {"name": machine.name, "title": machine.title, "assumes": list(machine.assumes)}

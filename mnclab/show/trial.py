@@ -1,6 +1,6 @@
 """A short program around one cycle, so that a form can show what the cycle does on its own.
 
-How a cycle stands in a program is each control's way, so there is one function a control, in :data:`PROGRAMS`. Values
+How a cycle stands in a program is each control's way, so there is one function a control, in `PROGRAMS`. Values
 to begin with are the examples of the declaration, or guessed from what a parameter means and allows; they are a start to
 play from, not advice.
 """
@@ -77,7 +77,7 @@ def written_first(parameter: Any) -> bool:
 
 
 def program(control: str, cycle: Any, values: Mapping[str, float | str]) -> str | None:
-    """The text of a program that runs a cycle with some ``values`` (by parameter name); None if nobody knows how."""
+    """The text of a program that runs a cycle with some `values` (by parameter name); None if nobody knows how."""
     words = [(p.address, values[p.name]) for p in cycle.parameters() if p.name in values]
     return PROGRAMS[control](cycle, words) if control in PROGRAMS else None
 

@@ -3,7 +3,7 @@
 An alarm is worded as *code, address, meaning, what was allowed, what was found*, then a hint when the mistake
 is a known one. It prints like a compiler's message: place, sentence, the line, a caret under the word.
 
-A long program makes many alarms of one kind: :class:`Alarms` keeps the first and counts the others, and what is shown to
+A long program makes many alarms of one kind: `Alarms` keeps the first and counts the others, and what is shown to
 people is the first of them and how many there are.
 """
 
@@ -53,9 +53,9 @@ class Source(Protocol):
 class Alarm(Exception):
     """A fault in the program, where it stands.
 
-    ``span`` is None for a fault that is not in the text. ``source`` is the program it stands in; whoever reads or
-    runs a program fills it in, so that the alarm can show the line. ``count`` is how many alarms it stands for, itself
-    and others like it, ``places`` where the first of them stand.
+    `span` is None for a fault that is not in the text. `source` is the program it stands in; whoever reads or
+    runs a program fills it in, so that the alarm can show the line. `count` is how many alarms it stands for, itself
+    and others like it, `places` where the first of them stand.
     """
 
     def __init__(
@@ -96,7 +96,7 @@ class Alarm(Exception):
 
     @property
     def place(self) -> str:
-        """``FILE:LINE:COLUMN``, or the file alone; empty for a fault that stands in no program."""
+        """`FILE:LINE:COLUMN`, or the file alone; empty for a fault that stands in no program."""
         if self.source is None and self.span is None:
             return ""
         name = self.source.name if self.source else "program"
@@ -116,7 +116,7 @@ class Alarm(Exception):
     def lines(self, width: int = WIDTH) -> tuple[str, str]:
         """The line of the program and the carets under the faulty characters; two empty strings if there is none.
 
-        Of a line longer than ``width`` only what stands around them.
+        Of a line longer than `width` only what stands around them.
         """
         if self.span is None or self.source is None:
             return "", ""
@@ -179,7 +179,7 @@ class Alarms(list[Alarm]):
     """Alarms as they come. A warning that was given before counts with the first; of alarms that differ in names and
     numbers alone the first thousand are kept, and the last of these counts the others.
 
-    ``total`` is how many came, ``untold`` where those of severity "alarm" stand that were not kept: line * 2**32 + column.
+    `total` is how many came, `untold` where those of severity "alarm" stand that were not kept: line * 2**32 + column.
     """
 
     def __init__(self, alarms: Iterable[Alarm] = ()) -> None:
@@ -251,7 +251,7 @@ def card_html(alarms: Sequence[Alarm], width: int = WIDTH) -> str:
 
 
 def quoted(text: str, at: int = 0, width: int = WIDTH) -> tuple[str, int]:
-    """A line as people are shown it, at most ``width`` characters around one, and where that stands in it."""
+    """A line as people are shown it, at most `width` characters around one, and where that stands in it."""
     if len(text) <= width:
         return text, at
     begin = max(0, min(at, len(text)) - width // 3)

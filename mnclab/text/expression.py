@@ -1,7 +1,7 @@
-"""Arithmetic and variables inside words: ``Q1``, ``-Q2``, ``3 * (Q5 + 1)``.
+"""Arithmetic and variables inside words: `Q1`, `-Q2`, `3 * (Q5 + 1)`.
 
 An expression is kept as it was written, with the place of every part, and evaluated when its block runs.
-The notation here is the one that conversational controls share: numbers, variables, ``+ - * / DIV % ^``, brackets, PI
+The notation here is the one that conversational controls share: numbers, variables, `+ - * / DIV % ^`, brackets, PI
 and named functions in degrees. A reader that needs less simply refuses what it does not know.
 """
 
@@ -48,7 +48,7 @@ class Token(NamedTuple):
 
 @dataclass(frozen=True)
 class Expression:
-    """Tokens with their places; :meth:`evaluate` gives the number."""
+    """Tokens with their places; `evaluate` gives the number."""
 
     tokens: tuple[Token, ...]
     text: str
@@ -63,7 +63,7 @@ class Expression:
 
 
 def parse(text: str, span: Span) -> Expression:
-    """Read an expression that starts at ``span``; an Alarm at the first character that is no part of one."""
+    """Read an expression that starts at `span`; an Alarm at the first character that is no part of one."""
     tokens, at, end = [], 0, len(text.rstrip())
     while at < end:
         match = _TOKEN.match(text, at)

@@ -8,7 +8,7 @@ from mnclab.text.alarm import Alarm
 
 
 def require(package: str, what: str, extra: str = "lab", instead: str = "") -> None:
-    """An Alarm where a package is not installed, or not whole: ``what`` needs it."""
+    """An Alarm where a package is not installed, or not whole: `what` needs it."""
     try:
         import_module(package)
     except ImportError:

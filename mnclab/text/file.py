@@ -25,7 +25,7 @@ def reason(error: OSError | ValueError) -> str:
 
 
 def read(path: str | Path, what: str | Path, most: int = LARGEST) -> bytes:
-    """The bytes of a file; an Alarm that begins with ``what`` if it cannot be read, is no file, or is too large."""
+    """The bytes of a file; an Alarm that begins with `what` if it cannot be read, is no file, or is too large."""
     try:
         if not stat.S_ISREG(os.stat(path).st_mode):
             raise Alarm(f"{what} cannot be read: {NO_FILE}")
@@ -45,7 +45,7 @@ def _without_waiting(path: str, flags: int) -> int:
 
 @contextmanager
 def replaced(path: str | Path) -> Iterator[Path]:
-    """A new file to write, which takes the place of ``path`` at the end, or is gone if anything fails.
+    """A new file to write, which takes the place of `path` at the end, or is gone if anything fails.
 
     The target of a symbolic link is replaced and the link stays; the new file has the mode of the old one and the same
     suffix under another name. An Alarm if it cannot be written.

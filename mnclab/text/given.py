@@ -23,7 +23,7 @@ def check_number(
     value: Any, what: str, *, above: float | None = None, at_least: float | None = None, at_most: float | None = None,
     endless: bool = False,
 ) -> None:  # fmt: skip
-    """An Alarm unless ``value`` is a number within its limits; infinity is one where it is ``endless``."""
+    """An Alarm unless `value` is a number within its limits; infinity is one where it is `endless`."""
     if isinstance(value, bool) or not isinstance(value, Real):
         raise Alarm(f"{what} must be a number, got {shown(value)}")
     try:
@@ -56,7 +56,7 @@ def plain(value: Any) -> Any:
 
 
 def check_point(value: Any, what: str) -> None:
-    """An Alarm unless ``value`` is three numbers."""
+    """An Alarm unless `value` is three numbers."""
     try:
         three = not isinstance(value, str | Mapping) and len(value) == 3
     except TypeError:  # of what has no length

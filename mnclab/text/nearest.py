@@ -17,7 +17,7 @@ SWAPPED, ALIKE = 0.75, 0.5  # slips
 
 
 def nearest(word: str, known: Iterable[str], most: int = 3, slips: float | None = None) -> list[str]:
-    """At most ``most`` known words within some slips of a word: one, and one more for every five characters beyond four.
+    """At most `most` known words within some slips of a word: one, and one more for every five characters beyond four.
 
     The nearest come first; of equally near ones those that share the longest beginning.
     """

@@ -11,7 +11,7 @@ SHOWN = 200  # lines of a long program that HTML has
 class NotationRow(NamedTuple):
     """A line of the program (0: before the first), its text, and what it says in the other notation.
 
-    A command of several lines is told at its first; ``lines`` is how many it takes, 0 for those after the first.
+    A command of several lines is told at its first; `lines` is how many it takes, 0 for those after the first.
     """
 
     line: int
@@ -21,7 +21,7 @@ class NotationRow(NamedTuple):
 
 
 class Notation:
-    """A program in two columns; ``rows`` has them one by one, ``modern`` is the right column alone."""
+    """A program in two columns; `rows` has them one by one, `modern` is the right column alone."""
 
     def __init__(
         self, rows: tuple[NotationRow, ...], name: str, titles: tuple[str, str] = ("program", "modern")

@@ -1,7 +1,7 @@
 """A part program as columns: a million blocks are no million objects.
 
 A *word* is an address and a value; a *block* is what a control obeys at once. Words stand in columns of equal length,
-blocks point into them, and ``program[i]`` makes a :class:`Block` for people when asked. Lines and columns of words are
+blocks point into them, and `program[i]` makes a `Block` for people when asked. Lines and columns of words are
 found from their offset in the text, number and comment of a block are cut from the text on demand. Labels of blocks are no
 words: a reader checks them and keeps those that are jump targets by their place, so that blocks found in bulk can still
 be sorted in.
@@ -28,11 +28,11 @@ from mnclab.text.tables import html_table
 if TYPE_CHECKING:
     from mnclab.text.strings import NumberFromText, TextFormula
 
-NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column ``form``
+NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column `form`
 CHUNK = 65_536  # words that a builder holds one by one
 MOST_WORDS = 1000  # of a block: what has more is no block of any control, and a long line must not fill the memory
 FEW = 1000  # stretches of blocks that are copied one after the other
-INCREMENTAL, RAPID_MARK, GROUP_MARK, AT_MARK = 1, 2, 4, 8  # bits of column ``flag``; the last: written as @
+INCREMENTAL, RAPID_MARK, GROUP_MARK, AT_MARK = 1, 2, 4, 8  # bits of column `flag`; the last: written as @
 
 _NUMBER_OF_BLOCK = re.compile(r"\ufeff*[ \t]*(?:/[ \t]*)?(N[ \t]*\+?\d+|\d+)", re.IGNORECASE)
 
@@ -101,8 +101,8 @@ class Block:
 class Program:
     """Words in columns (w,) and blocks in columns (b,).
 
-    ``address`` indexes ``addresses``; ``value`` is the number, or for other forms an index into ``payload``; ``first``
-    (b + 1,) says where the words of a block begin. ``plain`` marks blocks that are textually candidates for bulk work.
+    `address` indexes `addresses`; `value` is the number, or for other forms an index into `payload`; `first`
+    (b + 1,) says where the words of a block begin. `plain` marks blocks that are textually candidates for bulk work.
     """
 
     text: str
@@ -126,7 +126,7 @@ class Program:
     payload: tuple[Any, ...] = ()
     alarms: tuple[Alarm, ...] = ()
     untold: tuple[int, ...] | array[int] = ()
-    """Places of faults that ``alarms`` only counts: line * 2**32 + column."""
+    """Places of faults that `alarms` only counts: line * 2**32 + column."""
     comment_mark: str = "//"
     """What a comment begins with, as a regular expression."""
     encoding: str = "utf-8"
@@ -167,7 +167,7 @@ class Program:
         return (self[i] for i in range(len(self)))
 
     def word(self, index: int) -> Word:
-        """The word of row ``index``."""
+        """The word of row `index`."""
         form, value = self.form[index], self.value[index]
         kept: Any = float(value) if form == NUMBER else None if form == NONE else self.payload[int(value)]
         span = self.span(int(self.offset[index]), int(self.length[index]))
@@ -273,9 +273,9 @@ def _russian(text: str) -> int:
 
 
 class ProgramBuilder:
-    """What a reader fills: blocks, their words, alarms; :meth:`build` makes the columns.
+    """What a reader fills: blocks, their words, alarms; `build` makes the columns.
 
-    Readers that find plain words in bulk hand them over as arrays with :meth:`build`'s ``bulk``.
+    Readers that find plain words in bulk hand them over as arrays with `build`'s `bulk`.
     """
 
     def __init__(self, text: str, name: str, control: str, line_starts: NDArray[np.int32], comment_mark: str) -> None:
@@ -302,7 +302,7 @@ class ProgramBuilder:
         self.alarms.append(Alarm(message, self.span(offset, length), severity, hint))
 
     def block(self, offset: int, keyword: str = "", skip: bool = False, plain: bool = False) -> None:
-        """Begin a block at ``offset``."""
+        """Begin a block at `offset`."""
         if len(self.words) >= CHUNK:
             self.put_away.append((np.array(self.words, dtype=np.float64), np.array(self.blocks, dtype=np.float64)))
             self.before += len(self.words)
@@ -417,9 +417,9 @@ def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
 
 
 class BulkBlocks(NamedTuple):
-    """Blocks found for a whole text at once: words (w,) with ``address`` into ``addresses``, blocks (b,), ``first`` (b + 1,).
+    """Blocks found for a whole text at once: words (w,) with `address` into `addresses`, blocks (b,), `first` (b + 1,).
 
-    ``form`` (w,) may say that some words have no value; without it all are numbers.
+    `form` (w,) may say that some words have no value; without it all are numbers.
     """
 
     addresses: tuple[str, ...]

@@ -23,7 +23,7 @@ class Progress(Protocol):
 
 @contextmanager
 def progress(what: str, total: int, unit: str) -> Iterator[Progress]:
-    """``with progress("running", 10_000, "blocks") as at: …; at(300)``; the bar goes with the end of the block."""
+    """`with progress("running", 10_000, "blocks") as at: …; at(300)`; the bar goes with the end of the block."""
     begin = time.monotonic()
     bar: Any = None
     refused = threading.current_thread() is not threading.main_thread()

@@ -1,4 +1,4 @@
-"""Texts in programs: ``QS1 || " mm"``, ``SUBSTR ( SRC_QS10 BEG2 LEN4 )``, and numbers found in them.
+"""Texts in programs: `QS1 || " mm"`, `SUBSTR ( SRC_QS10 BEG2 LEN4 )`, and numbers found in them.
 
 Like arithmetic, a text formula is kept as written, with the place of every part, and worked out when its block runs.
 The first character of a text has the number 0.
@@ -42,7 +42,7 @@ class Part(NamedTuple):
 
 @dataclass(frozen=True)
 class TextFormula:
-    """Parts that are joined; :meth:`evaluate` gives the text."""
+    """Parts that are joined; `evaluate` gives the text."""
 
     parts: tuple[Part, ...]
     text: str
@@ -83,7 +83,7 @@ def is_number(text: str) -> bool:
 
 
 def parse_text(text: str, span: Span) -> TextFormula:
-    """Read a formula whose result is a text, and which begins at ``span``."""
+    """Read a formula whose result is a text, and which begins at `span`."""
     reader = _Reader(text, span)
     parts = [reader.part()]
     while not reader.done:
@@ -100,7 +100,7 @@ def parse_text(text: str, span: Span) -> TextFormula:
 
 
 def parse_number(text: str, span: Span) -> NumberFromText:
-    """Read a formula of texts whose result is a number, and which begins at ``span``."""
+    """Read a formula of texts whose result is a number, and which begins at `span`."""
     reader = _Reader(text, span)
     part = reader.part()
     if not reader.done:

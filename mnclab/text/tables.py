@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Sequence
 
 
 def html_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Collection[int] = ()) -> str:
-    """Cells of HTML under their heads; ``numbers`` are the columns that stand to the right."""
+    """Cells of HTML under their heads; `numbers` are the columns that stand to the right."""
 
     def line(kind: str, cells: Sequence[str]) -> str:
         sides = ("right" if k in numbers else "left" for k in range(len(cells)))

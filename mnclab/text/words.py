@@ -1,10 +1,10 @@
 """Letters and numbers of a whole text, found at once with numpy.
 
-A *clean* line holds nothing but words of one letter and one number (``N10 G1X-2.5 y+03.``), blanks between them or not.
-Such lines are most of any long program, and :func:`scan` reads them at several million words a second; every other
+A *clean* line holds nothing but words of one letter and one number (`N10 G1X-2.5 y+03.`), blanks between them or not.
+Such lines are most of any long program, and `scan` reads them at several million words a second; every other
 line is left to the reader of the control, which words the alarms. The method: the eight characters before the end of
 a number are one machine word, the point is squeezed out of it, three multiplications join the digits, and a division
-by an exact power of ten rounds as ``float()`` does.
+by an exact power of ten rounds as `float()` does.
 
 The text is worked in pieces of some 256 KiB, which stay in the processor's cache.
 """
@@ -37,9 +37,9 @@ _POWER_OF_POINT[0:64:8] = _POWERS[7::-1]
 class Scan:
     """Words of the clean lines, and which lines are clean.
 
-    ``letter`` (w,) upper-case ASCII, ``value`` (w,), ``offset`` (w,) of the letter in the text, ``length`` (w,) in
-    characters; ``count`` (l,) words of each line, 0 where it is not clean; ``clean`` (l,); ``starts`` (l,) offsets of the
-    lines; ``indented`` whether any of them begins with a blank.
+    `letter` (w,) upper-case ASCII, `value` (w,), `offset` (w,) of the letter in the text, `length` (w,) in
+    characters; `count` (l,) words of each line, 0 where it is not clean; `clean` (l,); `starts` (l,) offsets of the
+    lines; `indented` whether any of them begins with a blank.
     """
 
     letter: NDArray[np.uint8]
@@ -76,15 +76,15 @@ def line_starts(data: NDArray[np.uint8]) -> NDArray[np.int32]:
 
 
 def characters(text: str) -> NDArray[np.uint8]:
-    """One byte a character: ASCII as it is, everything else as ``?``, so that offsets stay those of the text."""
+    """One byte a character: ASCII as it is, everything else as `?`, so that offsets stay those of the text."""
     return np.frombuffer(text.encode("ascii", errors="replace"), dtype=np.uint8)
 
 
 def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
     """Find the words of all clean lines.
 
-    ``leading_number``: digits may stand before the first letter. ``bare``: letters that may begin a line without a
-    number of their own, alone (``L X+1``); such a word has the value 0.
+    `leading_number`: digits may stand before the first letter. `bare`: letters that may begin a line without a
+    number of their own, alone (`L X+1`); such a word has the value 0.
     """
     # room for as many words as fit: memory that is never touched costs nothing, what is touched costs more than the work
     most = len(text) // 2 + 1
@@ -117,7 +117,7 @@ def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
 
 
 def _end_of_piece(text: str, begin: int) -> int:
-    """Where the piece that begins at ``begin`` ends: behind the last line end within reach, or behind the first one."""
+    """Where the piece that begins at `begin` ends: behind the last line end within reach, or behind the first one."""
     if begin + PIECE >= len(text):
         return len(text)
     last = max(text.rfind("\n", begin, begin + PIECE), text.rfind("\r", begin, begin + PIECE - 1))
@@ -158,7 +158,7 @@ class _Piece:
         self.clean = self.clean_lines(leading_number, bare)
 
     def read(self, after: NDArray[np.int64], bare: str) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Values and ends of the words, the text of each before ``after``; nan where there is no number, end 0 where there is
+        """Values and ends of the words, the text of each before `after`; nan where there is no number, end 0 where there is
         nothing."""
         self.padded = padded = _padded(self.data)
         first, last = padded[self.at + 9], padded[after + 7]
@@ -210,7 +210,7 @@ class _Piece:
 
 
 def _padded(data: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """The text between eight blanks before it and a line end behind it; a slash, which :func:`numbers` would take for a
+    """The text between eight blanks before it and a line end behind it; a slash, which `numbers` would take for a
     one, is replaced."""
     padded = np.empty(len(data) + 9, dtype=np.uint8)
     padded[:8], padded[8:-1], padded[-1] = 32, data, 10
@@ -223,7 +223,7 @@ def _clean_heads(
     data: NDArray[np.uint8], padded: NDArray[np.uint8], starts: NDArray[np.int64], head: NDArray[np.int64],
     leading_number: bool,
 ) -> NDArray[np.bool_]:  # fmt: skip
-    """Which lines have only blanks, or with ``leading_number`` one whole number, before ``head``, their first letter."""
+    """Which lines have only blanks, or with `leading_number` one whole number, before `head`, their first letter."""
     first = _KIND[padded[starts + 8]]
     good = (head == starts) | ((head == starts + 1) & ((first == BLANK) | (first == END)))
     if leading_number:  # mostly the number and one blank
@@ -272,7 +272,7 @@ def _skip_blanks(data: NDArray[np.uint8], at: NDArray[np.int64], end: NDArray[np
 
 
 def _drop_blanks(data: NDArray[np.uint8], begin: NDArray[np.int64], end: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Last place after ``begin`` behind which [.., end) holds only blanks."""
+    """Last place after `begin` behind which [.., end) holds only blanks."""
     result = end - ((end > begin) & _blank(data, end - 1))  # nearly always one
     todo = np.flatnonzero((result > begin) & _blank(data, result - 1))
     if len(todo):

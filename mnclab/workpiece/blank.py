@@ -39,7 +39,7 @@ class Box(NamedTuple):
         return [np.stack([corners[a], corners[b]]) for a, b in pairs]
 
     def outline(self, right: int, up: int) -> list[Array]:
-        """What a view along an axis shows: closed lines (k, 2) in the coordinates ``right`` and ``up`` (0 to 2)."""
+        """What a view along an axis shows: closed lines (k, 2) in the coordinates `right` and `up` (0 to 2)."""
         (x0, y0), (x1, y1) = self.bounds[:, [right, up]]
         return [np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)])]
 
@@ -47,8 +47,8 @@ class Box(NamedTuple):
 class Revolved(NamedTuple):
     """A body turned about an axis parallel to X, Y or Z.
 
-    ``profile``: pairs of radius and place along the axis, mm, from one end to the other; ``at``: a point on the axis.
-    ``bore``: the radius of a hole all along it, for a tube.
+    `profile`: pairs of radius and place along the axis, mm, from one end to the other; `at`: a point on the axis.
+    `bore`: the radius of a hole all along it, for a tube.
     """
 
     profile: tuple[tuple[float, float], ...]
@@ -102,7 +102,7 @@ class Revolved(NamedTuple):
         return found
 
     def outline(self, right: int, up: int) -> list[Array]:
-        """What a view along an axis shows: closed lines (k, 2) in the coordinates ``right`` and ``up`` (0 to 2)."""
+        """What a view along an axis shows: closed lines (k, 2) in the coordinates `right` and `up` (0 to 2)."""
         profile, centre = np.array(self.profile, dtype=np.float64), np.array(self.at, dtype=np.float64)[[right, up]]
         if self.along not in (right, up):  # seen along the axis: circles
             angle = np.linspace(0, 2 * np.pi, CORNERS + 1)
@@ -122,7 +122,7 @@ Blank = Box | Revolved
 def cylinder(
     radius: float, low: float, high: float, axis: str = "Z", at: tuple[float, ...] = (0.0, 0.0, 0.0), bore: float = 0.0
 ) -> Revolved:
-    """A cylinder from ``low`` to ``high`` along an axis through ``at``, mm; a tube with a ``bore`` radius.
+    """A cylinder from `low` to `high` along an axis through `at`, mm; a tube with a `bore` radius.
 
     ValueError where that is no body.
     """

@@ -1,6 +1,6 @@
 """What a picture of a million moves costs, beside one bare matplotlib line of as many points.
 
-``pytest -m benchmark -s tests/benchmarks/test_figures.py`` prints the times; none is asserted.
+`pytest -m benchmark -s tests/benchmarks/test_figures.py` prints the times; none is asserted.
 """
 
 import time

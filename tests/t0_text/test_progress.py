@@ -30,7 +30,7 @@ class Bar:
 
 @pytest.fixture
 def bars(monkeypatch):
-    """The bars made in a test, with a clock that stands at ``bars.now``."""
+    """The bars made in a test, with a clock that stands at `bars.now`."""
     clock = types.SimpleNamespace(now=0.0, made=[])
     Bar.made = clock.made
     module = types.ModuleType("tqdm.auto")

@@ -1,7 +1,7 @@
 """The trapezoid planner against closed forms, and the properties that every profile must have.
 
 Times are seconds, lengths mm. For one straight move of length L at V with acceleration a from stop to stop:
-``L/V + V/a`` when the feed is reached (L >= V²/a), else ``2 sqrt(L/a)``.
+`L/V + V/a` when the feed is reached (L >= V²/a), else `2 sqrt(L/a)`.
 """
 
 import math

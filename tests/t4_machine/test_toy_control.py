@@ -1,6 +1,6 @@
 """One more control in a few lines: what a third party writes to teach the house another language.
 
-Turtle: one word a line. ``F 10`` forward, ``L 90`` turn left (degrees), ``U`` pen up, ``D`` pen down, ``H n`` a hole
+Turtle: one word a line. `F 10` forward, `L 90` turn left (degrees), `U` pen up, `D` pen down, `H n` a hole
 cycle of depth n at the place.
 """
 

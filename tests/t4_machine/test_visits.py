@@ -32,7 +32,7 @@ def new_machine():
 
 
 def visited(m, alter, points=POINTS):
-    """At how many of the points the visit was really made; ``alter`` gets the number of the visit."""
+    """At how many of the points the visit was really made; `alter` gets the number of the visit."""
     made = []
 
     def go(x, y):

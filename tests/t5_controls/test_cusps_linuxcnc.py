@@ -50,7 +50,7 @@ def points(e, t):
 
 
 def beside(e, t, shift):
-    """Where a tool stands that touches the element after the shares t, ``shift`` mm to the left of it."""
+    """Where a tool stands that touches the element after the shares t, `shift` mm to the left of it."""
     at, along = points(e, t)
     return at + shift * np.stack([-along[:, 1], along[:, 0]], axis=1)
 

@@ -1,7 +1,7 @@
 """Every declared cycle of every control against the tables of its manual, address by address.
 
 The tables stand in tests/authorities/catalogue/parameters-CONTROL.json (how they were made: tests/authorities/README.md).
-Every key of them must agree; where a declaration differs on purpose, :data:`EXPLAINED` says what it has and why.
+Every key of them must agree; where a declaration differs on purpose, `EXPLAINED` says what it has and why.
 """
 
 import inspect
@@ -194,7 +194,7 @@ NUMBER = r"[-+]?\d+(?:\.\d+)?"
 
 
 def limits(text):
-    """The limits in a range as it is written: ``0 to 9``, ``-3 .. 3``, ``> 0``; what a reading adopts counts."""
+    """The limits in a range as it is written: `0 to 9`, `-3 .. 3`, `> 0`; what a reading adopts counts."""
     text = (text or "").rpartition("adopt ")[2]
     if found := re.match(rf"({NUMBER})(?: to | \.\. )({NUMBER})(?!.*excluded)", text):
         return {">=": float(found[1]), "<=": float(found[2])}

@@ -35,7 +35,7 @@ def test_a_meaning_belongs_to_a_word(control):
 
 
 def test_a_function_of_the_tnc_620_names_its_section():
-    """A section of the manual, with ``example`` where only a program there shows it; or none, where the manual has none."""
+    """A section of the manual, with `example` where only a program there shows it; or none, where the manual has none."""
     for table in (mnclab.controls["tnc-620"].functions, mnclab.controls["tnc-620"].cycles):
         for code, entry in table.items():
             assert re.fullmatch(r"\d{1,2}\.\d{1,2}(, example)?|Klartext, not described", entry.source), code

@@ -89,7 +89,7 @@ def klartext(code, values):
 
 
 def program(code, values, frame, s=1.0):
-    """A cycle at (20, 10) in the frame, begun at (3, 4, 60); ``s`` makes these places larger."""
+    """A cycle at (20, 10) in the frame, begun at (3, 4, 60); `s` makes these places larger."""
     x, y, z, u, v = (trial.number(place * s) for place in (3, 4, 60, 20, 10))
     tool = 1 if code in MILLS and code not in ("G306", "CYCL DEF 208") else 2
     if code in MNC:
@@ -123,7 +123,7 @@ DRILL = Tool(radius=4, number=2, angle=118, plunge_angle=20, kind="drill")
 
 @cache
 def setup(s=1.0, steeper=1.0, peck=1.0):
-    """An end mill and a drill s times the size; ``steeper``: as they are where Z is measured in a shorter unit."""
+    """An end mill and a drill s times the size; `steeper`: as they are where Z is measured in a shorter unit."""
     tools = {}
     for tool in (END_MILL, DRILL):
         angle, plunge = (math.radians(a) for a in (tool.angle, tool.plunge_angle))
@@ -213,7 +213,7 @@ WAYS = {1: (-1, 0), 2: (0, -1), 3: (1, 0), 4: (0, 1)}
 
 
 def as_the_spindle_has_it(code, values, whole, follows):
-    """The values of a path that, moved by ``whole``, leaves the wall as the cycle says; its direction follows some of it."""
+    """The values of a path that, moved by `whole`, leaves the wall as the cycle says; its direction follows some of it."""
     if values.get("disengage"):
         x, y = (np.linalg.inv(whole) @ follows)[:2, :2] @ WAYS[int(values["disengage"])]
         values = values | {"disengage": next(d for d, way in WAYS.items() if math.dist(way, (x, y)) < 1e-9)}

@@ -88,7 +88,7 @@ def control_of(path):
 
 
 class Until(Interpreter):
-    """Obeys blocks one by one, and only the first ``steps`` of them."""
+    """Obeys blocks one by one, and only the first `steps` of them."""
 
     steps = obeyed = 0
 

@@ -32,7 +32,7 @@ SAVES = {suffix: (lambda run, path: run.save(path)) for suffix in WRITERS} | {
 
 @pytest.fixture(params=SAVES)
 def save(request, tmp_path):
-    """save(run) writes one kind of file to ``save.path``."""
+    """save(run) writes one kind of file to `save.path`."""
 
     class Save:
         path = tmp_path / f"out{request.param.split()[0]}"

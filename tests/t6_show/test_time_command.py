@@ -1,4 +1,4 @@
-"""``mnclab time``: the breakdown, as text and as JSON, on machines with and without a name."""
+"""`mnclab time`: the breakdown, as text and as JSON, on machines with and without a name."""
 
 import json
 import math

@@ -1,7 +1,7 @@
 """A milling control of ISO words with G43, G44 and G49; of its manual there is one chapter.
 
-``lengths`` holds what that chapter says, ``language`` the functions of its example and what its other titles must mean,
-``cycles`` the drilling cycles of ISO controls.
+`lengths` holds what that chapter says, `language` the functions of its example and what its other titles must mean,
+`cycles` the drilling cycles of ISO controls.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 The source has one chapter, on G43, G44 and G49; its example uses G0, G1, G17, G54, F, T and M6. Of the other chapters there
 are only the titles: what they must mean is taken from ISO 6983, and a program that uses it gets a warning (setting
-``undescribed``).
+`undescribed`).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 What goes to the axes is base = programmed + sign · offset(D), with the sign +1 for G43, -1 for G44 and 0 for G49; the tip
 of a tool of length L is then at base - L. The manual moves nothing in the block of G43: an offset counts along an axis from
-the next word of that axis on. So the offsets that count (``memory["active offsets"]``) follow the wanted ones axis by axis.
+the next word of that axis on. So the offsets that count (`memory["active offsets"]`) follow the wanted ones axis by axis.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def corrector(m: Machine, words: Words) -> None:
 
 
 def choose(m: Machine, number: int, word: Word | None) -> None:
-    """Corrector ``number`` from now on: its offsets, and its radius where the tool table has such a row."""
+    """Corrector `number` from now on: its offsets, and its radius where the tool table has such a row."""
     m.memory["corrector"] = number
     m.log("corrector", number)
     own, row = m.tables.tools[m.tool.number], m.tables.tools.get(number)

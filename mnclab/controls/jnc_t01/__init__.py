@@ -1,7 +1,7 @@
 """The lathe control JNC-T01: words with a decimal point, one-shot functions that own their block, turning cycles.
 
-``reader`` checks the formats of words, ``motion`` holds moves and frames, ``feeds`` feed, spindle and auxiliary functions,
-``cycles`` the cycles G73 to G78. X is a radius in programs, by a setting a diameter, and a radius everywhere else.
+`reader` checks the formats of words, `motion` holds moves and frames, `feeds` feed, spindle and auxiliary functions,
+`cycles` the cycles G73 to G78. X is a radius in programs, by a setting a diameter, and a radius everywhere else.
 """
 
 from __future__ import annotations

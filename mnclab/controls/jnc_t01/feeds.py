@@ -158,13 +158,13 @@ OUTSIDE = {"N": "Block number", "%": "Program start"}
 
 @FUNCTIONS("N %", OUTSIDE, phase="modes", modal=False, source="not in the manual")
 def passed_over(m: Machine, words: Words) -> None:
-    """Refused, or passed over, by the setting ``foreign``."""
+    """Refused, or passed over, by the setting `foreign`."""
     foreign(m, words, "it is passed over")
 
 
 @FUNCTIONS("M2 M30", "Program end", phase="end", modal=False, source="not in the manual")
 def program_end(m: Machine, words: Words) -> None:
-    """Refused, or the end of the program, by the setting ``foreign``."""
+    """Refused, or the end of the program, by the setting `foreign`."""
     foreign(m, words, "the program ends")
     m.end_block()
     m.ended = True

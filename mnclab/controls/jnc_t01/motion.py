@@ -1,6 +1,6 @@
 """Motion: G00 to G03, the one-shot moves G12, G14 and G32, dwell, and the frames of G92 and of the correctors.
 
-X is a radius, or with the setting ``diameter`` a diameter that is halved where it is read; the machine knows radii only.
+X is a radius, or with the setting `diameter` a diameter that is halved where it is read; the machine knows radii only.
 """
 
 from __future__ import annotations

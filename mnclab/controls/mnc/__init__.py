@@ -1,8 +1,8 @@
 """The MNC milling control (Mechatronics, 2015): the namesake.
 
-``language`` holds motion, offsets and feed, ``auxiliary`` tool, spindle and M functions, ``polar`` polar motion,
-``transforms`` scaling, mirror image, rotation and datums, ``compensation`` the radius functions, ``cycles`` those of
-drilling and milling (chapters 9 and 10), ``settings`` what a machine may need otherwise. Still to come is probing; its codes
+`language` holds motion, offsets and feed, `auxiliary` tool, spindle and M functions, `polar` polar motion,
+`transforms` scaling, mirror image, rotation and datums, `compensation` the radius functions, `cycles` those of
+drilling and milling (chapters 9 and 10), `settings` what a machine may need otherwise. Still to come is probing; its codes
 are refused by name.
 """
 

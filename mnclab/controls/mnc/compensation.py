@@ -1,4 +1,4 @@
-"""Cutter radius compensation (MNC, chapter 6): side and outside corners. The geometry is ``path.compensation``."""
+"""Cutter radius compensation (MNC, chapter 6): side and outside corners. The geometry is `path.compensation`."""
 
 from __future__ import annotations
 

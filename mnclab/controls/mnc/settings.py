@@ -1,7 +1,7 @@
 """The settings of the MNC: where its manual leaves two readings open, the one that a machine may need.
 
-The default is the reading that is adopted; its name (MNC-…) stands in the column of sources. ``peck_clearance`` belongs
-to the cycles, ``block_skip`` is a switch of the operator's panel, ``bulk`` is about speed alone.
+The default is the reading that is adopted; its name (MNC-…) stands in the column of sources. `peck_clearance` belongs
+to the cycles, `block_skip` is a switch of the operator's panel, `bulk` is about speed alone.
 """
 
 from __future__ import annotations

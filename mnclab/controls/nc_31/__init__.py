@@ -1,7 +1,7 @@
 """The lathe control Elektronika NC-31: frames of one word, integers in discretes, marks.
 
-``reader`` makes frames into blocks, ``discretes`` is the scale of the integers, ``functions`` holds moves, repetition
-and words; ``turning``, ``grooving``, ``drilling`` and ``threads`` are the cycles. X is a diameter in programs and a
+`reader` makes frames into blocks, `discretes` is the scale of the integers, `functions` holds moves, repetition
+and words; `turning`, `grooving`, `drilling` and `threads` are the cycles. X is a diameter in programs and a
 radius everywhere else.
 """
 

@@ -30,7 +30,7 @@ def faults(m: Machine, feed: float | None, peck: float, depth: float) -> Iterato
 
 
 def deep_hole(start: float, bottom: float, peck: float, clearance: float) -> Iterator[Step]:
-    """Drill in pecks, each from ``clearance`` before the last depth, each followed by a retract to the start."""
+    """Drill in pecks, each from `clearance` before the last depth, each followed by a retract to the start."""
     levels = infeeds(start, bottom, peck)
     return chain(drill(levels, above=start, feed=None, reenter=clearance), [Go("retract", start)])
 
@@ -70,7 +70,7 @@ class DeepDrilling(FromStart):
 class RadialDrilling(FromStart):
     """G73 with the axes exchanged: pecks of P along X; then, where Z is given, to Z at rapid.
 
-    P counts on the diameter (setting ``p1_on_radius``), machine parameter 8 in true travel of the tool.
+    P counts on the diameter (setting `p1_on_radius`), machine parameter 8 in true travel of the tool.
     """
 
     x: float = param("X", "bottom of the hole", "0.01 mm on diameter", note=FROM_START, example=2000)

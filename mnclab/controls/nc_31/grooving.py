@@ -19,7 +19,7 @@ FEED = "feed of the cycle"
 
 
 class Grooving(FromStart):
-    """What both cycles check and do; ``face`` says which way they plunge."""
+    """What both cycles check and do; `face` says which way they plunge."""
 
     x: float
     z: float

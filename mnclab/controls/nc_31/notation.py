@@ -1,6 +1,6 @@
 """A program of the NC-31 as a lathe of today would write it: a command in a line, millimetres, decimal points.
 
-``X10500~`` is ``G0 X105.0``, an increment becomes U or W, an exact stop G9. What ISO has no word for (the zero mark, the
+`X10500~` is `G0 X105.0`, an increment becomes U or W, an exact stop G9. What ISO has no word for (the zero mark, the
 Stop key, repetition) stands in brackets. Cycles keep their code, for ISO knows none of them; their integers become
 millimetres, P1, P2, P3 are counted, and marks are told by what they mean.
 """
@@ -44,7 +44,7 @@ def modern(program: Program, cycles: CycleTable) -> Notation:
 
 
 def sentence(words: tuple[Word, ...], cycles: CycleTable, told: bool) -> str:
-    """One command as ISO words. ``told``: an M has said how the spindle turns, so that S says only how fast."""
+    """One command as ISO words. `told`: an M has said how the spindle turns, so that S says only how fast."""
     if not words:
         return "(not understood)"
     head, rest = words[0], words[1:]
@@ -142,7 +142,7 @@ def _end(word: Word) -> str:
 
 
 def _millimetres(address: str, value: float, scale: float) -> str:
-    """A number with its decimal point: ``X105.0``, ``F0.15``."""
+    """A number with its decimal point: `X105.0`, `F0.15`."""
     text = f"{value / scale:.4f}".rstrip("0")
     return f"{address}{text}0" if text.endswith(".") else f"{address}{text}"
 

@@ -1,16 +1,16 @@
-"""Reading frames: one word a frame, one frame a line; frames tied by ``*`` become one block.
+"""Reading frames: one word a frame, one frame a line; frames tied by `*` become one block.
 
-A frame is ``N<number> <address><integer> <marks>``. Marks stand after the integer in any order, blanks before each;
-the mark of an increment may also stand before it (``Z@-1000``). Their glyphs on the panel are keys; here they are
+A frame is `N<number> <address><integer> <marks>`. Marks stand after the integer in any order, blanks before each;
+the mark of an increment may also stand before it (`Z@-1000`). Their glyphs on the panel are keys; here they are
 
 ====  ==============================================================
-``*`` this frame and the next are one command
-``~`` at rapid
-``@`` increment (on some G frames a switch; the source lost its glyph)
+`*` this frame and the next are one command
+`~` at rapid
+`@` increment (on some G frames a switch; the source lost its glyph)
 ====  ==============================================================
 
 Frames without N count on from the one before, the first is 0; where a number so counted meets another, the later frame
-has it. ``;`` to the end of a line is a comment: an extension of this library, the control has none. Cyrillic letters
+has it. `;` to the end of a line is a comment: an extension of this library, the control has none. Cyrillic letters
 that look like addresses are read as these, with a warning.
 """
 

@@ -38,7 +38,7 @@ def too_far(name: str, size: float, room: float) -> Iterator[tuple[str, str]]:
 
 
 def back(end: float, size: float, start: float, scale: float) -> float:
-    """The coordinate, mm, that lies ``size`` from ``end`` (both in discretes) towards ``start`` (mm).
+    """The coordinate, mm, that lies `size` from `end` (both in discretes) towards `start` (mm).
 
     Added as whole numbers: a bevel as long as the way to the start ends exactly there.
     """
@@ -180,7 +180,7 @@ class TransverseRoughing(LongitudinalRoughing):
     """Passes along X from the start to Z, each stopping at the contour; a clean-up along it ends the cycle.
 
     Start (X1, Z1); contour (X1, Z) straight to (X, Z + P2), then along Z to (X, Z1): a conical face, for the source says
-    that the bevel is along Z here too. The setting ``g78_bevel`` makes it G77 with the axes exchanged. Chips are broken
+    that the bevel is along Z here too. The setting `g78_bevel` makes it G77 with the axes exchanged. Chips are broken
     by machine parameters 10 and 11, in true travel of the tool.
     """
 

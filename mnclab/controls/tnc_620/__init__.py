@@ -1,7 +1,7 @@
 """The HEIDENHAIN TNC 620 milling control (NC software 81760x-06, 2018), conversational programs.
 
-``reader`` makes blocks of lines, ``statements`` and ``words`` say how each is written, ``language`` obeys statements and M
-functions, ``cycles`` holds the fixed cycles by chapter of the manual, ``later`` names what is not built yet.
+`reader` makes blocks of lines, `statements` and `words` say how each is written, `language` obeys statements and M
+functions, `cycles` holds the fixed cycles by chapter of the manual, `later` names what is not built yet.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The text of cycle 225: which characters it takes, and what stands behind % and the backslash (12.6).
 
-``%ae`` is ä, ``%time08`` the date, ``%count2`` the counter with two digits; ``\\n`` begins a new line. Both signs are written
+`%ae` is ä, `%time08` the date, `%count2` the counter with two digits; `\\n` begins a new line. Both signs are written
 twice where they are meant. The mark CE is engraved as the letters C and E.
 """
 

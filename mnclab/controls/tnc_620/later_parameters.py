@@ -77,7 +77,7 @@ PARAMETERS = {
 }
 
 
-#: A line ``Q1=-9`` without a number below a definition is one of its lines (3.1): they carry no numbers of their own.
+#: A line `Q1=-9` without a number below a definition is one of its lines (3.1): they carry no numbers of their own.
 _BELONGS = "a line Q… without a block number belongs to the definition above it: number it to assign a variable"
 
 

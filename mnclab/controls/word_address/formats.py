@@ -1,7 +1,7 @@
 """Formats of words: which numbers may carry a sign or a decimal point, and blanks between an address and its number.
 
-A format is written as manuals of such controls write it: ``n`` digits, ``n.n`` digits with a point or not, ``±n`` and
-``±n.n`` the same with a sign or not.
+A format is written as manuals of such controls write it: `n` digits, `n.n` digits with a point or not, `±n` and
+`±n.n` the same with a sign or not.
 """
 
 from __future__ import annotations

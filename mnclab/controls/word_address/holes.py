@@ -38,7 +38,7 @@ def no_pitch(m: Machine) -> Iterator[tuple[str, str]]:
 
 
 def initial_level(m: Machine, kept: dict[str, Any]) -> float:
-    """Z of the program where the tool stood when the cycle was first called (``kept["initial"]``, of the machine)."""
+    """Z of the program where the tool stood when the cycle was first called (`kept["initial"]`, of the machine)."""
     x, y, _ = m.tip
     return m.to_program((x, y, kept["initial"]))[2]
 

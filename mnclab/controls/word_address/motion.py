@@ -17,7 +17,7 @@ ARGUMENTS = (("X", "x"), ("Y", "y"), ("Z", "z"))
 
 
 def coordinates(m: Machine, words: Words, absolute: bool) -> dict[str, Any]:
-    """Targets of the axes that are written, as arguments of a verb (``x=``, …); increments count from the register."""
+    """Targets of the axes that are written, as arguments of a verb (`x=`, …); increments count from the register."""
     found = {
         name: value if type(value := words[axis][1]) is float else m.value(words[axis])
         for axis, name in ARGUMENTS
@@ -38,7 +38,7 @@ def first_word(words: Words) -> Word | None:
 def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centre: bool = False) -> None:
     """A circular block by R or by I J K, with a third axis a helix.
 
-    ``line_without_centre``: neither R nor I J K gives a straight line (MNC 3.4, note 1), else an alarm.
+    `line_without_centre`: neither R nor I J K gives a straight line (MNC 3.4, note 1), else an alarm.
     """
     to = coordinates(m, words, absolute)
     offsets = {k: words[c] for k, c in enumerate(CENTRE) if c in words}
@@ -86,7 +86,7 @@ def _helix(m: Machine) -> str:
 
 def more_helices(m: Machine, count: int) -> bool:
     """Whether helices go on without a word of their own, since they are allowed or enough of them were named; then
-    ``count`` more are counted."""
+    `count` more are counted."""
     choice, told = m.settings.get("helix", "warn"), m.alarms.warned(_helix(m), m.program)
     if choice == "warn" and told and len(told.places) >= PLACES:
         told.count += count

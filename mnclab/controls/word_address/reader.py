@@ -1,6 +1,6 @@
-"""Reading blocks of one-letter words: ``N40 G83 X20 Z-30 R2 // a hole``.
+"""Reading blocks of one-letter words: `N40 G83 X20 Z-30 R2 // a hole`.
 
-Lines that hold nothing but good words are found for the whole text at once (``text.words``); the others, with comments,
+Lines that hold nothing but good words are found for the whole text at once (`text.words`); the others, with comments,
 block skip or faults, are read one by one here, and this is where mistakes get their names.
 """
 
@@ -31,8 +31,8 @@ _WORD = re.compile(r"([A-Za-z])[ \t]*([+-]?(?:\d+(?:\.\d*)?|\.\d+))?")
 class Marks(NamedTuple):
     """What may stand in a line beside words: comments, which begin with a regular expression, and three marks.
 
-    Without ``labels`` N is an address like others. Without ``skip`` a slash at the start of a line means nothing. A line
-    that begins with one of the characters of ``headers`` is one word of that address, without a number.
+    Without `labels` N is an address like others. Without `skip` a slash at the start of a line means nothing. A line
+    that begins with one of the characters of `headers` is one word of that address, without a number.
     """
 
     comment: re.Pattern[str]
@@ -44,7 +44,7 @@ class Marks(NamedTuple):
 def reader(
     control: str, comment: str = r"/[ \t]?/", *, labels: bool = True, skip: bool = True, headers: str = ""
 ) -> Callable[[str, str], Program]:
-    """A function (text, name) -> Program for a control whose lines hold words and such :class:`Marks`."""
+    """A function (text, name) -> Program for a control whose lines hold words and such `Marks`."""
     mark = Marks(re.compile(comment), labels, skip, headers)
 
     def read(text: str, name: str = "program") -> Program:
@@ -108,7 +108,7 @@ def plain_blocks(
 ) -> NDArray[np.bool_]:
     """Which blocks (b,) hold only these letters, each once, and of the G words only plain motion.
 
-    Every letter is a bit: a block with a letter twice has a sum of bits that differs from their union. ``first`` (b + 1,)
+    Every letter is a bit: a block with a letter twice has a sum of bits that differs from their union. `first` (b + 1,)
     says where the words of a block begin.
     """
     plain = np.zeros(len(first) - 1, dtype=bool)
@@ -213,7 +213,7 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks)
 
 
 def _digit_meant(text: str, at: int, stop: int) -> str:
-    """The hint about a letter in place of a digit: the one at ``at`` inside a number, or the one after that address.
+    """The hint about a letter in place of a digit: the one at `at` inside a number, or the one after that address.
 
     What follows it must be digits: TOOL is a word.
     """

@@ -1,6 +1,6 @@
-"""Drilling, reaming and boring as steps at a hole; who calls them brings the tool to ``above`` before, and away after.
+"""Drilling, reaming and boring as steps at a hole; who calls them brings the tool to `above` before, and away after.
 
-Levels are coordinates along the tool axis, mm; ``above`` is the level over the hole from which a tool drills and to which
+Levels are coordinates along the tool axis, mm; `above` is the level over the hole from which a tool drills and to which
 it is withdrawn, so that a hole may also be drilled upwards.
 """
 
@@ -26,10 +26,10 @@ class Guided(NamedTuple):
 
 
 def guided(surface: float, deepened: float, clearance: float, up: float = 1.0) -> Guided:
-    """The levels for a hole that is there already down to ``deepened`` below the surface; 0: both over the surface.
+    """The levels for a hole that is there already down to `deepened` below the surface; 0: both over the surface.
 
-    Drilling begins 0.2 of that depth above its end, chips are cleared 0.8 of it above, but never more than ``clearance``
-    (TNC 620, positioning behaviour with Q379). ``up`` is -1 where the hole is drilled upwards.
+    Drilling begins 0.2 of that depth above its end, chips are cleared 0.8 of it above, but never more than `clearance`
+    (TNC 620, positioning behaviour with Q379). `up` is -1 where the hole is drilled upwards.
 
     >>> guided(0, 2, 2)
     Guided(start=-1.6, clear=-0.4)
@@ -59,13 +59,13 @@ def drill(
     approach: float | None = None,
     start: float | None = None,
 ) -> Iterator[Step]:
-    """Drill to each of the ``levels``; between two, break the chip or withdraw to ``above`` at the feed ``withdraw``.
+    """Drill to each of the `levels`; between two, break the chip or withdraw to `above` at the feed `withdraw`.
 
-    A withdrawal waits ``dwell_top`` seconds and returns at rapid to ``reenter`` mm over the last depth: one distance, or
-    one for each return (advanced stop distances). ``breaks`` chips are broken, by ``back`` mm at the feed ``back_feed`` (None:
-    as a withdrawal), before each withdrawal; 0: every level is followed by one. ``break_every`` breaks a chip after that
-    much within a level, with a return to the depth at the feed ``approach``; the first level counts from ``start``, which
-    is ``above`` if nothing else is said. ``dwell_each`` acts at every level but the last, ``dwell_bottom`` there.
+    A withdrawal waits `dwell_top` seconds and returns at rapid to `reenter` mm over the last depth: one distance, or
+    one for each return (advanced stop distances). `breaks` chips are broken, by `back` mm at the feed `back_feed` (None:
+    as a withdrawal), before each withdrawal; 0: every level is followed by one. `break_every` breaks a chip after that
+    much within a level, with a return to the depth at the feed `approach`; the first level counts from `start`, which
+    is `above` if nothing else is said. `dwell_each` acts at every level but the last, `dwell_bottom` there.
     """
     up, returns = math.copysign(1.0, above - levels[-1]), 0
     back_feed, start = withdraw if back_feed is None else back_feed, above if start is None else start
@@ -110,9 +110,9 @@ def bore(
     angle: float = 0.0,
     direction: int = 0,
 ) -> Iterator[Step]:
-    """Bore, stop the spindle at an angle, leave the wall in a direction (one of :data:`DIRECTIONS`, 0 none), retract.
+    """Bore, stop the spindle at an angle, leave the wall in a direction (one of `DIRECTIONS`, 0 none), retract.
 
-    The tool ends at ``above``, still shifted.
+    The tool ends at `above`, still shifted.
     """
     yield Go("bore", bottom, feed)
     yield Wait("dwell at the bottom", dwell)
@@ -128,7 +128,7 @@ def bore_and_stop(
 ) -> Iterator[Step]:
     """Bore, stop the spindle, retract at rapid, turn the spindle on again.
 
-    With a ``shift`` the spindle stops oriented and the tool leaves the wall by that much along -x; it ends on the axis.
+    With a `shift` the spindle stops oriented and the tool leaves the wall by that much along -x; it ends on the axis.
     """
     yield Go("bore", bottom, feed)
     yield Wait("dwell at the bottom", dwell)
@@ -157,10 +157,10 @@ def back_bore(
     turning: int,
     coolant: bool = False,
 ) -> Iterator[Step]:
-    """Counterbore from below: shifted through the hole, back to its axis, up to the ``bottom`` of the counterbore.
+    """Counterbore from below: shifted through the hole, back to its axis, up to the `bottom` of the counterbore.
 
-    Levels are those of the tip: ``below`` with the edge free under the workpiece. ``travel`` is the feed through the hole.
-    ``coolant``: it is switched on and off together with the spindle. The tool ends at ``above``, still shifted, with the
+    Levels are those of the tip: `below` with the edge free under the workpiece. `travel` is the feed through the hole.
+    `coolant`: it is switched on and off together with the spindle. The tool ends at `above`, still shifted, with the
     spindle stopped.
     """
     x, y = (eccentricity * step for step in DIRECTIONS[direction])
@@ -205,12 +205,12 @@ def gun_drill(
     coolant: tuple[str, str] = ("coolant on", "coolant off"),
     cool_until_slow: bool = False,
 ) -> Iterator[Step]:
-    """Single-lip drilling: in and out with the spindle as ``entry`` (turning, speed), drilling at ``speed`` with coolant.
+    """Single-lip drilling: in and out with the spindle as `entry` (turning, speed), drilling at `speed` with coolant.
 
-    Drilling begins at ``start``, reached at the feed ``approach``; at each of the ``levels``, and at the level ``pause``,
-    the tool dwells. From ``pause`` on it drills at ``feed_after``, where that is given. ``coolant`` is what its two
+    Drilling begins at `start`, reached at the feed `approach`; at each of the `levels`, and at the level `pause`,
+    the tool dwells. From `pause` on it drills at `feed_after`, where that is given. `coolant` is what its two
     switchings are called, "" for none; it is off before the spindle takes the speed of the exit, or after it
-    (``cool_until_slow``).
+    (`cool_until_slow`).
     """
     on, off = [Coolant(coolant[0], True)][: bool(coolant[0])], [Coolant(coolant[1], False)][: bool(coolant[1])]
     yield Spin("spindle for the entry", *entry)

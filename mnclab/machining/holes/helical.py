@@ -1,6 +1,6 @@
 """Milling round the axis of a hole in true helices: bores and threads.
 
-Angle 0 is the first axis of the plane; ``sense`` is +1 counter-clockwise, -1 clockwise, seen from the tool.
+Angle 0 is the first axis of the plane; `sense` is +1 counter-clockwise, -1 clockwise, seen from the tool.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ def steepest_pitch(radius: float, angle: float) -> float:
 def bore_milling(
     bottom: float, *, above: float, radius: float, pitch: float, sense: int, feed: float | None, by_arc: bool = False
 ) -> Iterator[Step]:
-    """A helix of the tool centre from ``above`` to ``bottom``, one full circle there, back to the axis.
+    """A helix of the tool centre from `above` to `bottom`, one full circle there, back to the axis.
 
-    ``radius`` is that of the tool centre: 0 drills straight. ``by_arc``: to the wall and back on half circles that join it
+    `radius` is that of the tool centre: 0 drills straight. `by_arc`: to the wall and back on half circles that join it
     tangentially, else straight. The last turn of the helix may be a part of one.
     """
     if radius == 0:

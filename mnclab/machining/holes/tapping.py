@@ -1,6 +1,6 @@
 """Tapping as steps at a hole: spindle and feed locked, or a floating holder; a reversal at each end of the thread.
 
-``sense`` is +1 where the spindle cuts clockwise (M3, a right-hand thread), -1 counter-clockwise.
+`sense` is +1 where the spindle cuts clockwise (M3, a right-hand thread), -1 counter-clockwise.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ def tap(
     back: float = 0.0,
     angle: float | None = None,
 ) -> Iterator[Step]:
-    """Cut to each of the ``levels`` and back: between two by ``back`` mm, or with 0 out of the hole to ``above``.
+    """Cut to each of the `levels` and back: between two by `back` mm, or with 0 out of the hole to `above`.
 
-    Without a ``pitch`` the holder floats and the axis runs at ``feed``. ``end`` is what the spindle does afterwards:
-    ``sense`` again, or 0. At the last level the spindle stands still for ``stand`` seconds, and ``dwell`` acts before the
-    reversal or after it. ``out_speed`` is the spindle speed on the way out, ``angle`` where it is oriented before.
+    Without a `pitch` the holder floats and the axis runs at `feed`. `end` is what the spindle does afterwards:
+    `sense` again, or 0. At the last level the spindle stands still for `stand` seconds, and `dwell` acts before the
+    reversal or after it. `out_speed` is the spindle speed on the way out, `angle` where it is oriented before.
     """
 
     def travel(label: str, level: float) -> Step:

@@ -1,6 +1,6 @@
 """Thread milling round the axis of a hole or a stud, in helices joined tangentially by half circles.
 
-Rotation of the tool centre, seen from the tool: ``sense`` +1 counter-clockwise, -1 clockwise; ``hand`` is +1 for a
+Rotation of the tool centre, seen from the tool: `sense` +1 counter-clockwise, -1 clockwise; `hand` is +1 for a
 right-hand thread, -1 for a left-hand one. Their product is the way along the axis: +1 upwards, -1 downwards. Every helix
 begins at angle 0, the first axis of the plane.
 
@@ -43,9 +43,9 @@ def path_of(nominal: float, tool_radius: float, pitch: float, external: bool = F
 
 
 def helices(depth: float, pitch: float, bottom: float, upwards: bool, a_step: int = 0) -> list[tuple[float, float]]:
-    """Start and end levels of the helices that make a thread of a ``depth`` over ``bottom``.
+    """Start and end levels of the helices that make a thread of a `depth` over `bottom`.
 
-    ``a_step`` 0: one turn at the bottom; 1: one helix of whole turns over the depth; more: single turns, so many pitches
+    `a_step` 0: one turn at the bottom; 1: one helix of whole turns over the depth; more: single turns, so many pitches
     apart.
 
     >>> helices(20, 1.5, 10, True, 4)
@@ -76,7 +76,7 @@ def mill_thread(
     position_feed: float,
     external: bool = False,
 ) -> Iterator[Step]:
-    """Along every helix of :func:`helices`, with an approach and a departure of its own; ends beside the thread.
+    """Along every helix of `helices`, with an approach and a departure of its own; ends beside the thread.
 
     The tool comes to the axis of a hole, or to the start point outside a stud; from a hole it goes back to its axis.
     """
@@ -97,7 +97,7 @@ def mill_thread(
 
 
 def countersink(path: Path, offset: float, *, sense: int, feed: float, external: bool = False) -> Iterator[Step]:
-    """A full circle of radius ``offset`` at the level of the tool, from the axis (outside: from the start point) and back.
+    """A full circle of radius `offset` at the level of the tool, from the axis (outside: from the start point) and back.
 
     None without an offset: then the tool has countersunk where it stands.
     """

@@ -36,7 +36,7 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True)
 class Walled:
-    """A rectangle, `length` along X and `width` along Y, its walls among :data:`SIDES`, and their corner radius."""
+    """A rectangle, `length` along X and `width` along Y, its walls among `SIDES`, and their corner radius."""
 
     length: float
     width: float

@@ -45,7 +45,7 @@ class Glyph(NamedTuple):
 
 
 def cells(characters: Sequence[str], spacing: float = 0.0) -> list[Cell]:
-    """Where characters of height 1 stand; ``spacing`` widens every step, 0 is the natural one."""
+    """Where characters of height 1 stand; `spacing` widens every step, 0 is the natural one."""
     found, pen, line = [], 0.0, 0
     for character in characters:
         if character == NEW_LINE:
@@ -77,9 +77,9 @@ def on_line(row: Sequence[Cell], height: float, reference: int, angle: float) ->
 
 
 def on_arc(row: Sequence[Cell], height: float, reference: int, angle: float, radius: float, sense: int) -> list[Glyph]:
-    """Characters round a circle: ``sense`` -1 clockwise with their tops outwards, 1 counter-clockwise with their tops inwards.
+    """Characters round a circle: `sense` -1 clockwise with their tops outwards, 1 counter-clockwise with their tops inwards.
 
-    ``angle`` is where the reference lies, seen from the centre. Raises ValueError where a line has no radius left.
+    `angle` is where the reference lies, seen from the centre. Raises ValueError where a line has no radius left.
     """
     first = angle - sense * SHARE[reference] * length(row) * height / radius
     away = 0.0 if reference == 0 else radius - sense * height if reference in TOP else radius

@@ -35,7 +35,7 @@ def within(length: float, width: float, radius: float, places: Sequence[float], 
 
     Lines run along the length at `places` from one edge of the width, joined in turn at the far and the near end; those of
     a surface shorter than the tool are a point. Of a surface from 2 R to 3 R long the area is a hair too large: there one end
-    of the lines reaches what stands at the other. ``outside``: the first line begins outside.
+    of the lines reaches what stands at the other. `outside`: the first line begins outside.
     """
     a, b = min(radius, length / 2), min(radius, width / 2)
     covered = places[0] + radius if outside else -math.inf  # at the near end the first line comes over all below this

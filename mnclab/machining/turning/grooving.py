@@ -12,7 +12,7 @@ from mnclab.machining.steps import RAPID, Go
 
 
 def places(first: float, last: float, step: float | None) -> tuple[float, ...]:
-    """Where to plunge: ``step`` apart from the first on, and at the last; without a step at these two.
+    """Where to plunge: `step` apart from the first on, and at the last; without a step at these two.
 
     >>> places(20, 35, 6)
     (20.0, 26.0, 32.0, 35.0)
@@ -30,9 +30,9 @@ def grooves(
     home: bool = True,
     shift: float | None = RAPID,
 ) -> Iterator[Go]:
-    """From the level ``across`` plunge to the bottom at each of the places, and return to the first at the end.
+    """From the level `across` plunge to the bottom at each of the places, and return to the first at the end.
 
-    ``shift`` is the feed from one place to the next.
+    `shift` is the feed from one place to the next.
     """
     for number, place in enumerate(along, 1):
         label = f"groove {number} of {len(along)}" if len(along) > 1 else "groove"

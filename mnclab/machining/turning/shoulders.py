@@ -24,7 +24,7 @@ LOOP = 0.5  # mm in both axes at the end of a roughing pass, as the textbook has
 
 
 class Shoulder(NamedTuple):
-    """The contour to be cut: at level ``finish`` up to ``corner``, then straight to ``far`` at level ``rim``."""
+    """The contour to be cut: at level `finish` up to `corner`, then straight to `far` at level `rim`."""
 
     finish: float
     corner: float
@@ -32,7 +32,7 @@ class Shoulder(NamedTuple):
     far: float
 
     def stop(self, level: float) -> float:
-        """How far along a pass at this level may go: to the bevel, and beyond the rim to ``far``."""
+        """How far along a pass at this level may go: to the bevel, and beyond the rim to `far`."""
         share = 0.0 if self.rim == self.finish else (level - self.finish) / (self.rim - self.finish)
         if self.rim == self.finish or share >= 1:
             return self.far
@@ -47,14 +47,14 @@ class Pass(NamedTuple):
 
 
 def count_of_levels(start: float, finish: float, depth: float, with_finish: bool = True) -> int:
-    """How many full depths lie between two levels; one that lands on ``finish`` counts only ``with_finish``."""
+    """How many full depths lie between two levels; one that lands on `finish` counts only `with_finish`."""
     share = abs(start - finish) / depth
     whole = math.floor(share * (1 + GRAIN))
     return whole - (not with_finish and whole > 0 and math.isclose(whole, share, rel_tol=GRAIN))
 
 
 def levels(start: float, finish: float, depth: float, with_finish: bool = True) -> tuple[float, ...]:
-    """Levels one ``depth`` apart from ``start`` towards ``finish``, as many as :func:`count_of_levels` says."""
+    """Levels one `depth` apart from `start` towards `finish`, as many as `count_of_levels` says."""
     step = math.copysign(depth, finish - start)
     found = [start + step * i for i in range(1, count_of_levels(start, finish, depth, with_finish) + 1)]
     if found and (found[-1] - finish) * step > 0:  # rounding must not cut deeper than the finish
@@ -63,7 +63,7 @@ def levels(start: float, finish: float, depth: float, with_finish: bool = True) 
 
 
 def roughing(start: float, shoulder: Shoulder, depth: float, with_finish: bool = True) -> tuple[Pass, ...]:
-    """The roughing passes from level ``start`` down to a shoulder, each to where it meets the contour.
+    """The roughing passes from level `start` down to a shoulder, each to where it meets the contour.
 
     What is left after the last (less than one depth, and the steps on the bevel) is for a clean-up along the contour.
     """
@@ -71,17 +71,17 @@ def roughing(start: float, shoulder: Shoulder, depth: float, with_finish: bool =
 
 
 def count_of_breaks(begin: float, end: float, length: float) -> int:
-    """How often a cut is interrupted; no ``length`` (0) never."""
+    """How often a cut is interrupted; no `length` (0) never."""
     return max(math.ceil(abs(end - begin) / length * (1 - GRAIN)) - 1, 0) if length > 0 else 0
 
 
 def chip_breaks(begin: float, end: float, length: float) -> tuple[float, ...]:
-    """Where a cut is interrupted to break the chip: at multiples of ``length`` from its begin, not at its end."""
+    """Where a cut is interrupted to break the chip: at multiples of `length` from its begin, not at its end."""
     step = math.copysign(length, end - begin)
     return tuple(begin + step * i for i in range(1, count_of_breaks(begin, end, length) + 1))
 
 
-# --- as steps of a tool: x across, z along; :func:`facing` makes them the other way round ------------------------------
+# --- as steps of a tool: x across, z along; `facing` makes them the other way round ------------------------------
 
 
 def loops(
@@ -95,10 +95,10 @@ def loops(
     chip_retract: float = 0.0,
     total: int = 0,
 ) -> Iterator[Go]:
-    """Roughing passes from ``start`` (across, along), each a loop: in, cut, off by ``retract`` both ways, back.
+    """Roughing passes from `start` (across, along), each a loop: in, cut, off by `retract` both ways, back.
 
-    After every ``chip`` mm (0: never) the tool goes back by ``chip_retract`` at rapid and cuts on. No retract goes beyond
-    the start, where a tailstock or the far wall of a bore may be. ``total`` is how many passes the labels tell of.
+    After every `chip` mm (0: never) the tool goes back by `chip_retract` at rapid and cuts on. No retract goes beyond
+    the start, where a tailstock or the far wall of a bore may be. `total` is how many passes the labels tell of.
     """
     x1, z1 = start
     for number, (level, stop) in enumerate(passes, 1):
@@ -121,9 +121,9 @@ def around(
     infeed: float | None = RAPID,
     wall: float | None = None,
 ) -> Iterator[Go]:
-    """From ``start`` (across, along) once along the contour and back: in, to the corner, up the bevel, out, return.
+    """From `start` (across, along) once along the contour and back: in, to the corner, up the bevel, out, return.
 
-    ``wall`` is the feed from the rim to the start level; the return is at rapid.
+    `wall` is the feed from the rim to the start level; the return is at rapid.
     """
     x1, z1 = start
     yield Go(f"{label}, infeed", x=shoulder.finish, feed=infeed)
@@ -137,9 +137,9 @@ def remove_stock(
     start: tuple[float, float], shoulder: Shoulder, depth: float | None, *, retract: float, feed: float | None = None,
     wall: float | None = RAPID,
 ) -> Iterator[Go]:  # fmt: skip
-    """From a start (across, along) remove the stock in passes one ``depth`` apart, the last one along the contour.
+    """From a start (across, along) remove the stock in passes one `depth` apart, the last one along the contour.
 
-    The last one also cuts what the others have left on the bevel; ``wall`` is its feed from the rim to the start level.
+    The last one also cuts what the others have left on the bevel; `wall` is its feed from the rim to the start level.
     Without a depth there is this one alone.
     """
     passes = roughing(start[0], shoulder, depth, with_finish=False) if depth else ()

@@ -135,7 +135,7 @@ def edge_shares(
 ) -> tuple[tuple[float, float], ...]:
     """Areas, mm², that each pass cuts on the two sides of its tip: behind it and ahead of it along the feed.
 
-    `positions` are those of :func:`shifts`. From a fine grid over the gap: within a thousandth of the whole.
+    `positions` are those of `shifts`. From a fine grid over the gap: within a thousandth of the whole.
     """
     _check(depths)
     slope = math.tan(math.radians(profile) / 2)

@@ -18,7 +18,7 @@ from mnclab.machining.steps import Go, Step, Thread
 
 
 def lead_along(across: float, along: float, pitch: float) -> float:
-    """The way of the tool in one turn when the axis with the longer way advances ``pitch``.
+    """The way of the tool in one turn when the axis with the longer way advances `pitch`.
 
     >>> lead_along(0, -43, 1.5)
     1.5
@@ -38,11 +38,11 @@ def thread_passes(
     angle: float = 0.0,
     run_out: float = 0.0,
 ) -> Iterator[Step]:
-    """Passes from ``start`` (x, z) beside the part to ``end``: the crest of the thread there, and where it ends.
+    """Passes from `start` (x, z) beside the part to `end`: the crest of the thread there, and where it ends.
 
-    Each pass lies one of the ``depths`` (mm, radius) below the crest. ``taper`` is how much deeper (radius) the thread is
-    at the start. ``angle`` (rad) shifts the begin of a pass towards the end by depth * tan(angle), so that one flank
-    cuts. Over the last ``run_out`` mm the tool leaves the thread on a straight line to the x of the start, still locked
+    Each pass lies one of the `depths` (mm, radius) below the crest. `taper` is how much deeper (radius) the thread is
+    at the start. `angle` (rad) shifts the begin of a pass towards the end by depth * tan(angle), so that one flank
+    cuts. Over the last `run_out` mm the tool leaves the thread on a straight line to the x of the start, still locked
     to the spindle. The pitch counts along Z, and every pass begins at the zero mark of the spindle.
     """
     (x1, z1), (x, z) = start, end

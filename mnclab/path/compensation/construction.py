@@ -28,9 +28,9 @@ APART = 1e-9  # mm
 class Construction:
     """m corners and q offset vectors; points (…, 3) mm, relative to the path's origin.
 
-    ``path`` is the contour with its roundings and chamfers. ``place`` (m, 3) are its corners, ``rule`` (m,) what was
-    done there, ``line`` (m,) the block that leads to it, ``along`` (m, 3) the unit tangent into the contour. Vectors
-    lead from ``foot`` (q, 3) to ``tip`` (q, 3) and belong to the corner ``of`` (q,).
+    `path` is the contour with its roundings and chamfers. `place` (m, 3) are its corners, `rule` (m,) what was
+    done there, `line` (m,) the block that leads to it, `along` (m, 3) the unit tangent into the contour. Vectors
+    lead from `foot` (q, 3) to `tip` (q, 3) and belong to the corner `of` (q,).
     """
 
     path: Toolpath
@@ -46,7 +46,7 @@ class Construction:
 
     @property
     def compensated(self) -> Mask:
-        """Which rows of ``path`` are elements that are compensated, or lead to or from one (n,)."""
+        """Which rows of `path` are elements that are compensated, or lead to or from one (n,)."""
         rows = np.zeros(len(self.path), dtype=bool)
         if self.found is not None:
             rows[self.found.el.rows] = self.found.el.on | self.found.el.exit
@@ -56,7 +56,7 @@ class Construction:
 def construct(programmed: Toolpath, rules: Compensation | None, unfinished: bool = False) -> Construction:
     """The construction for a programmed contour; without corners where nothing is compensated.
 
-    ``unfinished``: the program broke off, so the end of its last compensated element is unknown.
+    `unfinished`: the program broke off, so the end of its last compensated element is unknown.
     """
     path = joints.apply(programmed, unfinished)
     view = PlaneView(path)
@@ -120,7 +120,7 @@ def _rules(found: Equidistant, before_exit: Mask, before_change: Mask) -> NDArra
 
 
 def _foot(found: Equidistant, k: Index, centre: Array, at_start: bool) -> Array:
-    """Where the tool at ``centre`` (m, 2) touches elements k (m,); an offset that turned inside out lies opposite."""
+    """Where the tool at `centre` (m, 2) touches elements k (m,); an offset that turned inside out lies opposite."""
     el = found.el
     result = beside(centre, el.t_in[k] if at_start else el.t_out[k], -el.R[k] * el.s[k])
     a = np.flatnonzero(el.arc[k])

@@ -20,11 +20,11 @@ Mask = NDArray[np.bool_]
 class Elements(NamedTuple):
     """n elements in the order of travel, lengths in mm, angles in rad.
 
-    ``rows`` (n,) are their rows in the path; ``start``, ``end``, ``centre`` (n, 2); ``t_in``, ``t_out`` (n, 2) unit
-    tangents; ``r`` (n,) radii of arcs, nan for lines; ``sweep`` (n,). ``on`` (n,): compensated; ``s``, ``R`` (n,) side
-    and radius there, 0 elsewhere. ``entry``, ``exit``, ``change`` (n,): first element, the one after the last, and the
-    one that leads to the other side. ``corner`` (n,) is the rule for the corner before the element; ``from_height``,
-    ``to_height`` (n,) mm is where the tip of the tool is at both ends, along the normal of the plane.
+    `rows` (n,) are their rows in the path; `start`, `end`, `centre` (n, 2); `t_in`, `t_out` (n, 2) unit
+    tangents; `r` (n,) radii of arcs, nan for lines; `sweep` (n,). `on` (n,): compensated; `s`, `R` (n,) side
+    and radius there, 0 elsewhere. `entry`, `exit`, `change` (n,): first element, the one after the last, and the
+    one that leads to the other side. `corner` (n,) is the rule for the corner before the element; `from_height`,
+    `to_height` (n,) mm is where the tip of the tool is at both ends, along the normal of the plane.
     """
 
     rows: Index
@@ -73,7 +73,7 @@ class Elements(NamedTuple):
         return self.on & ~self.entry & ~self.change
 
     def offset(self, k: Index, at_end: bool, shift: Array, s: Array) -> Element:
-        """Elements k (m,) moved by ``shift`` mm to the side ``s`` (m,), seen from their end or their start."""
+        """Elements k (m,) moved by `shift` mm to the side `s` (m,), seen from their end or their start."""
         t, p = (self.t_out[k], self.end[k]) if at_end else (self.t_in[k], self.start[k])
         radius = self.r[k] - s * np.sign(self.sweep[k]) * shift
         return Element(p + (shift * s)[:, None] * left(t), t, self.centre[k], radius)
@@ -100,7 +100,7 @@ class Elements(NamedTuple):
         return Curves(self.start[k], self.end[k], self.centre[k], self.r[k], self.sweep[k])
 
     def moved(self, k: Index, shift: Array, s: Array) -> Curves:
-        """Elements k (m,) moved by ``shift`` mm to the side ``s`` (m,), from end to end."""
+        """Elements k (m,) moved by `shift` mm to the side `s` (m,), from end to end."""
         start, end = beside(self.start[k], self.t_in[k], shift * s), beside(self.end[k], self.t_out[k], shift * s)
         radius = np.abs(self.r[k] - s * np.sign(self.sweep[k]) * shift)
         return Curves(start, end, self.centre[k], radius, self.sweep[k])

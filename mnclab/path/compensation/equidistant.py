@@ -26,9 +26,9 @@ def apply(
 ) -> Toolpath:
     """The path of the tool centre; the path itself where nothing is compensated. Raises PathFault.
 
-    ``unfinished``: the program broke off, so the end of the last compensated row is unknown and the row is left out.
-    ``gouge`` says what happens where the tool does not fit: "refuse" raises, "mark" cuts anyway, marks the rows in the
-    column ``gouge`` and adds to ``report``, where remarks go as well.
+    `unfinished`: the program broke off, so the end of the last compensated row is unknown and the row is left out.
+    `gouge` says what happens where the tool does not fit: "refuse" raises, "mark" cuts anyway, marks the rows in the
+    column `gouge` and adds to `report`, where remarks go as well.
     """
     if rules is None or not (path.side != 0).any():
         return path
@@ -76,8 +76,8 @@ def _check_leads(path: Toolpath, el: Elements, rules: Compensation) -> None:
 
 
 class Equidistant:
-    """Elements with the ends of their offsets: ``begin``, ``end`` (n, 2), ``sweep`` (n,), ``rule`` (n,); where
-    ``insert`` (n,) an arc about the corner leads to the element, with sweep ``turn`` (n,)."""
+    """Elements with the ends of their offsets: `begin`, `end` (n, 2), `sweep` (n,), `rule` (n,); where
+    `insert` (n,) an arc about the corner leads to the element, with sweep `turn` (n,)."""
 
     def __init__(self, el: Elements, rules: Compensation) -> None:
         self.el, self.rules = el, rules

@@ -6,7 +6,7 @@ than the tool is wide; at the *ends* of a contour, where the tool arrives and le
 outside *corners*, it must stand clear of all other walls. An *entry* (and an *exit*) must begin where the tool does not
 yet cut into the element it leads to, and where the tool rolls onto the contour or off it, all walls must be clear. Close
 by along the contour, and behind a cusp, *neighbours* are measured one by one.
-Everywhere a tool cuts only into what is at its ``heights`` and into walls that the contour leaves standing (``passes``).
+Everywhere a tool cuts only into what is at its `heights` and into walls that the contour leaves standing (`passes`).
 
 Growing the tool from nothing, the first place that fails is one of these; so the largest radius is the least of their
 own, each from a closed form or, for elements between two corners, from narrowing an interval on the exact condition.
@@ -59,7 +59,7 @@ class Places(NamedTuple):
 
 
 def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, report: Report) -> Mask:
-    """Which elements (n,) cut into the contour. PathFault at the first, unless ``gouge`` is "mark"."""
+    """Which elements (n,) cut into the contour. PathFault at the first, unless `gouge` is "mark"."""
     el = found.el
     marked = np.zeros(len(el.rows), dtype=bool)
     # one number from each entry or change to the next
@@ -165,7 +165,7 @@ def _local(found: Equidistant) -> list[Places]:
 
 
 def _beside(found: Equidistant, contour: Index, lost: Index) -> Places:
-    """Rows that come too near to an element close by; what is ``lost`` has no row."""
+    """Rows that come too near to an element close by; what is `lost` has no row."""
     el, rules = found.el, found.rules
     look = neighbours.looked_at(found, contour)
     slack = _misfit(el) if len(look.k) else el.R
@@ -196,7 +196,7 @@ def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
 def narrowed(fits: Callable[[Index, Array], Mask], radius: Array, parts: int = 16) -> Array:
     """The largest radii (m,) below the given ones for which something fits, by dividing the interval again and again.
 
-    ``fits(which, radius)`` tells for the things ``which`` (n,) of the m whether they fit (n,); all fit at zero.
+    `fits(which, radius)` tells for the things `which` (n,) of the m whether they fit (n,); all fit at zero.
     """
     m = len(radius)
     low, high, which = np.zeros(m), radius.copy(), np.repeat(np.arange(m), parts - 1)

@@ -15,9 +15,9 @@ from mnclab.path.kinds import Rule
 
 
 class Corners(NamedTuple):
-    """m corners: the offset before ends at ``E`` (m, 2), the one after begins at ``S`` (m, 2); where ``insert`` (m,) an
-    arc about the corner with sweep ``turn`` (m,) rad leads over. ``rule`` (m,) is what the element before is called;
-    ``apart`` (m,): an inside corner whose offsets do not meet."""
+    """m corners: the offset before ends at `E` (m, 2), the one after begins at `S` (m, 2); where `insert` (m,) an
+    arc about the corner with sweep `turn` (m,) rad leads over. `rule` (m,) is what the element before is called;
+    `apart` (m,): an inside corner whose offsets do not meet."""
 
     E: Array
     S: Array
@@ -99,7 +99,7 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
 def _meet(el: Elements, c: Index, d: Index, P: Array, R: Array, s: Array, both: Array, along: Array) -> Array:
     """Where the offsets before and after corners P meet: between lines P + R (n1 + n2) / (1 + n1 . n2).
 
-    ``both`` (m, 2) is the sum of the tangents t1 and t2, ``along`` (m,) their product.
+    `both` (m, 2) is the sum of the tangents t1 and t2, `along` (m,) their product.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         found = beside(P, both, R * s / (1 + along))

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked: Mask) -> Toolpath:
-    """The rows of ``path`` along the equidistant; rows without motion in the plane stand where the one before ends."""
+    """The rows of `path` along the equidistant; rows without motion in the plane stand where the one before ends."""
     el = found.el
     rows, n = el.rows, len(path)
     if len(rows) == n:
@@ -73,7 +73,7 @@ def _joined(flat: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.flo
 
 
 def _spread(column: NDArray[Any], source: NDArray[np.int64], at: NDArray[np.int64], value: Any) -> NDArray[Any]:
-    """A column gathered from its old rows, other values in the rows ``at``; a constant one stays so."""
+    """A column gathered from its old rows, other values in the rows `at`; a constant one stays so."""
     same = value is None or (
         np.ndim(value) == 0 and (value == column[0] or (value != value and column[0] != column[0]))
     )

@@ -4,7 +4,7 @@ Rows of the tool centre, also the arcs about corners, are measured against eleme
 kinds of pairs are looked at. Behind a *cusp* the contour runs back along itself: there what comes before it is compared
 with what comes after it, as far as they lie near each other. And where the whole contour is looked at, the ends of elements
 that a few others at most lie between, if the contour turns by half a turn there: what is nearer along the contour than a
-tool's turn about a point. Farther apart ``fit`` has other means.
+tool's turn about a point. Farther apart `fit` has other means.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ HALF_TURN = np.pi - 1e-6
 
 
 class Pairs(NamedTuple):
-    """m pairs: the row of element ``k`` (m,), or, where ``corner`` (m,), the arc about its end, beside ``wall`` (m,);
-    of both only what is nearer than ``reach`` (m,) mm to where they follow each other."""
+    """m pairs: the row of element `k` (m,), or, where `corner` (m,), the arc about its end, beside `wall` (m,);
+    of both only what is nearer than `reach` (m,) mm to where they follow each other."""
 
     k: Index
     corner: Mask
@@ -69,7 +69,7 @@ def looked_at(found: Equidistant, contour: Index) -> Pairs:
 
 
 def _across(el: Elements, contour: Index, back: Mask) -> tuple[Index, Index, Array]:
-    """Walls i < j (m,) of one contour near each other, between which it turns ``back`` (n,)."""
+    """Walls i < j (m,) of one contour near each other, between which it turns `back` (n,)."""
     before: Index = np.cumsum(back, dtype=np.int64) - back  # cusps before each element
     k = np.flatnonzero(el.wall & np.isin(contour, contour[back]))
     i, j = [k[:0]], [k[:0]]

@@ -23,9 +23,9 @@ TIE = 1e-9  # mm: walls that are equally near vote together
 class Overcut:
     """One contour that the tool cuts into, in the coordinates of its plane.
 
-    ``walls`` (w): lines and arcs of the contour, ``n_in``, ``n_out`` (w, 2) their unit normals to the tool; ``tool``
-    are the rows of the tool centre beside them, ``radius`` (mm) its radius; ``row`` is a row of the path in this plane,
-    ``height`` the third coordinate.
+    `walls` (w): lines and arcs of the contour, `n_in`, `n_out` (w, 2) their unit normals to the tool; `tool`
+    are the rows of the tool centre beside them, `radius` (mm) its radius; `row` is a row of the path in this plane,
+    `height` the third coordinate.
     """
 
     walls: Curves
@@ -76,7 +76,7 @@ class Overcut:
 
 
 def overcuts(made: Construction, steps: Iterable[int]) -> Iterator[Overcut]:
-    """The contours that are cut into in some of the ``steps`` (of the places that do not fit)."""
+    """The contours that are cut into in some of the `steps` (of the places that do not fit)."""
     found = made.found
     if found is None:
         return

@@ -77,7 +77,7 @@ def _run_on_inside(el: Elements, a: Index, b: Index) -> Mask:
 def given_up(found: Equidistant, contour: Index, i: Index, j: Index) -> Mask:
     """Whether the tool beside one of walls i and j (m,) cuts only into places of the other one that do not stand.
 
-    Where the two cross each other, the tail of one of them stands for nothing within ``TAIL`` radii if the other is
+    Where the two cross each other, the tail of one of them stands for nothing within `TAIL` radii if the other is
     given up.
     """
     el, result = found.el, np.zeros(len(i), dtype=bool)
@@ -138,7 +138,7 @@ def _places(el: Elements, k: int) -> tuple[Array, Array]:
 
 
 def _stands(found: Equidistant, k: Index, earlier: Mask, p: Array, normal: Array) -> Mask:
-    """Which points p (m, 2) no tool beside one of walls k (n,) sweeps that is ``earlier`` (n,) or faces as ``normal`` (m, 2)."""
+    """Which points p (m, 2) no tool beside one of walls k (n,) sweeps that is `earlier` (n,) or faces as `normal` (m, 2)."""
     el, stands = found.el, np.ones(len(p), dtype=bool)
     if not len(p) or not len(k):
         return stands

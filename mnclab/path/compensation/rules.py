@@ -16,7 +16,7 @@ ACUTE_TURN = np.pi / 2 + TANGENT  # a corner that turns more is acute
 SPIKE_TURN = np.radians(170)  # straight corners that turn more are worth a notice (MNC-G161-SPIKE)
 CORNER = "outside corner"  # label of inserted arcs
 
-#: Values of the column ``corner_rule``: how outside corners are joined (MNC: G160, G161, G162).
+#: Values of the column `corner_rule`: how outside corners are joined (MNC: G160, G161, G162).
 ROUND, STRAIGHT, ACUTE = 0, 1, 2
 
 
@@ -24,11 +24,11 @@ ROUND, STRAIGHT, ACUTE = 0, 1, 2
 class Compensation:
     """How a control enters, leaves and changes the equidistant.
 
-    ``approach`` "perpendicular": the entry ends, and the exit begins, square to the contour; "corner": outside, the
-    first and last corners are built like any other (MNC tables 7.1 and 7.3). ``rapid``: entry and exit may run at
-    rapid. ``change``: the side may change on the way, by a straight line that leads over like an entry. ``look_ahead``:
+    `approach` "perpendicular": the entry ends, and the exit begins, square to the contour; "corner": outside, the
+    first and last corners are built like any other (MNC tables 7.1 and 7.3). `rapid`: entry and exit may run at
+    rapid. `change`: the side may change on the way, by a straight line that leads over like an entry. `look_ahead`:
     the whole contour is looked at, else each element with its neighbours only (and always what a cusp leads back to). A joint
-    counts as tangent below ``TANGENT``, 0.001 degrees; any greater turn is a corner and is built exactly.
+    counts as tangent below `TANGENT`, 0.001 degrees; any greater turn is a corner and is built exactly.
     """
 
     approach: str = "perpendicular"
@@ -40,10 +40,10 @@ class Compensation:
 class Gouge(NamedTuple):
     """A place where the tool does not fit.
 
-    ``kind`` is "arc", "element", "neighbour", "bottleneck", "end", "corner", "entry" or "exit"; ``line`` and ``step`` are
-    those of the block in which the tool would cut into the contour, ``other`` is the line that it would cut into.
-    ``place`` (x, y, z) is the point of the contour, mm; ``width`` mm is what there is and ``missing`` mm what it lacks;
-    ``largest`` is the largest radius for the whole contour, from its entry to its exit or change of side.
+    `kind` is "arc", "element", "neighbour", "bottleneck", "end", "corner", "entry" or "exit"; `line` and `step` are
+    those of the block in which the tool would cut into the contour, `other` is the line that it would cut into.
+    `place` (x, y, z) is the point of the contour, mm; `width` mm is what there is and `missing` mm what it lacks;
+    `largest` is the largest radius for the whole contour, from its entry to its exit or change of side.
     """
 
     kind: str

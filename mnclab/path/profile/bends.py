@@ -6,7 +6,7 @@ With the spoke q from the centre to the start, n the normal of the plane and φ 
     tangent    p' = (sweep / L) (-sin φ q + cos φ (n × q)) + drift / L
     curvature  p'' = -(sweep / L)² (cos φ q + sin φ (n × q))
 
-``drift`` is the pitch of a helix, and the little by which a rounded program misses the circle.
+`drift` is the pitch of a helix, and the little by which a rounded program misses the circle.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 class Bends:
-    """The arcs of a path at ``rows`` (m,): vectors are (m, 3), mm."""
+    """The arcs of a path at `rows` (m,): vectors are (m, 3), mm."""
 
     def __init__(self, path: Toolpath, rows: NDArray[np.integer], length: Array) -> None:
         self.rows, self.length = rows, length
@@ -67,7 +67,7 @@ class Bends:
 
 
 def divided(path: Toolpath, counts: NDArray[np.int64]) -> tuple[Toolpath, NDArray[np.int64]]:
-    """The path with each row cut into ``counts`` (n,) equal parts, and the row (m,) of the path each part belongs to."""
+    """The path with each row cut into `counts` (n,) equal parts, and the row (m,) of the path each part belongs to."""
     from mnclab.path.kinds import Kind
     from mnclab.path.toolpath import COLUMNS
 

@@ -5,26 +5,26 @@ With Δu the difference of the unit tangents (per axis Δu_k), a_k and j_k the l
 **tolerance**
     The corner is replaced by a piece in which the velocity changes from v u1 to v u2 in a time T. A constant
     acceleration needs T = v max(|Δu_k| / a_k) and leaves the corner by e = v |Δu| T / 8, so
-    ``v² = 8 ε / (|Δu| max(|Δu_k| / a_k))``. This is the parabolic blend of J. J. Craig, *Introduction to Robotics*,
+    `v² = 8 ε / (|Δu| max(|Δu_k| / a_k))`. This is the parabolic blend of J. J. Craig, *Introduction to Robotics*,
     ch. 7. Under a jerk limit the acceleration rises and falls in a triangle, T = 2 v max(|Δu_k| / a_k) or
     2 sqrt(v max(|Δu_k| / j_k)), whichever is longer, and e = v |Δu| T / 12. The piece must fit into half of either
-    neighbour: ``v T <= the shorter one``.
+    neighbour: `v T <= the shorter one`.
 **deviation**
     A circle touches both legs and leaves the corner by ε; it is run with v² = a r:
-    ``v² = a ε sin(β/2) / (1 - sin(β/2))``, β the angle between the legs (180° is straight on) and a the smaller path
+    `v² = a ε sin(β/2) / (1 - sin(β/2))`, β the angle between the legs (180° is straight on) and a the smaller path
     acceleration of the two rows. S. K. Jeon, "Improving Grbl: Cornering Algorithm" (2011); Grbl, Klipper and Marlin
     plan so.
 **jump**
-    The speed of an axis may jump by s_k: ``v = min(s_k / |Δu_k|)``. Marlin calls this classic jerk.
+    The speed of an axis may jump by s_k: `v = min(s_k / |Δu_k|)`. Marlin calls this classic jerk.
 
     Many short lines that stand for a curve, |Δu| l / 8 <= ε with l the mean length of the neighbours, may share their
     acceleration: it follows the curvature κ = Δu / l of each corner, goes over into that of the next corner within the
-    row between them, and so ``v² <= min(a_k / |κ_k|)`` and ``v³ <= min(j_k L / |κ_k' - κ_k|)``. The greater speed counts.
+    row between them, and so `v² <= min(a_k / |κ_k|)` and `v³ <= min(j_k L / |κ_k' - κ_k|)`. The greater speed counts.
 
-Tangents that differ by less than :data:`TANGENT` are no corner: rounded coordinates make tangent joints miss by that.
+Tangents that differ by less than `TANGENT` are no corner: rounded coordinates make tangent joints miss by that.
 Under a jerk limit a joint of line and arc is a corner too, for the centripetal acceleration v² Δκ begins at once. Spread
 over the time T = v² max(|Δκ_k| / j_k) it leaves the path by v² |Δκ| T² / 24, hence
-``v⁶ = 24 ε / (|Δκ| max(|Δκ_k| / j_k)²)``.
+`v⁶ = 24 ε / (|Δκ| max(|Δκ_k| / j_k)²)`.
 """
 
 from __future__ import annotations
@@ -136,7 +136,7 @@ def bend_joints(before: Array, after: Array, limits: Limits, slack: Slack) -> Ar
 def curves(tangent: Array, length: Array, lines: NDArray[np.bool_], limits: Limits, slack: Slack) -> Array:
     """v² (n - 1,) at the corners between rows that are short lines of a curve, 0 elsewhere; for "tolerance" with jerk.
 
-    ``tangent`` (n, 3) and ``length`` (n,) of all rows; ``lines`` (n,) says which of them are lines.
+    `tangent` (n, 3) and `length` (n,) of all rows; `lines` (n,) says which of them are lines.
     """
     mean = (length[1:] + length[:-1]) / 2
     corner = lines[1:] & lines[:-1]

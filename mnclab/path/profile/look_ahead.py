@@ -1,10 +1,10 @@
 """Look-ahead over a whole path: when the tool is where, and how fast.
 
-1. :mod:`~mnclab.path.profile.motions`: what each row and each corner allows by itself.
-2. :mod:`~mnclab.path.profile.lookahead`: from that the speeds at the nodes between rows, by two scans.
-3. :mod:`~mnclab.path.profile.turns`: arcs that do not reach their feed are cut finer and planned again.
-4. :mod:`~mnclab.path.profile.smooth`: under a jerk limit, S-curves over groups of rows instead of trapezoids.
-5. Rows without motion take their own time; rapids may run axis by axis (:mod:`~mnclab.path.profile.rapids`).
+1. `path.profile.motions`: what each row and each corner allows by itself.
+2. `path.profile.lookahead`: from that the speeds at the nodes between rows, by two scans.
+3. `path.profile.turns`: arcs that do not reach their feed are cut finer and planned again.
+4. `path.profile.smooth`: under a jerk limit, S-curves over groups of rows instead of trapezoids.
+5. Rows without motion take their own time; rapids may run axis by axis (`path.profile.rapids`).
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ Array = NDArray[np.float64]
 
 @dataclass
 class Plan:
-    """The planned rows (n,) of ``path``; ``row`` (n,) of the path that was asked for, None if they are the same.
+    """The planned rows (n,) of `path`; `row` (n,) of the path that was asked for, None if they are the same.
 
-    ``v`` (n + 1,) the speeds at the nodes, ``top`` (n,) the greatest speed within a row, ``up`` and ``down`` (n,) the
-    accelerations used (mm, s), ``seconds`` (n,); ``groups`` under a jerk limit.
-    ``ramps`` are rows that are one ramp from end to end, whatever ``up`` and ``down`` say.
+    `v` (n + 1,) the speeds at the nodes, `top` (n,) the greatest speed within a row, `up` and `down` (n,) the
+    accelerations used (mm, s), `seconds` (n,); `groups` under a jerk limit.
+    `ramps` are rows that are one ramp from end to end, whatever `up` and `down` say.
     """
 
     path: Toolpath
@@ -59,9 +59,9 @@ def plan(
     rapid_motion: str = "line",
     waits: NDArray[np.bool_] | None = None,
 ) -> Plan:
-    """Plan a path under limits; ``override`` is the feed override, 1 for 100 %.
+    """Plan a path under limits; `override` is the feed override, 1 for 100 %.
 
-    ``rapid_motion`` holds unless the limits say otherwise; ``waits`` (n,) says which SPINDLE rows wait until the spindle
+    `rapid_motion` holds unless the limits say otherwise; `waits` (n,) says which SPINDLE rows wait until the spindle
     has its speed (MNC: G26), all by default. An Alarm for an override outside 0.001 … 100.
     """
     check_number(override, "the feed override (1 for 100 %)", above=0, at_least=0.001, at_most=100)

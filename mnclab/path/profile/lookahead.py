@@ -6,8 +6,8 @@ speeds at the nodes between rows, below caps that are known, are a *min-plus* sc
     forward    w[i] = min(cap[i], w[i-1] + g[i-1])
     backward   w[i] = min(cap[i], w[i+1] + g[i])
 
-With the running sum S of g the first is ``minimum.accumulate(cap - S) + S``, and the second its mirror. Sums are taken
-anew in every block of :data:`BLOCK` nodes, because the difference of two large sums would lose the digits that a short
+With the running sum S of g the first is `minimum.accumulate(cap - S) + S`, and the second its mirror. Sums are taken
+anew in every block of `BLOCK` nodes, because the difference of two large sums would lose the digits that a short
 row needs; the blocks are then tied together by one number each.
 """
 
@@ -22,12 +22,12 @@ Array = NDArray[np.float64]
 
 
 def reachable(cap: Array, gain: Array) -> Array:
-    """Greatest w (n + 1,) under ``cap`` that rises and falls by at most ``gain`` (n,) over a row."""
+    """Greatest w (n + 1,) under `cap` that rises and falls by at most `gain` (n,) over a row."""
     return forward(backward(cap, gain), gain)
 
 
 def backward(cap: Array, gain: Array) -> Array:
-    """Greatest w (n + 1,) under ``cap`` from which each node's successor is within ``gain`` (n,)."""
+    """Greatest w (n + 1,) under `cap` from which each node's successor is within `gain` (n,)."""
     return forward(cap[::-1], gain[::-1])[::-1]
 
 

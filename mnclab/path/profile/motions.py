@@ -2,8 +2,8 @@
 
 Speeds are squared, w = v², in mm²/s²; lengths mm; accelerations mm/s². A straight row with the unit vector u is held by
 its slowest axis: v <= min(V_k / |u_k|), a <= min(A_k / |u_k|). On an arc each axis sees the path acceleration a and the
-centripetal one, v² / r, at a phase that turns, so that over a full turn ``(c a)² + (v²/r)² <= A_k²`` must hold (c the
-share of the motion in the plane). :mod:`mnclab.path.profile.turns` looks closer where that costs time.
+centripetal one, v² / r, at a phase that turns, so that over a full turn `(c a)² + (v²/r)² <= A_k²` must hold (c the
+share of the motion in the plane). `path.profile.turns` looks closer where that costs time.
 
 Rows are worked on in pieces that stay in the processor's cache.
 """
@@ -31,10 +31,10 @@ Array = NDArray[np.float64]
 
 @dataclass
 class Rows:
-    """Columns (n,) of a path for the planner, and ``corner`` (n + 1,): the greatest w at the nodes between its rows.
+    """Columns (n,) of a path for the planner, and `corner` (n + 1,): the greatest w at the nodes between its rows.
 
-    ``feed`` is what the program asks for, mm/s (inf for rapids); ``cap`` the greatest w, ``a`` the greatest acceleration
-    either way, ``j`` the jerk mm/s³ along the path (empty without a jerk limit). Events have no length and cap 0.
+    `feed` is what the program asks for, mm/s (inf for rapids); `cap` the greatest w, `a` the greatest acceleration
+    either way, `j` the jerk mm/s³ along the path (empty without a jerk limit). Events have no length and cap 0.
     """
 
     length: Array
@@ -73,7 +73,7 @@ def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, o
 
 
 def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array | None = None) -> Rows:
-    """What the rows of a path allow; ``caps`` (n,), where they are numbers, replace what all of an arc would allow."""
+    """What the rows of a path allow; `caps` (n,), where they are numbers, replace what all of an arc would allow."""
     n = len(path)
     speeds, accelerations, jerks = (limits.axes(name) for name in ("rapid", "acceleration", "jerk"))
     jerky = bool(np.isfinite(jerks).any())
@@ -178,8 +178,8 @@ def allowed(bends: Bends, feed: Array, limits: Limits) -> tuple[Array, Array, Ar
     """w, a and jerk (m,) along arcs that no axis can object to, wherever on the arc.
 
     With h the part of a circle that an axis sees, c h and p its slopes on circle and pitch, κ the curvature, ω = sweep/L:
-    ``v (c h + p) <= V``, ``(c h a)² + (h κ v²)² <= (A - p a)²``, and for the jerk j along the path
-    ``(c h + p)² [(j + ω² v³)² + (3 ω v a)²] <= J²``.
+    `v (c h + p) <= V`, `(c h a)² + (h κ v²)² <= (A - p a)²`, and for the jerk j along the path
+    `(c h + p)² [(j + ω² v³)² + (3 ω v a)²] <= J²`.
     """
     speeds, accelerations, jerks = (limits.axes(name) for name in ("rapid", "acceleration", "jerk"))
     h = np.maximum(bends.seen, 1e-12)

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 class Pieces(NamedTuple):
-    """``t``, ``s``, ``v`` (m + 1,) at the nodes; ``a`` at the start of each piece, ``j`` and ``row`` of the plan (m,)."""
+    """`t`, `s`, `v` (m + 1,) at the nodes; `a` at the start of each piece, `j` and `row` of the plan (m,)."""
 
     t: Array
     s: Array

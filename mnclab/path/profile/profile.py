@@ -31,8 +31,8 @@ _EVENTS = {Kind.DWELL: "dwell", Kind.TOOL: "tool change", Kind.SPINDLE: "spindle
 class Instant(NamedTuple):
     """The tool at a time, or at many (k,): vectors are (3,) or (k, 3); mm and s.
 
-    ``s`` is the length of path behind it, ``move`` the row of the path and ``line`` its source line. ``velocity`` and
-    ``acceleration`` are those of the axes; ``v``, ``a`` and ``j`` those along the path.
+    `s` is the length of path behind it, `move` the row of the path and `line` its source line. `velocity` and
+    `acceleration` are those of the axes; `v`, `a` and `j` those along the path.
     """
 
     t: Any
@@ -50,8 +50,8 @@ class Instant(NamedTuple):
 class Profile:
     """A path under limits, as pieces of constant jerk, or of constant acceleration without a jerk limit.
 
-    Columns: ``t`` s, ``s`` mm, ``v`` mm/s at the nodes (m + 1,); ``a`` mm/s² at the start and ``j`` mm/s³ of each piece
-    (m,), and ``move`` (m,), the row of the path it belongs to. For every row (n,): ``seconds`` and ``starts`` (n + 1,),
+    Columns: `t` s, `s` mm, `v` mm/s at the nodes (m + 1,); `a` mm/s² at the start and `j` mm/s³ of each piece
+    (m,), and `move` (m,), the row of the path it belongs to. For every row (n,): `seconds` and `starts` (n + 1,),
     when it begins. Where rapids go axis by axis, s, v, a, j are those of the tool's projection on the straight line.
     """
 
@@ -139,7 +139,7 @@ class Profile:
     # --- at a time ---------------------------------------------------------------------------------------------------
 
     def at(self, t: ArrayLike) -> Instant:
-        """The tool at ``t`` seconds (a number or an array (k,)); before the start and after the end it stands."""
+        """The tool at `t` seconds (a number or an array (k,)); before the start and after the end it stands."""
         times = np.atleast_1d(np.asarray(t, dtype=np.float64))
         p = self.pieces
         if not len(p.row):
@@ -163,7 +163,7 @@ class Profile:
         return Instant(*(each[0] if each.ndim == 2 else each[0].item() for each in found))
 
     def _axes(self, row: NDArray[np.int64], within: Array, v: Array, a: Array, t: Array) -> tuple[Array, Array, Array]:
-        """Place, velocity and acceleration (k, 3) of the axes, ``within`` mm after the start of the row."""
+        """Place, velocity and acceleration (k, 3) of the axes, `within` mm after the start of the row."""
         path = self.path
         length = path.lengths[row]
         moving = length > 0
@@ -209,7 +209,7 @@ class Profile:
         return self._of_rows(lost)
 
     def time_by(self, key: str) -> dict[Any, float]:
-        """Seconds by "line", "tool", "kind" or "cause" (:data:`CAUSES`); the values sum to :attr:`time`.
+        """Seconds by "line", "tool", "kind" or "cause" (`CAUSES`); the values sum to `time`.
 
         A line of a program that was called is a pair (program, line). A ValueError for another key.
         """
@@ -259,21 +259,21 @@ class Profile:
     def plot(self, **options: Any) -> Figure:
         """Programmed and reached feed, acceleration and jerk over time, stops, limits, and which of them governs where.
 
-        ``over="path"`` shows them over the path length, ``axes=True`` adds X, Y and Z; all options are explained in
-        ``mnclab.show.plot.profile.plot_profile``.
+        `over="path"` shows them over the path length, `axes=True` adds X, Y and Z; all options are explained in
+        `mnclab.show.plot.profile.plot_profile`.
         """
         from mnclab.show.plot.profile import plot_profile
 
         return plot_profile(self, **options)
 
     def plot_reached(self, **options: Any) -> Figure:
-        """The path coloured by the feed that is reached; options as in ``mnclab.show.plot.path.plot_path``."""
+        """The path coloured by the feed that is reached; options as in `mnclab.show.plot.path.plot_path`."""
         from mnclab.show.plot.profile import plot_reached
 
         return plot_reached(self, **options)
 
     def plot_lost(self, **options: Any) -> Figure:
-        """The time of each line beside its text, and how much of it the machine adds; ``most`` lines."""
+        """The time of each line beside its text, and how much of it the machine adds; `most` lines."""
         from mnclab.show.plot.profile import plot_lost
 
         return plot_lost(self, **options)

@@ -7,7 +7,7 @@ Between two speeds a *ramp* begins and ends with no acceleration. Over a change 
 
 and, being symmetrical, the length T (v0 + v1) / 2. Without a jerk limit T = D / a. A *move* is a ramp up to a peak speed,
 a stretch at that speed, and a ramp down: up to seven phases of constant jerk (L. Biagiotti, C. Melchiorri, *Trajectory
-Planning for Automatic Machines and Robots*, 3.4). Everything takes arrays (n,); mm and s; ``j`` may be inf.
+Planning for Automatic Machines and Robots*, 3.4). Everything takes arrays (n,); mm and s; `j` may be inf.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def ramp_length(v0: Array, v1: Array, a: Array, j: Array) -> Array:
 
 
 def gain(v: Array, length: Array, a: Array, j: Array) -> Array:
-    """By how much (n,) a ramp from ``v`` changes the speed upwards within ``length``.
+    """By how much (n,) a ramp from `v` changes the speed upwards within `length`.
 
     With D the change and y = sqrt D the length is (2 v + D) y / sqrt j below D = a² / j, so y solves the cubic equation
     y³ + 2 v y = L sqrt j; above, (2 v + D) (D + a² / j) = 2 a L.
@@ -98,7 +98,7 @@ def _need(low: Array, other: Array, x: Array, a: Array, j: Array) -> tuple[Array
 
 
 def phases(length: Array, v0: Array, v1: Array, above: Array, a: Array, j: Array) -> Array:
-    """The seconds (n, 7) of the phases of a move whose peak is ``above`` the greater of its ends."""
+    """The seconds (n, 7) of the phases of a move whose peak is `above` the greater of its ends."""
     low = np.maximum(v0, v1)
     top = low + above
     found = np.zeros((len(length), 7))
@@ -116,7 +116,7 @@ def phases(length: Array, v0: Array, v1: Array, above: Array, a: Array, j: Array
 
 
 def starts(seconds: Array, v0: Array, a: Array, j: Array) -> tuple[Array, Array, Array, Array]:
-    """Place, speed, acceleration and jerk (n, 7) at the start of each phase of moves that begin at speed ``v0``."""
+    """Place, speed, acceleration and jerk (n, 7) at the start of each phase of moves that begin at speed `v0`."""
     smooth = np.isfinite(j)
     jerk = np.where(smooth, j, 0.0)[:, None] * SIGNS
     rise, fall = (np.where(smooth, np.where(smooth, j, 0.0) * seconds[:, k], a) for k in (0, 4))

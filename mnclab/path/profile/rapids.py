@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 class Rapids:
-    """The rapid rows (m,) of a path: ``seconds`` (m,), ``top`` speed (m,) and what each axis does."""
+    """The rapid rows (m,) of a path: `seconds` (m,), `top` speed (m,) and what each axis does."""
 
     def __init__(self, path: Toolpath, rows: NDArray[np.int64], limits: Limits, motion: str) -> None:
         self.rows = rows
@@ -56,7 +56,7 @@ class Rapids:
         return breaks
 
     def state(self, which: NDArray[np.int64], t: Array) -> tuple[Array, Array, Array, Array]:
-        """Place, velocity, acceleration and jerk (q, 3) of some of the rows, ``t`` (q,) seconds after their start."""
+        """Place, velocity, acceleration and jerk (q, 3) of some of the rows, `t` (q,) seconds after their start."""
         begin = np.cumsum(self.phases[which], axis=2)
         phase = (begin <= t[:, None, None]).sum(axis=2)  # 7: the axis has arrived
         done = phase == 7

@@ -3,15 +3,15 @@
 A jerk limit is not additive in v², so the scans of the look-ahead do not carry over. Instead:
 
 1. Nodes at which the acceleration is zero, the *knots*, are chosen: stops, ends of rows that are long against a ramp,
-   sharp corners among gentle ones, changes of feed, and otherwise one in every :data:`SHARE` of the length of a ramp
+   sharp corners among gentle ones, changes of feed, and otherwise one in every `SHARE` of the length of a ramp
    from rest to the greatest speed between two stops. The rows between two knots are a *group*; it has the least speed,
    acceleration and jerk of its rows and of the corners inside it.
 2. The acceleration alone bounds the speeds at the knots from above, by the two scans.
 3. Where a ramp between two knots does not fit into its group, its faster end is slowed to what does; this may unsettle
-   the neighbours, so it is repeated for these. Should :data:`ROUNDS` not be enough, a scan that needs no repetition
+   the neighbours, so it is repeated for these. Should `ROUNDS` not be enough, a scan that needs no repetition
    settles the stretches that are left: within the time that a group takes at its greatest speed, any change of speed
    that is possible at all fits into its length.
-4. Every group is one move of up to seven phases (:mod:`~mnclab.path.profile.ramps`).
+4. Every group is one move of up to seven phases (`path.profile.ramps`).
 
 No limit is exceeded, but it costs time against the optimum: the acceleration is zero at every knot, a group is as slow as
 its slowest part, and arcs share their jerk between turning and braking by fixed parts. A single move is optimal; on
@@ -38,10 +38,10 @@ Index = NDArray[np.int64]
 
 
 class Groups:
-    """Moves over groups of rows: ``knots`` (g + 1,) are nodes of the path, with the speeds ``v`` (g + 1,).
+    """Moves over groups of rows: `knots` (g + 1,) are nodes of the path, with the speeds `v` (g + 1,).
 
-    ``length``, ``a``, ``j`` (g,) are those of the groups, and ``above`` by how much their peak is above the greater of
-    their ends. For the rows (n,) of the path: ``group``, and ``since``, the time from its start to that of the row.
+    `length`, `a`, `j` (g,) are those of the groups, and `above` by how much their peak is above the greater of
+    their ends. For the rows (n,) of the path: `group`, and `since`, the time from its start to that of the row.
     """
 
     def __init__(self, knots: Index, length: Array, v: Array, cap: Array, a: Array, j: Array) -> None:
@@ -66,9 +66,9 @@ class Groups:
         return up + cruise + down, up, up + cruise
 
     def items(self, row_seconds: Array, left_out: Index) -> tuple[NDArray[np.generic], ...]:
-        """Pieces: row, order, seconds, length, speed, acceleration, jerk; ``left_out`` rows have none.
+        """Pieces: row, order, seconds, length, speed, acceleration, jerk; `left_out` rows have none.
 
-        ``row_seconds`` (n,) is the time of the rows, which for rows without length is not in the groups.
+        `row_seconds` (n,) is the time of the rows, which for rows without length is not in the groups.
         """
         seconds, starts = self.phases()
         ends = np.cumsum(seconds, axis=1)
@@ -104,7 +104,7 @@ class Groups:
 
 
 def smooth(rows: Rows, w: Array) -> tuple[Array, Array, Array, Groups]:
-    """Speeds at the nodes (n + 1,), top speeds and times (n,) and the groups; ``w`` bounds v² at the nodes."""
+    """Speeds at the nodes (n + 1,), top speeds and times (n,) and the groups; `w` bounds v² at the nodes."""
     n = len(rows.length)
     knots = _knots(rows, w)
     first = knots[:-1]
@@ -166,7 +166,7 @@ def _knots(rows: Rows, w: Array) -> Index:
 
 
 def _settle(v: Array, length: Array, cap: Array, a: Array, j: Array) -> Array:
-    """Speeds (g + 1,) not above ``v`` such that a ramp fits between any two neighbours."""
+    """Speeds (g + 1,) not above `v` such that a ramp fits between any two neighbours."""
     v = v.copy()
     active = np.arange(len(length))
     for _ in range(ROUNDS):

@@ -1,8 +1,8 @@
 """Arcs that do not reach their feed, looked at more closely.
 
-On an arc the acceleration of an axis is ``t_k a + n_k w`` (w = v², t the tangent, n the curvature vector), and both change
+On an arc the acceleration of an axis is `t_k a + n_k w` (w = v², t the tangent, n the curvature vector), and both change
 along it: where the centripetal part lies on X, the path acceleration has all of Y to itself, and an axis may bear a speed
-only while the tool brakes. So such arcs are cut into parts of at most :data:`PART`, and at least :data:`FEWEST`, with a
+only while the tool brakes. So such arcs are cut into parts of at most `PART`, and at least `FEWEST`, with a
 constant a each, and along the parts of one arc, of all arcs at once, the speeds are found as in H. Pham, Q.-C. Pham, "A
 New Approach to Time-Optimal Path Parameterization Based on Reachability Analysis" (2018):
 
@@ -34,7 +34,7 @@ Index = NDArray[np.int64]
 
 
 class Turns:
-    """The parts (m,) of arcs at ``rows`` of a path that was cut; ``first`` (q + 1,) says where each arc begins in them."""
+    """The parts (m,) of arcs at `rows` of a path that was cut; `first` (q + 1,) says where each arc begins in them."""
 
     def __init__(self, path: Toolpath, rows: Index, first: Index, limits: Limits) -> None:
         self.rows, self.length, self.first = rows, path.lengths[rows], first
@@ -51,7 +51,7 @@ class Turns:
 
     @property
     def cap(self) -> Array:
-        """The greatest v² (m,) that the axes' speeds allow, not above what :meth:`back` begins to look from."""
+        """The greatest v² (m,) that the axes' speeds allow, not above what `back` begins to look from."""
         slope = np.maximum(*np.abs(self.tangents)) * self.between[:, None]
         with np.errstate(divide="ignore"):
             speed = ((self.speeds / slope) ** 2).min(axis=1)
@@ -68,7 +68,7 @@ class Turns:
         return low[i, l], high[i, k], -lean[i, l], -lean[i, k]
 
     def back(self, part: Index, after: Array, cap: Array) -> Array:
-        """The greatest w (k,) at the start of parts, not above ``cap``, that can become ``after`` or less at the end.
+        """The greatest w (k,) at the start of parts, not above `cap`, that can become `after` or less at the end.
 
         The room for a, from the least allowed to the least of the greatest allowed and (after - w) / 2 L, shrinks with w
         along a concave line: Newton from the right finds in a few steps where it ends.
@@ -88,7 +88,7 @@ class Turns:
         return w
 
     def on(self, part: Index, before: Array, cap: Array) -> Array:
-        """The greatest w (k,) at the end of parts, not above ``cap``, that ``before`` at their start can become."""
+        """The greatest w (k,) at the end of parts, not above `cap`, that `before` at their start can become."""
         _, high, _, _ = self._range(part, before)
         return np.clip(before + 2 * self.length[part] * high, 0.0, cap)
 
@@ -106,7 +106,7 @@ class Turns:
         return np.maximum((most / self.limits).max(axis=1), 1.0)
 
     def speeds_at(self, corner: Array, a: Array, length: Array) -> Array:
-        """v² (n + 1,) at the nodes of the whole path, whose rows have the accelerations ``a`` off the arcs."""
+        """v² (n + 1,) at the nodes of the whole path, whose rows have the accelerations `a` off the arcs."""
         gain = 2 * a * length
         w = self._pass(corner, gain, forward=False)
         w = self._pass(w, gain, forward=True)
@@ -116,7 +116,7 @@ class Turns:
         return w / slow[chain]
 
     def _pass(self, cap: Array, gain: Array, forward: bool) -> Array:
-        """v² (n + 1,) under ``cap`` after one pass over everything, arcs and what lies between them."""
+        """v² (n + 1,) under `cap` after one pass over everything, arcs and what lies between them."""
         w = cap.copy()
         begin, end = self.rows[self.first[:-1]], self.rows[self.first[1:] - 1] + 1  # nodes of the arcs
         free = np.ones(len(cap), dtype=bool)

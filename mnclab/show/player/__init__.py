@@ -1,8 +1,8 @@
 """The player: a page that needs nothing, in which a run is played, stepped through and looked at from all sides.
 
-``payload`` packs what the page needs of a run, ``page`` puts it into one HTML text; the page itself is ``page.html``
-with ``page.css`` and its scripts, in the order in which they build on each other: ``data.js`` (the run, unpacked),
-``shapes.js`` (tools), ``camera.js``, ``strokes.js``, ``picture.js``, ``curve.js``, ``listing.js``, ``state.js``, ``player.js``.
+`payload` packs what the page needs of a run, `page` puts it into one HTML text; the page itself is `page.html`
+with `page.css` and its scripts, in the order in which they build on each other: `data.js` (the run, unpacked),
+`shapes.js` (tools), `camera.js`, `strokes.js`, `picture.js`, `curve.js`, `listing.js`, `state.js`, `player.js`.
 """
 
 from mnclab.show.player.page import Player, player

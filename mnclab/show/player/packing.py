@@ -1,6 +1,6 @@
 """Columns of whole numbers in few bytes: differences, zigzag, seven bits a byte, then deflate and base64.
 
-Neighbours in a column differ little, so their differences are small: most take one to three bytes. ``data.js`` undoes
+Neighbours in a column differ little, so their differences are small: most take one to three bytes. `data.js` undoes
 every step: a byte with its high bit set is followed by another one, an odd number z stands for -(z + 1) / 2.
 """
 

@@ -48,9 +48,9 @@ def _digest(text: str) -> str:
 
 
 class Player:
-    """A run to be played; shows itself in a notebook, ``save`` writes it as a page of its own.
+    """A run to be played; shows itself in a notebook, `save` writes it as a page of its own.
 
-    ``page`` is the whole page as text; it asks no network for anything. The frame in a notebook is sandboxed: its
+    `page` is the whole page as text; it asks no network for anything. The frame in a notebook is sandboxed: its
     scripts see nothing but the page.
     """
 
@@ -117,6 +117,6 @@ class Player:
 def player(run: Any, profile: Profile | None = None, **options: Any) -> Player:
     """The player of a run under a feed-rate profile (that of its own setup if none is given).
 
-    ``height`` in pixels of the frame in a notebook, ``theme`` "auto", "light" or "dark", ``speed`` 1 for real time.
+    `height` in pixels of the frame in a notebook, `theme` "auto", "light" or "dark", `speed` 1 for real time.
     """
     return Player(run, profile or run.profile(), **options)

@@ -1,6 +1,6 @@
 """What the page needs of a run: both paths, what was active at each step, the feed-rate profile, the texts.
 
-Lengths are whole numbers of 1 / ``scale`` mm: the coarsest of 1e-3, 1e-4 and 1e-6 mm that loses nothing, so that the
+Lengths are whole numbers of 1 / `scale` mm: the coarsest of 1e-3, 1e-4 and 1e-6 mm that loses nothing, so that the
 page says the digits that the run says. Times are whole microseconds, speeds whole micrometres per second; where numbers
 are too large for that, the parts are coarser by powers of ten. Arcs stay arcs. A *log* is a list of places where a value
 changes and the values from there on.
@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 
 
 def payload(run: Any, profile: Profile) -> str:
-    """A run with its profile as the text that ``data.js`` reads."""
+    """A run with its profile as the text that `data.js` reads."""
     pack = Packer()
     path, programmed = run.toolpath, run.programmed
     positions = _points(run.history.changed("position"))
@@ -121,7 +121,7 @@ def _scale(paths: list[Toolpath], positions: Array, ways: Array) -> float:
 
 
 def _parts(finest: float, *columns: Array) -> float:
-    """How many parts a unit is counted in: ``finest``, or the power of ten at which no value is too large for the page."""
+    """How many parts a unit is counted in: `finest`, or the power of ten at which no value is too large for the page."""
     most = max((float(np.abs(column[np.isfinite(column)]).max(initial=0.0)) for column in columns), default=0.0)
     return finest if most * finest <= ROOM else 10.0 ** np.floor(np.log10(ROOM / most))
 

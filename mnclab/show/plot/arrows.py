@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 
 def draw(ax: Axes, view: View, drawn: Strokes, found: Classes, low: Array, high: Array) -> Array:
-    """Add the arrowheads of one view that lie in its box ``low`` to ``high`` (3,), mm; returns their places (n, 2)."""
+    """Add the arrowheads of one view that lie in its box `low` to `high` (3,), mm; returns their places (n, 2)."""
     axes = [view.right, view.up]
     at, angle, look = places(drawn.xyz[:, axes], drawn.row, found.group, low[axes], high[axes])
     if len(at):

@@ -1,7 +1,7 @@
 """Which moves share a colour: by kind, feed, spindle speed, tool, source line or height, and the scale that explains it.
 
-Rapids and probing always keep their own look; ``colour`` divides the cuts. Few different values are a class each, named
-in the legend; many are put into at most :data:`BINS` bins between round numbers, explained by a scale. The colours grow
+Rapids and probing always keep their own look; `colour` divides the cuts. Few different values are a class each, named
+in the legend; many are put into at most `BINS` bins between round numbers, explained by a scale. The colours grow
 lighter with the value, so that grey print keeps the order.
 """
 
@@ -33,7 +33,7 @@ Values = NDArray[Any]
 
 
 class Scale(NamedTuple):
-    """Bins between round numbers: ``limits`` (n + 1,) and a colour for each; ``single``: a bin is one number."""
+    """Bins between round numbers: `limits` (n + 1,) and a colour for each; `single`: a bin is one number."""
 
     title: str
     limits: tuple[float, ...]
@@ -42,7 +42,7 @@ class Scale(NamedTuple):
 
 
 class Classes(NamedTuple):
-    """Looks of the classes, in the order of drawing; ``group`` (m,) is the class of the stroke to each point or -1."""
+    """Looks of the classes, in the order of drawing; `group` (m,) is the class of the stroke to each point or -1."""
 
     lines: list[Line]
     group: NDArray[np.int16]
@@ -55,7 +55,7 @@ def number(value: float) -> str:
 
 
 def classes(path: Toolpath, drawn: Strokes, colour: str) -> Classes:
-    """The classes of the strokes of a path; a ValueError for a colour that is not one of :data:`COLOURS`."""
+    """The classes of the strokes of a path; a ValueError for a colour that is not one of `COLOURS`."""
     if colour not in COLOURS:
         raise ValueError(f"colour must be one of {', '.join(COLOURS)}, got {colour!r}")
     fixed = [colours.RAPID, colours.PROBING, colours.FEED]
@@ -144,7 +144,7 @@ def _divide(values: Values, colour: str) -> tuple[NDArray[np.int16], list[Line],
 
 
 def _few(values: Values, most: int) -> Values | None:
-    """The different values in rising order, nan last; None if there are more than ``most``."""
+    """The different values in rising order, nan last; None if there are more than `most`."""
     if len(np.unique(values[:: max(1, len(values) // 1000)])) > most:
         return None
     found = np.unique(values[np.append(values[1:] != values[:-1], True)])

@@ -15,7 +15,7 @@ Dashes = str | tuple[float, tuple[float, ...]]
 
 
 class Line(NamedTuple):
-    """A class of moves: dashes as matplotlib has them, width in points, higher ``order`` drawn later."""
+    """A class of moves: dashes as matplotlib has them, width in points, higher `order` drawn later."""
 
     name: str
     colour: str

@@ -72,17 +72,17 @@ def compensation(
 ) -> Figure:
     """The contour of a run and the path of the tool centre; returns the figure, which Jupyter shows.
 
-    - ``ax``: draw into these axes of one's own, without legend; one rule and one radius at most.
-    - ``rules``: the program is run once for each of these ways to join outside corners ("G160", "G161", "G162";
+    - `ax`: draw into these axes of one's own, without legend; one rule and one radius at most.
+    - `rules`: the program is run once for each of these ways to join outside corners ("G160", "G161", "G162";
       "programmed" leaves it as it is), whatever it says itself.
-    - ``radii``: and once for each of these radii of all its tools, mm.
-    - ``discs``: the tool at the end of each compensated row; a number: every so many mm; a list: where the blocks in
+    - `radii`: and once for each of these radii of all its tools, mm.
+    - `discs`: the tool at the end of each compensated row; a number: every so many mm; a list: where the blocks in
       these lines end.
-    - ``vectors``: offset vectors at the corners; ``names``: what was done there, written beside.
-    - ``view``: "XY", "XZ", "YZ" or "ZX"; "auto" is the plane of the first contour.
-    - ``size``: the greatest width and height in inches.
+    - `vectors`: offset vectors at the corners; `names`: what was done there, written beside.
+    - `view`: "XY", "XZ", "YZ" or "ZX"; "auto" is the plane of the first contour.
+    - `size`: the greatest width and height in inches.
 
-    A run that was stopped because the tool does not fit is run again with the setting ``gouge = "mark"``, so that the
+    A run that was stopped because the tool does not fit is run again with the setting `gouge = "mark"`, so that the
     place is seen.
     """
     panels = [_panel(again, title, view) for title, again in _runs(run, rules, radii)]
@@ -216,7 +216,7 @@ def _picture(panels: Sequence[Panel], discs: Any, vectors: bool, names: bool, si
 
 
 def _limit(ax: Axes, view: View, low: Array, high: Array, box: tuple[float, float] | None = None) -> None:
-    """The limits of a view; in a ``box`` of inches as much more on both sides as it has room."""
+    """The limits of a view; in a `box` of inches as much more on both sides as it has room."""
     axes = [view.right, view.up]
     middle, half = (low + high)[axes] / 2, (high - low)[axes] / 2
     if box:

@@ -102,7 +102,7 @@ def _pole(path: Any, chain: FrameChain, step: int, pole: tuple[float, float]) ->
 
 
 def near(places: Sequence[Place], low: Array, high: Array) -> list[Place]:
-    """Those places that are seen without the box ``low`` to ``high`` (3,), mm becoming much larger."""
+    """Those places that are seen without the box `low` to `high` (3,), mm becoming much larger."""
     size = float((high - low).max())
     found = []
     for place in places:
@@ -136,10 +136,10 @@ def write_names(
     drawn: Sequence[Array],
     covering: int | None = None,
 ) -> list[Place]:
-    """The names of the places in a view, where they cover no mark (``occupied`` (n, 2), mm) and least of the lines.
+    """The names of the places in a view, where they cover no mark (`occupied` (n, 2), mm) and least of the lines.
 
     The limits of the axes must be final. A name without a free place is left out and returned, and so is one that
-    would cover more strokes than ``covering``. Texts that stand there are not covered.
+    would cover more strokes than `covering`. Texts that stand there are not covered.
     """
     shown = [place for place in places if len(places) <= MANY or place.mark is colours.DATUM]
     spots = [(p, p.mark, np.array(p.xyz)[[view.right, view.up]]) for p in shown]

@@ -146,7 +146,7 @@ def _draw_discs(ax: Axes, panel: Panel, discs: Any) -> None:
 
 
 def disc_places(path: Toolpath, discs: bool | float | Sequence[int]) -> tuple[Array, Array]:
-    """Where discs stand (m, 3), and their radii (m,): see :func:`mnclab.show.plot.compensation.compensation`."""
+    """Where discs stand (m, 3), and their radii (m,): see `show.plot.compensation.compensation`."""
     rows = np.flatnonzero((path.rule != Rule.NONE) & path.is_motion)
     if discs is True or not isinstance(discs, int | float):
         if discs is not True:

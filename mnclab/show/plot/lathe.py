@@ -171,7 +171,7 @@ def speed_strokes(path: Toolpath, drawn: Strokes) -> Strokes:
 
 
 def plot_speed_of(run: Any, most: float = np.inf, **options: Any) -> Picture:
-    """As :func:`plot_speed`, for a run; not above the greatest speed of the machine's limits."""
+    """As `plot_speed`, for a run; not above the greatest speed of the machine's limits."""
     return plot_speed(run.toolpath, min(most, run.setup.limits.spindle), **options)
 
 

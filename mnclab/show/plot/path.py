@@ -74,23 +74,23 @@ def plot_path(
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
-    - ``ax``: draw one view into these axes of one's own, without legend and scale.
-    - ``view``: "XY" from above, "XZ" or "YZ" from the side, "ZX" of a lathe; "auto" takes what the path needs.
-    - ``colour``: what the colour of the cuts shows: "kind" (all blue), "feed" (mm/min), "speed" (of the spindle, rev/min;
+    - `ax`: draw one view into these axes of one's own, without legend and scale.
+    - `view`: "XY" from above, "XZ" or "YZ" from the side, "ZX" of a lathe; "auto" takes what the path needs.
+    - `colour`: what the colour of the cuts shows: "kind" (all blue), "feed" (mm/min), "speed" (of the spindle, rev/min;
       it follows X at constant cutting speed), "tool" (its number), "line" (of the source) or "z" (lower end of each
       stroke, mm). Few values are named in the legend, many are put into at most 14 steps of a scale, dark to light.
       Rapids and probing look the same in all of them.
-    - ``arrows``: arrowheads on a few long moves; none on a path of more than 300 moves.
-    - ``marks``: crosses at zero points that the program selects and at poles, with their names, unless far from the
-      path; only :func:`plot_run` knows them.
-    - ``frame``: "all" shows every move, "cuts" the moves at feed and cuts rapids off at the border, "auto" does so when
+    - `arrows`: arrowheads on a few long moves; none on a path of more than 300 moves.
+    - `marks`: crosses at zero points that the program selects and at poles, with their names, unless far from the
+      path; only `plot_run` knows them.
+    - `frame`: "all" shows every move, "cuts" the moves at feed and cuts rapids off at the border, "auto" does so when
       the rapids come from far away.
-    - ``size``: the greatest width and height in inches, at 100 pixels an inch.
-    - ``programmed``: the contour before compensation, drawn thin and grey where it differs.
-    - ``alarms``: the first that stopped the program is marked where the tool stands and named below.
-    - ``places``: the crosses (see :func:`mnclab.show.plot.datums.places_of`).
-    - ``stock``: a blank in the coordinates of the path: its outline, thin; on a lathe with what the cuts leave of it.
-    - ``tools``, ``insert``: on a lathe the tool table, and after which row the insert is drawn: True for the last one,
+    - `size`: the greatest width and height in inches, at 100 pixels an inch.
+    - `programmed`: the contour before compensation, drawn thin and grey where it differs.
+    - `alarms`: the first that stopped the program is marked where the tool stands and named below.
+    - `places`: the crosses (see `show.plot.datums.places_of`).
+    - `stock`: a blank in the coordinates of the path: its outline, thin; on a lathe with what the cuts leave of it.
+    - `tools`, `insert`: on a lathe the tool table, and after which row the insert is drawn: True for the last one,
       False for none.
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
@@ -166,7 +166,7 @@ def plot_run(
 ) -> Figure:
     """Views of the path of a run, with its programmed contour, blank, zero points, poles and the place of its alarm.
 
-    The options are those of :func:`plot_path`; ``stock=False`` leaves out the blank of the setup or the program.
+    The options are those of `plot_path`; `stock=False` leaves out the blank of the setup or the program.
     """
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
     given["stock"] = run.stock if stock else None

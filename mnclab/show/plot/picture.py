@@ -1,7 +1,7 @@
 """A figure that shows itself in Jupyter, and how views of equal scale stand in it.
 
-A matplotlib ``Figure`` made without pyplot is not shown by Jupyter (its formatter is registered when pyplot is
-imported; tried in JupyterLab 4.6), so :class:`Picture` says itself how it is shown. Sizes are inches, as in matplotlib.
+A matplotlib `Figure` made without pyplot is not shown by Jupyter (its formatter is registered when pyplot is
+imported; tried in JupyterLab 4.6), so `Picture` says itself how it is shown. Sizes are inches, as in matplotlib.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ GAP, BELOW, RIGHT, ROW, SCALE = 0.14, 0.52, 0.18, 0.22, 0.34
 
 
 class View(NamedTuple):
-    """Which coordinates (0 X, 1 Y, 2 Z) go to the right and up; ``diameter`` shows the upward one doubled."""
+    """Which coordinates (0 X, 1 Y, 2 Z) go to the right and up; `diameter` shows the upward one doubled."""
 
     right: int
     up: int
@@ -56,7 +56,7 @@ VIEWS = {"XY": View(0, 1), "XZ": View(0, 2), "YZ": View(1, 2), "ZX": View(2, 0, 
 
 
 class Picture(Figure):
-    """A figure with a description in words (``alt``), shown by Jupyter as a picture that has this name."""
+    """A figure with a description in words (`alt`), shown by Jupyter as a picture that has this name."""
 
     def __init__(self, size: tuple[float, float] = SIZE, alt: str = "picture") -> None:
         super().__init__(figsize=size, facecolor=colours.PAPER)
@@ -64,7 +64,7 @@ class Picture(Figure):
         self.alt = alt
 
     def png(self, scale: float = 1.0) -> bytes:
-        """The picture as PNG; at ``scale`` 1 an inch has 100 pixels."""
+        """The picture as PNG; at `scale` 1 an inch has 100 pixels."""
         data = BytesIO()
         self.savefig(data, format="png", dpi=100 * scale)
         return data.getvalue()
@@ -109,10 +109,10 @@ def arrange(
     size: tuple[float, float] = SIZE,
     scale_above: bool = False,
 ) -> tuple[Picture, list[Axes]]:
-    """A picture of at most ``size`` with one axes a view, all at one scale, around the box ``low`` to ``high`` (3,) mm.
+    """A picture of at most `size` with one axes a view, all at one scale, around the box `low` to `high` (3,) mm.
 
     Two views stand one above the other when they share what goes to the right, or side by side, whichever is larger.
-    ``names`` get room for a legend above, and ``scale_above`` keeps room for a scale of colours above that; ``foot``
+    `names` get room for a legend above, and `scale_above` keeps room for a scale of colours above that; `foot`
     is one line of text below.
     """
     low, high = roomy(low, high)
@@ -182,7 +182,7 @@ def roomy(low: NDArray[np.float64], high: NDArray[np.float64]) -> tuple[NDArray[
 
 
 def dress(ax: Axes, view: View, box: tuple[float, float] | None = None, digits: int = 4) -> None:
-    """Labels, ticks, grid and equal scales of one view; ``box`` is its size in inches, if it is known."""
+    """Labels, ticks, grid and equal scales of one view; `box` is its size in inches, if it is known."""
     ax.set_aspect("equal", adjustable="datalim")
     for axis, label, doubled, length, room in (
         (ax.xaxis, view.labels[0], False, box and box[0], 0.3 + 0.08 * digits),
@@ -219,7 +219,7 @@ def columns(names: Sequence[str], width: float) -> int:
 
 
 def write_legend(picture: Picture, artists: Sequence[Line2D], below: float = 0.0) -> None:
-    """The names of lines and marks in the room above the views, ``below`` inches from the top."""
+    """The names of lines and marks in the room above the views, `below` inches from the top."""
     if artists:
         names = [str(artist.get_label()) for artist in artists]
         picture.legend(

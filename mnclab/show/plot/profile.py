@@ -57,7 +57,7 @@ def curve(profile: Profile, over: str = "path") -> Curve:
 
 
 def holds(profile: Profile) -> NDArray[np.int64]:
-    """What holds the speed in each piece (m,): an index into ``colours.HOLDS``."""
+    """What holds the speed in each piece (m,): an index into `colours.HOLDS`."""
     p, names = profile.pieces, list(colours.HOLDS)
     at = {name: names.index(name) for name in names}
     feed, cap = (_of_pieces(profile, values) for values in (profile.plan.rows.feed, np.sqrt(profile.plan.rows.cap)))
@@ -101,14 +101,14 @@ def plot_profile(
 ) -> Figure:
     """Feed, acceleration and, under a limit, jerk along the path. Returns the figure, which Jupyter shows.
 
-    - ``ax``: draw only the feed, into these axes of one's own.
-    - ``over``: "time" (s) or "path" (mm of path length).
-    - ``axes``: also the speed and acceleration of X, Y and Z.
-    - ``limits``: dotted lines at the limits, and a band below the feed that says what holds the speed: the acceleration,
+    - `ax`: draw only the feed, into these axes of one's own.
+    - `over`: "time" (s) or "path" (mm of path length).
+    - `axes`: also the speed and acceleration of X, Y and Z.
+    - `limits`: dotted lines at the limits, and a band below the feed that says what holds the speed: the acceleration,
       the jerk, a corner, the turning on an arc, the speed of an axis, or nothing but the programmed feed.
-    - ``whole``: show the rapids up to their full speed. Otherwise the scale ends a little above the fastest cut where
+    - `whole`: show the rapids up to their full speed. Otherwise the scale ends a little above the fastest cut where
       rapids are more than three times as fast and would flatten it, and a note says how far they go.
-    - ``size``: width and height in inches.
+    - `size`: width and height in inches.
 
     Bars on the time axis are stops, triangles corners that slow the tool.
     """
@@ -165,7 +165,7 @@ def plot_profile(
 
 
 def plot_reached(profile: Profile, **options: Any) -> Figure:
-    """The path coloured by the feed that is reached; the options are those of ``mnclab.show.plot.path.plot_path``."""
+    """The path coloured by the feed that is reached; the options are those of `mnclab.show.plot.path.plot_path`."""
     path, drawn = profile.path, curve(profile)
     total = max(path.length, 1e-9)
     counts = np.where(np.isin(path.kind, (Kind.LINE, Kind.ARC)), np.ceil(path.lengths / total * PARTS), 1)
@@ -180,7 +180,7 @@ def plot_reached(profile: Profile, **options: Any) -> Figure:
 def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = MOST, width: float = 7.0) -> Figure:
     """Seconds of each line beside its text: what feed and rapid need, dwells and changes, and what the machine adds.
 
-    Of a long program the ``most`` lines that lose the most; ``width`` in inches.
+    Of a long program the `most` lines that lose the most; `width` in inches.
     """
     path, lost = profile.path, profile.lost
     own = path.program == 0

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 
 class Strokes(NamedTuple):
-    """Points (m, 3), mm; ``row`` (m,) of the path that the stroke *to* each point belongs to, -1 if no stroke ends."""
+    """Points (m, 3), mm; `row` (m,) of the path that the stroke *to* each point belongs to, -1 if no stroke ends."""
 
     xyz: Array
     row: NDArray[np.int64]
@@ -49,9 +49,9 @@ def strokes(path: Toolpath) -> Strokes:
 
 
 def parted(xyz: Array, group: NDArray[np.integer], count: int) -> list[Array]:
-    """The strokes of each class 0 … ``count`` - 1 as one line broken by nan (k, 3), without a stroke an empty one.
+    """The strokes of each class 0 … `count` - 1 as one line broken by nan (k, 3), without a stroke an empty one.
 
-    ``group`` (m,) is the class of the stroke to each point, -1 for none; a stroke begins at the point before.
+    `group` (m,) is the class of the stroke to each point, -1 for none; a stroke begins at the point before.
     """
     order = np.argsort(group.astype(np.int16), kind="stable")
     bounds = np.searchsorted(group[order], np.arange(count + 1))

@@ -1,7 +1,7 @@
 """The manual's examples and those worked out from its rules, move by move; see tests/authorities/README.md.
 
-What an example expects is a list of moves, one a line; remarks behind ``#`` may give a length, a time, an angle. Those
-that expect something else are named in :data:`ELSEWHERE` with the test that holds their numbers.
+What an example expects is a list of moves, one a line; remarks behind `#` may give a length, a time, an angle. Those
+that expect something else are named in `ELSEWHERE` with the test that holds their numbers.
 """
 
 import json

@@ -1,7 +1,7 @@
-"""Golden listings: tests/programs/mnc/NAME.mnc beside NAME.expected, which is what ``str(run.toolpath)`` must be.
+"""Golden listings: tests/programs/mnc/NAME.mnc beside NAME.expected, which is what `str(run.toolpath)` must be.
 
-The head comments of a program name its origin (``// origin: manual 3.2 ...`` or ``// origin: worked out from 9.1 ...``)
-and work its numbers out. ``pytest --rewrite`` writes the expected listings anew: read every change before it is kept.
+The head comments of a program name its origin (`// origin: manual 3.2 ...` or `// origin: worked out from 9.1 ...`)
+and work its numbers out. `pytest --rewrite` writes the expected listings anew: read every change before it is kept.
 """
 
 import re

@@ -85,8 +85,8 @@ def pockets(draw_of_shape):
 def mill_pocket(v, radius, rings, wall, room, corner, turn, start):
     """Steps 1 to 8 of 10.3 and 10.4 with the plunge J0.
 
-    ``rings(allowance)`` gives the passes of a level, each as a function that runs it; ``wall`` is where a round begins
-    and ends, ``corner(place, direction)`` turns a direction of the wall.
+    `rings(allowance)` gives the passes of a level, each as a function that runs it; `wall` is where a round begins
+    and ends, `corner(place, direction)` turns a direction of the wall.
     """
     x0, y0, z0 = start
     z, floor = v["Z"], v["Z"] + v["H"]

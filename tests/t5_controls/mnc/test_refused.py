@@ -1,4 +1,4 @@
-"""Programs that must be refused; the first comment of each says where and how: ``// LINE:COLUMN alarm: text``."""
+"""Programs that must be refused; the first comment of each says where and how: `// LINE:COLUMN alarm: text`."""
 
 import re
 from pathlib import Path

@@ -32,7 +32,7 @@ def expected_of(example):
 
 
 def parameters_of(title):
-    """Machine parameters in a title: ``parameter 8 = 100``, ``parameters 6 and 7 = 0``."""
+    """Machine parameters in a title: `parameter 8 = 100`, `parameters 6 and 7 = 0`."""
     found = re.findall(r"parameters? (\d+)(?: and (\d+))? = (\d+)", title)
     return {f"parameter_{n}": int(value) for *numbers, value in found for n in numbers if n}
 

@@ -1,6 +1,6 @@
-"""Programs of the source and of the catalogue against expected moves; the files in ``examples`` name their origins.
+"""Programs of the source and of the catalogue against expected moves; the files in `examples` name their origins.
 
-An example is: remarks, the program, ``---``, the moves. In the moves X is the diameter, in a path it is the radius.
+An example is: remarks, the program, `---`, the moves. In the moves X is the diameter, in a path it is the radius.
 """
 
 import re
@@ -17,7 +17,7 @@ MOVE = re.compile(r"(start|rapid|feed) X(\S+) Z(\S+)(?:\s*#.*?)?(?:(cycle|modal)
 
 
 def remark(text, name):
-    """The value of ``# name: value``, parts at commas."""
+    """The value of `# name: value`, parts at commas."""
     found = re.search(rf"^# {name}: (.*)$", text, re.MULTILINE)
     return [part.strip() for part in found[1].split(",")] if found else []
 

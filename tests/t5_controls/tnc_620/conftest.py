@@ -16,7 +16,7 @@ Runner = Callable[..., mnc.Run]
 
 @pytest.fixture
 def tnc() -> Runner:
-    """Run a program; ``setup`` and single ``settings`` may be given."""
+    """Run a program; `setup` and single `settings` may be given."""
 
     def run(text: str, setup: mnc.Setup | None = None, **settings: object) -> mnc.Run:
         return mnc.run(text, "tnc-620", setup or mnc.Setup(settings=settings))
@@ -36,7 +36,7 @@ def inside(tnc: Runner) -> Runner:
 
 @pytest.fixture
 def drilled() -> Callable[[mnc.Run], list[str]]:
-    """The rows of a run in the notation of the manual's sequences: ``Z22 FMAX``, ``Z15 F250``, ``dwell 0.1 s``."""
+    """The rows of a run in the notation of the manual's sequences: `Z22 FMAX`, `Z15 F250`, `dwell 0.1 s`."""
 
     def words(run: mnc.Run) -> list[str]:
         found = []
@@ -65,7 +65,7 @@ def printed() -> dict[int, dict[str, str]]:
 
 @pytest.fixture(scope="session")
 def called(printed: dict[int, dict[str, str]]) -> Runner:
-    """Run a printed definition, with some Q parameters changed, at X0 Y0 from Z100; ``start`` is written before it.
+    """Run a printed definition, with some Q parameters changed, at X0 Y0 from Z100; `start` is written before it.
 
     Tool 3 has a radius of 3, or the one given; the definition begins in line 4, its parameters follow one a line.
     """

@@ -1,7 +1,7 @@
 """Everything that chapters 1 to 7, 11 and 12 of the manual name: obeyed, refused by name, or read as something else is.
 
 The entries (how they were listed: tests/authorities/README.md) have a kind. A concept is text without a code; each other
-one is a function or a cycle of the control, or it is refused by its name, or :data:`READ_AS` says where it went.
+one is a function or a cycle of the control, or it is refused by its name, or `READ_AS` says where it went.
 """
 
 from __future__ import annotations

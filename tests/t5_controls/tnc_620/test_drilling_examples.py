@@ -1,6 +1,6 @@
 """Chapter 4, move by move: every example that the manual prints, and those worked out from its text.
 
-``check`` of an example holds the numbers (how they were made: tests/authorities/README.md). Programs that only define
+`check` of an example holds the numbers (how they were made: tests/authorities/README.md). Programs that only define
 their cycle get a call here; a definition with a diameter needs a tool.
 """
 

@@ -23,7 +23,7 @@ VALUES = {
 
 
 def probing(part, after="", before="L Z+100 R0 FMAX\n", **changes):
-    """Run the cycle; ``part`` is (point, normal) in program coordinates."""
+    """Run the cycle; `part` is (point, normal) in program coordinates."""
     values = VALUES | changes
     lines = "\n".join(f"{name}={value:+g} ;COMMENT" for name, value in values.items())
     text = f"0 BEGIN PGM P MM\n1 TOOL CALL 7 Z\n{before}3 TCH PROBE 419 PUNCT 0 INTR-O AXA\n{lines}\n{after}9 END PGM P MM\n"

@@ -151,7 +151,7 @@ def dwell_bottom(**more: Any) -> Any:
 
 
 def disengage(shift: bool = False, **more: Any) -> Any:
-    """Q214: where a tool goes before it leaves a bore; a ``shift`` must have a direction."""
+    """Q214: where a tool goes before it leaves a bore; a `shift` must have a direction."""
     choices = {key: where for key, where in DISENGAGE.items() if key or not shift}
     return choice("Q214", "direction in which the tool leaves the wall", choices, **{"example": 1} | more)
 

@@ -1,9 +1,9 @@
 """The chain of transformations (11.1): in the order of definition, one place for each kind before the tilt and one behind.
 
 A new value replaces the old one in its place; a neutral one takes the frame out, and a later definition is appended. What is
-defined while the plane is tilted acts in the tilted system; it is a frame of its own, with the mark :data:`TILTED`.
+defined while the plane is tilted acts in the tilted system; it is a frame of its own, with the mark `TILTED`.
 
-Rotary axes have no frame: their shift and their mirror image are kept in the memory of the machine, see :func:`to_rotary`.
+Rotary axes have no frame: their shift and their mirror image are kept in the memory of the machine, see `to_rotary`.
 """
 
 from __future__ import annotations

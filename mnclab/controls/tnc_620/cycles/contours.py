@@ -1,6 +1,6 @@
 """SL cycles (TNC 620, chapter 8): contours from labels, their data, and clearing them.
 
-A contour is read from its labels when a cycle that machines it is called; ``pockets.rings`` does the geometry.
+A contour is read from its labels when a cycle that machines it is called; `pockets.rings` does the geometry.
 """
 
 from __future__ import annotations

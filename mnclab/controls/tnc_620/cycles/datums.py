@@ -30,7 +30,7 @@ def axis_shift(address: str) -> Any:
 class DatumShift(Cycle):
     """Moves the datum; IX counts from the shift that was valid before, an axis that is not named keeps its shift.
 
-    ``#5`` takes the shift from a row of the active datum table; an empty field there leaves its axis as it is.
+    `#5` takes the shift from a row of the active datum table; an empty field there leaves its axis as it is.
     """
 
     x: float | None = axis_shift("X")

@@ -24,7 +24,7 @@ PROBING = frozenset(f"TCH PROBE {n}" for n in range(400, 500))
 
 
 class Defaults(Cycle):
-    """Values for the cycles that ``serves`` names; they hold until they are defined again or the program ends."""
+    """Values for the cycles that `serves` names; they hold until they are defined again or the program ends."""
 
     serves: ClassVar[frozenset[str]] = frozenset()
     in_variables: ClassVar[bool] = False

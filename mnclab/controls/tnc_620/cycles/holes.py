@@ -1,4 +1,4 @@
-"""What the cycles at a hole share: where it ends, its faults, the way to it (chapter 4); its planes are in ``planes``."""
+"""What the cycles at a hole share: where it ends, its faults, the way to it (chapter 4); its planes are in `planes`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mnclab.running.performing import perform
 
 
 class Hole(AtSurface):
-    """A cycle at a hole; a subclass declares the parameters named here and says in ``steps`` what happens below A."""
+    """A cycle at a hole; a subclass declares the parameters named here and says in `steps` what happens below A."""
 
     depth: float
     feed: float

@@ -140,7 +140,7 @@ class FigureMilling(AtSurface):
         yield from too_many("finishing_infeed", self.wall_levels)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The sign of the depth, a tool with a radius, feeds for all that is done; what else :meth:`check_figure` finds."""
+        """The sign of the depth, a tool with a radius, feeds for all that is done; what else `check_figure` finds."""
         if self.depth == 0:
             return
         yield from self.signs(m)

@@ -1,6 +1,6 @@
 """Deep holes (4.8 and 4.10): universal pecking, 205, and single-lip deep-hole drilling, 241.
 
-Both may begin in a hole that is there already, Q379 deep: a long drill stays in its guide, see ``machining.holes.guided``.
+Both may begin in a hole that is there already, Q379 deep: a long drill stays in its guide, see `machining.holes.guided`.
 """
 
 from __future__ import annotations

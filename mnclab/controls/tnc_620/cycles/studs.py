@@ -61,7 +61,7 @@ class Stud(FigureMilling):
 
     @abstractmethod
     def start(self, radius: float, aside: float) -> tuple[float, float]:
-        """S, counted from C; ``aside`` is :data:`ASIDE` in lengths of the program."""
+        """S, counted from C; `aside` is `ASIDE` in lengths of the program."""
 
     @abstractmethod
     def clearing(self, radius: float, allowance: float, blank: bool = True) -> Clearing:

@@ -1,6 +1,6 @@
 """Thread milling (chapter 5.5 to 5.10): what its cycles share, and 262, 263 and 267. 264 and 265 begin in solid material.
 
-The geometry is that of :mod:`mnclab.machining.holes.thread_milling`. Readings where the manual is silent: feeds of the thread,
+The geometry is that of `machining.holes.thread_milling`. Readings where the manual is silent: feeds of the thread,
 that of the approach among them, are those of the cutting edge; a depth of 0 leaves its step out, and a cycle whose depths
 are all 0 is refused where it has several; 262 is not executed, as its manual says.
 """
@@ -29,7 +29,7 @@ CORE = 5 / 8 * math.sqrt(3)  # pitches by which the core of an ISO metric nut is
 class ThreadMilling(AtSurface):
     """What the cycles share; an inner thread, milled by a tool that turns right.
 
-    ``rotation`` is +1 where the tool goes round counter-clockwise, and its product with the hand of the thread the way
+    `rotation` is +1 where the tool goes round counter-clockwise, and its product with the hand of the thread the way
     along the axis (the table of 5.5).
     """
 
@@ -72,7 +72,7 @@ class ThreadMilling(AtSurface):
         return path_of(self.nominal_diameter, m.radius, self.lead, self.external)
 
     def a_step(self) -> int:
-        """Threads per step of :func:`~mnclab.machining.holes.thread_milling.helices`."""
+        """Threads per step of `helices`."""
         return 0
 
     def passes(self) -> list[tuple[float, float]]:
@@ -141,7 +141,7 @@ class ThreadMilling(AtSurface):
             )  # fmt: skip
 
     def front(self, m: Machine, depth: float, offset: float, feed: float, plunge: float) -> Iterator[Step]:
-        """Countersink with the end of the tool: down at ``plunge``, a circle of radius ``offset``; nothing without a depth."""
+        """Countersink with the end of the tool: down at `plunge`, a circle of radius `offset`; nothing without a depth."""
         if depth:
             yield Go("to the depth at front", self.surface + depth, plunge)
             yield from countersink(self.path(m), offset, sense=self.rotation, feed=feed, external=self.external)

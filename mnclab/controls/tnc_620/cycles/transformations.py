@@ -1,7 +1,7 @@
 """Mirror image, rotation and scaling (11.5 to 11.8): each acts as soon as it is defined, about the datum that is active then.
 
 The tool is neither mirrored nor scaled: its radius is that of the tool table on the machine, and it stays on the side of the
-contour on which it was. The chain of the transformations is in :mod:`~mnclab.controls.tnc_620.cycles.chain`.
+contour on which it was. The chain of the transformations is in `controls.tnc_620.cycles.chain`.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Calls of a defined cycle: CYCL CALL, CYCL CALL POS, M99, M89 (3.1; catalogue: cycle call).
 
-CYCL CALL PAT is in :mod:`~mnclab.controls.tnc_620.language.pattern_calls`.
+CYCL CALL PAT is in `controls.tnc_620.language.pattern_calls`.
 """
 
 from __future__ import annotations
@@ -129,7 +129,7 @@ def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:
 def run_at(m: Machine, definition: Definition, x: float, y: float, z: float, **instead: float) -> None:
     """Run a cycle where the tool stands, x y, its surface shifted by z; a contour cycle with its datum there.
 
-    ``instead`` are values that count in place of its own.
+    `instead` are values that count in place of its own.
     """
     shift = (x, y, z) if definition.cycle.code in PLACED_BY_DATUM else (0.0, 0.0, z)
     with shifted(m, shift):

@@ -81,7 +81,7 @@ _OF_A_PROGRAM: tuple[str, ...] = ("name", "unit")  # what BEGIN PGM says
 
 
 def call_program(m: Machine, name: str, what: str, word: Word | None) -> None:
-    """Run another program here, with its own QL parameters; ``what`` is the statement that calls it."""
+    """Run another program here, with its own QL parameters; `what` is the statement that calls it."""
     place = m._span(word)
     index = files.called(m, name, what, place)
     kept = {key: m.memory.pop(key) for key in _OF_A_PROGRAM if key in m.memory}

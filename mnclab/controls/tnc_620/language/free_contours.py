@@ -1,7 +1,7 @@
 """Free contour programming: FPOL, FL, FLT, FC, FCT, FSELECT (catalogue: FK).
 
-Each block tells what is known of an element; :mod:`mnclab.geometry.free_contour` finds the contours that fit. The blocks
-wait in ``machine.pending`` until something follows that is no free element: then everything must be settled. RND, CHF,
+Each block tells what is known of an element; `geometry.free_contour` finds the contours that fit. The blocks
+wait in `machine.pending` until something follows that is no free element: then everything must be settled. RND, CHF,
 FPOL, FSELECT and assignments may stand between.
 
 FSELECT counts the readings in the order of that module. The manual does not document its order; with this one the numbers

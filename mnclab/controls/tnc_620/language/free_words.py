@@ -98,7 +98,7 @@ def absolute(m: Machine, words: Words, word: Word) -> float:
 
 
 def place(chain: Chain, m: Machine, words: Words, point: Pair, kind: str, k: int) -> None:
-    """Coordinates of the end point, or (``kind`` CC) of the centre: X Y PR PA, counted from a block with R…."""
+    """Coordinates of the end point, or (`kind` CC) of the centre: X Y PR PA, counted from a block with R…."""
     contour = chain.contour
     for axis in "XY":
         begin = reference(chain, m, words, kind + axis, k)

@@ -25,7 +25,7 @@ TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue:
 
 
 def coordinates(m: Machine, words: Words, axes: str = AXES) -> dict[str, Any]:
-    """Targets of the axes that are written, as arguments of a verb (``x=``, …); IX counts from the register."""
+    """Targets of the axes that are written, as arguments of a verb (`x=`, …); IX counts from the register."""
     if DATUM in m.memory:
         written = {k: words[axis] for k, axis in enumerate(AXES) if axis in axes and axis in words}
         return machine_target(m, {k: (m.value(word), word.incremental) for k, word in written.items()})

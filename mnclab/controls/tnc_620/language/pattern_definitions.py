@@ -36,7 +36,7 @@ MEANINGS = COUNTS | {
 
 
 class Pattern(NamedTuple):
-    """Points (n, 3), z the workpiece surface there, and clearance heights (n,) or nan; ``table``: they came from a file."""
+    """Points (n, 3), z the workpiece surface there, and clearance heights (n,) or nan; `table`: they came from a file."""
 
     points: Floats
     clearance: Floats

@@ -1,7 +1,7 @@
 """How Q parameters, texts and the functions FN are written (catalogue: Q parameters, Q formula, QS, FN).
 
-A formula becomes the words ``target`` and ``value``. FN 0 to 7 are formulas of a fixed form; FN 8 and FN 13 join two
-operands, ``first`` and ``second``; FN 17 and FN 18 name system data by ``ID``, ``NR`` and ``IDX``.
+A formula becomes the words `target` and `value`. FN 0 to 7 are formulas of a fixed form; FN 8 and FN 13 join two
+operands, `first` and `second`; FN 17 and FN 18 name system data by `ID`, `NR` and `IDX`.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _SYSTEM = [(name, re.compile(rf"[ \t]*{name}", FLAGS)) for name in ("ID", "NR", 
 
 
 class Form(NamedTuple):
-    """What must follow ``FN n: Q1 =``, and how it looks."""
+    """What must follow `FN n: Q1 =`, and how it looks."""
 
     pattern: re.Pattern[str]
     example: str
@@ -52,7 +52,7 @@ PAIRS = {8: "LEN", 13: "ANG"}
 
 
 def assignment(target: str, begin: int) -> Read:
-    """The formula of ``Q1 = …``; its target was read already."""
+    """The formula of `Q1 = …`; its target was read already."""
 
     def read(cursor: Cursor) -> None:
         formula(cursor, target, begin)
@@ -77,7 +77,7 @@ def formula(cursor: Cursor, target: str, begin: int, form: Form | None = None) -
 
 
 def text_assignment(target: str, begin: int) -> Read:
-    """The texts of ``QS1 = …``; its target was read already."""
+    """The texts of `QS1 = …`; its target was read already."""
 
     def read(cursor: Cursor) -> None:
         start = value_begins(cursor, target, begin)

@@ -1,6 +1,6 @@
 """The DIN/ISO names of cycles, which the manual prints in most of their headings; it prints no DIN/ISO program.
 
-They find a cycle (``mnclab.help("G83" …)``) and explain a G word that strayed into a conversational program. Several are
+They find a cycle (`mnclab.help("G83" …)`) and explain a G word that strayed into a conversational program. Several are
 other functions on other controls (G28, G54, G73, G80). Cycles 26, 200, 208 and some probing cycles have no such name.
 """
 

@@ -1,6 +1,6 @@
-"""How PATTERN DEF is written: elements such as ``ROW1 (X+25 Y+33.5 D+8 NUM5 ROT+0 Z+0)``, over as many lines as one likes.
+"""How PATTERN DEF is written: elements such as `ROW1 (X+25 Y+33.5 D+8 NUM5 ROT+0 Z+0)`, over as many lines as one likes.
 
-An element becomes the word of its form with its number (``ROW`` 1), its parameters, and the word ``)``. A line may end
+An element becomes the word of its form with its number (`ROW` 1), its parameters, and the word `)`. A line may end
 anywhere between two words, and between an address and its number.
 """
 

@@ -1,13 +1,13 @@
 """Reading conversational programs: lines into blocks.
 
-A block is a number, a statement and its words; ``/`` before or after the number marks a block that may be passed over,
-``;`` begins a comment, ``*`` a structure block. A block goes on over several lines when a line ends in ``~``, in a
+A block is a number, a statement and its words; `/` before or after the number marks a block that may be passed over,
+`;` begins a comment, `*` a structure block. A block goes on over several lines when a line ends in `~`, in a
 definition whose further lines carry no number, and in the sub-blocks n.0, n.1, … of older cycles, which become one block.
-So ``Q200=5`` without a number below a definition is a parameter of it; with a number it is an assignment, and so it is
-where the lines of the definition were joined by ~ and the last one has none. ``Q1 = -5``, the way an assignment is
-written, below parameters that are written ``Q200=5``: a parameter too, for the manual numbers assignments, with a warning.
+So `Q200=5` without a number below a definition is a parameter of it; with a number it is an assignment, and so it is
+where the lines of the definition were joined by ~ and the last one has none. `Q1 = -5`, the way an assignment is
+written, below parameters that are written `Q200=5`: a parameter too, for the manual numbers assignments, with a warning.
 
-Plain straight lines (``12 L X+1.5 Y-2 F500 R0``) are found for the whole text at once; every other line is read one by
+Plain straight lines (`12 L X+1.5 Y-2 F500 R0`) are found for the whole text at once; every other line is read one by
 one, and a fault ends the reading of its block alone.
 """
 
@@ -229,7 +229,7 @@ class _Lines:
 def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_], BulkBlocks]:
     """Which lines (l,) are plain straight lines, and their blocks.
 
-    The columns of ``found`` are used up: the words that stay are moved to their beginning, in pieces that stay in the
+    The columns of `found` are used up: the words that stay are moved to their beginning, in pieces that stay in the
     cache, because new columns would cost more than the work on them.
     """
     with_words = np.flatnonzero(found.count)  # lines
@@ -283,7 +283,7 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
 def _plain(
     letter: NDArray[np.uint8], value: NDArray[np.float64], length: NDArray[np.int16], heads: NDArray[np.int32]
 ) -> NDArray[np.bool_]:
-    """Which lines are an L alone and plain words, each once; of their words (w,), ``heads`` are the first ones."""
+    """Which lines are an L alone and plain words, each once; of their words (w,), `heads` are the first ones."""
     digits = _DIGIT_OF_LETTER[letter]
     digits[heads] = 0
     radius = np.flatnonzero(letter == ord("R"))

@@ -1,6 +1,6 @@
 """Which statements there are, and how the rest of each is read into words.
 
-A statement is known by its keyword (``L``, ``TOOL CALL``, ``CYCL DEF 200``). What the control knows but nobody has built
+A statement is known by its keyword (`L`, `TOOL CALL`, `CYCL DEF 200`). What the control knows but nobody has built
 is read by its keyword alone: the run refuses it by name where it stands.
 """
 
@@ -128,7 +128,7 @@ def file_name(cursor: Cursor) -> None:
 
 
 def cycle_parameters(cursor: Cursor) -> None:
-    """Lines ``Q200=+2``; a name before the first of them is a comment in the language of the dialog."""
+    """Lines `Q200=+2`; a name before the first of them is a comment in the language of the dialog."""
     builder = cursor.builder
     if not any(name.startswith("Q") for name in _addresses(cursor)):
         first = _PARAMETER_HEAD.search(cursor.text, cursor.at, cursor.stop)
@@ -169,7 +169,7 @@ def _addresses(cursor: Cursor) -> list[str]:
 
 
 def contour_labels(cursor: Cursor) -> None:
-    """14.1: the numbers of the labels, ``1/2/3/4``, after a word in the language of the dialog."""
+    """14.1: the numbers of the labels, `1/2/3/4`, after a word in the language of the dialog."""
     cursor.match(_DIALOG)
     while not cursor.done:
         cursor.match(_SLASH)

@@ -1,6 +1,6 @@
 """How sub-blocks n.1, n.2 … of the older cycles are read: letters of axes, factors, and numbers behind a word.
 
-The words in front of the numbers are those of the dialog, in its language (``DWELL``, ``TEMP``, ``ANGLE``, ``UNGHI`` …):
+The words in front of the numbers are those of the dialog, in its language (`DWELL`, `TEMP`, `ANGLE`, `UNGHI` …):
 they are passed over, and what the number means follows from its place.
 """
 
@@ -56,7 +56,7 @@ def tilting(cursor: Cursor) -> None:
 
 
 def after_dialog(address: str, meaning: str) -> Read:
-    """One number behind the words of the dialog and perhaps ``=``."""
+    """One number behind the words of the dialog and perhaps `=`."""
 
     def read(cursor: Cursor) -> None:
         begin = cursor.blanks()

@@ -1,9 +1,9 @@
-"""An address and its value, as conversational blocks write them: ``X+10``, ``IY-Q5``, ``FMAX``, ``RL``, ``DR-``.
+"""An address and its value, as conversational blocks write them: `X+10`, `IY-Q5`, `FMAX`, `RL`, `DR-`.
 
 Values are numbers with a decimal point or comma, or a Q parameter with a sign (then the word holds an expression).
-What stands without a number is a word without a value (``FMAX``, ``FAUTO``, ``RL``, ``RR``, ``R0``); a sense of rotation is
-the word ``DR`` with the text ``+`` or ``-``. Values without an address in the text get one in lower case: ``tool``,
-``label``, ``axis``, ``name``, ``unit``, ``length``, ``number``, ``target``, ``value``. Lengths of an INCH program become mm here.
+What stands without a number is a word without a value (`FMAX`, `FAUTO`, `RL`, `RR`, `R0`); a sense of rotation is
+the word `DR` with the text `+` or `-`. Values without an address in the text get one in lower case: `tool`,
+`label`, `axis`, `name`, `unit`, `length`, `number`, `target`, `value`. Lengths of an INCH program become mm here.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ LENGTHS = frozenset(
     "DP DEPTH PITCH length".split()
 )
 
-#: Addresses that belong to an M function when they stand directly behind it: ``M103 F20`` beside a feed F of the block.
+#: Addresses that belong to an M function when they stand directly behind it: `M103 F20` beside a feed F of the block.
 OWN = {
     103: re.compile(r"F(?![A-Z])", FLAGS), 118: re.compile(r"[XYZABC](?![A-Z])", FLAGS), 120: re.compile(r"LA", FLAGS),
     128: re.compile(r"F(?![A-Z])", FLAGS), 140: re.compile(r"MB[ \t]*(?:MAX)?|F[ \t]*(?:MAX|(?![A-Z]))", FLAGS),
@@ -96,7 +96,7 @@ class Cursor:
         return found
 
     def add(self, address: str, value: Any, offset: int, flag: int = 0) -> None:
-        """A word from ``offset`` to here; ``value`` as in :class:`mnclab.text.program.Word`."""
+        """A word from `offset` to here; `value` as in `text.program.Word`."""
         if self.inch and address in LENGTHS and isinstance(value, float | Expression):
             value = value * INCH if isinstance(value, float) else replace(value, scale=INCH)
         self.builder.word(address, value, offset, self.at - offset, flag)
@@ -136,7 +136,7 @@ class Cursor:
     def words(self, bare: str = "", radius: bool = False) -> None:
         """Words up to the end of the line.
 
-        ``bare``: letters that may stand without a value and name an axis; ``radius``: R0 is a radius here.
+        `bare`: letters that may stand without a value and name an axis; `radius`: R0 is a radius here.
         """
         while not self.done:
             self.word(bare, radius)
@@ -170,7 +170,7 @@ class Cursor:
             raise self.unexpected()
 
     def own_words(self, code: int) -> None:
-        """Words directly behind an M function that belong to it: ``M103:F`` with or without a number."""
+        """Words directly behind an M function that belong to it: `M103:F` with or without a number."""
         while not self.done:
             begin = self.at
             found = self.match(OWN[code])
