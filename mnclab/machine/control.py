@@ -146,6 +146,7 @@ class Control:
     `named` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; `predefined`
     what PREDEF stands for in a parameter of a cycle of a code; `calls_again` whether a modal call of a cycle (a modal
     function of the group "call") calls it in a block with a keyword and words.
+    `memory` makes what the control keeps beside the common state of a machine, a dataclass.
     `preassigned` are variables that the control keeps itself; names that begin with `local_variables` belong to one
     program. `modern` writes a program in the notation of today, where the control's own is another.
     """
@@ -164,6 +165,7 @@ class Control:
     settings: tuple[Setting, ...] = ()
     storage: str = "instance"
     frames: tuple[str, ...] = ()
+    memory: Callable[[], Any] | None = None
     compensation: Compensation | None = None
     start: Callable[[Machine], None] | None = None
     finish: Callable[[Machine], None] | None = None

@@ -9,8 +9,8 @@ Rotary axes have no frame: their shift and their mirror image are kept in the me
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
@@ -20,8 +20,6 @@ KINDS = (SHIFT, MIRROR, ROTATION, SCALE, FACTORS)
 TILT = "tilt"
 TILTED = " (tilted)"
 ALSO = " (before)"  # what outlived its tilt, beside one of its kind
-ROTARY_SHIFT, ROTARY_MIRROR, ANGLES = "rotary shift", "rotary mirror", "rotation angles"
-REST = (0.0, 0.0, 0.0)
 
 
 def absolute(m: Machine, code: str, given: Mapping[str, Word]) -> None:
@@ -53,7 +51,7 @@ def shift_of(m: Machine) -> tuple[float, float, float]:
 
 def angle_of(m: Machine) -> float:
     """The rotation that a new one replaces, degrees."""
-    angles: dict[str, float] = m.memory.get(ANGLES, {})
+    angles = memory(m).rotation_angles
     name = place(m, ROTATION)
     return angles.get(name, 0.0) + (angles.get(ROTATION + ALSO, 0.0) if name == ROTATION else 0.0)
 
@@ -61,8 +59,10 @@ def angle_of(m: Machine) -> float:
 def remember_angle(m: Machine, angle: float) -> None:
     """Note the rotation that is set now, degrees."""
     name = place(m, ROTATION)
-    kept = {key: value for key, value in m.memory.get(ANGLES, {}).items() if key != ROTATION + ALSO or name != ROTATION}
-    m.memory[ANGLES] = {**kept, name: angle}
+    angles = memory(m).rotation_angles
+    angles[name] = angle
+    if name == ROTATION:
+        angles.pop(ROTATION + ALSO, None)
 
 
 def untilt(m: Machine) -> list[str]:
@@ -73,8 +73,8 @@ def untilt(m: Machine) -> list[str]:
             now = kind if kind not in m.frames else kind + ALSO
             m.frames.rename(kind + TILTED, now)
             if kind == ROTATION:
-                angles = dict(m.memory.get(ANGLES, {}))
-                m.memory[ANGLES] = {**angles, now: angles.pop(kind + TILTED, 0.0)}
+                angles = memory(m).rotation_angles
+                angles[now] = angles.pop(kind + TILTED, 0.0)
             left.append(kind)
     m.set_frame(TILT, None)
     return left
@@ -85,8 +85,8 @@ def reset(m: Machine) -> None:
     for name, _ in list(m.frames):
         if name != TILT and name not in m.frames.slots:
             m.set_frame(name, None)
-    for name in (ANGLES, ROTARY_SHIFT, ROTARY_MIRROR):
-        m.memory.pop(name, None)
+    kept = memory(m)
+    kept.rotation_angles, kept.rotary_shift, kept.rotary_mirror = {}, (0.0, 0.0, 0.0), ""
 
 
 def cancel(m: Machine) -> None:
@@ -97,9 +97,8 @@ def cancel(m: Machine) -> None:
 
 def rotary(m: Machine) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Shift (degrees) and sense (1 or -1) of the axes A, B and C."""
-    shift: Any = m.memory.get(ROTARY_SHIFT, REST)
-    mirrored = m.memory.get(ROTARY_MIRROR, "")
-    return shift, tuple(-1.0 if axis in mirrored else 1.0 for axis in "ABC")
+    kept = memory(m)
+    return kept.rotary_shift, tuple(-1.0 if axis in kept.rotary_mirror else 1.0 for axis in "ABC")
 
 
 def to_rotary(m: Machine, axis: int, angle: float) -> float:

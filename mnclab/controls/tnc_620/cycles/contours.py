@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, ClassVar, NamedTuple
 
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machine.cycle import Cycle, CycleTable, param
@@ -56,7 +57,7 @@ class ContourGeometry(Cycle):
     def moves(self, m: Machine) -> None:
         """Keep the list until the next one."""
         names = tuple(f"{number:g}" for number in self.labels)
-        m.memory["contour labels"] = Labels(names, m.flow.running[-1], m.variable_unit)
+        memory(m).contour_labels = Labels(names, m.flow.running[-1], m.variable_unit)
 
 
 @CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="8.4")
@@ -84,13 +85,13 @@ class ContourData(Cycle):
 
     def moves(self, m: Machine) -> None:
         """Keep the data; they are read again when a cycle is called, since Q parameters may have changed."""
-        m.memory["contour data"] = self
+        memory(m).contour_data = self
 
 
 def contour_data(m: Machine) -> ContourData:
     """The data of cycle 20 with the Q parameters as they stand now."""
-    data = m.memory["contour data"]
-    assert isinstance(data, ContourData)
+    data = memory(m).contour_data
+    assert data is not None
     now: dict[str, Any] = {
         p.name: m.variables[p.address] * unit_of(m, p) for p in data.parameters() if p.address in m.variables
     }
@@ -106,7 +107,8 @@ def contour_region(m: Machine) -> Region:
     pockets: list[tuple[Contour, tuple[float, float]]] = []
     islands: list[Contour] = []
     recording: Recording | None = None
-    labels: Labels = m.memory["contour labels"]
+    labels = memory(m).contour_labels
+    assert labels is not None
     unit = m.variable_unit
     for label in labels.names:
         with m.flow.inside(labels.program):
@@ -178,9 +180,9 @@ class RoughOut(Cycle):
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Contour and data are there, the infeed is not zero; what is not built is refused."""
-        if "contour labels" not in m.memory:
+        if memory(m).contour_labels is None:
             yield "", "needs a contour: CYCL DEF 14 comes before it"
-        if "contour data" not in m.memory:
+        if memory(m).contour_data is None:
             yield "", "needs its contour data: CYCL DEF 20 comes before it"
         if self.infeed == 0:
             yield "infeed", "must not be 0"

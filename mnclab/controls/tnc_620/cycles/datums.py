@@ -7,6 +7,7 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.cycles.addresses import FAR
+from mnclab.controls.tnc_620.state import memory
 from mnclab.controls.tnc_620.tables.datum_tables import row_of
 from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
@@ -75,8 +76,8 @@ class DatumShift(Cycle):
         """No motion: the register is read anew from where the tip stands."""
         new = self.written if self.datum_number is None else row_of(m, int(self.datum_number))
         x, y, z = (new.get(axis, before) for axis, before in zip("xyz", chain.shift_of(m), strict=True))
-        turned = tuple(new.get(axis, before) for axis, before in zip("abc", chain.rotary(m)[0], strict=True))
-        m.memory[chain.ROTARY_SHIFT] = turned
+        a, b, c = (new.get(axis, before) for axis, before in zip("abc", chain.rotary(m)[0], strict=True))
+        memory(m).rotary_shift = (a, b, c)
         chain.define(m, chain.SHIFT, frames.shift(x, y, z) if (x, y, z) != (0, 0, 0) else None)
 
 
@@ -103,5 +104,5 @@ class Presetting(Cycle):
         """No motion: the register is read anew from where the tip stands."""
         row = int(self.preset_number)
         chain.reset(m)
-        m.memory["preset"] = row
+        memory(m).preset = row
         m.select_datum(m.tables.presets.get(row, Datum()), "preset")

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS
@@ -19,7 +20,6 @@ from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 
-ORIENTATION = "spindle angle"  # in the memory: where M19 and M20 stop the spindle, degrees
 FILTERS: dict[float, str] = {0: "finishing: more exact", 1: "roughing: faster"}
 LOADS: dict[float, str] = {0: "forget the values found before", 1: "weigh: the axes move to find the load"}
 
@@ -43,7 +43,7 @@ class SpindleOrientation(Cycle):
 
     def moves(self, m: Machine) -> None:
         """No motion."""
-        m.memory[ORIENTATION] = self.orientation_angle
+        memory(m).orientation = self.orientation_angle
         m.log("orientation", self.orientation_angle)
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.cycles.addresses import FAR, FAST
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import tilting
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.cycle import Cycle, CycleTable, param
@@ -32,7 +33,6 @@ SETTINGS = (
     ),
 )  # fmt: skip
 AXES = "ABC"
-ANGLES = "tilt angles"  # in the memory: those of the active cycle 19, degrees
 RESULTS = {"A": "Q120", "B": "Q121", "C": "Q122"}
 
 
@@ -77,7 +77,7 @@ class WorkingPlane(Cycle):
         """Angles are absolute; one that is not written is that of the cycle before."""
         chain.absolute(m, cls.code, given)
         if given:
-            before: Mapping[str, float] = m.memory.get(ANGLES, {})
+            before = memory(m).tilt_angles
             values |= {f"angle_{axis}": before.get(axis, 0.0) for axis in "abc" if f"angle_{axis}" not in given}
         return values
 
@@ -112,12 +112,12 @@ class WorkingPlane(Cycle):
     def moves(self, m: Machine) -> None:
         """The frame, the results, and the motion of the rotary axes where it is asked for."""
         if self.off:
-            m.memory.pop(ANGLES, None)
+            memory(m).tilt_angles = {}
             if chain.TILT in m.frames and (left := chain.untilt(m)):
                 m.warn(f"{self.code} is switched off, and {', '.join(left)} defined behind it act in the untilted system",
                        None, "reset in the reverse order of definition")  # fmt: skip
             return
-        m.memory[ANGLES] = {axis.lower(): angle for axis, angle in self.angles.items()}
+        memory(m).tilt_angles = {axis.lower(): angle for axis, angle in self.angles.items()}
         m.set_frame(chain.TILT, self.matrix(m), keep="tip")
         to = self.positions(m)
         for axis, name in RESULTS.items():

@@ -12,6 +12,7 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.cycles.addresses import FAR
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
@@ -47,7 +48,7 @@ class Mirroring(Cycle):
         """No motion; an arc turns the other way and RL becomes RR where one axis of the plane is mirrored."""
         named = self.mirrored_axes or ()
         linear = "".join(axis for axis in named if axis in "XYZ")
-        m.memory[chain.ROTARY_MIRROR] = "".join(axis for axis in named if axis in "ABC")
+        memory(m).rotary_mirror = "".join(axis for axis in named if axis in "ABC")
         chain.define(m, chain.MIRROR, frames.mirror(linear) if linear else None)
 
 

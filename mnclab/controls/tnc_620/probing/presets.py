@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from mnclab.controls.tnc_620.state import active_preset, memory
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
@@ -72,7 +73,7 @@ class PresetInOneAxis(Cycle):
 
     def preset(self, m: Machine, k: int, found: float) -> None:
         """Write the row, and activate it where it is row 0 or the active one (TNC 15.1)."""
-        active = int(m.memory.get("preset", m.settings["preset"]))
+        active = active_preset(m)
         before = m.tables.presets.get(active, Datum())
         if self.transfer == 0 and self.row:
             row = m.tables.datums.get(int(self.row), Datum())
@@ -81,7 +82,7 @@ class PresetInOneAxis(Cycle):
         base = before if self.row == 0 or self.row == active else m.tables.presets.get(int(self.row), Datum())
         m.write_table("presets", int(self.row), _with(base, k, before[k] + found - self.datum))
         if self.row in (0, active):
-            m.memory["preset"] = int(self.row)
+            memory(m).preset = int(self.row)
             m.select_datum(m.tables.presets[int(self.row)], "preset")
 
 
