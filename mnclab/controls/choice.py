@@ -16,11 +16,12 @@ from mnclab.machine.settings import Setting, settings_html, settings_text
 from mnclab.machine.setup import Setup
 from mnclab.runs.run import Run, run_program
 from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.code_pages import decode
 from mnclab.text.file import read as read_file
 from mnclab.text.given import shown
 from mnclab.text.nearest import hint, nearest
 from mnclab.text.notation import Notation
-from mnclab.text.program import Program, decode
+from mnclab.text.program import Program
 
 LOOKED_AT = 20_000  # characters of a program that tell its control
 MOST_FILES = 1000  # of a folder, looked through for a name

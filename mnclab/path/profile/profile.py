@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile.bends import Bends
-from mnclab.path.profile.look_ahead import Plan, plan
 from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.pieces import Pieces, pieces
+from mnclab.path.profile.timing import Plan, plan
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.columns import fixed
 from mnclab.text.tables import html_table

@@ -20,7 +20,8 @@ from mnclab.controls.tnc_620.language.free_words import describe
 from mnclab.controls.tnc_620.language.motion import TOLERANCE, feed, refuse_rapid, side
 from mnclab.geometry import free_choice
 from mnclab.geometry.free_contour import FreeContour, Pair, Piece, known
-from mnclab.geometry.quadratics import Exhausted, Form
+from mnclab.geometry.newton import Exhausted
+from mnclab.geometry.quadratic_form import Form
 from mnclab.geometry.readings import Contradiction, TooManyReadings
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine

@@ -10,7 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from mnclab.geometry.free_contour import FreeContour, Pair, known, normal_of
-from mnclab.geometry.quadratics import Form
+from mnclab.geometry.quadratic_form import Form
 from mnclab.machine.control import Words
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
