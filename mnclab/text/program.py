@@ -13,7 +13,6 @@ import re
 from array import array
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -231,9 +230,7 @@ class Program:
     def _repr_html_(self) -> str:
         blocks = [self[i] for i in range(min(len(self), 40))]
         words = (" ".join(filter(None, [block.keyword, *map(str, block.words)])) for block in blocks)
-        rows = [
-            (str(block.span.line), escape(block.number), f"<code>{escape(said)}</code>", escape(block.comment))
-            for block, said in zip(blocks, words)
-        ]
+        rows = [(str(block.span.line), block.number, said, block.comment) for block, said in zip(blocks, words)]
         more = f"<p>… {len(self) - 40} more blocks</p>" if len(self) > 40 else ""
-        return html_table(("line", "block", "words", "comment"), rows, (0,)) + more + card_html(self.alarms)
+        table = html_table(("line", "block", "words", "comment"), rows, numbers=(0,), code=(2,))
+        return table + more + card_html(self.alarms)

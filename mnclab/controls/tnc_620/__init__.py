@@ -161,7 +161,7 @@ CONTROL = Control(
     compensation=Compensation(approach="perpendicular", rapid=True),
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
-    refused=later.refused(FUNCTIONS, CYCLES),
+    refused=later.REFUSED,
     together=strange_parameters(CYCLES),
     meanings=MEANINGS,
     told=motion.turning_sense,
