@@ -6,11 +6,13 @@ values are no Q parameters of the program: GLOBAL DEF 100 with Q200=3 leaves Q20
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.machine.cycle import Cycle, CycleTable, Parameter, param
 from mnclab.machine.machine import Machine
+from mnclab.machining.steps import Step, Write
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
@@ -29,17 +31,17 @@ class Defaults(Cycle):
     serves: ClassVar[frozenset[str]] = frozenset()
     in_variables: ClassVar[bool] = False
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion."""
-        for parameter in self.parameters():
-            value = getattr(self, parameter.name)
-            defaults(m)[parameter.address] = value
-            m.log(f"default {parameter.address}", value)
+        values = {parameter.address: getattr(self, parameter.name) for parameter in self.parameters()}
+        yield Write("memory", defaults(m) | values, "defaults")
+        for address, value in values.items():
+            yield Write("history", value, f"default {address}")
 
 
 def defaults(m: Machine) -> dict[str, Any]:
     """The values of all GLOBAL DEF so far by Q parameter; mm, mm/min, s, or a word such as FMAX."""
-    found: dict[str, Any] = m.memory.setdefault("defaults", {})
+    found: dict[str, Any] = m.memory.get("defaults", {})
     return found
 
 

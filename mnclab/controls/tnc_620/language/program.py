@@ -10,6 +10,7 @@ from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
 
@@ -68,7 +69,7 @@ def finish(m: Machine) -> None:
     if m.modal.get("coolant", "M9") != "M9":
         m.set_modal("coolant", "M9")
         m.coolant()
-    cancel(m)
+    perform(m, "END PGM", cancel(m))
     m.ended = True
 
 
