@@ -24,7 +24,7 @@ from mnclab.machine.logs import Logs
 from mnclab.machine.settings import chosen
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
-from mnclab.machine.touching import Touch, touch
+from mnclab.machine.touching import Contact, touch
 from mnclab.machine.variables import Measured, Variables
 from mnclab.machine.waiting import Pending
 from mnclab.path.compensation import Gouge
@@ -436,7 +436,7 @@ class Machine:
     def touch(
         self, x: float | None = None, y: float | None = None, z: float | None = None, *,
         f: float, ball: float | None = None, word: Word | None = None, miss: str = "alarm",
-    ) -> Touch:  # fmt: skip
+    ) -> Contact:  # fmt: skip
         """Move the probe towards a point until its ball touches the part; see `machine.touching`."""
         return touch(self, self.target(x, y, z), f, self.radius if ball is None else ball, word, miss)
 

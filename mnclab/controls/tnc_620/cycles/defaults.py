@@ -6,12 +6,14 @@ values are no Q parameters of the program: GLOBAL DEF 100 with Q200=3 leaves Q20
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.cycle import Cycle, CycleTable, Parameter, param
 from mnclab.machine.machine import Machine
+from mnclab.machining.steps import Step, Write
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
@@ -30,12 +32,12 @@ class Defaults(Cycle):
     serves: ClassVar[frozenset[str]] = frozenset()
     in_variables: ClassVar[bool] = False
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion."""
-        for parameter in self.parameters():
-            value = getattr(self, parameter.name)
-            memory(m).defaults[parameter.address] = value
-            m.log(f"default {parameter.address}", value)
+        values = {parameter.address: getattr(self, parameter.name) for parameter in self.parameters()}
+        yield Write("memory", memory(m).defaults | values, "defaults")
+        for address, value in values.items():
+            yield Write("history", value, f"default {address}")
 
 
 @CYCLES("GLOBAL DEF 100", "Defaults of all fixed cycles", runs="definition", source="3.2")

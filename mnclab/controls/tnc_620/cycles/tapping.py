@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses, thread_parameters
@@ -15,7 +15,6 @@ from mnclab.machine.true_size import TAPS
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Go, Spin, Step, Write
-from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 
@@ -58,14 +57,12 @@ class Tapping(AtSurface):
     def steps(self, m: Machine) -> Iterator[Step]:
         """From the set-up plane into the thread and back to it."""
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterable[Step]:
         """Set-up plane, thread, end plane; a spindle that stands still turns again as it did before."""
-        if not self.executed(m):
-            return
-        turning, speed = m.turning, m.speed
-        perform(m, self.code, [Go("to the set-up clearance", self.above)])
-        perform(m, self.code, self.steps(m))
-        perform(m, self.code, [*self.leave(), Spin("spindle on again", turning, speed)])
+        if not self.down:
+            return [self.left_out]
+        again = Spin("spindle on again", m.turning, m.speed)
+        return [Go("to the set-up clearance", self.above), *self.steps(m), *self.leave(), again]
 
 
 @CYCLES("CYCL DEF 206", "Tapping with a floating tap holder", runs="call", source="5.2")

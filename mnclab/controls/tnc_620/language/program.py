@@ -11,6 +11,7 @@ from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
 
@@ -71,7 +72,7 @@ def finish(m: Machine) -> None:
     if m.modal.get("coolant", "M9") != "M9":
         m.set_modal("coolant", "M9")
         m.coolant()
-    cancel(m)
+    perform(m, "END PGM", cancel(m))
     m.ended = True
 
 
