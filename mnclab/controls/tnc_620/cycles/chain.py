@@ -3,7 +3,8 @@
 A new value replaces the old one in its place; a neutral one takes the frame out, and a later definition is appended. What is
 defined while the plane is tilted acts in the tilted system; it is a frame of its own, with the mark `TILTED`.
 
-What changes the chain yields steps. Rotary axes have no frame: their shift and their mirror image are kept in the memory of the machine, see `to_rotary`.
+What changes the chain yields steps. Rotary axes have no frame: their shift and their mirror image are kept in the memory of
+the machine, see `to_rotary`.
 """
 
 from __future__ import annotations
