@@ -148,11 +148,18 @@ def write(m: Machine, step: Write) -> None:
         case "modal":
             m.set_modal(step.key, step.value)
         case "memory":
-            m.memory[step.key] = step.value
+            keep(m, step.key, step.value)
         case "history":
             m.log(step.key, step.value)
         case _:
             m.change(step.what, step.value)
+
+
+def keep(m: Machine, name: str, value: Any) -> None:
+    """Set a field of what the control keeps."""
+    if not hasattr(m.memory, name):
+        raise AttributeError(f"{m.control.name} keeps no {name}")
+    setattr(m.memory, name, value)
 
 
 def follow(

@@ -18,7 +18,7 @@ from mnclab.machine.true_size import MILLS, SHIFTS, tool, with_the_spindle
 from mnclab.machining.depths import DRIFT
 from mnclab.machining.holes.drilling import back_bore, back_to_axis, bore
 from mnclab.machining.holes.helical import bore_milling, steepest_pitch, turns
-from mnclab.machining.steps import Say, Step
+from mnclab.machining.steps import Say, Step, Write
 
 CYCLES = CycleTable()
 
@@ -53,6 +53,7 @@ class Boring(Hole):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Down, dwell, off the wall, to the set-up plane, end plane, axis."""
+        yield Write("memory", self.spindle_angle, "orientation")
         bored = bore(
             self.bottom(m), above=self.above, feed=self.feed, retract=rate(self.retract_feed, self.feed),
             dwell=self.dwell_bottom, angle=self.spindle_angle, direction=int(self.disengage),
@@ -108,6 +109,7 @@ class BackBoring(Hole):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Shifted through the hole, counterbore from below, shifted out; end plane, axis."""
+        yield Write("memory", self.spindle_angle, "orientation")
         lower = self.surface - self.thickness - self.edge_height
         bored = back_bore(
             above=self.above, below=lower - self.clearance, bottom=lower + self.counterbore_depth,

@@ -10,8 +10,8 @@ the machine, see `to_rotary`.
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Mapping
-from typing import Any
 
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Write
@@ -22,8 +22,6 @@ KINDS = (SHIFT, MIRROR, ROTATION, SCALE, FACTORS)
 TILT = "tilt"
 TILTED = " (tilted)"
 ALSO = " (before)"  # what outlived its tilt, beside one of its kind
-ROTARY_SHIFT, ROTARY_MIRROR, ANGLES = "rotary shift", "rotary mirror", "rotation angles"
-REST = (0.0, 0.0, 0.0)
 
 
 def absolute(m: Machine, code: str, given: Mapping[str, Word]) -> None:
@@ -55,7 +53,7 @@ def shift_of(m: Machine) -> tuple[float, float, float]:
 
 def angle_of(m: Machine) -> float:
     """The rotation that a new one replaces, degrees."""
-    angles: dict[str, float] = m.memory.get(ANGLES, {})
+    angles = memory(m).rotation_angles
     name = place(m, ROTATION)
     return angles.get(name, 0.0) + (angles.get(ROTATION + ALSO, 0.0) if name == ROTATION else 0.0)
 
@@ -63,8 +61,8 @@ def angle_of(m: Machine) -> float:
 def remember_angle(m: Machine, angle: float) -> Iterator[Write]:
     """Note the rotation that is set now, degrees."""
     name = place(m, ROTATION)
-    kept = {key: value for key, value in m.memory.get(ANGLES, {}).items() if key != ROTATION + ALSO or name != ROTATION}
-    yield Write("memory", {**kept, name: angle}, ANGLES)
+    kept = {key: value for key, value in memory(m).rotation_angles.items() if key != ROTATION + ALSO or name != ROTATION}
+    yield Write("memory", {**kept, name: angle}, "rotation_angles")
 
 
 def untilt(m: Machine) -> Generator[Write, None, list[str]]:
@@ -74,8 +72,9 @@ def untilt(m: Machine) -> Generator[Write, None, list[str]]:
         now = kind if kind not in m.frames else kind + ALSO
         yield Write("renamed", now, kind + TILTED)
         if kind == ROTATION:
-            angles = dict(m.memory.get(ANGLES, {}))
-            yield Write("memory", {**angles, now: angles.pop(kind + TILTED, 0.0)}, ANGLES)
+            angles = dict(memory(m).rotation_angles)
+            angles[now] = angles.pop(kind + TILTED, 0.0)
+            yield Write("memory", angles, "rotation_angles")
     yield Write("frame", None, TILT)
     return left
 
@@ -85,7 +84,7 @@ def reset(m: Machine) -> Iterator[Write]:
     for name, _ in list(m.frames):
         if name != TILT and name not in m.frames.slots:
             yield Write("frame", None, name)
-    for neutral, name in (({}, ANGLES), (REST, ROTARY_SHIFT), ("", ROTARY_MIRROR)):
+    for neutral, name in (({}, "rotation_angles"), ((0.0, 0.0, 0.0), "rotary_shift"), ("", "rotary_mirror")):
         yield Write("memory", neutral, name)
 
 
@@ -97,9 +96,8 @@ def cancel(m: Machine) -> Iterator[Write]:
 
 def rotary(m: Machine) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Shift (degrees) and sense (1 or -1) of the axes A, B and C."""
-    shift: Any = m.memory.get(ROTARY_SHIFT, REST)
-    mirrored = m.memory.get(ROTARY_MIRROR, "")
-    return shift, tuple(-1.0 if axis in mirrored else 1.0 for axis in "ABC")
+    kept = memory(m)
+    return kept.rotary_shift, tuple(-1.0 if axis in kept.rotary_mirror else 1.0 for axis in "ABC")
 
 
 def to_rotary(m: Machine, axis: int, angle: float) -> float:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import Any, ClassVar, NamedTuple
 
 from mnclab.controls.tnc_620.cycles.holes import rate
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machine.cycle import Cycle, CycleTable, param
@@ -57,7 +58,7 @@ class ContourGeometry(Cycle):
     def moves(self, m: Machine) -> Iterator[Step]:
         """Keep the list until the next one."""
         names = tuple(f"{number:g}" for number in self.labels)
-        yield Write("memory", Labels(names, m.flow.running[-1], m.variable_unit), "contour labels")
+        yield Write("memory", Labels(names, m.flow.running[-1], m.variable_unit), "contour_labels")
 
 
 @CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="8.4")
@@ -85,13 +86,13 @@ class ContourData(Cycle):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Keep the data; they are read again when a cycle is called, since Q parameters may have changed."""
-        yield Write("memory", self, "contour data")
+        yield Write("memory", self, "contour_data")
 
 
 def contour_data(m: Machine) -> ContourData:
     """The data of cycle 20 with the Q parameters as they stand now."""
-    data = m.memory["contour data"]
-    assert isinstance(data, ContourData)
+    data = memory(m).contour_data
+    assert data is not None
     now: dict[str, Any] = {
         p.name: m.variables[p.address] * unit_of(m, p) for p in data.parameters() if p.address in m.variables
     }
@@ -107,7 +108,8 @@ def contour_region(m: Machine) -> Generator[Step, Any, Region]:
     pockets: list[tuple[Contour, tuple[float, float]]] = []
     islands: list[Contour] = []
     recording: Recording | None = None
-    labels: Labels = m.memory["contour labels"]
+    labels = memory(m).contour_labels
+    assert labels is not None
     for label in labels.names:
         recording = yield Record(label, labels.program, labels.unit, after=recording)
         assert recording is not None
@@ -181,9 +183,9 @@ class RoughOut(Cycle):
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Contour and data are there, the infeed is not zero; what is not built is refused."""
-        if "contour labels" not in m.memory:
+        if memory(m).contour_labels is None:
             yield "", "needs a contour: CYCL DEF 14 comes before it"
-        if "contour data" not in m.memory:
+        if memory(m).contour_data is None:
             yield "", "needs its contour data: CYCL DEF 20 comes before it"
         if self.infeed == 0:
             yield "infeed", "must not be 0"

@@ -77,7 +77,7 @@ class DatumShift(Cycle):
         new = self.written if self.datum_number is None else row_of(m, int(self.datum_number))
         x, y, z = (new.get(axis, before) for axis, before in zip("xyz", chain.shift_of(m), strict=True))
         turned = tuple(new.get(axis, before) for axis, before in zip("abc", chain.rotary(m)[0], strict=True))
-        yield Write("memory", turned, chain.ROTARY_SHIFT)
+        yield Write("memory", turned, "rotary_shift")
         yield from chain.define(m, chain.SHIFT, frames.shift(x, y, z) if (x, y, z) != (0, 0, 0) else None)
 
 

@@ -18,7 +18,6 @@ from mnclab.path.recorder import NAN
 
 CYCLES = CycleTable()
 
-ORIENTATION = "spindle angle"  # in the memory: where M19 and M20 stop the spindle, degrees
 FILTERS: dict[float, str] = {0: "finishing: more exact", 1: "roughing: faster"}
 LOADS: dict[float, str] = {0: "forget the values found before", 1: "weigh: the axes move to find the load"}
 
@@ -42,7 +41,7 @@ class SpindleOrientation(Cycle):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """No motion."""
-        yield Write("memory", self.orientation_angle, ORIENTATION)
+        yield Write("memory", self.orientation_angle, "orientation")
         yield Write("history", self.orientation_angle, "orientation")
 
 

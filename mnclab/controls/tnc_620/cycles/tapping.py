@@ -14,7 +14,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.tapping import tap
-from mnclab.machining.steps import Go, Spin, Step
+from mnclab.machining.steps import Go, Spin, Step, Write
 
 CYCLES = CycleTable()
 
@@ -169,8 +169,9 @@ class ChipBreakingTapping(RigidTapping):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Oriented; in, reversed, back, reversed, …; out faster, as far as the spindle can."""
+        yield Write("memory", self.spindle_angle, "orientation")
         lead = abs(self.pitch)
-        return tap(
+        yield from tap(
             self.levels(), above=self.above, pitch=lead, sense=self.sense, end=0, speed=m.speed,
             out_speed=min(self.retract_rpm_factor * m.speed, m.setup.limits.spindle),
             back=self.chip_breaking_retract_factor * lead, angle=self.spindle_angle, stand=m.settings["thread_wait"],

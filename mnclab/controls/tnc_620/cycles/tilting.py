@@ -12,6 +12,7 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.cycles.addresses import FAR, FAST
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import tilting
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.cycle import Cycle, CycleTable, param
@@ -32,7 +33,6 @@ SETTINGS = (
     ),
 )  # fmt: skip
 AXES = "ABC"
-ANGLES = "tilt angles"  # in the memory: those of the active cycle 19, degrees
 RESULTS = {"A": "Q120", "B": "Q121", "C": "Q122"}
 
 
@@ -77,7 +77,7 @@ class WorkingPlane(Cycle):
         """Angles are absolute; one that is not written is that of the cycle before."""
         chain.absolute(m, cls.code, given)
         if given:
-            before: Mapping[str, float] = m.memory.get(ANGLES, {})
+            before = memory(m).tilt_angles
             values |= {f"angle_{axis}": before.get(axis, 0.0) for axis in "abc" if f"angle_{axis}" not in given}
         return values
 
@@ -116,12 +116,12 @@ class WorkingPlane(Cycle):
     def moves(self, m: Machine) -> Iterator[Step]:
         """The frame, the results, and the motion of the rotary axes where it is asked for."""
         if self.off:
-            yield Write("memory", {}, ANGLES)
+            yield Write("memory", {}, "tilt_angles")
             if chain.TILT in m.frames and (left := (yield from chain.untilt(m))):
                 sentence = f"is switched off, and {', '.join(left)} defined behind it act in the untilted system"
                 yield Say(sentence, "reset in the reverse order of definition")
             return
-        yield Write("memory", {axis.lower(): angle for axis, angle in self.angles.items()}, ANGLES)
+        yield Write("memory", {axis.lower(): angle for axis, angle in self.angles.items()}, "tilt_angles")
         yield Write("frame", self.matrix(m), chain.TILT)
         to = self.positions(m)
         for axis, name in RESULTS.items():

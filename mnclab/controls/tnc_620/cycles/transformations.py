@@ -48,7 +48,7 @@ class Mirroring(Cycle):
         """No motion; an arc turns the other way and RL becomes RR where one axis of the plane is mirrored."""
         named = self.mirrored_axes or ()
         linear = "".join(axis for axis in named if axis in "XYZ")
-        yield Write("memory", "".join(axis for axis in named if axis in "ABC"), chain.ROTARY_MIRROR)
+        yield Write("memory", "".join(axis for axis in named if axis in "ABC"), "rotary_mirror")
         yield from chain.define(m, chain.MIRROR, frames.mirror(linear) if linear else None)
 
 

@@ -14,10 +14,10 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.cycles.defaults import defaults
 from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM, call_at, planes, ready
 from mnclab.controls.tnc_620.language.motion import feed
 from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
@@ -35,7 +35,7 @@ Floats = NDArray[np.float64]
 def cycle_call_pattern(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at every point of the pattern; F is the feed from point to point."""
     definition = ready(m, CODE, None)
-    pattern: Pattern | None = m.memory.get("pattern")
+    pattern = memory(m).pattern
     if pattern is None:
         m.alarm(f"{CODE} has no pattern", None, hint="write PATTERN DEF or SEL PATTERN before it")
     if m.plane != "XY":
@@ -73,7 +73,7 @@ def clearance_heights(m: Machine, definition: Definition, pattern: Pattern) -> t
     table holds clearance heights, Q204 does not count, unless GLOBAL DEF 125 asks for it.
     """
     own, first, second = planes(m, definition)
-    at_call, choice = m.programmed[2], defaults(m).get("Q345")
+    at_call, choice = m.programmed[2], memory(m).defaults.get("Q345")
     z = pattern.points[:, 2]
     surface = own + z
     whole = pattern.table or definition.cycle.code in PLACED_BY_DATUM

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Generator, Iterator
 from typing import Any
 
+from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
@@ -74,7 +75,7 @@ class PresetInOneAxis(Cycle):
 
     def preset(self, m: Machine, k: int, found: float) -> Iterator[Step]:
         """Write the row, and activate it where it is row 0 or the active one (TNC 15.1)."""
-        active = int(m.memory.get("preset", m.settings["preset"]))
+        active = active_preset(m)
         before = m.tables.presets.get(active, Datum())
         if self.transfer == 0 and self.row:
             row = m.tables.datums.get(int(self.row), Datum())
