@@ -275,9 +275,3 @@ class Profile:
         from mnclab.show.plot.profile import plot_lost
 
         return plot_lost(self, **options)
-
-    def panel(self, **options: Any) -> Any:
-        """Number boxes for acceleration, jerk, corner tolerance and feed override, with a picture that follows."""
-        from mnclab.show.forms import profile_panel
-
-        return profile_panel(self, **options)

@@ -61,7 +61,8 @@ def angle_of(m: Machine) -> float:
 def remember_angle(m: Machine, angle: float) -> Iterator[Write]:
     """Note the rotation that is set now, degrees."""
     name = place(m, ROTATION)
-    kept = {key: value for key, value in memory(m).rotation_angles.items() if key != ROTATION + ALSO or name != ROTATION}
+    angles = memory(m).rotation_angles
+    kept = {key: value for key, value in angles.items() if key != ROTATION + ALSO or name != ROTATION}
     yield Write("memory", {**kept, name: angle}, "rotation_angles")
 
 
