@@ -202,14 +202,15 @@ class Machine:
             if self._shift is None:
                 axis = normal(self._matrix, *PLANES[self.plane][:2])
             per_rev = self.feed if self.per_rev and self.feed is not None else NAN
-            surface = NAN, INF, 0.0
+            cutting = {}
             if self.surface is not None:
-                surface = self.surface, self.speed_limit, spindle_axis(self)
+                cutting = {"surface": self.surface, "speed_limit": self.speed_limit, "spindle_x": spindle_axis(self)}
             self._state = self.recorder.state(
                 State(
-                    self.program, axis, self.rotary, per_rev, surface[0], self.spindle_speed, self.tool.number,
-                    self.tool.effective_radius, self.side * self.orientation, self.corner_rule, self.exact,
-                    self.synchronous, self.tolerance, *surface[1:],
+                    program=self.program, axis=axis, rotary=self.rotary, per_rev=per_rev, spindle=self.spindle_speed,
+                    tool=self.tool.number, radius=self.tool.effective_radius, side=self.side * self.orientation,
+                    corner_rule=self.corner_rule, exact=self.exact, synchronous=self.synchronous,
+                    tolerance=self.tolerance, **cutting,
                 )
             )  # fmt: skip
         return self._state

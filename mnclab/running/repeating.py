@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from mnclab.geometry import frames
 from mnclab.machine.lasting import lasting, lasting_over_blocks
 from mnclab.path.kinds import Kind
-from mnclab.path.recorder import ROW
+from mnclab.path.recorder import PLACES, ROW
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 FEWEST = 8  # points worth repeating as columns
 SAME = 1e-7  # mm; places nearer than this are one
-_END, _CENTRE = slice(ROW.index("x"), ROW.index("z") + 1), slice(ROW.index("cx"), ROW.index("cz") + 1)
+_END, _CENTRE = PLACES["end"], PLACES["centre"]
 _ELSE = [ROW.index(name) for name in ("kind", "label", "sweep", "feed", "time", "state")]
 
 
@@ -190,7 +190,7 @@ def _moved(
     ends = room.reshape(n, r, 3)
     np.add(base, model.ends, out=ends)
     if m._shift is not None:
-        ends[:, :, 2] = column["z"]  # exactly the levels of the first hole
+        ends[:, :, 2] = column["end_z"]  # exactly the levels of the first hole
     columns: dict[str, NDArray[Any]] = {
         "kind": np.tile(column["kind"].astype(np.uint8), n),
         "line": np.broadcast_to(lines.astype(np.int32)[:, None], (n, r)),

@@ -6,7 +6,7 @@ import pytest
 import mnclab
 from mnclab import Setup
 from mnclab.machine.machine import Machine
-from mnclab.path.toolpath import COLUMNS
+from mnclab.path.columns import COLUMNS
 from mnclab.running.interpreter import Interpreter
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab.machine.machine import Machine
-from mnclab.path.toolpath import COLUMNS
+from mnclab.path.columns import COLUMNS
 from mnclab.running import repeating
 from mnclab.running.interpreter import Interpreter
 
