@@ -126,16 +126,18 @@ class Record(NamedTuple):
 
 
 class Say(NamedTuple):
-    """A warning at the block."""
+    """A warning at a word, or at the block."""
 
     text: str
     hint: str = ""
+    word: Any = None
     label: str = ""
 
 
 class Write(NamedTuple):
     """A value that stays: a "variable", "measured" value, a row of "tools", "datums" or "presets", a "frame", a "modal" group,
-    "memory" of the control, all with their `key`; or an attribute of the machine that rows carry ("tolerance")."""
+    "memory" of the control, what is "kept" for the next call of the cycle, all with their `key`; or an attribute of the
+    machine that rows carry ("tolerance")."""
 
     what: str
     value: Any

@@ -110,7 +110,7 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
             case Record():
                 answer = m.record(step.name, after=step.after)
             case Say():
-                m.warn(f"{name} {step.text}", hint=step.hint)
+                m.warn(f"{name} {step.text}", step.word, step.hint)
             case Write():
                 write(m, step)
 
@@ -141,6 +141,9 @@ def write(m: Machine, step: Write) -> None:
             m.set_modal(step.key, step.value)
         case "memory":
             m.memory[step.key] = step.value
+        case "kept":
+            assert m.cycle is not None
+            m.cycle.extra[step.key] = step.value
         case _:
             m.change(step.what, step.value)
 
