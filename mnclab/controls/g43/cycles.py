@@ -46,8 +46,8 @@ class HoleCycle(Cycle, ABC):
     """A cycle at a hole; each declares its parameters, and says in `work` what happens below level R."""
 
     shares = True
-    needs: ClassVar[Callable[[Machine], Iterable[tuple[str, str]]]] = staticmethod(lambda m: ())
-    """What is wrong with the machine for this work."""
+    needs: ClassVar[tuple[Callable[[Machine], Iterator[tuple[str, str]]], ...]] = ()
+    """What may be wrong with the machine for this work."""
 
     x: float | None
     y: float | None
@@ -98,7 +98,8 @@ class HoleCycle(Cycle, ABC):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """No radius compensation, no machine coordinates; what the work needs."""
         yield from holes.out_of_place(m)
-        yield from self.needs(m)
+        for faults in self.needs:
+            yield from faults(m)
 
     def about(self, m: Machine) -> tuple[float, float]:
         """The hole."""
@@ -194,7 +195,7 @@ class RightTapping(HoleCycle):
     dwell: float = dwell()
     feed: float | None = holes.feed()
 
-    needs = staticmethod(holes.no_pitch)
+    needs = (holes.no_pitch,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         return thread(m, self, sense=1)
@@ -211,7 +212,7 @@ class LeftTapping(HoleCycle):
     dwell: float = dwell()
     feed: float | None = holes.feed()
 
-    needs = staticmethod(holes.no_pitch)
+    needs = (holes.no_pitch,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         return thread(m, self, sense=-1)
@@ -263,7 +264,7 @@ class StoppedBoring(HoleCycle):
     dwell: float = dwell()
     feed: float | None = holes.feed()
 
-    needs = staticmethod(holes.spindle_stands)
+    needs = (holes.spindle_stands,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         return bore_and_stop(self.bottom, above=self.r_level, dwell=self.seconds, turning=m.turning)
@@ -281,7 +282,7 @@ class FineBoring(HoleCycle):
     dwell: float = dwell()
     feed: float | None = holes.feed()
 
-    needs = staticmethod(holes.spindle_stands)
+    needs = (holes.spindle_stands,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         shift, turning = self.shift, m.turning
