@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 
 from mnclab.controls.g43.language import ISO, undescribed
 from mnclab.controls.g43.lengths import activate
+from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import holes
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
@@ -63,7 +64,7 @@ class HoleCycle(Cycle, ABC):
     ) -> dict[str, Any]:
         """Increments become coordinates where they are programmed; offsets of the length compensation count from here on."""
         undescribed(m, Words((), cls.code))
-        if "machine coordinates" not in m.memory:
+        if not memory(m).machine_coordinates:
             activate(m, "XYZ")
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
         if m.modal["dimension"] == "G91":
