@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
 from typing import Any, ClassVar
 
 from mnclab.controls.g43.language import ISO, undescribed
@@ -30,6 +31,9 @@ CYCLES = CycleTable()
 
 RETURN = {"G98": "Return to the initial level", "G99": "Return to level R"}
 POSITION = "X Y Z R"
+
+dwell = partial(param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500)
+peck = partial(param, "Q", "depth of one peck", above=0, incremental=True, modal=True, example=5)
 
 
 @FUNCTIONS("G80", "Drilling cycle off", group="cycle", phase="plane", power_on="G80", ends_cycle=True, source=ISO)
@@ -113,16 +117,6 @@ class HoleCycle(Cycle, ABC):
     @abstractmethod
     def work(self, m: Machine) -> Iterable[Step]:
         """The steps from level R and back to it."""
-
-
-def dwell() -> Any:
-    """P: at the bottom."""
-    return param("P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500)
-
-
-def peck() -> Any:
-    """Q: pecks count from level R."""
-    return param("Q", "depth of one peck", above=0, incremental=True, modal=True, example=5)
 
 
 @CYCLES("G81", "Drilling", runs="position", source=ISO, triggers=POSITION)

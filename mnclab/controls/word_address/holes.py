@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from typing import Any
 
 from mnclab.controls.word_address.state import memory
@@ -22,21 +23,11 @@ def position(axis: str, example: float) -> Any:
     )  # fmt: skip
 
 
-def bottom(**more: Any) -> Any:
-    """Z: the bottom of the hole."""
-    return param("Z", "bottom of the hole", modal=True, note="under G91 from level R, signed", example=-20, **more)
-
-
-def r_level() -> Any:
-    """R: where the work begins."""
-    return param("R", "level R", modal=True, note="under G91 from the initial level, signed", example=2)
-
-
-def feed() -> Any:
-    """F: stays the modal feed afterwards."""
-    return param(
-        "F", "feed rate", "mm/min", default=None, default_means="the modal feed", above=0, modal=True, example=120
-    )  # fmt: skip
+bottom = partial(param, "Z", "bottom of the hole", modal=True, note="under G91 from level R, signed", example=-20)
+r_level = partial(param, "R", "level R", modal=True, note="under G91 from the initial level, signed", example=2)
+feed = partial(
+    param, "F", "feed rate", "mm/min", default=None, default_means="the modal feed", above=0, modal=True, example=120
+)  # fmt: skip
 
 
 def take_feed(m: Machine, values: Mapping[str, Any], given: Mapping[str, Word]) -> None:

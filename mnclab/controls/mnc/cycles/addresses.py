@@ -6,11 +6,10 @@ the modal feed.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from mnclab.machine.cycle import param
-
-MODE: dict[float, str] = {1: "climb, counter-clockwise", -1: "conventional, clockwise", 0: "climb"}
 
 
 def distance(address: str, meaning: str, example: float, **more: Any) -> Any:
@@ -60,6 +59,14 @@ def other_feed(address: str, meaning: str, example: float) -> Any:
     )  # fmt: skip
 
 
+def angle(address: str, meaning: str, example: float) -> Any:
+    """Within one turn either way, degrees."""
+    return param(address, meaning, "deg", default=0, at_least=-360, at_most=360, example=example)
+
+
+# --- one address ---------------------------------------------------------------------------------------------------------
+
+
 def feed(meaning: str, example: float = 150) -> Any:
     """F: into the material."""
     return param("F", meaning, "mm/min", default=None, default_means="the modal feed", above=0, example=example)
@@ -70,21 +77,17 @@ def clearance(meaning: str = "clearance above the surface") -> Any:
     return distance("Q", meaning, 2)
 
 
-def surface() -> Any:
-    """Z: where the workpiece begins."""
-    return param("Z", "workpiece surface", note="always absolute", example=0)
-
-
 def depth(meaning: str = "depth from the surface to the bottom", example: float = -15) -> Any:
     """H: how far the bottom lies from the surface, negative."""
     return param("H", meaning, below=0, incremental=True, example=example)
 
 
-def infeed(meaning: str, example: float) -> Any:
-    """P: of a hole."""
-    return distance("P", meaning, example, default=None, default_means="one pass")
+def overlap(most: float, example: float) -> Any:
+    """K: the stepover as a share of the tool radius."""
+    note = "stepover at most K times R"
+    return param("K", "path overlap factor", "ratio", at_least=0.1, at_most=most, example=example, note=note)
 
 
-def angle(address: str, meaning: str, example: float) -> Any:
-    """Within one turn either way, degrees."""
-    return param(address, meaning, "deg", default=0, at_least=-360, at_most=360, example=example)
+surface = partial(param, "Z", "workpiece surface", note="always absolute", example=0)
+dwell_top = partial(dwell, "E", "dwell at the clearance level", 0.1)
+dwell_bottom = partial(dwell, "T", "dwell at the bottom", 0.25)

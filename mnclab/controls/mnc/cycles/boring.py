@@ -38,7 +38,7 @@ class Reaming(PreparedCycle):
     surface: float = addresses.surface()
     feed: float | None = addresses.feed("reaming feed")
     retract_feed: float | None = addresses.other_feed("V", "return feed", 400)
-    dwell_bottom: float = addresses.dwell("T", "dwell at the bottom", 0.25)
+    dwell_bottom: float = addresses.dwell_bottom()
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 4 of the manual."""
@@ -56,7 +56,7 @@ class Boring(PreparedCycle):
     surface: float = addresses.surface()
     feed: float | None = addresses.feed("boring feed")
     retract_feed: float | None = addresses.other_feed("V", "feed out of the hole", 400)
-    dwell_bottom: float = addresses.dwell("T", "dwell at the bottom", 0.25)
+    dwell_bottom: float = addresses.dwell_bottom()
     disengage: float = addresses.choice("D", "direction in which the tool leaves the wall", DISENGAGE, 1, default=0)
     spindle_angle: float = addresses.angle("A", "spindle angle for the withdrawal", 30)
 
@@ -88,7 +88,7 @@ class BackBoring(PreparedCycle):
     edge_height: float = addresses.distance("L", "height of the edge above the end of the bar", 12)
     positioning_feed: float = addresses.own_feed("V", "feed into and out of the workpiece", 750)
     feed: float | None = addresses.feed("counterboring feed")
-    dwell_bottom: float = addresses.dwell("T", "dwell at the bottom", 0.25)
+    dwell_bottom: float = addresses.dwell_bottom()
     disengage: float = addresses.choice("D", "direction of the shift off the axis", SHIFT, 1)
     spindle_angle: float = addresses.angle("A", "spindle angle for entry and exit", 30)
 

@@ -20,6 +20,7 @@ CYCLES = CycleTable()
 
 TO: dict[float, str] = {0: "to the depth H", 1: "to the diameter D"}
 ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: "stopped (M5)"}
+ONE_PASS = {"default": None, "default_means": "one pass"}
 TURNING = {3: 1, 4: -1, 5: 0}
 
 
@@ -29,11 +30,11 @@ class Drilling(PreparedCycle):
 
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
-    infeed: float | None = addresses.infeed("depth of each infeed", 5)
+    infeed: float | None = addresses.distance("P", "depth of each infeed", 5, **ONE_PASS)
     surface: float = addresses.surface()
     feed: float | None = addresses.feed("plunging feed")
-    dwell_top: float = addresses.dwell("E", "dwell at the clearance level", 0.1)
-    dwell_bottom: float = addresses.dwell("T", "dwell at the bottom", 0.25)
+    dwell_top: float = addresses.dwell_top()
+    dwell_bottom: float = addresses.dwell_bottom()
 
     def levels(self) -> tuple[float, ...]:
         """Infeeds count from the surface."""
@@ -58,14 +59,14 @@ class UniversalDrilling(PreparedCycle):
 
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
-    infeed: float | None = addresses.infeed("depth of the first infeed", 6)
+    infeed: float | None = addresses.distance("P", "depth of the first infeed", 6, **ONE_PASS)
     min_infeed: float | None = addresses.distance(
         "M", "least infeed", 2, default=None, default_means="no limit", note="needed where K is greater than 0"
     )
     feed: float | None = addresses.feed("drilling feed")
     retract_feed: float | None = addresses.other_feed("V", "feed out of the hole", 400)
-    dwell_top: float = addresses.dwell("E", "dwell at the clearance level", 0.1)
-    dwell_bottom: float = addresses.dwell("T", "dwell at the bottom", 0.25)
+    dwell_top: float = addresses.dwell_top()
+    dwell_bottom: float = addresses.dwell_bottom()
     decrement: float = addresses.allowance("K", "amount by which P shrinks after each infeed", 3)
     chip_breaks: float = param(
         "L", "chip breaks before each withdrawal", "count", default=0, at_least=0, type="integer", example=1,
@@ -123,7 +124,7 @@ class Centring(PreparedCycle):
     )  # fmt: skip
     surface: float = addresses.surface()
     feed: float | None = addresses.feed("centring feed")
-    dwell_bottom: float = addresses.dwell("T", "dwell at the bottom", 0.25)
+    dwell_bottom: float = addresses.dwell_bottom()
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """What L chooses is given, and negative."""
@@ -166,7 +167,7 @@ class GunDrilling(PreparedCycle):
     surface: float = addresses.surface()
     feed: float | None = addresses.feed("drilling feed")
     retract_feed: float | None = addresses.other_feed("E", "feed out of the hole", 1000)
-    dwell_bottom: float = addresses.dwell("T", "dwell at the bottom", 0.25)
+    dwell_bottom: float = addresses.dwell_bottom()
     positioning_feed: float | None = param(
         "V", "feed to the deepened start point", "mm/min", default=None, default_means="F", above=0, example=750
     )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import Any, ClassVar
 
 from mnclab.controls.word_address import holes
@@ -49,16 +50,10 @@ def increment(address: str, axis: str, example: float) -> Any:
     return param(address, meaning, default=None, instead=axis.lower(), incremental=True, example=example)
 
 
-def depth_from_r() -> Any:
-    """W: in place of the bottom."""
-    return param(
-        "W", "depth below level R", default=None, instead="bottom", above=0, incremental=True, modal=True, example=22
-    )  # fmt: skip
-
-
-def dwell() -> Any:
-    """P: seconds at the bottom."""
-    return param("P", "dwell at the bottom", "s", default=0, at_least=0, example=0.5)
+depth_from_r = partial(
+    param, "W", "depth below level R", default=None, instead="bottom", above=0, incremental=True, modal=True, example=22
+)  # fmt: skip
+dwell = partial(param, "P", "dwell at the bottom", "s", default=0, at_least=0, example=0.5)
 
 
 # --- cycles --------------------------------------------------------------------------------------------------------------
