@@ -22,23 +22,22 @@ def places(first: float, last: float, step: float | None) -> tuple[float, ...]:
     return (float(first), *(infeeds(first, last, step) if last != first else ()))
 
 
-def plunges(
+def grooves(
     across: float,
     bottom: float,
     along: Sequence[float],
-    *,
     feed: float | None = None,
+    home: bool = True,
     shift: float | None = RAPID,
 ) -> Iterator[Go]:
-    """From the level `across` to the bottom and out again at each of the places; `shift` is the feed from one to the next."""
+    """From the level `across` plunge to the bottom at each of the places, and return to the first at the end.
+
+    `shift` is the feed from one place to the next.
+    """
     for number, place in enumerate(along, 1):
         label = f"groove {number} of {len(along)}" if len(along) > 1 else "groove"
         yield Go(f"to {label}", place, shift)
         yield Go(label, x=bottom, feed=feed)
         yield Go(f"out of {label}", x=across)
-
-
-def grooves(across: float, bottom: float, along: Sequence[float], **feeds: float | None) -> Iterator[Go]:
-    """`plunges` at the places, and back to the first of them."""
-    yield from plunges(across, bottom, along, **feeds)
-    yield Go("return", along[0])
+    if home:
+        yield Go("return", along[0])

@@ -22,7 +22,7 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.machining.turning.clearance import OUT, cleared
-from mnclab.machining.turning.grooving import plunges
+from mnclab.machining.turning.grooving import grooves
 from mnclab.machining.turning.offsets import offset
 from mnclab.machining.turning.passes import (
     FRONT,
@@ -174,7 +174,7 @@ def descent(
     pen = Pen(cuts[0][0], t.outside)
     for z, r in cuts:
         pen.number += 1
-        pen.follow(plunges(t.outside, r, [z]), PLUNGE)
+        pen.follow(grooves(t.outside, r, [z]), PLUNGE)
     return cleared(pen.plan("descent"), profile, blank, tool)
 
 
