@@ -47,6 +47,9 @@ if TYPE_CHECKING:
     from mnclab.show.player import Player
 
 
+EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
+
+
 class Moment(NamedTuple):
     """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
     the block changed; `rows` are the rows of the toolpath that it made.
@@ -180,7 +183,7 @@ class Run:
         `runs.moments`, and `.exact` of the result.
         """
         if not isinstance(condition, str):
-            raise TypeError(f'a condition is a text such as "z < -5", got {type(condition).__name__}')
+            raise Alarm(f"a condition is a text, got {shown(condition)}", hint='run.when("z < -5")')
         return when(self, condition)
 
     def explain(
@@ -215,7 +218,7 @@ class Run:
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""
         if not isinstance(setup, Setup):
-            raise TypeError(f"setup must be a Setup, got {type(setup).__name__}")
+            raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
         return run_program(self.program, self.control, setup)
 
     # --- doors -------------------------------------------------------------------------------------------------------
@@ -351,7 +354,7 @@ def collector_paused() -> Iterator[None]:
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
     """Run a program that was read; with `strict` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
-        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
+        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
     setup = (Setup() if setup is None else setup).kept()  # somebody may have written into its tables, and may again
     machine = Machine(control, setup)
     interpreter = Interpreter(control, machine, program)

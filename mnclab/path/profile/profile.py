@@ -16,6 +16,7 @@ from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.pieces import Pieces, pieces
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.columns import fixed
+from mnclab.text.given import choice
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -211,9 +212,9 @@ class Profile:
     def time_by(self, key: str) -> dict[Any, float]:
         """Seconds by "line", "tool", "kind" or "cause" (`CAUSES`); the values sum to `time`.
 
-        A line of a program that was called is a pair (program, line). A ValueError for another key.
+        A line of a program that was called is a pair (program, line). An Alarm for another key.
         """
-        path = self.path
+        path, key = self.path, choice(key, "key", ("line", "tool", "kind", "cause"))
         if key == "cause":
             return self._causes()
         if key == "kind":
@@ -222,8 +223,6 @@ class Profile:
         if key == "tool":
             tools, where = np.unique(path.tool, return_inverse=True)
             return dict(zip(tools.tolist(), np.bincount(where, self.seconds, len(tools)).tolist()))
-        if key != "line":
-            raise ValueError(f"key must be line, tool, kind or cause, got {key!r}")
         place = path.program.astype(np.int64) << 32 | path.line
         places, where = np.unique(place, return_inverse=True)
         total = np.bincount(where, self.seconds, len(places)).tolist()
