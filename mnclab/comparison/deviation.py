@@ -18,6 +18,7 @@ from mnclab.path.listing import figure, point
 from mnclab.path.points import points
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
+from mnclab.text.records import shapes
 
 Array = NDArray[np.float64]
 PLACES = 4000  # of a path, if no step is given
@@ -33,6 +34,8 @@ class Traces:
     places: Array
     row: NDArray[np.int64]
     nearest: Array
+
+    __repr__ = shapes
 
     @property
     def distance(self) -> Array:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from mnclab.comparison.engagement import Engagement, engagement
-from mnclab.comparison.table import Table
+from mnclab.comparison.table import Table, told
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
@@ -77,6 +77,9 @@ class Trial:
     allowance: float
     limits: Limits | None
     rapid_rate: float
+
+    def __repr__(self) -> str:
+        return told(self.row, COLUMNS)
 
     @property
     def entries(self) -> np.ndarray:

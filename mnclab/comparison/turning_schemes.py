@@ -29,7 +29,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mnclab.comparison.table import Table
+from mnclab.comparison.table import Table, told
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import CHORD_ERROR, broad, outlined, swept, under
@@ -86,6 +86,9 @@ class TurningTrial:
     path: Toolpath
     limits: Limits | None
     rapid_rate: float
+
+    def __repr__(self) -> str:
+        return told(self.row, COLUMNS)
 
     @cached_property
     def reached(self) -> Contour:

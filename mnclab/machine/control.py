@@ -71,6 +71,9 @@ class Function:
     source: str = ""
     doc: str = ""
 
+    def __repr__(self) -> str:
+        return f"<Function {self.code}: {self.title}>"
+
 
 class FunctionTable(dict[str, Function]):
     """Functions by code; calling it decorates the function that obeys these codes."""

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 from mnclab.text.nearest import hint, nearest
+from mnclab.text.records import written
 from mnclab.text.tables import html_table
 
 
@@ -33,6 +34,8 @@ class Setting(NamedTuple):
     unit: str = ""
     at_least: float | None = None
     at_most: float | None = None
+
+    __repr__ = written
 
     @property
     def allowed(self) -> str:

@@ -15,6 +15,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, shown
+from mnclab.text.records import written
 from mnclab.workpiece.blank import Revolved, blank
 
 
@@ -26,6 +27,8 @@ class _Datum(NamedTuple):
     b: float = 0.0
     c: float = 0.0
     rotation: float = 0.0
+
+    __repr__ = written
 
 
 class Datum(_Datum):
@@ -45,6 +48,8 @@ class _Probe(NamedTuple):
     reach: float = 10.0  # DIST
     feed: float = 100.0  # F
     rapid: float = float("inf")  # FMAX
+
+    __repr__ = written
 
 
 class Probe(_Probe):

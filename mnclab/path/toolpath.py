@@ -90,6 +90,11 @@ class Move(NamedTuple):
     tolerance: float
     joint: Any
 
+    def __repr__(self) -> str:
+        from mnclab.path.listing import row
+
+        return f"<Move line {' '.join(row(self).split())}>"
+
 
 class Toolpath:
     """Moves and events in columns of n rows; the names and meanings are in `COLUMNS`.

@@ -20,6 +20,7 @@ from mnclab.running.loops import Loop, Loops
 from mnclab.running.recording import record
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.program import Program
+from mnclab.text.records import shapes
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -35,6 +36,8 @@ class Steps(NamedTuple):
 
     block: NDArray[np.int32]
     program: NDArray[np.int16]
+
+    __repr__ = shapes
 
 
 class Course:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mnclab.path.profile.look_ahead import Plan
 from mnclab.path.profile.lookahead import running_sum
+from mnclab.text.records import shapes
 
 Array = NDArray[np.float64]
 
@@ -22,6 +23,8 @@ class Pieces(NamedTuple):
     a: Array
     j: Array
     row: NDArray[np.int64]
+
+    __repr__ = shapes
 
 
 def pieces(plan: Plan) -> Pieces:

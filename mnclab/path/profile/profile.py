@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
+from mnclab.path.listing import point
 from mnclab.path.profile.bends import Bends
 from mnclab.path.profile.look_ahead import Plan, plan
 from mnclab.path.profile.lookahead import running_sum
@@ -46,6 +47,11 @@ class Instant(NamedTuple):
     acceleration: Array
     move: Any
     line: Any
+
+    def __repr__(self) -> str:
+        if np.ndim(self.t):
+            return f"<Instant: {len(self.t)} times from {self.t[0]:.3f} to {self.t[-1]:.3f} s>" if len(self.t) else "<Instant: no time>"
+        return f"<Instant at {self.t:.3f} s: {point(self.position)}, {self.v:.3f} mm/s, line {self.line}>"
 
 
 class Profile:
