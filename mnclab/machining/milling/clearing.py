@@ -66,7 +66,7 @@ class Clearing:
     radius: float
 
     def __repr__(self) -> str:
-        return f"<Clearing: {several(len(self.pieces), 'piece')}, {len(self.passes)} passes of, {self.length:.3f} mm>"
+        return f"<Clearing: {several(len(self.pieces), 'piece')}, {several(len(self.passes), 'contour')}, {self.length:.3f} mm>"
 
     @property
     def passes(self) -> tuple[Contour, ...]:
