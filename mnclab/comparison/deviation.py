@@ -36,7 +36,8 @@ class Traces:
     row: NDArray[np.int64]
     nearest: Array
 
-    __repr__ = shapes
+    def __repr__(self) -> str:
+        return shapes(self)
 
     @property
     def distance(self) -> Array:

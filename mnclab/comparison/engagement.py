@@ -40,7 +40,8 @@ class Engagement(NamedTuple):
     step: Floats
     move: NDArray[np.intp]
 
-    __repr__ = shapes
+    def __repr__(self) -> str:
+        return shapes(self)
 
     def mean(self) -> float:
         """The mean angle along the way."""

@@ -61,7 +61,8 @@ class Parameter:
     in_units: bool = field(init=False)
     """Whether it is such a variable, of a length or feed in the unit of the program."""
 
-    __repr__ = written
+    def __repr__(self) -> str:
+        return written(self)
 
     def __post_init__(self) -> None:
         variable = self.address[0] == "Q" and self.address[1:].isdigit() and self.type != "text"

@@ -34,7 +34,8 @@ class Setting(NamedTuple):
     at_least: float | None = None
     at_most: float | None = None
 
-    __repr__ = written
+    def __repr__(self) -> str:
+        return written(self)
 
     @property
     def allowed(self) -> str:

@@ -28,7 +28,8 @@ class _Datum(NamedTuple):
     c: float = 0.0
     rotation: float = 0.0
 
-    __repr__ = written
+    def __repr__(self) -> str:
+        return written(self)
 
 
 class Datum(_Datum):
@@ -49,7 +50,8 @@ class _Probe(NamedTuple):
     feed: float = 100.0  # F
     rapid: float = float("inf")  # FMAX
 
-    __repr__ = written
+    def __repr__(self) -> str:
+        return written(self)
 
 
 class Probe(_Probe):

@@ -50,7 +50,8 @@ class Tool:
     auxiliary_angle: float = 0.0
     width: float = 0.0
 
-    __repr__ = written
+    def __repr__(self) -> str:
+        return written(self)
 
     def __post_init__(self) -> None:
         for each in fields(self):

@@ -37,7 +37,8 @@ class Steps(NamedTuple):
     block: NDArray[np.int32]
     program: NDArray[np.int16]
 
-    __repr__ = shapes
+    def __repr__(self) -> str:
+        return shapes(self)
 
 
 class Course:

@@ -22,7 +22,8 @@ class Box(NamedTuple):
     low: tuple[float, ...]
     high: tuple[float, ...]
 
-    __repr__ = written
+    def __repr__(self) -> str:
+        return written(self)
 
     def moved(self, by: ArrayLike) -> Box:
         """The same box moved by a vector (3,), mm."""
@@ -60,7 +61,8 @@ class Revolved(NamedTuple):
     at: tuple[float, ...] = (0.0, 0.0, 0.0)
     bore: float = 0.0
 
-    __repr__ = written
+    def __repr__(self) -> str:
+        return written(self)
 
     @property
     def along(self) -> int:

@@ -45,7 +45,8 @@ class Rows:
     j: Array
     corner: Array
 
-    __repr__ = shapes
+    def __repr__(self) -> str:
+        return shapes(self)
 
 
 def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, override: float) -> Array:

@@ -24,7 +24,8 @@ class Pieces(NamedTuple):
     j: Array
     row: NDArray[np.int64]
 
-    __repr__ = shapes
+    def __repr__(self) -> str:
+        return shapes(self)
 
 
 def pieces(plan: Plan) -> Pieces:

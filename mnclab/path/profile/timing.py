@@ -52,7 +52,8 @@ class Plan:
     ramps: NDArray[np.int64] | None = None
     groups: Groups | None = None
 
-    __repr__ = shapes
+    def __repr__(self) -> str:
+        return shapes(self)
 
 
 def plan(
