@@ -225,6 +225,18 @@ class Setup:
             object.__setattr__(self, name, dict(getattr(self, name)))
         object.__setattr__(self, "start", tuple(map(float, self.start)))
 
+    def __repr__(self) -> str:
+        lines = ["Setup"]
+        for name in MEANT:
+            value = getattr(self, name)
+            if name == "tools" and dict(value) == dict(MAGAZINE):
+                lines.append(f"  tools: the usual ones, {', '.join(tool.name for tool in MAGAZINE.values())}")
+            elif isinstance(value, Mapping):
+                lines += [f"  {name}[{key!r}]: {shown(each) if name in NAMED else each!r}" for key, each in value.items()]
+            elif value is not None:
+                lines.append(f"  {name}: {value!r}")
+        return "\n".join(lines)
+
     def kept(self) -> Setup:
         """A copy, checked again, whose tables nobody can write to: what a run was made with."""
         found = replace(self, stock=deepcopy(self.stock))

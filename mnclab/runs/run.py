@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from html import escape
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,11 +31,12 @@ from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import still_spindle
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
+from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
 from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, several
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
-from mnclab.text.program import Block, Program
+from mnclab.text.program import Program
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
@@ -49,26 +50,6 @@ if TYPE_CHECKING:
 
 
 EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
-
-
-class Moment(NamedTuple):
-    """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
-    the block changed; `rows` are the rows of the toolpath that it made.
-
-    A moment inside a block (`Run.when`) has the row of the toolpath, the share of it (0 to 1) that was done, and
-    the tool tip there, mm; -1 for a row where the block moved nothing.
-    """
-
-    step: int
-    line: int
-    block: Block
-    position: tuple[float, float, float]
-    state: dict[str, Any]
-    changed: dict[str, Any]
-    rows: slice
-    row: int = -1
-    share: float = 1.0
-    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 class Run:
