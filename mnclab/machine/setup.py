@@ -230,9 +230,10 @@ class Setup:
         for name in MEANT:
             value = getattr(self, name)
             if name == "tools" and dict(value) == dict(MAGAZINE):
-                lines.append(f"  tools: the usual ones, {', '.join(tool.name for tool in MAGAZINE.values())}")
+                lines.append(f"  tools: the usual ones: {', '.join(tool.name for tool in MAGAZINE.values() if tool.kind)}")
             elif isinstance(value, Mapping):
-                lines += [f"  {name}[{key!r}]: {shown(each) if name in NAMED else each!r}" for key, each in value.items()]
+                quoted = shown if name in NAMED else repr
+                lines += [f"  {name}[{key!r}]: {quoted(each)}" for key, each in value.items()]
             elif value is not None:
                 lines.append(f"  {name}: {value!r}")
         return "\n".join(lines)
