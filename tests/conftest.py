@@ -1,10 +1,11 @@
-"""What every test shares: pictures without a screen, examples without chance, and the option --rewrite."""
+"""What every test shares: pictures without a screen, examples without chance, the option --rewrite, the run of a module."""
 
 import os
 
 import pytest
 from hypothesis import settings
 
+import mnclab
 from mnclab.runs import still_spindle
 
 os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
@@ -32,3 +33,10 @@ def fragments(request, monkeypatch) -> None:
     folder = request.path.relative_to(request.config.rootpath / "tests").parts[0]
     if folder[:2] in ("t2", "t3", "t4", "t5") and not request.node.get_closest_marker("spindle"):
         monkeypatch.setattr(still_spindle, "remarks", lambda m, path: ())
+
+
+@pytest.fixture(scope="module")
+def run(request) -> mnclab.Run:
+    """What the PROGRAM of a test module does, with its SETUP and on its CONTROL, if it has them."""
+    module = request.module
+    return mnclab.run(module.PROGRAM, getattr(module, "CONTROL", "mnc"), getattr(module, "SETUP", None))
