@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from functools import cached_property
-from html import escape
 from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 import numpy as np
+
+from mnclab.text.tables import html_table
 
 
 class Row(Protocol):
@@ -61,6 +62,4 @@ class Table(Generic[Kind]):
 
     def _repr_html_(self) -> str:
         head, *rows = self._lines()
-        cells = "".join(f"<th style='white-space:normal'>{escape(text)}</th>" for text in head)
-        body = "".join("<tr>" + "".join(f"<td>{escape(text)}</td>" for text in row) + "</tr>" for row in rows)
-        return f"<table><thead><tr>{cells}</tr></thead><tbody>{body}</tbody></table>"
+        return html_table(head, rows, numbers=range(1, len(head)))

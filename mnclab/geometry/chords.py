@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, foot, share
-from mnclab.geometry.offsets import cross, dot
+from mnclab.geometry.vectors import cross, dot
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

@@ -11,12 +11,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Floats = NDArray[np.float64]
+from mnclab.geometry.vectors import Floats, cross, left, length_of
+from mnclab.geometry.whole_curves import Curve
 
 FULL_TURN = 2 * np.pi
 FLAT = 1e-9  # a smaller bulge is a line: over a chord of 1 m it would rise by half a nanometre
@@ -85,7 +86,7 @@ class Contour:
         """Radii of the m elements, inf for lines, `(m,)`."""
         b = np.abs(self.bulge[: len(self.starts)])
         with np.errstate(divide="ignore", invalid="ignore"):
-            radius: Floats = _length(self.ends - self.starts) * (1 + b * b) / (4 * b)
+            radius: Floats = length_of(self.ends - self.starts) * (1 + b * b) / (4 * b)
             return np.where(b == 0, np.inf, radius)
 
     @property
@@ -101,7 +102,7 @@ class Contour:
         """Lengths of the m elements, `(m,)`: chord · (1 + b²) · atan(b) / b."""
         b = self.bulge[: len(self.starts)]
         ratio = np.divide(np.arctan(b), b, out=np.ones_like(b), where=b != 0)
-        return _length(self.ends - self.starts) * (1 + b * b) * ratio
+        return length_of(self.ends - self.starts) * (1 + b * b) * ratio
 
     @cached_property
     def walk(self) -> list[tuple[tuple[float, float], float, tuple[float, float]]]:
@@ -113,7 +114,7 @@ class Contour:
     def curves(self) -> list[Curve]:
         """The whole lines and circles on which the m elements lie."""
         chords = self.ends - self.starts
-        units = chords / np.where(_length(chords) > 0, _length(chords), 1.0)[:, None]
+        units = chords / np.where(length_of(chords) > 0, length_of(chords), 1.0)[:, None]
         rows = zip(self.starts, units, self.centres, self.radii, strict=True)
         return [Curve(s, u, r) if np.isinf(r) else Curve(c, u, r) for s, u, c, r in rows]
 
@@ -277,7 +278,7 @@ class Contour:
         k = np.flatnonzero(sweep)
         dx, dy = chord[k, 0], chord[k, 1]
         on_right = np.where(side[:, k] == 0, (dy > 0) | ((dy == 0) & (dx < 0)), side[:, k] < 0)
-        within = _length(spots[:, None] - self.centres[k]) < self.radii[k]
+        within = length_of(spots[:, None] - self.centres[k]) < self.radii[k]
         pieces = (within & (on_right == (sweep[k] > 0))) * np.sign(sweep[k])
         return np.asarray(rounds + pieces.sum(axis=1), dtype=int)
 
@@ -307,7 +308,7 @@ class Contour:
         ratio = np.divide(np.sin(u * s / 2), np.sin(s / 2), out=u.copy(), where=bent)
         place = self.starts[pick] + ratio[:, None] * _turned(chord, (u - 1) * s / 2)
         place = np.where((u == 1.0)[:, None], self.ends[pick], place)
-        size = _length(chord)[:, None]
+        size = length_of(chord)[:, None]
         return place, _turned(chord, (u - 0.5) * s) / np.where(size > 0, size, 1.0)
 
     def _feet(self, spots: Floats) -> tuple[Floats, Floats]:
@@ -316,71 +317,16 @@ class Contour:
         to_start = spots[:, None] - self.starts
         size2 = np.where((chord**2).sum(axis=1) > 0, (chord**2).sum(axis=1), 1.0)
         u = np.clip((to_start * chord).sum(axis=2) / size2, 0.0, 1.0)
-        off = _length(to_start - u[..., None] * chord)
+        off = length_of(to_start - u[..., None] * chord)
         k = np.flatnonzero(s)
         if len(k):
             arm = spots[:, None] - self.centres[k]
             ahead = _ahead(np.arctan2(arm[..., 1], arm[..., 0]), self._first_angles()[k], s[k])
             inside = ahead <= np.abs(s[k])
-            at_start, at_end = _length(to_start[:, k]), _length(spots[:, None] - self.ends[k])
-            off[:, k] = np.where(inside, np.abs(_length(arm) - self.radii[k]), np.minimum(at_start, at_end))
+            at_start, at_end = length_of(to_start[:, k]), length_of(spots[:, None] - self.ends[k])
+            off[:, k] = np.where(inside, np.abs(length_of(arm) - self.radii[k]), np.minimum(at_start, at_end))
             u[:, k] = np.where(inside, ahead / np.abs(s[k]), np.where(at_start <= at_end, 0.0, 1.0))
         return off, u
-
-
-class Curve(NamedTuple):
-    """A whole line (radius inf, through `point` along the unit `direction`), or a circle about `point`."""
-
-    point: Floats
-    direction: Floats
-    radius: float
-
-    def moved_left(self, distance: float, sweep: float) -> Curve:
-        """The curve at a distance to the left of an element on it that turns by `sweep`."""
-        if np.isinf(self.radius):
-            return Curve(self.point + distance * left(self.direction), self.direction, np.inf)
-        return Curve(self.point, self.direction, self.radius - np.sign(sweep) * distance)
-
-    def foot(self, point: Floats) -> Floats:
-        """The point of the curve nearest to a point."""
-        arm = point - self.point
-        if np.isinf(self.radius):
-            return self.point + (arm @ self.direction) * self.direction
-        return self.point + arm * (self.radius / max(float(_length(arm)), 1e-300))
-
-    def meeting(self, other: Curve, near: Floats) -> Floats:
-        """Where two curves cross, of two crossings the one nearer to `near`; where they touch, if they touch.
-
-        Two circles cross on their radical line, so that only line with line and line with circle remain.
-        """
-        line, ring = (self, other) if np.isinf(self.radius) else (other, self)
-        if np.isinf(ring.radius):
-            sine = cross(line.direction, ring.direction)
-            if abs(sine) < 1e-9:
-                return line.foot(near)
-            return line.point + cross(ring.point - line.point, ring.direction) / sine * line.direction
-        if np.isfinite(line.radius):
-            between = ring.point - line.point
-            apart = float(_length(between))
-            if apart < 1e-9:
-                return ring.foot(near)
-            u = between / apart
-            along = (apart**2 + line.radius**2 - ring.radius**2) / (2 * apart)
-            line = Curve(line.point + along * u, left(u), np.inf)
-        middle = line.foot(ring.point)
-        high = float(_length(middle - ring.point))
-        half = np.sqrt(max(ring.radius**2 - high**2, 0.0)) * line.direction
-        return min((middle - half, middle + half), key=lambda p: float(_length(p - near)))
-
-
-def left(vectors: Floats) -> Floats:
-    """Vectors `(…, 2)` turned a quarter to the left."""
-    return np.stack([-vectors[..., 1], vectors[..., 0]], axis=-1)
-
-
-def cross(a: Floats, b: Floats) -> Floats:
-    """The third component of a × b, for vectors `(…, 2)`."""
-    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
 def steps_within(radii: Floats, sweeps: Floats, chord_error: float) -> NDArray[np.intp]:
@@ -392,10 +338,6 @@ def steps_within(radii: Floats, sweeps: Floats, chord_error: float) -> NDArray[n
     chords = np.ones_like(sweeps)
     np.divide(np.abs(sweeps), largest, out=chords, where=bent)
     return np.maximum(np.ceil(chords - 1e-9), 1.0).astype(np.intp)
-
-
-def _length(vectors: Floats) -> Floats:
-    return np.hypot(vectors[..., 0], vectors[..., 1])
 
 
 def _turned(vectors: Floats, angle: Floats) -> Floats:

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.offsets import Element, cross, dot, meetings
+from mnclab.geometry.offsets import Element, meetings
+from mnclab.geometry.vectors import cross, dot
 
 Array = NDArray[np.float64]
 

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.quadratics import Array, Form
+from mnclab.geometry.quadratic_form import Array, Form
 from mnclab.geometry.readings import Label, Reading, Readings
 
 

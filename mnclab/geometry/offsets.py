@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.vectors import cross, dot, left
+
 Array = NDArray[np.float64]
 
 
@@ -25,21 +27,6 @@ class Element(NamedTuple):
     def only(self, mask: NDArray[np.bool_]) -> Element:
         """Those where `mask` (n,) holds."""
         return Element(self.q[mask], self.t[mask], self.c[mask], self.r[mask])
-
-
-def cross(a: Array, b: Array) -> Array:
-    """The z component of a x b for vectors (..., 2)."""
-    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-
-
-def dot(a: Array, b: Array) -> Array:
-    """The scalar product of vectors (..., 2)."""
-    return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1])
-
-
-def left(v: Array) -> Array:
-    """Vectors (..., 2) turned by +90 degrees."""
-    return np.stack([-v[..., 1], v[..., 0]], axis=-1)
 
 
 def beside(p: Array, t: Array, shift: Array) -> Array:

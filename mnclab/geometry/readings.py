@@ -17,7 +17,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mnclab.geometry.quadratics import NEAR, SAME, Array, Exhausted, Form, System, Work
+from mnclab.geometry.newton import Exhausted, Work
+from mnclab.geometry.quadratic_form import Array, Form
+from mnclab.geometry.quadratics import NEAR, SAME, System
 
 Label = Any
 MOST_READINGS = 256

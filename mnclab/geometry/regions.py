@@ -23,7 +23,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.geometry.contours import FULL_TURN, Contour, Curve, Floats, cross, left, steps_within
+from mnclab.geometry.contours import FULL_TURN, Contour, Floats, steps_within
+from mnclab.geometry.vectors import cross, left
+from mnclab.geometry.whole_curves import Curve
 
 CHORD_ERROR = 2e-5  # mm, of the polylines: decides only what touches and what does not
 GRID = 1e-9  # mm, on which shapely rounds corners, so that nearly equal ones become equal

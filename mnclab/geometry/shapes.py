@@ -8,7 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour, Floats, left
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.vectors import left
 
 QUARTER = float(np.tan(np.pi / 8))  # the bulge of a quarter circle
 

@@ -146,6 +146,7 @@ class Control:
     `named` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; `predefined`
     what PREDEF stands for in a parameter of a cycle of a code; `calls_again` whether a modal call of a cycle (a modal
     function of the group "call") calls it in a block with a keyword and words.
+    `memory` makes what the control keeps beside the common state of a machine, a dataclass.
     `preassigned` are variables that the control keeps itself; names that begin with `local_variables` belong to one
     program. `modern` writes a program in the notation of today, where the control's own is another.
     """
@@ -164,6 +165,7 @@ class Control:
     settings: tuple[Setting, ...] = ()
     storage: str = "instance"
     frames: tuple[str, ...] = ()
+    memory: Callable[[], Any] | None = None
     compensation: Compensation | None = None
     start: Callable[[Machine], None] | None = None
     finish: Callable[[Machine], None] | None = None
@@ -204,13 +206,8 @@ class Control:
         return f"<Control {self.name}: {self.title}; {len(self.functions)} functions, {len(self.cycles)} cycles>"
 
     def _repr_html_(self) -> str:
-        def row(code: str, title: str, group: str, on: str, source: str) -> tuple[str, ...]:
-            return f"<code>{escape(code)}</code>", escape(title), escape(group), on, escape(source)
-
-        rows = [
-            row(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.functions.values()
-        ]
-        rows += [row(code, cycle.title, "cycle", "", cycle.source) for code, cycle in self.cycles.items()]
-        head = ("code", "title", "group", "at power-on", "source")
-        table = f"<h4>{escape(self.title)}</h4>{html_table(head, rows)}"
-        return table + (f"<h5>Settings</h5>{settings_html(self.settings)}" if self.settings else "")
+        rows = [(f.code, f.title, f.group or "", "●" if f.power_on else "", f.source) for f in self.functions.values()]
+        rows += [(code, cycle.title, "cycle", "", cycle.source) for code, cycle in self.cycles.items()]
+        table = html_table(("code", "title", "group", "at power-on", "source"), rows, code=(0,))
+        settings = f"<h5>Settings</h5>{settings_html(self.settings)}" if self.settings else ""
+        return f"<h4>{escape(self.title)}</h4>{table}{settings}"

@@ -26,7 +26,7 @@ class Recording(NamedTuple):
     side: int
     start: tuple[float, float, float]
     frames: FrameChain
-    memory: dict[str, Any]
+    memory: Any
 
 
 class Flow(Protocol):

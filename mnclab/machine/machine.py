@@ -24,7 +24,7 @@ from mnclab.machine.logs import Logs
 from mnclab.machine.settings import chosen
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Datum, Setup, Tables
-from mnclab.machine.touching import Touch, touch
+from mnclab.machine.touching import Contact, touch
 from mnclab.machine.variables import Measured, Variables
 from mnclab.machine.waiting import Pending
 from mnclab.path.compensation import Gouge
@@ -78,6 +78,7 @@ class Machine:
         self.per_rev = False
         self.per_time = False  # the feed is the time of each move, s
         self.speed, self.turning = 0.0, 0  # S, and +1, -1, 0 for M3, M4, M5
+        self.spindle_angle: float | None = None  # at which it was stopped last, degrees
         self.surface: float | None = None  # the constant cutting speed, m/min, …
         self.speed_limit = INF  # … and how fast it may turn the spindle
         self.tool: Tool = self.tables.tools[0]
@@ -89,7 +90,8 @@ class Machine:
         self.cycle: Definition | None = None
         self.position_cycle: Definition | None = None
         self.pole: tuple[float, float] | None = None
-        self.memory: dict[str, Any] = {}  # what a control keeps beside the common state
+        self.memory: Any = control.memory() if control.memory else None  # what it keeps beside the common state
+        self.noted: set[tuple[str, Span | None]] = set()  # of which a warning was given
         self.pending: Pending | None = None  # motion that waits for later blocks
 
         self.recorder = Recorder(self.tip)
@@ -110,9 +112,9 @@ class Machine:
 
     def warn(self, message: str, word: Word | Span | None = None, hint: str = "") -> None:
         """Note something doubtful and go on; the same at the same place is noted once, however often it is obeyed."""
-        span, noted = self._span(word), self.memory.setdefault("noted", set())
-        if (message, span) not in noted:
-            noted.add((message, span))
+        span = self._span(word)
+        if (message, span) not in self.noted:
+            self.noted.add((message, span))
             self.alarms.append(Alarm(message, span, WARNING, hint))
 
     def _span(self, word: Word | Span | None) -> Span | None:
@@ -408,10 +410,10 @@ class Machine:
             self._row(Kind.SPINDLE, self.tip)
 
     def orient(self, angle: float) -> None:
-        """Stop the spindle at an angle, degrees; the memory keeps it as "spindle angle"."""
+        """Stop the spindle at an angle, degrees."""
         self.change("turning", 0)
-        self.memory["spindle angle"] = float(angle)
-        self.log("spindle angle", float(angle))
+        self.spindle_angle = float(angle)
+        self.log("spindle angle", self.spindle_angle)
         self._row(Kind.SPINDLE, self.tip)
 
     def change_tool(self, tool: Tool, frame_axis: int = 2) -> None:
@@ -434,7 +436,7 @@ class Machine:
     def touch(
         self, x: float | None = None, y: float | None = None, z: float | None = None, *,
         f: float, ball: float | None = None, word: Word | None = None, miss: str = "alarm",
-    ) -> Touch:  # fmt: skip
+    ) -> Contact:  # fmt: skip
         """Move the probe towards a point until its ball touches the part; see `machine.touching`."""
         return touch(self, self.target(x, y, z), f, self.radius if ball is None else ball, word, miss)
 

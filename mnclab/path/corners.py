@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.offsets import Element, cross, dot, left, meet
+from mnclab.geometry.offsets import Element, meet
+from mnclab.geometry.vectors import cross, dot, left
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind
 from mnclab.path.plane import PlaneView

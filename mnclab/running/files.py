@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from mnclab.text.alarm import Alarm, Span
+from mnclab.text.code_pages import decode
 from mnclab.text.file import read
-from mnclab.text.program import Program, decode
+from mnclab.text.program import Program
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine

@@ -8,6 +8,7 @@ contour is told in the coordinates of the program that calls, and the next label
 
 from __future__ import annotations
 
+from copy import deepcopy
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 #: What a recorded label may change for good.
-_OUTLIVES = ("alarms", "variables", "measured", "tables", "step", "logs", "flow")
+_OUTLIVES = ("alarms", "noted", "variables", "measured", "tables", "step", "logs", "flow")
 _NOWHERE = (float("nan"), float("nan"), 0.0)
 
 
@@ -35,7 +36,7 @@ def record(m: Machine, label: str, span: Span | None = None, after: Recording | 
     `after` is the label before it in the same contour, whose transformations still act.
     """
     kept, outer = dict(vars(m)), m._matrix
-    m.frames, m.memory = (after or m).frames.copy(), dict((after or m).memory)
+    m.frames, m.memory = (after or m).frames.copy(), deepcopy((after or m).memory)
     m.compose()
     m.recorder, m.programmed_pieces, m.settled = m.recorder.another(_NOWHERE), [], []
     m.modal, m._state, m.recorded_only = dict(m.modal), None, True

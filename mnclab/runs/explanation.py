@@ -116,7 +116,7 @@ class Explanation:
 
     def _repr_html_(self) -> str:
         def table(head: tuple[str, ...], rows: list[tuple[str, ...]], numbers: tuple[int, ...] = ()) -> str:
-            return html_table(head, ([*map(escape, row)] for row in rows), numbers) if rows else ""
+            return html_table(head, rows, numbers=numbers) if rows else ""
 
         parts = [f"<h4>{escape(self.title)}</h4>"]
         if self.skipped:

@@ -36,6 +36,7 @@ from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, sever
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
 from mnclab.text.program import Block, Program
+from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
 if TYPE_CHECKING:
@@ -323,17 +324,16 @@ class Run:
     def _repr_html_(self) -> str:
         s = self.summary()
         cells = {
-            "blocks": s["blocks"],
-            "moves": s["moves"],
+            "blocks": str(s["blocks"]),
+            "moves": str(s["moves"]),
             "cutting": f"{s['cutting length']:.3f} mm",
             "rapid": f"{s['rapid length']:.3f} mm",
             "time at feed": f"{s['time at feed']:.1f} s",
         }
-        head = "".join(f"<th>{name}</th>" for name in cells)
-        body = "".join(f"<td>{value}</td>" for value in cells.values())
+        table = html_table(tuple(cells), [tuple(cells.values())], numbers=range(len(cells)))
         title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
         verdict = "" if self.alarms else "<p>no alarms</p>"
-        return f"<div>{title}<table><tr>{head}</tr><tr>{body}</tr></table>{verdict}{card_html(self.alarms)}</div>"
+        return f"<div>{title}{table}{verdict}{card_html(self.alarms)}</div>"
 
 
 @contextmanager

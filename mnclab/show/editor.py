@@ -17,10 +17,10 @@ from mnclab.controls.choice import run as run_text
 from mnclab.machine.setup import Setup
 from mnclab.show.forms import DRAWING, picture_of, verdict
 from mnclab.text.alarm import Alarm
+from mnclab.text.code_pages import decode
 from mnclab.text.extras import require
 from mnclab.text.file import read, reason, replaced
 from mnclab.text.given import shown
-from mnclab.text.program import decode
 
 FIRST = 10.0  # s for the first picture, which has none before it
 PATIENCE = 0.5  # s; work that takes longer goes on elsewhere, and what was good last stays in sight

@@ -13,14 +13,13 @@ import re
 from array import array
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.text.alarm import ALARM, Alarm, Alarms, Span, card_html, several
+from mnclab.text.alarm import ALARM, Alarm, Span, card_html, several
 from mnclab.text.columns import fixed
 from mnclab.text.expression import Expression
 from mnclab.text.tables import html_table
@@ -29,9 +28,6 @@ if TYPE_CHECKING:
     from mnclab.text.strings import NumberFromText, TextFormula
 
 NUMBER, EXPRESSION, TEXT, NONE = range(4)  # column `form`
-CHUNK = 65_536  # words that a builder holds one by one
-MOST_WORDS = 1000  # of a block: what has more is no block of any control, and a long line must not fill the memory
-FEW = 1000  # stretches of blocks that are copied one after the other
 INCREMENTAL, RAPID_MARK, GROUP_MARK, AT_MARK = 1, 2, 4, 8  # bits of column `flag`; the last: written as @
 
 _NUMBER_OF_BLOCK = re.compile(r"\ufeff*[ \t]*(?:/[ \t]*)?(N[ \t]*\+?\d+|\d+)", re.IGNORECASE)
@@ -234,201 +230,7 @@ class Program:
     def _repr_html_(self) -> str:
         blocks = [self[i] for i in range(min(len(self), 40))]
         words = (" ".join(filter(None, [block.keyword, *map(str, block.words)])) for block in blocks)
-        rows = [
-            (str(block.span.line), escape(block.number), f"<code>{escape(said)}</code>", escape(block.comment))
-            for block, said in zip(blocks, words)
-        ]
+        rows = [(str(block.span.line), block.number, said, block.comment) for block, said in zip(blocks, words)]
         more = f"<p>… {len(self) - 40} more blocks</p>" if len(self) > 40 else ""
-        return html_table(("line", "block", "words", "comment"), rows, (0,)) + more + card_html(self.alarms)
-
-
-def decode(data: bytes) -> tuple[str, str]:
-    """Text of bytes in UTF-8, UTF-16 (with its mark), CP1251 or KOI8-R, and the name of the code page.
-
-    Every byte is a letter in both Cyrillic pages, but a wrong reading has rare letters in place of frequent ones, and
-    capitals after small letters. A few letters decide nothing: then it is CP1251, the page of Windows.
-    """
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return data.decode("utf-16", errors="replace"), "utf-16"
-    try:
-        return data.decode("utf-8-sig"), "utf-8"
-    except UnicodeDecodeError:
-        windows, koi = (_russian(data.decode(page, errors="replace")) for page in ("cp1251", "koi8-r"))
-        page = "koi8-r" if koi > windows + 20 else "cp1251"
-        return data.decode(page, errors="replace"), page
-
-
-_BY_FREQUENCY = "ъёфэщцюшжхйчбзгьыяупдмклврстниаео"  # Russian letters, the rarest first
-
-
-_LIKE_LATIN = "АВЕЗКМНОРСТХУ"
-
-
-def _russian(text: str) -> int:
-    """How much a text looks like Russian; a letter by itself is a slip for a Latin one, and looks like it."""
-    words = re.findall("[а-яёА-ЯЁ]+", text)
-    letters = sum(sum(map(_BY_FREQUENCY.find, word.lower())) for word in words if len(word) > 1)
-    slips = sum(len(word) == 1 and word.upper() in _LIKE_LATIN for word in words)
-    return letters + 40 * (slips - len(re.findall("[а-яё][А-ЯЁ]", text)))
-
-
-class ProgramBuilder:
-    """What a reader fills: blocks, their words, alarms; `build` makes the columns.
-
-    Readers that find plain words in bulk hand them over as arrays with `build`'s `bulk`.
-    """
-
-    def __init__(self, text: str, name: str, control: str, line_starts: NDArray[np.int32], comment_mark: str) -> None:
-        self.text, self.name, self.control = text, name, control
-        self.line_starts, self.comment_mark = line_starts, comment_mark
-        self.addresses: dict[str, int] = {}
-        self.keywords: dict[str, int] = {"": 0}
-        self.words: list[tuple[int, float, int, int, int, int]] = []  # address, value, form, flag, offset, length; …
-        self.put_away: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []  # … earlier ones, and their blocks: less memory
-        self.before = 0  # how many words those are
-        self.blocks: list[tuple[int, int, bool, bool, int]] = []  # offset, keyword, skip, plain, first word
-        self.payload: list[Any] = []
-        self.alarms = Alarms()
-        self.labels: dict[str, int] = {}  # jump target -> offset of its block
-        self.full = -1  # where the block begins that was told to be too long
-
-    def span(self, offset: int, length: int = 1) -> Span:
-        """Line and column of a place in the text."""
-        line = int(self.line_starts.searchsorted(np.int32(offset), "right"))  # another type would copy them all
-        return Span(line, offset - int(self.line_starts[line - 1]) + 1, length)
-
-    def alarm(self, message: str, offset: int, length: int = 1, hint: str = "", severity: str = "alarm") -> None:
-        """Note a fault of the text; reading goes on."""
-        self.alarms.append(Alarm(message, self.span(offset, length), severity, hint))
-
-    def block(self, offset: int, keyword: str = "", skip: bool = False, plain: bool = False) -> None:
-        """Begin a block at `offset`."""
-        if len(self.words) >= CHUNK:
-            self.put_away.append((np.array(self.words, dtype=np.float64), np.array(self.blocks, dtype=np.float64)))
-            self.before += len(self.words)
-            self.words.clear()
-            self.blocks.clear()
-        key = self.keywords.setdefault(keyword, len(self.keywords))
-        self.blocks.append((offset, key, skip, plain, self.before + len(self.words)))
-
-    @property
-    def heads(self) -> NDArray[np.float64]:
-        """The blocks so far (b, 5): offset, keyword, skip, plain, first word."""
-        last = np.array(self.blocks, dtype=np.float64).reshape(-1, 5)
-        return np.concatenate([*(blocks for _, blocks in self.put_away), last])
-
-    @property
-    def block_words(self) -> list[tuple[int, float, int, int, int, int]]:
-        """The words that the block begun last has so far."""
-        return self.words[self.blocks[-1][4] - self.before :]
-
-    def word(self, address: str, value: Any, offset: int, length: int, flag: int = 0) -> None:
-        """Add a word to the block begun last; an alarm at the first of too many, and none of them is kept."""
-        size = self.before + len(self.words) - (self.blocks[-1][4] if self.blocks else 0)
-        if size >= MOST_WORDS:
-            if self.full != self.blocks[-1][0]:
-                self.full = self.blocks[-1][0]
-                self.alarm(f"a block holds at most {MOST_WORDS} words, this one has more", offset, length)
-            return
-        index = self.addresses.setdefault(address, len(self.addresses))
-        if isinstance(value, int | float):
-            self.words.append((index, float(value), NUMBER, flag, offset, length))
-        elif value is None:
-            self.words.append((index, 0.0, NONE, flag, offset, length))
-        else:
-            form = TEXT if isinstance(value, str) else EXPRESSION
-            self.words.append((index, float(len(self.payload)), form, flag, offset, length))
-            self.payload.append(value)
-
-    def build(self, bulk: BulkBlocks | None = None) -> Program:
-        """The program; blocks found in bulk are sorted in by their place in the text."""
-        last = np.array(self.words, dtype=np.float64).reshape(-1, 6)
-        words, blocks = np.concatenate([*(words for words, _ in self.put_away), last]), self.heads
-        count = np.diff(np.append(blocks[:, 4], len(words)))
-        words[:, 5] = np.minimum(words[:, 5], 32767)
-        kinds = (np.int16, np.float64, np.uint8, np.uint8, np.int32, np.int16)
-        columns = [words[:, k].astype(kind) for k, kind in enumerate(kinds)]
-        heads = [column.astype(np.int32) for column in blocks[:, :4].T]
-        first = first_words(count)
-        if bulk is not None and len(bulk.start):
-            names = [self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses]
-            same_names = names == list(range(len(names)))  # then no copy is needed
-            address = bulk.address if same_names else np.array(names, dtype=np.int16)[bulk.address]
-            key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
-            n = len(bulk.start)
-            zero = np.broadcast_to(np.uint8(0), (len(bulk.value),))  # a constant column costs nothing
-            form = zero if bulk.form is None else bulk.form
-            more = [address, bulk.value, form, zero, bulk.offset, bulk.length]
-            same = np.broadcast_to(np.int16(key), (n,)), np.broadcast_to(np.False_, (n,))
-            more_heads = [bulk.start, *same, bulk.plain]
-            first = bulk.first
-            if len(blocks):
-                sizes = [count, np.diff(first)]
-                columns, heads = _merged(columns, more, 4), _merged([*heads, sizes[0]], [*more_heads, sizes[1]], 0)
-                first = first_words(heads[4])
-            else:
-                columns, heads = more, more_heads
-        return Program(
-            text=self.text,
-            name=self.name,
-            control=self.control,
-            addresses=tuple(self.addresses),
-            address=columns[0],
-            value=columns[1],
-            form=columns[2],
-            flag=columns[3],
-            offset=columns[4].astype(np.int32, copy=False),
-            length=columns[5].astype(np.int16, copy=False),
-            first=first,
-            keywords=tuple(self.keywords),
-            keyword=heads[1].astype(np.int16, copy=False),
-            skip=heads[2].astype(bool, copy=False),
-            plain=heads[3].astype(bool, copy=False),
-            start=heads[0].astype(np.int32, copy=False),
-            line_starts=self.line_starts,
-            payload=tuple(self.payload),
-            alarms=tuple(sorted(self.alarms, key=lambda alarm: (alarm.span or Span(0, 0))[:2])),
-            untold=self.alarms.untold,
-            comment_mark=self.comment_mark,
-            labels={name: int(np.searchsorted(heads[0], at)) for name, at in self.labels.items()},
-        )
-
-
-def first_words(size: NDArray[Any]) -> NDArray[np.int32]:
-    """Where the words of each block begin (b + 1,), from their number (b,)."""
-    first = np.zeros(len(size) + 1, dtype=np.int32)
-    np.cumsum(size, out=first[1:])
-    return first
-
-
-def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
-    """Two sets of columns sorted together by one of them."""
-    places = np.searchsorted(others[by], some[by])
-    steps = np.diff(places, prepend=-1)
-    cuts = np.flatnonzero(steps)  # where `some` goes on at another place of the others
-    if len(cuts) <= FEW and (steps >= 0).all():  # whole stretches are copied faster than single rows
-        some = [np.split(column, cuts) for column in some]
-        others = [np.split(column, places[cuts]) for column in others]
-        return [
-            np.concatenate([part for pair in zip(a, b, strict=True) for part in pair]) for a, b in zip(some, others)
-        ]
-    order = np.argsort(np.concatenate([some[by], others[by]]), kind="stable")
-    return [np.concatenate(pair)[order] for pair in zip(some, others, strict=True)]
-
-
-class BulkBlocks(NamedTuple):
-    """Blocks found for a whole text at once: words (w,) with `address` into `addresses`, blocks (b,), `first` (b + 1,).
-
-    `form` (w,) may say that some words have no value; without it all are numbers.
-    """
-
-    addresses: tuple[str, ...]
-    address: NDArray[np.integer[Any]]
-    value: NDArray[np.float64]
-    offset: NDArray[np.int32]
-    length: NDArray[np.int16]
-    keyword: str
-    start: NDArray[np.int32]
-    first: NDArray[np.int32]
-    plain: NDArray[np.bool_]
-    form: NDArray[np.uint8] | None = None
+        table = html_table(("line", "block", "words", "comment"), rows, numbers=(0,), code=(2,))
+        return table + more + card_html(self.alarms)

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from mnclab.geometry.free_contour import FreeContour, known, normal_of
-from mnclab.geometry.quadratics import Exhausted, Form, System, conics
+from mnclab.geometry.newton import Exhausted, conics
+from mnclab.geometry.quadratic_form import Form
+from mnclab.geometry.quadratics import System
 from mnclab.geometry.readings import Contradiction, TooManyReadings
 
 START = (3.0, -2.0)

@@ -27,7 +27,7 @@ def new_machine():
     machine.change("feed", 100.0)
     machine.change("speed", 500.0)
     machine.change("turning", 1)
-    machine.memory["kept"] = {"deep": [{"number": 1.0}], "array": np.zeros(3)}
+    machine.memory.defaults = {"deep": [{"number": 1.0}], "array": np.zeros(3)}
     return machine
 
 
@@ -74,6 +74,10 @@ def alteration(m, name):
         return lambda count: value.append(Alarm("doubtful", severity="warning"))
     if isinstance(value, list):
         return lambda count: value.append(lambda: count)
+    if isinstance(value, set):
+        return lambda count: value.add(count)
+    if name == "memory":
+        return lambda count: setattr(value, "preset", count)
     if name == "frames":
         return lambda count: value.set("more", frames.shift(z=1e-9 * count))
     if name == "tables":
@@ -101,8 +105,8 @@ def test_nothing_else_is_left_out():
 def test_values_are_compared_in_their_depth(what):
     m = new_machine()
     other = {
-        "a number in the depth": lambda count: m.memory["kept"]["deep"][0].update(number=count),
-        "an array": lambda count: np.add.at(m.memory["kept"]["array"], 1, count),
+        "a number in the depth": lambda count: m.memory.defaults["deep"][0].update(number=count),
+        "an array": lambda count: np.add.at(m.memory.defaults["array"], 1, count),
         "a program called": lambda count: m.flow.begin(0),
         "a row of the datum table": lambda count: m.tables.datums.update({1: (count,)}),
     }

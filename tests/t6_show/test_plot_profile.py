@@ -100,7 +100,7 @@ def test_into_axes_of_ones_own(run):
 
 
 def test_the_panel_follows_its_boxes(run):
-    panel = run.profile(LIMITS).panel()
+    panel = mnclab.profile_panel(run.profile(LIMITS))
     before, picture = panel.profile.time, panel.picture.value
     panel.boxes["acceleration"].value = 100.0
     assert panel.profile.time > before and panel.picture.value != picture

@@ -15,6 +15,7 @@ from typing import Any
 
 from mnclab.controls.g43.language import ISO, undescribed
 from mnclab.controls.g43.lengths import activate
+from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address.holes import (
     approach,
     initial_level,
@@ -78,7 +79,7 @@ class HoleCycle(Cycle, ABC):
     ) -> dict[str, Any]:
         """Increments become coordinates where they are programmed; offsets of the length compensation count from here on."""
         undescribed(m, Words((), cls.code))
-        if "machine coordinates" not in m.memory:
+        if not memory(m).machine_coordinates:
             activate(m, "XYZ")
         kept.setdefault("initial", m.to_machine(m.programmed)[2])
         if m.modal["dimension"] == "G91":

@@ -8,6 +8,7 @@ are only the titles: what they must mean is taken from ISO 6983, and a program t
 from __future__ import annotations
 
 from mnclab.controls.g43.lengths import activate
+from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
@@ -35,7 +36,7 @@ def together(m: Machine, keyword: str, words: list[Word]) -> None:
 
 def undescribed(m: Machine, words: Words) -> None:
     """Say once for each code that its chapter is not there."""
-    told = m.memory.setdefault("told", set())
+    told = memory(m).undescribed
     if words.code not in told:
         told.add(words.code)
         sentence = f"{words.code}: not described in the manual; it is taken in its ISO meaning"
@@ -45,7 +46,7 @@ def undescribed(m: Machine, words: Words) -> None:
 def targets(m: Machine, words: Words) -> dict[str, float]:
     """Where the axes that are written go; their offsets count from now on."""
     to = motion.coordinates(m, words, m.modal["dimension"] == "G90")
-    if to and "machine coordinates" not in m.memory:
+    if to and not memory(m).machine_coordinates:
         activate(m, "".join(to).upper())
     return to
 
@@ -117,9 +118,9 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     def restore() -> None:
         for name, frame in kept:
             m.set_frame(name, frame)
-        m.memory.pop("machine coordinates")
+        memory(m).machine_coordinates = False
 
-    m.memory["machine coordinates"] = True
+    memory(m).machine_coordinates = True
     for name, _ in kept:
         m.set_frame(name, None)
     m.set_frame("length", frames.shift(z=-m.tool.effective_length))

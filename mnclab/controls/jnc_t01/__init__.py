@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from mnclab.controls.jnc_t01 import cycles, feeds, motion
 from mnclab.controls.jnc_t01.reader import looks_like, read
+from mnclab.controls.jnc_t01.state import Memory
 from mnclab.machine.control import Control
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
@@ -82,6 +83,7 @@ CONTROL = Control(
     phases=PHASES,
     settings=SETTINGS,
     frames=("offset", "corrector"),
+    memory=Memory,
     start=start,
     looks_like=looks_like,
     refused=REFUSED,

@@ -6,6 +6,7 @@ import numpy as np
 
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, first_word
+from mnclab.controls.word_address.state import memory
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -39,7 +40,7 @@ def power_on(m: Machine) -> None:
 
 def absolute(m: Machine) -> bool:
     """Whether coordinates are absolute: G90, and always in a block with G53 (MNC-G53-G91)."""
-    return m.modal["dimension"] == "G90" or "machine coordinates" in m.memory
+    return m.modal["dimension"] == "G90" or memory(m).machine_coordinates
 
 
 @FUNCTIONS("G0", "Rapid positioning", group="motion", takes="X Y Z", power_on="G0", moves=True, source="3.1")
@@ -99,9 +100,9 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     def restore() -> None:
         for name, frame in kept:
             m.set_frame(name, frame)
-        m.memory.pop("machine coordinates")
+        memory(m).machine_coordinates = False
 
-    m.memory["machine coordinates"] = True
+    memory(m).machine_coordinates = True
     for name, _ in kept:
         m.set_frame(name, None)
     if not m.settings["g53_tool_length"]:  # Z is the spindle reference, above the tip by the length

@@ -19,7 +19,8 @@ from __future__ import annotations
 import re
 from string import ascii_lowercase
 
-from mnclab.text.program import AT_MARK, GROUP_MARK, INCREMENTAL, RAPID_MARK, Program, ProgramBuilder
+from mnclab.text.program import AT_MARK, GROUP_MARK, INCREMENTAL, RAPID_MARK, Program
+from mnclab.text.program_builder import ProgramBuilder
 from mnclab.text.words import characters, line_starts
 
 COMMENT = ";"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from mnclab.controls.word_address.state import memory
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Go
 from mnclab.running.performing import perform
@@ -20,7 +21,7 @@ def out_of_place(m: Machine) -> Iterator[tuple[str, str]]:
     """A fault under radius compensation or in machine coordinates."""
     if m.side:
         yield "", "cannot run under radius compensation"
-    if "machine coordinates" in m.memory:
+    if memory(m).machine_coordinates:
         yield "", "and G53 stand in one block: the cycle counts from the workpiece"
 
 

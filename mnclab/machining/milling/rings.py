@@ -15,8 +15,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Curve, Floats, cross, left
+from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
+from mnclab.geometry.vectors import cross, left
+from mnclab.geometry.whole_curves import Curve
 from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise, room_for
 
 MOST_RINGS = 2000

@@ -14,9 +14,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mnclab.geometry.contours import Contour, Floats, cross, steps_within
+from mnclab.geometry.contours import Contour, Floats, steps_within
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, polygons, stays
+from mnclab.geometry.vectors import cross
 from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise, room_for
 from mnclab.machining.milling.rings import Ring, rings_in_order
 

@@ -15,9 +15,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats, left
+from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import Skeleton, skeleton
+from mnclab.geometry.vectors import left
 from mnclab.machining.milling.clearing import Clearing, Piece, end, links, numbered, piecewise, room_for
 from mnclab.machining.milling.spirals import half_circles
 

@@ -15,7 +15,9 @@ import math
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Curve, Floats, left
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.vectors import left
+from mnclab.geometry.whole_curves import Curve
 from mnclab.machining.turning.profiles import SAME, Stretch, checked, stretches, uppermost
 
 

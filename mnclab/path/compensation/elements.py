@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.curves import Curves
-from mnclab.geometry.offsets import Element, beside, left
+from mnclab.geometry.offsets import Element, beside
+from mnclab.geometry.vectors import left
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.geometry.offsets import left
+from mnclab.geometry.vectors import left
 from mnclab.path.compensation.elements import Elements, Mask
 from mnclab.path.compensation.joining import corners, remaining
 from mnclab.path.compensation.moving_ends import tool_centre_path

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.geometry.offsets import beside, cross, dot, meet
+from mnclab.geometry.offsets import beside, meet
+from mnclab.geometry.vectors import cross, dot
 from mnclab.path.compensation.cusps import in_a_cusp, inside_cusps, rolls_through
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.rules import ACUTE_TURN, CUSP, ROUND, STRAIGHT, TANGENT, Compensation

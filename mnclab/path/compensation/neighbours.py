@@ -15,7 +15,7 @@ import numpy as np
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, gap, part
-from mnclab.geometry.offsets import dot
+from mnclab.geometry.vectors import dot
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.heights import meet
 from mnclab.path.compensation.joining import corners, ends, remaining

@@ -14,7 +14,7 @@ import numpy as np
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, crossings, distance, part, share
-from mnclab.geometry.offsets import cross, dot, left
+from mnclab.geometry.vectors import cross, dot, left
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
 from mnclab.path.compensation.heights import meet, retracted
 from mnclab.path.compensation.rules import CLEAR

@@ -26,7 +26,7 @@ class Compensation:
 
     `approach` "perpendicular": the entry ends, and the exit begins, square to the contour; "corner": outside, the
     first and last corners are built like any other (MNC tables 7.1 and 7.3). `rapid`: entry and exit may run at
-    rapid. `change`: the side may change on the way, by a straight line that leads over like an entry. `look_ahead`:
+    rapid. `change`: the side may change on the way, by a straight line that leads over like an entry. `timing`:
     the whole contour is looked at, else each element with its neighbours only (and always what a cusp leads back to). A joint
     counts as tangent below `TANGENT`, 0.001 degrees; any greater turn is a corner and is built exactly.
     """

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.profile.look_ahead import Plan
 from mnclab.path.profile.lookahead import running_sum
+from mnclab.path.profile.timing import Plan
 
 Array = NDArray[np.float64]
 

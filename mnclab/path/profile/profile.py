@@ -11,11 +11,12 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile.bends import Bends
-from mnclab.path.profile.look_ahead import Plan, plan
 from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.pieces import Pieces, pieces
+from mnclab.path.profile.timing import Plan, plan
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.columns import fixed
+from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -250,11 +251,8 @@ class Profile:
 
     def _repr_html_(self) -> str:
         causes = self.time_by("cause")
-        rows = "".join(
-            f"<tr><td>{cause}</td><td>{seconds:.3f} s</td><td>{100 * seconds / self.time:.1f} %</td></tr>"
-            for cause, seconds in causes.items()
-        )
-        return f"<table><tr><th>time</th><th>{self.time:.3f} s</th><th></th></tr>{rows}</table>"
+        rows = [(cause, f"{took:.3f} s", f"{100 * took / self.time:.1f} %") for cause, took in causes.items()]
+        return html_table(("time", f"{self.time:.3f} s", ""), rows, numbers=(1, 2))
 
     def plot(self, **options: Any) -> Figure:
         """Programmed and reached feed, acceleration and jerk over time, stops, limits, and which of them governs where.
@@ -277,9 +275,3 @@ class Profile:
         from mnclab.show.plot.profile import plot_lost
 
         return plot_lost(self, **options)
-
-    def panel(self, **options: Any) -> Any:
-        """Number boxes for acceleration, jerk, corner tolerance and feed override, with a picture that follows."""
-        from mnclab.show.forms import profile_panel
-
-        return profile_panel(self, **options)

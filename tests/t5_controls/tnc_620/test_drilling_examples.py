@@ -18,6 +18,7 @@ from mnclab import Kind
 from mnclab.geometry import frames
 from mnclab.machine.machine import Machine
 from mnclab.machining.holes.drilling import guided
+from mnclab.running.performing import perform
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-drilling.json"
 EXAMPLES = json.loads(FILE.read_text(encoding="utf-8"))
@@ -294,7 +295,7 @@ def test_a_mirror_image_turns_neither_the_direction_nor_the_kind_of_milling(mirr
         machine.set_frame("mirror", np.diag([*sizes, 1.0]))
         machine.rapid(20, 10, 50)
         place = machine.tip
-        control.cycles[f"CYCL DEF {code}"](**values).moves(machine)
+        perform(machine, "", control.cycles[f"CYCL DEF {code}"](**values).moves(machine))
         path = machine.recorder.take()
         if moved:
             off = path[path.kind == Kind.RAPID].end - place

@@ -14,6 +14,7 @@ import mnclab as mnc
 from mnclab.controls.tnc_620.cycles.contours import contour_region
 from mnclab.machine.machine import Machine
 from mnclab.running.interpreter import Interpreter
+from mnclab.running.performing import perform
 
 EXAMPLES = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-klartext.json"
 (C20,) = [e for e in json.loads(EXAMPLES.read_text(encoding="utf-8")) if e["code"] == "FK"]
@@ -51,7 +52,8 @@ def test_the_example_is_the_contour_of_cycle_14():
     machine = Machine(mnc.controls["tnc-620"], mnc.Setup())
     Interpreter(machine.control, machine, mnc.read(text, "tnc-620")).run()
     machine.ended = False
-    assert contour_region(machine).area == pytest.approx(4212.730, abs=1e-3)  # [derived: tnc620-contour, C20]
+    region = perform(machine, "", contour_region(machine))
+    assert region.area == pytest.approx(4212.730, abs=1e-3)  # [derived: tnc620-contour, C20]
     assert machine.tip == (0, 0, 0) and machine.pending is None
 
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from mnclab.controls.word_address.state import memory
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, remark
@@ -56,7 +57,7 @@ class MillingCycle(Cycle):
         """Tool, feed, compensation; and no machine coordinates."""
         if m.side:
             yield "", "cannot run under radius compensation"
-        if "machine coordinates" in m.memory:
+        if memory(m).machine_coordinates:
             yield "", "and G53 stand in one block: the cycle counts from the workpiece"
         if m.radius <= 0:
             yield "", f"needs a tool with a radius, got {m.radius:g}"

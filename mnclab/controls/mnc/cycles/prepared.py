@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mnclab.controls.word_address.motion import first_word
+from mnclab.controls.word_address.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, param
 from mnclab.machine.machine import Machine
@@ -30,7 +31,7 @@ def call_cycle(m: Machine, words: Words) -> None:
         m.alarm(f"M99 stands in the block that prepares {m.cycle.code}", head, hint="write it at the first hole")
     if m.side:
         m.alarm("a cycle cannot run under radius compensation", head, hint="write G40 first")
-    if "machine coordinates" in m.memory:
+    if memory(m).machine_coordinates:
         m.alarm("M99 and G53 stand in one block: the cycle counts from the workpiece", head, hint="write two blocks")
     run_cycle(m, m.cycle)
     m.set_modal("spindle", SPINDLE[m.turning])

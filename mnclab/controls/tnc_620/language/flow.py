@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from mnclab.controls.tnc_620.language.parameters import PREASSIGNED, text
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.running import files
@@ -77,21 +78,16 @@ def jump(m: Machine, words: Words) -> None:
         m.flow.jump(name, m._span(word))
 
 
-_OF_A_PROGRAM: tuple[str, ...] = ("name", "unit")  # what BEGIN PGM says
-
-
 def call_program(m: Machine, name: str, what: str, word: Word | None) -> None:
     """Run another program here, with its own QL parameters; `what` is the statement that calls it."""
     place = m._span(word)
     index = files.called(m, name, what, place)
-    kept = {key: m.memory.pop(key) for key in _OF_A_PROGRAM if key in m.memory}
-    unit = m.variable_unit
+    kept, length = (memory(m).name, memory(m).unit), m.variable_unit
+    memory(m).name = memory(m).unit = None
     with m.variables.own_level():
         m.flow.call_program(index, place)
-    m.variable_unit = unit
-    for key in _OF_A_PROGRAM:
-        m.memory.pop(key, None)
-    m.memory.update(kept)
+    m.variable_unit = length
+    memory(m).name, memory(m).unit = kept
 
 
 @FUNCTIONS("CALL PGM,", "Program call", takes="name", source="3.4")
@@ -105,13 +101,14 @@ def call_named(m: Machine, words: Words) -> None:
 def select(m: Machine, words: Words) -> None:
     """The program that CALL SELECTED PGM runs; its name may stand in a QS parameter."""
     m.flow.ask(words["name"].value)
-    m.memory["selected program"] = text(m, words["name"])
-    m.log("selected program", m.memory["selected program"])
+    memory(m).selected_program = text(m, words["name"])
+    m.log("selected program", memory(m).selected_program)
 
 
 @FUNCTIONS("CALL SELECTED PGM,", "Call of the chosen program", source="Klartext, not described")
 def call_selected(m: Machine, words: Words) -> None:
     """Runs the program that SEL PGM has chosen."""
-    if "selected program" not in m.memory:
+    name = memory(m).selected_program
+    if name is None:
         m.alarm("CALL SELECTED PGM: no program was chosen", None, hint='write SEL PGM "NAME" before it')
-    call_program(m, m.memory["selected program"], "CALL SELECTED PGM", None)
+    call_program(m, name, "CALL SELECTED PGM", None)

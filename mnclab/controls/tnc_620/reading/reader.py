@@ -23,7 +23,8 @@ from numpy.typing import NDArray
 from mnclab.controls.tnc_620.reading.statements import KEYWORDS_ONLY, WORDS, Statement, cycle_parameters, recognize
 from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, LARGEST, Cursor, Fault
 from mnclab.text.alarm import KEPT, Alarm
-from mnclab.text.program import NONE, BulkBlocks, Program, ProgramBuilder, first_words
+from mnclab.text.program import NONE, Program
+from mnclab.text.program_builder import BulkBlocks, ProgramBuilder, first_words
 from mnclab.text.words import Scan, characters, scan
 
 _UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
