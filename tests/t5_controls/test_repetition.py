@@ -8,12 +8,15 @@ import random
 from functools import partial
 
 import numpy as np
+import pytest
 import running
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab.path.toolpath import COLUMNS
+
+pytestmark = pytest.mark.deep
 
 TEXTUAL = {
     "line",

@@ -210,6 +210,7 @@ odd = st.sampled_from(
 )
 
 
+@pytest.mark.deep
 @given(st.lists(st.one_of(*[plain] * 12, arc, odd), min_size=2 * SHORTEST, max_size=110))
 def test_runs_of_plain_blocks(blocks):
     """Obeyed at once or one by one: the same rows, alarms and history."""

@@ -105,6 +105,7 @@ def result(program):
     return found.toolpath.motion
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("code", ["G160", "G161", "G162"])
 @settings(max_examples=40)
 @given(points=CONTOUR, side=st.sampled_from([1, -1]), turn=st.sampled_from([30.0, 90.0, -77.5]))

@@ -180,6 +180,7 @@ blocks = st.one_of(
 )
 
 
+@pytest.mark.deep
 @given(st.sampled_from(["G41", "G42", "G40"]), st.lists(blocks, min_size=1, max_size=6))
 def test_xz_is_xy_seen_from_the_other_side(side, contour):
     """With the axes X, Z a contour of G17 in X, Y turns into the same one in X, Z: arcs, sides and corners as well."""

@@ -8,6 +8,8 @@ import pytest
 
 import mnclab as mnc
 
+pytestmark = pytest.mark.deep
+
 HEAD = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 F100\nM3\n"
 DRILLING = "CYCL DEF 200 D ~\n Q200=+2 ~\n Q201=-15 ~\n Q206=+90 ~\n Q202=+{} ~\n Q210=+0 ~\n Q203=+0 ~\n Q204=+9 ~\n Q211=+0\n"
 GRID = "PATTERN DEF PAT1 (X+0 Y+0 DX+1 DY+1 NUMX{} NUMY{} ROT+0 ROTX+0 ROTY+0 Z+0)\n"

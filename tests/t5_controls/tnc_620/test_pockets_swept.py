@@ -16,6 +16,8 @@ from shapely import LineString, Point, affinity, box, union_all
 import mnclab
 from mnclab import Kind, Setup, Tool
 
+pytestmark = pytest.mark.deep
+
 MICRON = 1e-3
 PLACE = (12.0, -7.0)
 

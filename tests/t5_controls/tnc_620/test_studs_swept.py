@@ -15,6 +15,8 @@ from shapely import Point, Polygon, affinity, box, union_all
 
 from mnclab import Kind, Tool
 
+pytestmark = pytest.mark.deep
+
 MICRON = 1e-3
 PLACE = (12.0, -7.0)
 
