@@ -7,11 +7,11 @@ Tests of one file or folder, of the browser and of time run one after the other.
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / ".setup"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / ".setup"))
 
 from environment import run
 
+ROOT = Path(__file__).resolve().parent.parent
 FAST = "not deep and not browser and not benchmark"
 
 typed = sys.argv[1:]
