@@ -5,7 +5,7 @@ Rows are labelled with the code of the cycle and the label of the step. The hole
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -40,12 +40,14 @@ from mnclab.running.binding import as_it_stands, bind, fault
 from mnclab.running.repeating import at_each
 
 Place = tuple[float, float]
+Through = Callable[[Iterable[Step], Place], Iterable[Step]]
 
 
-def run_cycle(m: Machine, definition: Definition, **instead: float) -> None:
+def run_cycle(m: Machine, definition: Definition, through: Through | None = None, /, **instead: float) -> None:
     """Bind a definition with the values as they stand now, check it, and carry its steps out.
 
     `instead` are values by name that count for this call in place of its own, where the cycle has such parameters.
+    `through` is what the steps go through on their way, with the place that they count from.
     """
     definition = as_it_stands(m, definition)
     label, m.label = m.label, f"{definition.cycle.code} {definition.cycle.title}"
@@ -60,7 +62,7 @@ def run_cycle(m: Machine, definition: Definition, **instead: float) -> None:
             if steps is not None:
                 feed = bound.modal_feed(m)
                 with m.within(**({} if feed is None else {"feed": feed})):
-                    perform(m, bound.code, steps, about)
+                    perform(m, bound.code, through(steps, about) if through else steps, about)
     except TooMany as error:
         raise fault(definition, None, str(error)) from None
     m.label = label
