@@ -172,8 +172,7 @@ def situations(control: Control, cycle: type[Cycle], setup: Setup) -> Iterator[M
     places = ((40.0, 0.0, 5.0), (0.0, 0.0, 5.0)) if control.lathe else ((20.0, 10.0, 20.0),)
     called = next((each for each in control.cycles.values() if each.runs == "call"), None)  # by a pattern
     for place, turning, number in product(places, (1, 0), tools):
-        machine = Machine(control, setup)
-        Interpreter(control, machine, control.read("", ""))
+        machine = Interpreter(control, setup, control.read("", "")).machine
         for group, code in control.power_on().items():
             machine.set_modal(group, code)
         if control.start:

@@ -21,8 +21,7 @@ POINTS = np.column_stack([10.0 + 9 * np.arange(10), np.zeros(10)])
 @pytest.fixture
 def machine() -> Machine:
     control = mnclab.controls["tnc-620"]
-    made = Machine(control, mnclab.Setup(part=STAIR))
-    Interpreter(control, made, mnclab.read("BEGIN PGM A MM\nEND PGM A MM\n", "tnc-620"))
+    made = Interpreter(control, mnclab.Setup(part=STAIR), control.read("", "")).machine
     made.change_tool(mnclab.Tool(radius=1, number=6, kind="probe"))
     made.rapid(0, 0, 10)
     return made
