@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from mnclab.controls.jnc_t01 import cycles, feeds, motion
 from mnclab.controls.jnc_t01.reader import looks_like, read
+from mnclab.controls.jnc_t01.trial import trial_program
 from mnclab.machine.control import Control
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
@@ -97,4 +98,5 @@ CONTROL = Control(
         letters="GXZIKRF",
         whole_circles=False,
     ),
+    trial=trial_program,
 )

@@ -5,7 +5,7 @@ import pytest
 
 import mnclab
 from mnclab import Kind
-from mnclab.show import trial
+from mnclab.machine import trial
 
 CYCLES = {code: mnclab.controls["tnc-620"].cycles[code] for code in (f"CYCL DEF {n}" for n in (251, 252, 253, 254))}
 CASES = [(code, parameter) for code, cycle in CYCLES.items() for parameter in cycle.parameters()]
@@ -20,7 +20,7 @@ FEEDS = {"milling_feed", "plunging_feed", "finishing_feed", "feed_reference"}
 
 
 def run(code, values):
-    found = mnclab.run(trial.program("tnc-620", CYCLES[code], values), "tnc-620")
+    found = mnclab.run(trial.program(mnclab.controls["tnc-620"], CYCLES[code], values), "tnc-620")
     assert found.ok, found.alarms
     path = found.toolpath
     cut = path.is_motion & (path.kind != Kind.RAPID)
@@ -60,7 +60,7 @@ def test_every_parameter_has_an_example(code, parameter):
 
 @pytest.mark.parametrize("code", CYCLES)
 def test_every_row_of_a_cycle_says_what_happens(code):
-    found = mnclab.run(trial.program("tnc-620", CYCLES[code], examples(code)), "tnc-620")
+    found = mnclab.run(trial.program(mnclab.controls["tnc-620"], CYCLES[code], examples(code)), "tnc-620")
     path = found.toolpath
     call = path[(path.line == path.line[path.is_motion].max()) & path.is_motion]
     said = [call.labels[k] for k in call.label][1:]  # the block positions first
