@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Callable, Iterable
+from copy import copy
 from typing import Any, NoReturn
 
 import numpy as np
@@ -92,6 +93,16 @@ class Recorder:
     def made(self) -> int:
         """All rows so far."""
         return self.taken + self._count + len(self.rows) // len(ROW)
+
+    def copy(self) -> Recorder:
+        """The same rows, apart from those to come."""
+        self._flush()
+        twin = copy(self)
+        twin.rows, twin._vertices = array("d"), self._vertices[: self._count + 1]
+        twin.states, twin._state_index = self.states.copy(), self._state_index.copy()
+        twin.labels, twin.joints = self.labels.copy(), self.joints.copy()
+        twin._done = [chunk.copy() for chunk in self._done]
+        return twin
 
     def another(self, start: tuple[float, float, float]) -> Recorder:
         """An empty one, for a path apart from this one, with what room is left here."""

@@ -55,6 +55,7 @@ from mnclab.controls.tnc_620.later_parameters import strange_parameters
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.controls.tnc_620.state import Memory
 from mnclab.controls.tnc_620.tables import datum_tables
 from mnclab.controls.tnc_620.trial import trial_program
 from mnclab.machine.control import Control
@@ -157,6 +158,7 @@ CONTROL = Control(
     settings=SETTINGS,
     storage="variables",
     frames=("preset",),
+    memory=Memory,
     compensation=Compensation(approach="perpendicular", rapid=True),
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
