@@ -216,8 +216,11 @@ def compare(
     by_role = {role: feed for role in ROLES} | {PLUNGE: feed / 2} | dict(feeds or {})
     if unknown := set(by_role) - set(ROLES):
         raise ValueError(f"there is no role {min(unknown)!r}; known: {', '.join(ROLES)}")
-    rates = {"spindle speed": spindle, "rapid rate": rapid} | {f"feed of {k}": v for k, v in by_role.items()}
-    for name, value in rates.items():
+    for name, value in (
+        ("spindle speed", spindle),
+        ("rapid rate", rapid),
+        *((f"feed of {k}", v) for k, v in by_role.items()),
+    ):
         if not value > 0:
             raise ValueError(f"the {name} must be greater than 0, got {value:g}")
     wanted = SUITED[zone_of(contour, blank)] if schemes is None else schemes
