@@ -81,7 +81,7 @@ def test_all_moments_come_in_order(run):
     assert [moment.line for moment in found] == [4, 4, 5]
     assert [moment.point[0] for moment in found] == pytest.approx([5, 6, 5])
     assert run.when("z > 1000") == () and str(run.when("z > 1000")) == "z > 1000: never"
-    assert "<td>4</td>" in found._repr_html_() and "X6 Y14.2829" in str(found)
+    assert ">4</td>" in found._repr_html_() and "X6 Y14.2829" in str(found)
 
 
 def test_a_variable_in_a_loop():

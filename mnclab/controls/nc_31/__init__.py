@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from mnclab.controls.nc_31 import drilling, functions, grooving, notation, threads, turning
 from mnclab.controls.nc_31.reader import looks_like, read
+from mnclab.controls.nc_31.state import Memory
 from mnclab.machine.control import Control
 from mnclab.machine.settings import Setting
 
@@ -55,6 +56,7 @@ CONTROL = Control(
     functions=functions.FUNCTIONS | threads.FUNCTIONS,
     cycles=CYCLES,
     phases=("motion",),
+    memory=Memory,
     settings=SETTINGS,
     start=functions.power_on,
     looks_like=looks_like,

@@ -208,46 +208,6 @@ def test_a_rotary_axis_is_shifted_and_mirrored() -> None:
     assert np.degrees(run(both).toolpath.rotary[-2:, 2]) == pytest.approx([-20, -25])
 
 
-HEAD = "TOOL CALL 1 Z S1000 F100\n"
-REFUSED = [
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 X+1\nCYCL DEF 7.2 #5", 4, 14, "# (row of the datum table) and shifts of axes cannot"),
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 #5", 3, 14, "# (row of the datum table) needs an active datum table"),
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 #10000", 3, 14, "# (row of the datum table) must be a whole number and at least 0"),
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 V+1", 3, 14, "V is refused: the axis V is not built yet"),
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 Y-100000", 3, 14, "Y (datum shift along Y) must be at least -99999.9999"),
-    ("CYCL DEF 8.0 M\nCYCL DEF 8.1 X Y A B", 3, 14, "axes (mirrored axes) must be at most three, got X Y A B"),
-    ("CYCL DEF 8.0 M\nCYCL DEF 8.1 X X", 3, 14, "axes (mirrored axes) names X twice"),
-    ("CYCL DEF 8.0 M\nCYCL DEF 8.1 U", 3, 14, "axes (mirrored axes) cannot be U: this axis is not built yet"),
-    ("CYCL DEF 8.0 M\nCYCL DEF 8.1 X+5", 3, 15, "only letters of axes stand here"),
-    ("CYCL DEF 11.0 S\nCYCL DEF 11.1 SCL 0", 3, 15, "SCL (scaling factor) must be at least 1e-06 and at most 99.999999, got 0"),
-    ("CYCL DEF 11.0 S\nCYCL DEF 11.1 SCL -1", 3, 15, "SCL (scaling factor) must be at least 1e-06"),
-    ("CYCL DEF 11.0 S\nCYCL DEF 11.1 SCL 100", 3, 15, "SCL (scaling factor) must be at least 1e-06"),
-    ("CYCL DEF 26.0 S\nCYCL DEF 26.1 X 0 Y 1", 3, 15, "X (factor along X) must be at least 1e-06"),
-    ("CYCL DEF 26.0 S\nCYCL DEF 26.1 X 2 CCX+100000", 3, 19, "CCX (centre of the scaling along X) must be"),
-    ("CYCL DEF 26.0 S\nCYCL DEF 26.1 CCX+1", 2, 1, "needs an axis and its factor"),
-    ("CYCL DEF 26.0 S\nCYCL DEF 26.1 IX 2", 3, 15, "takes no incremental value, got IX"),
-    ("CYCL DEF 247 P\nQ339=4", 3, 1, "Q339 (number of the preset) names row 4, which the preset table does not have"),
-    ("CYCL DEF 247 P\nQ339=65536", 3, 1, "Q339 (number of the preset) must be a whole number"),
-    ("CYCL DEF 247 P", 2, 1, "Q339 (number of the preset) is missing"),
-    ("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+361", 3, 15, "A (tilt angle A) must be at least -360 and at most 360, got 361"),
-    ("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+1 F100", 2, 1, "ABST (set-up clearance) is missing: to position the rotary axes"),
-    ("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+1 ABST5", 2, 1, "F (feed of the rotary axes) is missing"),
-    ("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+1 F0 ABST5", 3, 19, "F (feed of the rotary axes) must be greater than 0"),
-    ("CYCL DEF 19.0 P\nCYCL DEF 19.1 IA+1", 3, 15, "takes no incremental value, got IA"),
-    ('SEL TABLE "NONE.D"', 2, 11, "SEL TABLE NONE.D: there is no datum table of this name"),
-    ('SEL TABLE "5.D"', 2, 11, "SEL TABLE 5.D: the name of a datum table must begin with a letter"),
-    ('SEL TABLE "A.PNT"', 2, 11, "SEL TABLE A.PNT: a datum table has the type .D"),
-    ("SEL TABLE", 2, 10, "the name of a file is missing"),
-    ("TRANS DATUM AXIS X+5", 2, 1, "TRANS DATUM is refused: datum shift, not built yet"),
-    ("PLANE SPATIAL SPA+0 SPB+90 SPC+0 TURN FMAX", 2, 1, "PLANE SPATIAL is refused: tilted plane, not built yet"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("blocks", "line", "column", "message"), REFUSED, ids=[f"{r[0][-24:]}" for r in REFUSED])
-def test_refused(blocks: str, line: int, column: int, message: str) -> None:
-    alarms = [a for a in mnc.run(HEAD + blocks + "\n", "tnc-620").alarms if a.severity == "alarm"]
-    assert len(alarms) == 1
-    assert message in alarms[0].message and alarms[0].span[:2] == (line, column), (alarms[0].message, alarms[0].span)
 
 
 # --- datum tables ------------------------------------------------------------------------------------------------------

@@ -17,6 +17,8 @@ from mnclab import Kind
 from mnclab.geometry import frames
 from mnclab.machine.machine import Machine
 from mnclab.machining.holes.drilling import guided
+from mnclab.running.flow import Course
+from mnclab.running.performing import perform
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-drilling.json"
 EXAMPLES = json.loads(FILE.read_text(encoding="utf-8"))
@@ -285,7 +287,7 @@ def test_a_mirror_image_turns_neither_the_direction_nor_the_kind_of_milling(mirr
         (204, without | back | {"dwell_bottom": 0.0, "disengage": 1.0, "spindle_angle": 0.0}, 3.0),
         (208, bore | milling, 0),
     ):
-        machine = Machine(control, mnc.Setup())
+        machine = Machine(control, mnc.Setup(), Course(control.read("")))
         machine.set_modal("coolant", "M9")
         machine.change_tool(mnc.Tool(radius=5))
         machine.set_frame("rotation", frames.turn(math.radians(turned)))
@@ -293,7 +295,7 @@ def test_a_mirror_image_turns_neither_the_direction_nor_the_kind_of_milling(mirr
         machine.set_frame("mirror", np.diag([*sizes, 1.0]))
         machine.rapid(20, 10, 50)
         place = machine.tip
-        control.cycles[f"CYCL DEF {code}"](**values).moves(machine)
+        perform(machine, "", control.cycles[f"CYCL DEF {code}"](**values).moves(machine))
         path = machine.recorder.take()
         if moved:
             off = path[path.kind == Kind.RAPID].end - place

@@ -211,32 +211,6 @@ def test_facing_leaves_nothing_of_the_surface(
         assert (ends[0] <= x0 + 1e-9).all() and (ends[1] >= x1 - 1e-9).all()
 
 
-REFUSED = [
-    ("CYCL DEF 9.0 D\nCYCL DEF 9.1 DWELL 3601", 3, 14, "DWELL (dwell) must be at least 0 and at most 3600, got 3601"),
-    ("CYCL DEF 9.0 D\nCYCL DEF 9.1 TEMP -1", 3, 14, "DWELL (dwell) must be at least 0"),
-    ("CYCL DEF 9.0 D\nCYCL DEF 9.1 TEMP", 3, 14, "a number is missing: the dwell in seconds"),
-    ("CYCL DEF 9.0 D", 2, 1, "DWELL (dwell) is missing"),
-    ("CYCL DEF 13.0 O\nCYCL DEF 13.1 UNGHI 361", 3, 15, "ANGLE (angle of the spindle) must be at least 0 and at most 360"),
-    ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -5\nCYCL DEF 18.2 PITCH 0\nCYCL CALL", 4, 15, "PITCH (pitch of the thread) must be"),
-    ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -5\nCYCL CALL", 2, 1, "PITCH (pitch of the thread) is missing"),
-    ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -100000\nCYCL DEF 18.2 PITCH 1", 3, 15, "DEPTH (depth of the thread"),
-    ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -5\nCYCL DEF 18.2 PITCH 1\nL X1 M3\nCYCL CALL", 6, 1, "needs a spindle that stands"),
-    ("CYCL DEF 32.0 T\nCYCL DEF 32.1 T10.1", 3, 15, "T (permissible contour deviation) must be at least 0 and at most 10"),
-    ("CYCL DEF 32.0 T\nCYCL DEF 32.1 T1\nCYCL DEF 32.2 HSC-MODE:2", 4, 15, "HSC-MODE (filter) must be one of 0, 1, got 2"),
-    ("CYCL DEF 32.0 T\nCYCL DEF 32.1 T1\nCYCL DEF 32.2 TA-1", 4, 15, "TA (permissible deviation of rotary axes) must be"),
-    ("CYCL DEF 32.0 T\nCYCL DEF 32.1 X1", 3, 15, "T, the tolerance, stands here"),
-    ("CYCL DEF 239 L\nQ570=2", 3, 1, "Q570 (what to do) must be one of 0, 1, got 2"),
-    ("CYCL DEF 239 L", 2, 1, "Q570 (what to do) is missing"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("blocks", "line", "column", "message"), REFUSED, ids=[r[0][-20:] for r in REFUSED])
-def test_refused(blocks: str, line: int, column: int, message: str) -> None:
-    alarms = [a for a in mnc.run(f"{HEAD}{blocks}\n", "tnc-620").alarms if a.severity == "alarm"]
-    assert len(alarms) == 1
-    assert message in alarms[0].message and alarms[0].span[:2] == (line, column), (alarms[0].message, alarms[0].span)
-
-
 FLAT = mnc.Tool(radius=10)
 REFUSED_FACES = [
     (FLAT, {"Q386": 3}, "Q386", "must not lie above Q227 = 2.5, got 3"),
