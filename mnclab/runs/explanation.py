@@ -261,8 +261,7 @@ def _plan(run: Run, moment: Moment) -> Plan | None:
     if run.steps.block[moment.step] in program.faulty_blocks():
         return None
     control, history, before = run.control, run.history, moment.step - 1
-    machine = Machine(control, run.setup)
-    machine.flow = Course(program, lambda block: None, lambda first, stop: 0, lambda index: None)  # where alarms stand
+    machine = Machine(control, run.setup, Course(program))
     groups = {function.group for function in control.functions.values() if function.group} | {control.motion}
     machine.modal.update(control.power_on())
     if before >= 0:
