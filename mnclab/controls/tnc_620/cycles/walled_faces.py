@@ -75,7 +75,7 @@ class WalledFaceMilling(AtSurface):
     end_tool_axis: float = addresses.coordinate("Q386", "coordinate to mill down to", example=-6)
     floor_allowance: float = addresses.floor_allowance(note="the last infeed", example=0.2)
     max_plunging_depth: float = addresses.length("Q202", "greatest infeed", incremental=True, example=3)
-    overlap: float = addresses.overlap(0.1, predef=False, note="stepover at most Q370 times R", example=1)
+    overlap: float = addresses.overlap(at_least=0.1, predef=False, note="stepover at most Q370 times R", example=1)
     milling_feed: float = addresses.milling_feed(example=500)
     finishing_feed: float = addresses.finishing_feed(at_most=addresses.FAR, example=400)
     prepositioning_feed: float = addresses.positioning_feed(example=750)
