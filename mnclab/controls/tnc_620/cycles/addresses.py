@@ -127,11 +127,12 @@ layer = partial(
 finishing_infeed = partial(length, "Q338", "infeed for finishing", incremental=True, note="0: in one infeed", example=5)
 side_allowance = partial(length, "Q368", "finishing allowance for side", incremental=True, example=0.2)
 floor_allowance = partial(length, "Q369", "finishing allowance for floor", incremental=True, example=0.1)
+side = partial(coordinate, incremental=True)  # of a surface: its sign points into it
 corner = partial(coordinate, "Q220", "rounding (+) or bevel (-) of the corners", note="a bevel counts on each side")
 slot_width = partial(length, "Q219", "slot width", note="equal to the tool: only roughing", example=12)
 rotation = partial(angle, meaning="angle of rotation", note="about the tool position", example=15)
 overlap = partial(
-    param, "Q370", "path overlap factor", "ratio", at_most=1.9999, modal=True, predef=True, example=1,
+    param, "Q370", meaning="path overlap factor", unit="ratio", at_most=1.9999, modal=True, predef=True, example=1,
     note="stepover at most Q370 times R",
 )  # fmt: skip
 
