@@ -8,36 +8,98 @@ The map of the house, floor by floor (a folder imports only from those above its
     text        what a programmer wrote: Alarm, Program, words, expressions
     geometry    frames, arcs, contours, offsets, regions: numbers, no CNC word
     path        what the tool does: Toolpath in columns, passes over it (corners, compensation), and the feed profile
-    workpiece   what the tool meets: the part a probe touches
-    machining   how metal is cut, whatever the control: depths, holes, threads, pockets, facing, turning
+    workpiece   what the tool meets: the blank, the part that a probe touches
+    machining   how metal is cut, whatever the control: holes, milling, turning, as steps
     comparison  two paths, or strategies, side by side
-    machine     who obeys: Machine, Control, Cycle, interpreter, bulk tier, history, Run
+    machine     what stands before a program runs: Machine, Setup, what a Control and a Cycle declare
+    running     what runs: the interpreter, the handing out of words, the bulk tier, cycles carried out
+    runs        what is there after: Run, its history, moments, explanations
     controls    who speaks: a folder a control
     show        what people see and take away: plots, forms, files
 
-This module is the front door, and nothing else: it imports numpy only.
+This module is the front door, and nothing else: it imports numpy only. What needs more is opened when it is first asked
+for, with its own signature; `part`, `blank`, `area`, `strategies` and `schemes` are shelves: print one to see what is on it.
 """
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mnclab.controls import CONTROLS as controls
-from mnclab.controls.choice import Help, help, modern, read, run
+from mnclab.controls.choice import Help, modern, read, run
+from mnclab.controls.choice import help as help
 from mnclab.machine.setup import Datum, Probe, Setup
-from mnclab.path.kinds import Kind
+from mnclab.path.kinds import RULE_NAMES, Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import shown
+from mnclab.text.opening import Shelf
 from mnclab.text.program import Program
 
-if TYPE_CHECKING:
-    from mnclab.comparison.deviation import Deviation
+if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
+    from mnclab.comparison.diff import diff as diff
+    from mnclab.comparison.strategies import compare as compare
+    from mnclab.comparison.turning_schemes import compare as compare_turning
+    from mnclab.show.editor import editor as editor
+    from mnclab.show.forms import compensation_panel as compensation_panel
+    from mnclab.show.forms import form as form
+    from mnclab.show.forms import panel as panel
+    from mnclab.show.forms import profile_panel as profile_panel
+    from mnclab.show.magic import load_ipython_extension as load_ipython_extension
 
 __version__ = "0.1.0"
+
+#: What is opened when it is first asked for.
+OPENED = Shelf("mnclab", "the names that need more than numpy", {
+    "mnclab.comparison.diff": "diff",
+    "mnclab.comparison.strategies": "compare",
+    "mnclab.comparison.turning_schemes": "compare as compare_turning",
+    "mnclab.show.editor": "editor",
+    "mnclab.show.forms": "compensation_panel, form, panel, profile_panel",
+    "mnclab.show.magic": "load_ipython_extension",
+})  # fmt: skip
+
+part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts combine: a | b, a & b, a - b", {
+    "mnclab.workpiece.part": "Part, ball, box, contact, cylinder, plane",
+})  # fmt: skip
+
+blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…)", {
+    "mnclab.workpiece.blank": "Box, Revolved, cylinder",
+})  # fmt: skip
+
+area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawing or a path", {
+    "mnclab.geometry.contours": "Contour",
+    "mnclab.geometry.regions": "Region",
+    "mnclab.geometry.shapes": "arc, polygon, rectangle, slot",
+    "mnclab.geometry.drawings": "area_of",
+    "mnclab.geometry.dxf": "contours as dxf",
+    "mnclab.geometry.svg": "contours as svg",
+    "mnclab.path.outline": "outline, outlines",
+})  # fmt: skip
+
+strategies = Shelf("mnclab.strategies", "ways to clear an area with a mill; mnclab.compare puts them side by side", {
+    "mnclab.machining.milling.strategies": "STRATEGIES, clear",
+    "mnclab.machining.milling.lines": "one_way, zigzag",
+    "mnclab.machining.milling.rings": "rings",
+    "mnclab.machining.milling.spirals": "spiral",
+    "mnclab.machining.milling.trochoids": "trochoidal",
+    "mnclab.machining.milling.entries": "Entry",
+    "mnclab.comparison.engagement": "engagement",
+})  # fmt: skip
+
+schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compare_turning puts them side by side", {
+    "mnclab.machining.turning.schemes":
+        "SCHEMES, combined, contour, descent, equidistant, loop, pick_up, semi_finish, zigzag",
+    "mnclab.machining.turning.zones": "zone_of, zones",
+    "mnclab.machining.turning": "groove_schemes as grooves, thread_schemes as threads",
+    "mnclab.machining.turning.groove_schemes": "Groove",
+    "mnclab.comparison.turning_schemes": "toolpath",
+    "mnclab.show.plot.turning_schemes": "plot_threads",
+})  # fmt: skip
+
 __all__ = [
+    "RULE_NAMES",
     "Alarm",
     "Datum",
     "Help",
@@ -50,89 +112,29 @@ __all__ = [
     "Setup",
     "Tool",
     "Toolpath",
+    "area",
+    "blank",
     "compare",
     "compare_turning",
+    "compensation_panel",
     "controls",
     "diff",
     "editor",
     "form",
-    "help",
     "modern",
     "panel",
+    "part",
+    "profile_panel",
     "read",
     "run",
-]
+    "schemes",
+    "strategies",
+]  # without help, which would shadow the one of Python
 
 
-def compare(region: object, tool: object, *strategies: object, **options: object) -> object:
-    """Strategies for clearing an area side by side, a table when shown (needs shapely): `comparison.strategies`."""
-    from mnclab.comparison.strategies import compare as build
-    from mnclab.geometry.regions import Region
-
-    if not isinstance(region, Region):
-        raise TypeError(f"compare takes a Region first, got {type(region).__name__}")
-    return build(region, tool, *strategies, **options)  # type: ignore[arg-type]
+def __getattr__(name: str) -> Any:
+    return getattr(OPENED, name)
 
 
-def compare_turning(profile: object, blank: float, *arguments: object, **options: object) -> object:
-    """Roughing schemes of turning on a profile side by side, a table when shown: `comparison.turning` (needs shapely).
-
-    `profile` is an open contour of points (z, r) from the face to the chuck, `blank` the radius of the blank, mm.
-    """
-    from mnclab.comparison.turning_schemes import compare as build
-    from mnclab.geometry.contours import Contour
-
-    if not isinstance(profile, Contour):
-        raise TypeError(f"compare_turning takes a Contour first, got {type(profile).__name__}")
-    return build(profile, blank, *arguments, **options)  # type: ignore[arg-type]
-
-
-def diff(one: Run | Toolpath, other: Run | Toolpath, step: float | None = None) -> "Deviation":
-    """Two runs, or two paths, laid over one another: the largest deviation (mm) and where; `.plot()` shows both.
-
-    Two programs, two controls, two tool radii, two limits (of their setups: the times differ); `step` mm is how
-    closely the paths are looked at.
-    """
-    from mnclab.comparison.deviation import deviation
-
-    for each in (one, other):
-        if not isinstance(each, Run | Toolpath):
-            raise Alarm(f"two runs or two paths can be compared, got {shown(each)}", hint="diff(run(…), run(…))")
-    times = None
-    if isinstance(one, Run) and isinstance(other, Run):
-        times = one.profile().time, other.profile().time
-    paths = [each.toolpath if isinstance(each, Run) else each for each in (one, other)]
-    names = [each.program.title if isinstance(each, Run) else "path" for each in (one, other)]
-    if names[0] == names[1]:
-        controls = [each.control.name if isinstance(each, Run) else "" for each in (one, other)]
-        marks = ["first", "second"] if controls[0] == controls[1] else controls
-        names = [f"the {mark} {name}" for mark, name in zip(marks, names)]
-    return deviation(paths[0], paths[1], (names[0], names[1]), step, times=times)
-
-
-def editor(path: str, control: str | None = None, setup: Setup | None = None) -> object:
-    """A part program to type in, with alarms and picture that follow, and a button that saves it (needs ipywidgets)."""
-    from mnclab.show.editor import editor as build
-
-    return build(path, control, setup)
-
-
-def form(code: str, control: str) -> object:
-    """The parameters of a cycle as a form with a live picture (needs ipywidgets and matplotlib)."""
-    from mnclab.show.forms import form as build
-
-    return build(code, control)
-
-
-def panel(template: str, control: str | None = None, /, **numbers: object) -> object:
-    """Number boxes for the places {name} of a program, with a live picture (needs ipywidgets and matplotlib)."""
-    from mnclab.show.forms import panel as build
-
-    return build(template, control, **numbers)  # type: ignore[arg-type]
-
-
-def load_ipython_extension(shell: object) -> None:
-    """What `%load_ext mnclab` calls: makes the cell magic `%%mnc`."""
-    from mnclab.show.magic import load_ipython_extension as load
-
-    load(shell)
+def __dir__() -> list[str]:
+    return sorted({*globals(), *OPENED.__all__})

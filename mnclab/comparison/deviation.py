@@ -18,6 +18,8 @@ from mnclab.path.listing import figure, point
 from mnclab.path.points import points
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
+from mnclab.text.records import shapes
+from mnclab.text.tables import html_table
 
 Array = NDArray[np.float64]
 PLACES = 4000  # of a path, if no step is given
@@ -33,6 +35,9 @@ class Traces:
     places: Array
     row: NDArray[np.int64]
     nearest: Array
+
+    def __repr__(self) -> str:
+        return shapes(self)
 
     @property
     def distance(self) -> Array:
@@ -109,9 +114,7 @@ class Deviation:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        cells = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in self.rows())
-        head = "".join(f"<th>{escape(name)}</th>" for name in ("", *self.names))
-        return f"<p>{escape(self.sentence)}</p><table><tr>{head}</tr>{cells}</table>"
+        return f"<p>{escape(self.sentence)}</p>{html_table(('', *self.names), self.rows())}"
 
     def plot(self, view: str = "auto") -> object:
         """Both paths in one view, with the largest deviation marked."""

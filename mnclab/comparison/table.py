@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from functools import cached_property
-from html import escape
 from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 import numpy as np
+
+from mnclab.text.tables import html_table
 
 
 class Row(Protocol):
@@ -19,6 +20,12 @@ class Row(Protocol):
     @property
     def row(self) -> dict[str, Any]:
         """The values of the columns."""
+
+
+def told(row: dict[str, Any], titles: dict[str, tuple[str, str]]) -> str:
+    """One row as a page: a title and its value a line."""
+    wide = max(len(title) for title, _ in titles.values())
+    return "\n".join(f"{title:{wide}}  {form.format(row[name])}" for name, (title, form) in titles.items())
 
 
 Kind = TypeVar("Kind", bound=Row)
@@ -61,6 +68,4 @@ class Table(Generic[Kind]):
 
     def _repr_html_(self) -> str:
         head, *rows = self._lines()
-        cells = "".join(f"<th style='white-space:normal'>{escape(text)}</th>" for text in head)
-        body = "".join("<tr>" + "".join(f"<td>{escape(text)}</td>" for text in row) + "</tr>" for row in rows)
-        return f"<table><thead><tr>{cells}</tr></thead><tbody>{body}</tbody></table>"
+        return html_table(head, rows, numbers=range(1, len(head)))

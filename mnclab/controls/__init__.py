@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import copyreg
 from collections.abc import Iterator, Mapping
-from html import escape
 from importlib import import_module
 from importlib.metadata import entry_points
 
@@ -63,11 +62,8 @@ class Controls(Mapping[str, Control]):
         return "\n".join(f"{name:8s} {self[name].title}" for name in self)
 
     def _repr_html_(self) -> str:
-        rows = [
-            (f"<code>{escape(name)}</code>", escape(one.title), str(len(one.functions)), str(len(one.cycles)))
-            for name, one in self.items()
-        ]
-        return html_table(("control", "title", "functions", "cycles"), rows, numbers=(2, 3))
+        rows = [(name, one.title, str(len(one.functions)), str(len(one.cycles))) for name, one in self.items()]
+        return html_table(("control", "title", "functions", "cycles"), rows, numbers=(2, 3), code=(0,))
 
 
 CONTROLS = Controls()

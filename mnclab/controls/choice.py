@@ -10,8 +10,9 @@ from pathlib import Path, PurePath
 
 from mnclab.controls import CONTROLS
 from mnclab.machine.control import Control, Function
-from mnclab.machine.cycle import Cycle, help_html, help_table
-from mnclab.machine.settings import Setting, settings_html, settings_table
+from mnclab.machine.cycle import Cycle
+from mnclab.machine.parameter_table import help_html, help_text
+from mnclab.machine.settings import Setting, settings_html, settings_text
 from mnclab.machine.setup import Setup
 from mnclab.runs.run import Run, run_program
 from mnclab.text.alarm import ALARM, Alarm
@@ -181,13 +182,13 @@ class Help:
             lines = [f"{entry.name}  {entry.title}", *(f"{code:{wide}}  {title}" for code, title in rows)]
             return "\n".join([*lines, f'settings: help("settings", "{entry.name}")'])
         if isinstance(entry, tuple):
-            return settings_table(entry)
+            return settings_text(entry)
         if isinstance(entry, Function):
             takes = f"\ntakes {' '.join(entry.takes)}" if entry.takes else ""
             group = f", group {entry.group}" if entry.group else ""
             return f"{entry.code}  {entry.title}  ({self.control.name} {entry.source}{group})\n{entry.doc}{takes}"
         iso = [name for name, code in self.control.names.items() if code == entry.code]
-        return help_table(entry) + (f"\n\nDIN/ISO {', '.join(iso)}" if iso else "")
+        return help_text(entry) + (f"\n\nDIN/ISO {', '.join(iso)}" if iso else "")
 
     __repr__ = __str__
 

@@ -1,4 +1,4 @@
-"""How a cycle declares itself, once: from its class come binding, checks, the help table, the form and tests.
+"""How a cycle declares itself, once: from its class come binding, checks, help, the form and tests.
 
 A defined cycle is a `Definition` (values and the words they came from); it is *bound* to a frozen instance of
 its class when it is called, and checked there. `runs` says when: "definition" (as soon as it is read), "call" (by M99,
@@ -14,13 +14,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cache
-from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from mnclab.machine import true_size
 from mnclab.machining.depths import TooMany
 from mnclab.text.program import Word
-from mnclab.text.tables import html_table
+from mnclab.text.records import written
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -61,6 +60,9 @@ class Parameter:
     """Whether it is a variable of the program (Q200), not an address (X)."""
     in_units: bool = field(init=False)
     """Whether it is such a variable, of a length or feed in the unit of the program."""
+
+    def __repr__(self) -> str:
+        return written(self)
 
     def __post_init__(self) -> None:
         variable = self.address[0] == "Q" and self.address[1:].isdigit() and self.type != "text"
@@ -245,6 +247,9 @@ class Definition:
     extra: dict[str, Any] = field(default_factory=dict)
     program: int = 0  # which of Run.programs the words stand in
 
+    def __repr__(self) -> str:
+        return f"<Definition {' '.join([self.code, *map(str, self.words.values())])}>"
+
 
 def too_many(name: str, levels: Callable[[], object]) -> Iterator[tuple[str, str]]:
     """A fault of the parameter that makes more levels or turns than any hole has."""
@@ -258,34 +263,3 @@ def few_passes(name: str, levels: int, passes: int) -> Iterator[tuple[str, str]]
     """A fault where nobody would wait for so many passes."""
     if levels * passes > MOST_PASSES:
         yield name, f"makes {levels} levels of {passes} passes, more than {MOST_PASSES} together"
-
-
-def help_table(cycle: type[Cycle]) -> str:
-    """The parameter table of a cycle as text."""
-    rows = [("address", "meaning", "unit", "allowed", "default")]
-    for p in cycle.parameters():
-        default = "required" if p.required else p.default_means or ("" if p.default is None else f"{p.default:g}")
-        rows.append((p.address, p.meaning, p.unit, p.allowed, default))
-    widths = [max(len(row[k]) for row in rows) for k in range(5)]
-    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-    lines.insert(1, "  ".join("-" * width for width in widths))
-    return "\n".join([f"{cycle.code}  {cycle.title}  ({cycle.source})", (cycle.__doc__ or "").strip(), "", *lines])
-
-
-def help_html(cycle: type[Cycle]) -> str:
-    """The parameter table of a cycle as HTML."""
-    rows = []
-    for p in cycle.parameters():
-        default = "required" if p.required else p.default_means or ("" if p.default is None else f"{p.default:g}")
-        choices = "; ".join(f"{k:g} {v}" for k, v in (p.choices or {}).items())
-        rows.append((
-            f"<code>{p.address}</code>",
-            escape(p.meaning),
-            p.unit,
-            escape(choices or p.allowed),
-            escape(default),
-            escape(p.note),
-        ))  # fmt: skip
-    table = html_table(("address", "meaning", "unit", "allowed", "default", "note"), rows)
-    about = f"<p>{escape(cycle.__doc__ or '')} ({escape(cycle.source)})</p>"
-    return f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4>{about}{table}"

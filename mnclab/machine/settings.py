@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from html import escape
 from numbers import Real
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -16,7 +15,8 @@ from typing import Any, NamedTuple
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 from mnclab.text.nearest import hint, nearest
-from mnclab.text.tables import html_table
+from mnclab.text.records import written
+from mnclab.text.tables import html_table, text_table
 
 
 class Setting(NamedTuple):
@@ -33,6 +33,9 @@ class Setting(NamedTuple):
     unit: str = ""
     at_least: float | None = None
     at_most: float | None = None
+
+    def __repr__(self) -> str:
+        return written(self)
 
     @property
     def allowed(self) -> str:
@@ -118,19 +121,11 @@ def rows(settings: Iterable[Setting]) -> list[tuple[str, str, str, str, str]]:
 HEAD = ("setting", "default", "allowed", "meaning", "source")
 
 
-def settings_table(settings: Iterable[Setting]) -> str:
+def settings_text(settings: Iterable[Setting]) -> str:
     """The settings as text."""
-    table = [HEAD, *rows(settings)]
-    widths = [max(len(row[k]) for row in table) for k in range(len(HEAD))]
-    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in table]
-    lines.insert(1, "  ".join("-" * width for width in widths))
-    return "\n".join(lines)
+    return text_table(HEAD, rows(settings))
 
 
 def settings_html(settings: Iterable[Setting]) -> str:
     """The settings as HTML."""
-
-    def cells(row: tuple[str, ...]) -> list[str]:
-        return [f"<code>{escape(cell)}</code>" if k < 3 and cell else escape(cell) for k, cell in enumerate(row)]
-
-    return html_table(HEAD, map(cells, rows(settings)))
+    return html_table(HEAD, rows(settings), code=(0, 1, 2))

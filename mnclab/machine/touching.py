@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 Point = tuple[float, float, float]
 
 
-class Touch(NamedTuple):
+class Contact(NamedTuple):
     """Where the centre of the ball stood at the contact, in program and in machine coordinates, mm."""
 
     point: Point
@@ -23,10 +23,10 @@ class Touch(NamedTuple):
     hit: bool
 
 
-def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, miss: str) -> Touch:
+def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, miss: str) -> Contact:
     """Move the tip (the south pole of the ball) towards a point in program coordinates at feed `f`.
 
-    No contact is an alarm, or with `miss="return"` a touch that did not hit. Radius compensation is refused.
+    No contact is an alarm, or with `miss="return"` an answer that is no `hit`. Radius compensation is refused.
     """
     if m.side:
         m.alarm("a probe cannot move under radius compensation", word)
@@ -44,7 +44,7 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
         m.alarm(f"touch point inaccessible: no contact within {reach:g} mm", word)
     end = start + direction * (reach if travel is None else travel)
     m.probe_to(_point(end), f)
-    return Touch(m.to_program(_point(end + up)), _point(end + up), travel is not None)
+    return Contact(m.to_program(_point(end + up)), _point(end + up), travel is not None)
 
 
 def _point(xyz: np.ndarray) -> Point:

@@ -1,7 +1,7 @@
 """What a cycle does, step by step: plain data, made by strategies and cycles, carried out by a machine.
 
-A cycle yields its steps and changes nothing itself. Some steps have an answer, which `yield` returns:
-`contact = yield Touch(…)`. The steps at the end of this file concern the machine and the program, no tool.
+A cycle yields its steps and changes nothing itself. A Touch and a Record have an answer, which `yield` returns:
+`contact = yield Touch(…)`. The steps from `Each` on concern the machine and the program, no tool.
 
 z is a coordinate along the tool axis, x and y count from the axis of the hole or the middle of the pocket; mm, mm/min,
 rev/min, s, angles of turns in rad. None keeps a coordinate. A feed of inf is rapid, a feed of None the feed that is
@@ -106,6 +106,14 @@ class Touch(NamedTuple):
     miss: str = "alarm"
 
 
+class Swivel(NamedTuple):
+    """The rotary axes turn to the angles A, B and C, degrees, at degrees a minute, while the tip of the tool stands."""
+
+    label: str
+    angles: tuple[float, float, float]
+    feed: float | None
+
+
 class Each(NamedTuple):
     """What `visit(x, y)` yields, at each of the points (n, 2); visits that are alike are made as columns."""
 
@@ -121,25 +129,43 @@ class Call(NamedTuple):
     label: str = ""
 
 
+class Blocks(NamedTuple):
+    """Blocks of a program, which `run` obeys here."""
+
+    run: Callable[[], None]
+    label: str = ""
+
+
 class Record(NamedTuple):
-    """Read the contour of a label, nothing moves; the answer is the recording. `after` is the one that it goes on from."""
+    """Read the contour of a label, nothing moves; the answer is the recording.
+
+    The label stands in a `program` (its index), whose variables hold lengths of `unit` mm; `after` is the recording that it
+    goes on from.
+    """
 
     name: str
+    program: int
+    unit: float
     after: Any = None
     label: str = ""
 
 
 class Say(NamedTuple):
-    """A warning at the block."""
+    """A warning at a word, or at the block."""
 
     text: str
     hint: str = ""
+    word: Any = None
     label: str = ""
 
 
 class Write(NamedTuple):
-    """A value that stays: a "variable", "measured" value, a row of "tools", "datums" or "presets", a "frame", a "modal" group,
-    "memory" of the control, all with their `key`; or an attribute of the machine that rows carry ("tolerance")."""
+    """A value that stays: an attribute of the machine that rows carry ("side"), or with a `key` one of these.
+
+    A "variable", a "measured" value, a row of "tools", "datums" or "presets", a "frame", the new name of a frame ("renamed"),
+    the "datum" as a frame, a "modal" group, "memory" of the control, what is "kept" for the next
+    call of the cycle, a value that only the "history" keeps.
+    """
 
     what: str
     value: Any
@@ -147,7 +173,9 @@ class Write(NamedTuple):
     label: str = ""
 
 
-Step = Go | Turn | Along | Thread | Wait | Spin | Orient | Coolant | Touch | Each | Call | Record | Say | Write
+Step = (
+    Go | Turn | Along | Thread | Wait | Spin | Orient | Coolant | Touch | Swivel | Each | Call | Blocks | Record | Say | Write
+)
 
 
 def moved(steps: Iterable[Step], x: float, y: float) -> Iterator[Step]:

@@ -6,18 +6,20 @@ the X of a lathe is a radius.
 
 from __future__ import annotations
 
-from html import escape
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mnclab.path.kinds import Kind
 from mnclab.text.alarm import several
+from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
-    from mnclab.path.toolpath import Move, Toolpath
+    from mnclab.path.columns import Move
+    from mnclab.path.toolpath import Toolpath
 
 HEAD, TAIL = 12, 6
+NUMBERS = (0, 1, 3, 4, 5, 6, 7, 8)
 
 
 def figure(value: float, decimals: int = 4) -> str:
@@ -70,10 +72,11 @@ def _feed(move: Move) -> str:
 
 def listing(path: Toolpath) -> str:
     """Every row of a path as text: line, kind, where to, and the label."""
-    return "\n".join(_row(move) for move in path)
+    return "\n".join(row(move) for move in path)
 
 
-def _row(move: Move) -> str:
+def row(move: Move) -> str:
+    """One row as text."""
     side = {1: " left", -1: " right"}.get(move.side, "") if move.kind in (Kind.LINE, Kind.ARC) else ""
     label = f"  ; {move.label}" if move.label else ""
     return f"{line(move):>4s} {Kind(move.kind).name.lower():7s} {words(move)}{side}{label}"
@@ -87,34 +90,19 @@ def line(move: Move) -> str:
 def table(path: Toolpath) -> str:
     """Head and tail of a path as an HTML table."""
     n = len(path)
-    shown = list(range(n)) if n <= HEAD + TAIL else [*range(HEAD), -1, *range(n - TAIL, n)]
-    columns = ("row", "line", "kind", "x", "y", "z", "feed", "spindle", "tool", "label")
-    body = []
-    for i in shown:
-        if i < 0:
-            body.append(f'<tr><td colspan="{len(columns)}">… {n - HEAD - TAIL} rows …</td></tr>')
-            continue
-        move = path[i]
-        feed = (
-            f"{figure(move.per_rev)}/rev"
-            if np.isfinite(move.per_rev)
-            else figure(move.feed)
-            if np.isfinite(move.feed)
-            else ""
-        )
-        detail = move.label if move.kind <= Kind.PROBE else f"{words(move)} {move.label}".strip()
-        cells = (
-            i,
-            line(move),
-            Kind(move.kind).name.lower(),
-            *map(figure, move.end),
-            feed,
-            figure(move.spindle),
-            move.tool,
-            detail,
-        )
-        body.append("<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in cells) + "</tr>")
-    head = "".join(f"<th>{name}</th>" for name in columns)
-    return (
-        f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table><p>{several(n, 'row')}, positions in mm</p>"
-    )
+    rows = [_cells(i, path[i]) for i in range(n) if n <= HEAD + TAIL or not HEAD <= i < n - TAIL]
+    if n > HEAD + TAIL:
+        rows.insert(HEAD, (f"… {n - HEAD - TAIL} rows …",))
+    head = ("row", "line", "kind", "x", "y", "z", "feed", "spindle", "tool", "label")
+    return f"{html_table(head, rows, numbers=NUMBERS)}<p>{several(n, 'row')}, positions in mm</p>"
+
+
+def _cells(i: int, move: Move) -> tuple[str, ...]:
+    feed = ""
+    if np.isfinite(move.per_rev):
+        feed = f"{figure(move.per_rev)}/rev"
+    elif np.isfinite(move.feed):
+        feed = figure(move.feed)
+    told = move.label if move.kind <= Kind.PROBE else f"{words(move)} {move.label}".strip()
+    kind, place = Kind(move.kind).name.lower(), map(figure, move.end)
+    return str(i), line(move), kind, *place, feed, figure(move.spindle), str(move.tool), told

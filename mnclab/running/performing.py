@@ -5,7 +5,7 @@ Rows are labelled with the code of the cycle and the label of the step. The hole
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable, Sequence
+from collections.abc import Generator, Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,10 +14,12 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
+from mnclab.machine.rotary import turn_axes
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
 from mnclab.machining.steps import (
     Along,
+    Blocks,
     Call,
     Coolant,
     Each,
@@ -27,6 +29,7 @@ from mnclab.machining.steps import (
     Say,
     Spin,
     Step,
+    Swivel,
     Thread,
     Touch,
     Turn,
@@ -65,67 +68,68 @@ def run_cycle(m: Machine, definition: Definition, **instead: float) -> None:
     m.label = label
 
 
-def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = None) -> None:
+def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = None) -> Any:
     """Carry the steps out; rows are labelled `name` and the label of the step.
 
     x and y count from `about`, which is where the tool stands if nothing else is said. A generator is sent the answer of
-    a step that has one: the contact of a Touch, the contour of a Record.
+    a step that has one: the contact of a Touch, the contour of a Record. What it returns is returned.
     """
-    x, y = m.programmed[:2] if about is None else about
-    ask: Callable[[Any], Step] = steps.send if isinstance(steps, Generator) else partial_next(steps)
-    answer: Any = None
+    place, label = m.programmed[:2] if about is None else about, m.label
+    asking = steps if isinstance(steps, Generator) else (step for step in steps)
+    answer = None
     while True:
         try:
-            step = ask(answer)
-        except StopIteration:
-            return
-        answer = None
+            step = asking.send(answer)
+        except StopIteration as end:
+            m.label = label
+            return end.value
         m.label = f"{name} {step.label}"
-        match step:
-            case Go():
-                to = None if step.x is None else x + step.x, None if step.y is None else y + step.y, step.z
-                m.line(*to, f=step.feed)
-            case Along():
-                with m.within(plane="XY"):
-                    follow(m, step.contour, step.feed, step.heights, about=(x + step.at[0], y + step.at[1]))
-            case Wait():
-                m.dwell(step.seconds)
-            case Thread():
-                with m.within(feed=step.pitch, per_rev=True, synchronous=True):
-                    m.line(x=None if step.x is None else x + step.x, z=step.z)
-            case Turn():
-                with m.within(plane="XY"):
-                    m.turn((x + step.centre[0], y + step.centre[1]), step.angle, step.z, step.feed)
-            case Spin():
-                m.spindle(step.speed, step.turning)
-            case Orient():
-                m.orient(step.angle)
-            case Coolant():
-                m.coolant()
-            case Touch():
-                answer = m.touch(x + step.x, y + step.y, step.z, f=step.feed, ball=step.ball, miss=step.miss)
-            case Each():
-                at_each(m, step.points, visiting(m, name, step, (x, y)))
-            case Call():
-                assert m.cycle is not None
-                run_cycle(m, m.cycle, **step.instead)
-            case Record():
-                answer = m.record(step.name, after=step.after)
-            case Say():
-                m.warn(f"{name} {step.text}", hint=step.hint)
-            case Write():
-                write(m, step)
+        answer = carry_out(m, name, step, place)
 
 
-def partial_next(steps: Iterable[Step]) -> Callable[[Any], Step]:
-    """One step after the other of what asks for no answers."""
-    following = iter(steps)
-    return lambda answer: next(following)
-
-
-def visiting(m: Machine, name: str, step: Each, about: Place) -> Callable[[float, float], None]:
-    """What is made at each of the places."""
-    return lambda x, y: perform(m, name, step.visit(x, y), about)
+def carry_out(m: Machine, name: str, step: Step, place: Place) -> Any:
+    """One step, whose x and y count from a place; its answer, if it has one."""
+    x, y = place
+    match step:
+        case Go():
+            to = None if step.x is None else x + step.x, None if step.y is None else y + step.y, step.z
+            m.line(*to, f=step.feed)
+        case Along():
+            with m.within(plane="XY"):
+                follow(m, step.contour, step.feed, step.heights, about=(x + step.at[0], y + step.at[1]))
+        case Wait():
+            m.dwell(step.seconds)
+        case Thread():
+            with m.within(feed=step.pitch, per_rev=True, synchronous=True):
+                m.line(x=None if step.x is None else x + step.x, z=step.z)
+        case Turn():
+            with m.within(plane="XY"):
+                m.turn((x + step.centre[0], y + step.centre[1]), step.angle, step.z, step.feed)
+        case Spin():
+            m.spindle(step.speed, step.turning)
+        case Orient():
+            m.orient(step.angle)
+        case Coolant():
+            m.coolant()
+        case Touch():
+            return m.touch(x + step.x, y + step.y, step.z, f=step.feed, ball=step.ball, miss=step.miss)
+        case Swivel():
+            turn_axes(m, step.angles, step.feed)
+        case Each():
+            at_each(m, step.points, lambda *point: perform(m, name, step.visit(*point), place))
+        case Call():
+            assert m.cycle is not None
+            run_cycle(m, m.cycle, **step.instead)
+        case Blocks():
+            step.run()
+        case Record():
+            with m.flow.inside(m, step.program), m.within(variable_unit=step.unit):
+                return m.record(step.name, after=step.after)
+        case Say():
+            m.warn(f"{name} {step.text}", step.word, step.hint)
+        case Write():
+            write(m, step)
+    return None
 
 
 def write(m: Machine, step: Write) -> None:
@@ -139,12 +143,28 @@ def write(m: Machine, step: Write) -> None:
             m.write_table(step.what, step.key, step.value)
         case "frame":
             m.set_frame(step.key, step.value)
+        case "renamed":
+            m.frames.rename(step.key, step.value)
+        case "datum":
+            m.select_datum(step.value, step.key)
         case "modal":
             m.set_modal(step.key, step.value)
         case "memory":
-            m.memory[step.key] = step.value
+            keep(m, step.key, step.value)
+        case "kept":
+            assert m.cycle is not None
+            m.cycle.extra[step.key] = step.value
+        case "history":
+            m.log(step.key, step.value)
         case _:
             m.change(step.what, step.value)
+
+
+def keep(m: Machine, name: str, value: Any) -> None:
+    """Set a field of what the control keeps."""
+    if not hasattr(m.memory, name):
+        raise AttributeError(f"{m.control.name} keeps no {name}")
+    setattr(m.memory, name, value)
 
 
 def follow(

@@ -23,9 +23,11 @@ from mnclab.path.kinds import Kind
 from mnclab.path.listing import point
 from mnclab.path.places import points_at, spokes, turning_points, turns_of_sum
 from mnclab.runs.conditions import Condition, Node, parse
+from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
-    from mnclab.runs.run import Moment, Run
+    from mnclab.runs.moment import Moment
+    from mnclab.runs.run import Run
 
 LOOKS = 16
 HALVINGS = 60
@@ -82,13 +84,10 @@ class Moments(tuple["Moment", ...]):
     def _repr_html_(self) -> str:
         if not self:
             return f"<p><code>{escape(self.condition)}</code>: never</p>"
-        body = "".join(
-            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in self.rows()[:50]
-        )
+        table = html_table(("line", "block", "tool tip", "of the move"), self.rows()[:50], numbers=(0, 3))
         more = f"<p>… {len(self) - 50} more</p>" if len(self) > 50 else ""
-        head = "<tr><th>line</th><th>block</th><th>tool tip</th><th>of the move</th></tr>"
         told = "" if self.exact else f"<br>looked at in {LOOKS} places of each line and quarter of a turn"
-        return f"<table><caption><code>{escape(self.condition)}</code>{told}</caption>{head}{body}</table>{more}"
+        return f"<p><code>{escape(self.condition)}</code>{told}</p>{table}{more}"
 
 
 class Looks(NamedTuple):

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from html import escape
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,16 +26,18 @@ from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
-from mnclab.running.flow import Steps
+from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import still_spindle
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
+from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
 from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, several
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
-from mnclab.text.program import Block, Program
+from mnclab.text.program import Program
+from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
 if TYPE_CHECKING:
@@ -47,24 +49,7 @@ if TYPE_CHECKING:
     from mnclab.show.player import Player
 
 
-class Moment(NamedTuple):
-    """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
-    the block changed; `rows` are the rows of the toolpath that it made.
-
-    A moment inside a block (`Run.when`) has the row of the toolpath, the share of it (0 to 1) that was done, and
-    the tool tip there, mm; -1 for a row where the block moved nothing.
-    """
-
-    step: int
-    line: int
-    block: Block
-    position: tuple[float, float, float]
-    state: dict[str, Any]
-    changed: dict[str, Any]
-    rows: slice
-    row: int = -1
-    share: float = 1.0
-    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
 class Run:
@@ -76,8 +61,9 @@ class Run:
 
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
         self.program, self.setup, self.control = program, setup, control
-        self.programs = tuple(machine.flow.programs)
-        self.steps = Steps._make(fixed(column) for column in machine.flow.steps())
+        flow = course(machine)
+        self.programs = tuple(flow.programs)
+        self.steps = Steps._make(fixed(column) for column in flow.steps())
         self.programmed: Toolpath
         self.toolpath: Toolpath
         self.programmed, self.toolpath = paths(machine)
@@ -180,7 +166,7 @@ class Run:
         `runs.moments`, and `.exact` of the result.
         """
         if not isinstance(condition, str):
-            raise TypeError(f'a condition is a text such as "z < -5", got {type(condition).__name__}')
+            raise Alarm(f"a condition is a text, got {shown(condition)}", hint='run.when("z < -5")')
         return when(self, condition)
 
     def explain(
@@ -215,7 +201,7 @@ class Run:
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""
         if not isinstance(setup, Setup):
-            raise TypeError(f"setup must be a Setup, got {type(setup).__name__}")
+            raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
         return run_program(self.program, self.control, setup)
 
     # --- doors -------------------------------------------------------------------------------------------------------
@@ -323,17 +309,16 @@ class Run:
     def _repr_html_(self) -> str:
         s = self.summary()
         cells = {
-            "blocks": s["blocks"],
-            "moves": s["moves"],
+            "blocks": str(s["blocks"]),
+            "moves": str(s["moves"]),
             "cutting": f"{s['cutting length']:.3f} mm",
             "rapid": f"{s['rapid length']:.3f} mm",
             "time at feed": f"{s['time at feed']:.1f} s",
         }
-        head = "".join(f"<th>{name}</th>" for name in cells)
-        body = "".join(f"<td>{value}</td>" for value in cells.values())
+        table = html_table(tuple(cells), [tuple(cells.values())], numbers=range(len(cells)))
         title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
         verdict = "" if self.alarms else "<p>no alarms</p>"
-        return f"<div>{title}<table><tr>{head}</tr><tr>{body}</tr></table>{verdict}{card_html(self.alarms)}</div>"
+        return f"<div>{title}{table}{verdict}{card_html(self.alarms)}</div>"
 
 
 @contextmanager
@@ -351,11 +336,10 @@ def collector_paused() -> Iterator[None]:
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
     """Run a program that was read; with `strict` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
-        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
+        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
     setup = (Setup() if setup is None else setup).kept()  # somebody may have written into its tables, and may again
-    machine = Machine(control, setup)
-    interpreter = Interpreter(control, machine, program)
-    alarms = interpreter.alarms
+    interpreter = Interpreter(control, setup, program)
+    machine, alarms = interpreter.machine, interpreter.alarms
     broken = False
     try:
         with collector_paused():

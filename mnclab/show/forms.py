@@ -21,6 +21,7 @@ import numpy as np
 from mnclab.controls.choice import help as help_on
 from mnclab.controls.choice import run as run_text
 from mnclab.machine.cycle import Cycle, Parameter
+from mnclab.machine.parameter_table import left_out
 from mnclab.machine.setup import Setup
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
@@ -209,9 +210,7 @@ def _parameter_box(p: Parameter, width: float) -> Any:
     import ipywidgets
 
     value = trial.first_value(p)
-    otherwise = p.default_means or (
-        "" if p.default is None else str(p.default) if trial.is_text(p) else f"{p.default:g}"
-    )
+    otherwise = left_out(p)
     facts = [p.meaning, p.allowed, p.note, f"left out: {otherwise}" if otherwise else ""]
     looks: dict[str, Any] = {
         "description": _name(p),

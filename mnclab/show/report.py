@@ -20,6 +20,7 @@ from mnclab.show.times import clock
 from mnclab.text.alarm import ALARM, Alarm, card_html
 from mnclab.text.file import replaced
 from mnclab.text.given import shown
+from mnclab.text.tables import html_table
 
 Table = list[tuple[str, ...]]
 Listing = list[tuple[int, str, str]]
@@ -150,27 +151,16 @@ def html(run: Any, found: Report, **options: Any) -> str:
     style = Path(__file__).with_name("report.css").read_text("utf-8")
     alarms = card_html(found.alarms, QUOTED) or "<p>none</p>"
     parts = [
-        f"<h1>{escape(found.title)}</h1><p>{escape(found.subtitle)}</p>{_table((), found.facts)}",
-        f"<h2>Tools</h2>{_table(TOOL_HEAD, found.tools) if found.tools else '<p>none</p>'}",
+        f"<h1>{escape(found.title)}</h1><p>{escape(found.subtitle)}</p>{html_table((), found.facts, numbers=(1,))}",
+        f"<h2>Tools</h2>{html_table(TOOL_HEAD, found.tools, numbers=range(3, 8)) if found.tools else '<p>none</p>'}",
         f"<h2>Path</h2><figure>{picture.html(2.0)}</figure>",
-        f"<h2>Time</h2>{_table((), found.times) if found.times else '<p>none</p>'}",
+        f"<h2>Time</h2>{html_table((), found.times, numbers=(1, 2)) if found.times else '<p>none</p>'}",
         f"<h2>Alarms</h2>{alarms}",
     ]
     parts += [f'<h2>{escape(name)}</h2><pre class="listing">{_listing(lines)}</pre>' for name, lines in found.programs]
     policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
     head = f'<meta charset="utf-8">{policy}<title>{escape(found.title)}</title><style>{style}</style>'
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(parts) + "\n</body></html>\n"
-
-
-def _table(head: tuple[str, ...], rows: Table) -> str:
-    top = "<tr>" + "".join(f"<th>{cell}</th>" for cell in head) + "</tr>" if head else ""
-
-    def cell(text: str) -> str:
-        kind = ' class="number"' if text[:1].isdigit() or text[:1] == "-" else ""
-        return f"<td{kind}>{escape(text)}</td>"
-
-    body = "".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows)
-    return f"<table>{top}{body}</table>"
 
 
 def _listing(lines: Listing) -> str:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from html import escape
 from typing import NamedTuple
+
+from mnclab.text.tables import html_table
 
 SHOWN = 200  # lines of a long program that HTML has
 
@@ -42,13 +43,6 @@ class Notation:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        cell = '<td style="text-align:left; vertical-align:top"{span}><code>{text}</code></td>'
-        body = []
-        for row in self.rows[:SHOWN]:
-            span = f' rowspan="{row.lines}"' if row.lines > 1 else ""
-            cells = [cell.format(span="", text=escape(row.original))]
-            cells += [cell.format(span=span, text=escape(row.modern))] if row.lines else []
-            body.append(f"<tr><td>{row.line or ''}</td>{''.join(cells)}</tr>")
+        rows = [(str(row.line or ""), row.original, row.modern if row.lines else None) for row in self.rows[:SHOWN]]
         more = f"<p>… {len(self.rows) - SHOWN} more lines</p>" if len(self.rows) > SHOWN else ""
-        head = "".join(f'<th style="text-align:left">{escape(title)}</th>' for title in ("line", *self.titles))
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table>{more}"
+        return html_table(("line", *self.titles), rows, code=(1, 2)) + more

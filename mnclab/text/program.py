@@ -13,7 +13,6 @@ import re
 from array import array
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -77,6 +76,9 @@ class Word(NamedTuple):
         before, after = ("I" if self.incremental else "", "") if not self.flag & AT_MARK else ("", "@")
         return f"{before}{self.address}{equals}{'' if shown is None else shown}{after}"
 
+    def __repr__(self) -> str:
+        return f"<Word {self}, line {self.span.line}, column {self.span.column}>"
+
 
 @dataclass(frozen=True)
 class Block:
@@ -92,6 +94,9 @@ class Block:
     def __str__(self) -> str:
         head = " ".join(part for part in ("/" * self.skip + self.number, self.keyword) if part)
         return " ".join([head, *map(str, self.words)]).strip()
+
+    def __repr__(self) -> str:
+        return f"<Block {self}, line {self.span.line}>"
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,9 +236,7 @@ class Program:
     def _repr_html_(self) -> str:
         blocks = [self[i] for i in range(min(len(self), 40))]
         words = (" ".join(filter(None, [block.keyword, *map(str, block.words)])) for block in blocks)
-        rows = [
-            (str(block.span.line), escape(block.number), f"<code>{escape(said)}</code>", escape(block.comment))
-            for block, said in zip(blocks, words)
-        ]
+        rows = [(str(block.span.line), block.number, said, block.comment) for block, said in zip(blocks, words)]
         more = f"<p>… {len(self) - 40} more blocks</p>" if len(self) > 40 else ""
-        return html_table(("line", "block", "words", "comment"), rows, (0,)) + more + card_html(self.alarms)
+        table = html_table(("line", "block", "words", "comment"), rows, numbers=(0,), code=(2,))
+        return table + more + card_html(self.alarms)

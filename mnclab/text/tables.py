@@ -1,16 +1,56 @@
-"""A table for people as HTML: words to the left, numbers to the right, also where a notebook would set all to the right."""
+"""Tables for people, as HTML and as text: rows of texts under their heads, a line end in a cell begins a new line in it.
+
+Words stand to the left and numbers to the right, also where a notebook would set all to the right.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
+from html import escape
+from itertools import zip_longest
 
 
-def html_table(head: Sequence[str], rows: Iterable[Sequence[str]], numbers: Collection[int] = ()) -> str:
-    """Cells of HTML under their heads; `numbers` are the columns that stand to the right."""
+def html_table(
+    head: Sequence[str],
+    rows: Iterable[Sequence[str | None]],
+    *,
+    numbers: Collection[int] = (),
+    code: Collection[int] = (),
+) -> str:
+    """A table of HTML; `numbers` are the columns that stand to the right, `code` those of program text.
 
-    def line(kind: str, cells: Sequence[str]) -> str:
-        sides = ("right" if k in numbers else "left" for k in range(len(cells)))
-        return "".join(f'<{kind} style="text-align:{side}">{cell}</{kind}>' for side, cell in zip(sides, cells))
+    A cell of None belongs to the one above it, and the last cell of a short row to all columns that follow.
+    """
+    rows = list(rows)
+    columns = len(head) or max(map(len, rows), default=0)
+    tall = [1] * columns  # rows of the next cell of each column, counted from below
+    lines = []
+    for row in reversed(rows):
+        cells = []
+        for k, text in enumerate(row):
+            if text is None:
+                tall[k] += 1
+                continue
+            style = f"text-align:{'right' if k in numbers else 'left'}{'; vertical-align:top' * (tall[k] > 1)}"
+            spans = f' rowspan="{tall[k]}"' if tall[k] > 1 else ""
+            spans += f' colspan="{columns - k}"' if k + 1 == len(row) < columns else ""
+            said = escape(text).replace("\n", "<br>")
+            cells.append(f'<td style="{style}"{spans}>{f"<code>{said}</code>" if k in code and said else said}</td>')
+            tall[k] = 1
+        lines.append(f"<tr>{''.join(cells)}</tr>")
+    sides = ("right" if k in numbers else "left" for k in range(columns))
+    heads = (
+        f'<th style="text-align:{side}; white-space:normal">{escape(name)}</th>' for side, name in zip(sides, head)
+    )
+    top = f"<tr>{''.join(heads)}</tr>" if head else ""
+    return f"<table>{top}{''.join(reversed(lines))}</table>"
 
-    body = "".join(f"<tr>{line('td', row)}</tr>" for row in rows)
-    return f"<table><tr>{line('th', head)}</tr>{body}</table>"
+
+def text_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table of text, with a rule below its heads."""
+    lines = [tuple(head)]
+    for row in rows:
+        lines += zip_longest(*(cell.split("\n") for cell in row), fillvalue="")
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    lines.insert(1, tuple("-" * width for width in widths))
+    return "\n".join("  ".join(map(str.ljust, line, widths)).rstrip() for line in lines)

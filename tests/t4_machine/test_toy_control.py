@@ -6,6 +6,7 @@ cycle of depth n at the place.
 
 import math
 import re
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -38,16 +39,21 @@ def read(text, name="program"):
     return builder.build()
 
 
+@dataclass
+class Memory:
+    heading: float = 0.0  # degrees
+
+
 @FUNCTIONS("F", "Forward")
 def forward(m, words):
-    angle, length = math.radians(m.memory.get("heading", 0)), m.value(words["F"])
+    angle, length = math.radians(m.memory.heading), m.value(words["F"])
     x, y, _ = m.programmed
     m.line(x + length * math.cos(angle), y + length * math.sin(angle), f=100)
 
 
 @FUNCTIONS("L", "Left")
 def left(m, words):
-    m.memory["heading"] = m.memory.get("heading", 0) + m.value(words["L"])
+    m.memory.heading += m.value(words["L"])
 
 
 @FUNCTIONS("U D", {"U": "Pen up", "D": "Pen down"}, group="pen", power_on="U")
@@ -65,7 +71,7 @@ class Hole(Cycle):
         m.rapid(z=z)
 
 
-TURTLE = Control("turtle", "Turtle", read, FUNCTIONS, CYCLES, phases=("motion",), suffixes=(".turtle",))
+TURTLE = Control("turtle", "Turtle", read, FUNCTIONS, CYCLES, phases=("motion",), memory=Memory, suffixes=(".turtle",))
 SQUARE = "D\n" + "F 10\nL 90\n" * 4 + "H 3\nU\n"
 
 

@@ -8,6 +8,7 @@ import inspect
 import json
 import math
 import re
+from html import escape
 from pathlib import Path
 
 import pytest
@@ -306,6 +307,8 @@ def test_every_parameter_of_a_drilling_cycle_has_an_example(code):
 def test_a_parameter_can_be_explained(control, code, parameter, row):
     """A meaning short enough for an alarm, and a line in the help table."""
     assert parameter.meaning and parameter.unit and len(parameter.meaning) <= 50
-    lines = [line.split()[:1] for line in str(mnclab.help(code, control)).splitlines()]
-    assert [parameter.address] in lines
-    assert f"<code>{parameter.address}</code>" in mnclab.help(code, control)._repr_html_()
+    text, page = str(mnclab.help(code, control)), mnclab.help(code, control)._repr_html_()
+    assert [parameter.address] in [line.split()[:1] for line in text.splitlines()]
+    assert f"<code>{parameter.address}</code>" in page
+    for choice, meaning in (parameter.choices or {}).items():
+        assert f"{choice:g} {meaning}" in text and escape(f"{choice:g} {meaning}") in page

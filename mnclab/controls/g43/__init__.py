@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.g43 import cycles, language, lengths
+from mnclab.controls.g43.state import Memory, memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control
@@ -86,6 +87,7 @@ CONTROL = Control(
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "length"),
+    memory=Memory,
     compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=start,
     looks_like=lambda text: _LENGTHS.search(text) is not None,
@@ -94,7 +96,7 @@ CONTROL = Control(
     together=language.together,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
-        ready=lambda m: not lengths.pending(m) and {"G2", "G3"} <= m.memory.get("told", set()),
+        ready=lambda m: not lengths.pending(m) and {"G2", "G3"} <= memory(m).undescribed,
         absolute=lambda m: m.modal["dimension"] == "G90",
         tolerance=lambda m: float(m.settings["arc_tolerance"]),
         helices=more_helices,

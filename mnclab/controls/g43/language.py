@@ -8,12 +8,14 @@ are only the titles: what they must mean is taken from ISO 6983, and a program t
 from __future__ import annotations
 
 from mnclab.controls.g43.lengths import activate
+from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
@@ -23,19 +25,20 @@ ARCS = {"G2": "Circular interpolation clockwise", "G3": "Circular interpolation 
 LENGTHS = ("G43", "G44", "G49")
 
 
-def together(m: Machine, keyword: str, words: list[Word]) -> None:
+def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
     """The length compensation needs a straight motion."""
     codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
     axes = any(word.address in AXES for word in words)
-    arcs = [code for code in ARCS if code in codes] or [code for code in ARCS if m.modal["motion"] == code and axes]
+    arcs = [code for code in ARCS if code in codes] or [code for code in ARCS if modal.motion == code and axes]
     for code in LENGTHS:
         if code in codes and arcs and not {"G0", "G1"} & codes.keys():
-            m.alarm(f"{code} needs a straight motion, got {arcs[0]} in its block", codes[code], "write two blocks")
+            message = f"{code} needs a straight motion, got {arcs[0]} in its block"
+            raise Alarm(message, codes[code].span, hint="write two blocks")
 
 
 def undescribed(m: Machine, words: Words) -> None:
     """Say once for each code that its chapter is not there."""
-    told = m.memory.setdefault("told", set())
+    told = memory(m).undescribed
     if words.code not in told:
         told.add(words.code)
         sentence = f"{words.code}: not described in the manual; it is taken in its ISO meaning"
@@ -45,7 +48,7 @@ def undescribed(m: Machine, words: Words) -> None:
 def targets(m: Machine, words: Words) -> dict[str, float]:
     """Where the axes that are written go; their offsets count from now on."""
     to = motion.coordinates(m, words, m.modal["dimension"] == "G90")
-    if to and "machine coordinates" not in m.memory:
+    if to and not memory(m).machine_coordinates:
         activate(m, "".join(to).upper())
     return to
 
@@ -117,9 +120,9 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     def restore() -> None:
         for name, frame in kept:
             m.set_frame(name, frame)
-        m.memory.pop("machine coordinates")
+        memory(m).machine_coordinates = False
 
-    m.memory["machine coordinates"] = True
+    memory(m).machine_coordinates = True
     for name, _ in kept:
         m.set_frame(name, None)
     m.set_frame("length", frames.shift(z=-m.tool.effective_length))

@@ -2,11 +2,12 @@
 
 What goes to the axes is base = programmed + sign · offset(D), with the sign +1 for G43, -1 for G44 and 0 for G49; the tip
 of a tool of length L is then at base - L. The manual moves nothing in the block of G43: an offset counts along an axis from
-the next word of that axis on. So the offsets that count (`memory["active offsets"]`) follow the wanted ones axis by axis.
+the next word of that axis on. So the offsets that count (`Memory.active_offsets`) follow the wanted ones axis by axis.
 """
 
 from __future__ import annotations
 
+from mnclab.controls.g43.state import NONE, Offsets, memory
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
@@ -15,8 +16,6 @@ from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
-Offsets = tuple[float, float, float]
-NONE: Offsets = (0.0, 0.0, 0.0)
 SIGNS = {"G43": 1, "G44": -1, "G49": 0}
 TITLES = {
     "G43": "Tool length compensation, positive",
@@ -30,7 +29,7 @@ def compensation(m: Machine, words: Words) -> None:
     """The offsets of corrector D count from the next motion along each axis on; without D the corrector stays."""
     if m.side:
         m.alarm(f"{words.code} cannot stand under radius compensation", first_word(words), hint="write G40 first")
-    m.memory["sign"] = SIGNS[words.code]
+    memory(m).sign = SIGNS[words.code]
     want(m, first_word(words))
 
 
@@ -47,7 +46,7 @@ def corrector(m: Machine, words: Words) -> None:
 
 def choose(m: Machine, number: int, word: Word | None) -> None:
     """Corrector `number` from now on: its offsets, and its radius where the tool table has such a row."""
-    m.memory["corrector"] = number
+    memory(m).corrector = number
     m.log("corrector", number)
     own, row = m.tables.tools[m.tool.number], m.tables.tools.get(number)
     if number and row is not None:
@@ -57,9 +56,9 @@ def choose(m: Machine, number: int, word: Word | None) -> None:
 
 def want(m: Machine, word: Word | None) -> None:
     """Work out the offsets that G43 and D ask for."""
-    sign, number = m.memory.get("sign", 0), m.memory.get("corrector", 0)
-    x, y, z = offsets(m, number, word) if sign else NONE
-    m.memory["wanted offsets"] = (sign * x, sign * y, sign * z)
+    sign = memory(m).sign
+    x, y, z = offsets(m, memory(m).corrector, word) if sign else NONE
+    memory(m).wanted_offsets = (sign * x, sign * y, sign * z)
 
 
 def offsets(m: Machine, number: int, word: Word | None) -> Offsets:
@@ -70,7 +69,7 @@ def offsets(m: Machine, number: int, word: Word | None) -> Offsets:
         return m.tables.correctors[number][:3]
     if number in m.tables.tools:
         return 0.0, 0.0, m.tables.tools[number].effective_length
-    if number not in (told := m.memory.setdefault("empty correctors", set())):
+    if number not in (told := memory(m).empty_correctors):
         told.add(number)
         m.warn(f"D{number} (corrector) has no offsets: they count as 0", word, hint="Setup(correctors={…}) gives them")
     return NONE
@@ -78,21 +77,21 @@ def offsets(m: Machine, number: int, word: Word | None) -> Offsets:
 
 def pending(m: Machine) -> bool:
     """Whether an offset waits for the next motion of its axis."""
-    return bool(m.memory.get("wanted offsets", NONE) != m.memory.get("active offsets", NONE))
+    return memory(m).wanted_offsets != memory(m).active_offsets
 
 
 def activate(m: Machine, axes: str) -> None:
     """The offsets along axes that move now count: programmed coordinates stay, and the next motion takes them up."""
-    wanted, active = m.memory.get("wanted offsets", NONE), m.memory.get("active offsets", NONE)
-    now = tuple(wanted[k] if axis in axes else active[k] for k, axis in enumerate(AXES))
-    if now != active:
-        m.memory["active offsets"] = now
+    wanted, active = memory(m).wanted_offsets, memory(m).active_offsets
+    x, y, z = (wanted[k] if axis in axes else active[k] for k, axis in enumerate(AXES))
+    if (x, y, z) != active:
+        memory(m).active_offsets = (x, y, z)
         place(m, "programmed")
 
 
 def place(m: Machine, keep: str) -> None:
     """The frame from programmed coordinates to the tip: the offsets that count, less the length of the tool."""
-    x, y, z = m.memory.get("active offsets", NONE)
+    x, y, z = memory(m).active_offsets
     shift = (x, y, z - m.tool.effective_length)
     m.set_frame("length", frames.shift(*shift) if any(shift) else None, keep)
 
@@ -100,16 +99,17 @@ def place(m: Machine, keep: str) -> None:
 @FUNCTIONS("T", "Tool", phase="tool", source="7.1")
 def tool(m: Machine, words: Words) -> None:
     """Chooses the tool that M6 puts into the spindle."""
-    m.memory["next tool"] = motion.tool_row(m, words["T"], "tool")
-    m.log("next tool", m.memory["next tool"].number)
+    memory(m).next_tool = tool = motion.tool_row(m, words["T"], "tool")
+    m.log("next tool", tool.number)
 
 
 @FUNCTIONS("M6", "Tool change", phase="change", modal=False, source="7.1")
 def tool_change(m: Machine, words: Words) -> None:
     """The tool of T comes into the spindle and D becomes its number; no axis moves."""
-    if "next tool" not in m.memory:
+    tool = memory(m).next_tool
+    if tool is None:
         m.alarm("M6 has no tool to put into the spindle", first_word(words), hint="write T before it")
     motion.refuse_change(m, "tool", first_word(words))
-    m.change_tool(m.memory["next tool"])
+    m.change_tool(tool)
     place(m, "tip")
     choose(m, m.tool.number, first_word(words))

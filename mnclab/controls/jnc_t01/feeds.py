@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mnclab.controls.jnc_t01.state import memory
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.adding import speed_at
@@ -28,7 +29,7 @@ def feed_mode(m: Machine, words: Words) -> None:
     mode = words.code == "G93", words.code == "G95"
     if mode != (m.per_time, m.per_rev):
         if m.feed is not None:
-            m.memory["feed ended by"] = words.code
+            memory(m).feed_ended_by = words.code
         m.change("feed", None)
         m.change("per_time", mode[0])
         m.change("per_rev", mode[1])
@@ -38,22 +39,26 @@ FUNCTIONS("F", "Feed", phase="feed", source="3, table 1")(motion.feed)
 
 
 def cutting_feed(m: Machine, word: Word | None) -> float | None:
-    """None for the modal feed; under G95 with a spindle that stands, what the programmed speed would make of it.
-
-    An Alarm if there is no feed, no speed, or if a spindle that stands is to be refused.
-    """
+    """As `standing_feed`; an Alarm if there is no feed, no speed, or if a spindle that stands is to be refused."""
     need_cutting_speed(m)
-    if m.feed is not None and m.per_rev and not m.turning and m.speed:
+    if (feed := standing_feed(m)) is not None:
         motion.remark_at(
             m, "stopped_spindle", f"G95: the spindle stands, the feed is that of {m.speed:g} rev/min", word
         )
-        return m.feed * m.speed
-    if m.feed is None and (code := m.memory.get("feed ended by")):
+        return feed
+    if m.feed is None and (code := memory(m).feed_ended_by):
         m.alarm(
             f"no feed rate was programmed after {code}, which gives F another unit", word, "write F with a new value"
         )
     m.feed_of(None, word)
     return None
+
+
+def standing_feed(m: Machine) -> float | None:
+    """None for the modal feed; under G95 with a spindle that stands, what the programmed speed would make of it."""
+    if m.feed is None or not m.per_rev or m.turning or not m.speed:
+        return None
+    return m.feed * m.speed
 
 
 # --- spindle ---------------------------------------------------------------------------------------------------------
@@ -67,9 +72,9 @@ def speed_mode(m: Machine, words: Words) -> None:
 
     G96 without S takes the last cutting speed, G97 without S keeps the spindle speed of the moment.
     """
-    m.change("surface", m.memory.get("cutting speed", 0.0) if words.code == "G96" else None)
+    m.change("surface", memory(m).cutting_speed if words.code == "G96" else None)
     if words.code == "G96":
-        m.memory["G96"] = first_word(words)
+        memory(m).cutting_speed_word = first_word(words)
         m.change("speed_limit", float(m.settings["max_spindle_speed"]))
     if "S" in words:
         speed(m, words)
@@ -86,7 +91,7 @@ def speed(m: Machine, words: Words) -> None:
         return
     if not value > 0:
         m.alarm(f"S (cutting speed, m/min) must be greater than 0, got {value:g}", words["S"])
-    m.memory["cutting speed"] = value
+    memory(m).cutting_speed = value
     m.change("surface", value)
     follow_speed(m)
 
@@ -96,7 +101,7 @@ def need_cutting_speed(m: Machine) -> None:
     if m.surface == 0:
         m.alarm(
             "G96 S (cutting speed, m/min) is missing: none was programmed before the first cut",
-            m.memory["G96"],
+            memory(m).cutting_speed_word,
             hint="write G96 S100, for example; S under G97 is a spindle speed and does not count here",
         )
 
@@ -174,6 +179,6 @@ def foreign(m: Machine, words: Words, effect: str) -> None:
     """An Alarm for a word of other controls, or one warning for each."""
     if m.settings["foreign"] == "refuse":
         m.alarm(f"{words.code} is not a word of this control", first_word(words), "setting foreign = accept takes it")
-    if words.code not in (told := m.memory.setdefault("foreign words", set())):
+    if words.code not in (told := memory(m).foreign_words):
         told.add(words.code)
         m.warn(f"{words.code} is not a word of this control: {effect}", first_word(words))

@@ -9,6 +9,7 @@ import math
 from typing import Any
 
 from mnclab.controls.jnc_t01.feeds import cutting_feed, follow_speed, need_cutting_speed
+from mnclab.controls.jnc_t01.state import memory
 from mnclab.controls.word_address.motion import first_word
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
@@ -192,11 +193,11 @@ def corrector(m: Machine, words: Words) -> None:
     """The offsets of corrector L count from the next motion on, in both axes; L0 has none."""
     number = int(m.value(words["L"]))
     if number and number not in m.tables.correctors:
-        if number not in (told := m.memory.setdefault("empty correctors", set())):
+        if number not in (told := memory(m).empty_correctors):
             told.add(number)
             message = f"L{number} (corrector) has no offsets: they count as 0"
             m.warn(message, words["L"], hint="Setup(correctors={…}) gives them")
-    m.memory["corrector"] = number
+    memory(m).corrector = number
     m.log("corrector", number)
 
 
@@ -205,9 +206,9 @@ FUNCTIONS("L", "Corrector", phase="corrector", source="3, table 1")(corrector)
 
 def use_corrector(m: Machine) -> None:
     """The next motion takes up the offsets of the corrector chosen last."""
-    number = m.memory.get("corrector", 0)
-    if number != m.memory.get("active corrector", 0):
-        m.memory["active corrector"] = number
+    number = memory(m).corrector
+    if number != memory(m).active_corrector:
+        memory(m).active_corrector = number
         row = m.tables.correctors.get(number)
         shift = frames.shift(row.x, 0.0, row.z) if row and (row.x or row.z) else None
         m.set_frame("corrector", shift, "programmed")
@@ -234,5 +235,5 @@ def home(m: Machine, words: Words) -> None:
 
 def plain(m: Machine) -> bool:
     """Whether words of motion mean nothing but motion now: radii, a feed per minute, no corrector to take up."""
-    pending = m.memory.get("corrector", 0) != m.memory.get("active corrector", 0)
+    pending = memory(m).corrector != memory(m).active_corrector
     return not (m.settings["diameter"] or m.per_time or pending or m.surface is not None)

@@ -13,6 +13,7 @@ import re
 from mnclab.controls.mnc import auxiliary, compensation, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared, tapping
 from mnclab.controls.mnc.settings import SETTINGS
+from mnclab.controls.mnc.state import Memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control
@@ -69,6 +70,7 @@ CONTROL = Control(
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),
+    memory=Memory,
     compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=language.power_on,
     looks_like=looks_like,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mnclab.controls.mnc.state import memory
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import first_word, remark
 from mnclab.machine.control import FunctionTable, Words
@@ -24,8 +25,8 @@ def tool(m: Machine, words: Words) -> None:
     if m.settings["tool_change"] == "T":
         motion.tool(m, words)
     else:
-        m.memory["next tool"] = motion.tool_row(m, words["T"], "tool")
-        m.log("next tool", m.memory["next tool"].number)
+        memory(m).next_tool = tool = motion.tool_row(m, words["T"], "tool")
+        m.log("next tool", tool.number)
 
 
 FUNCTIONS("D", "Tool corrector", phase="corrector", source="1.2")(motion.corrector)
@@ -37,10 +38,11 @@ def tool_change(m: Machine, words: Words) -> None:
     if m.settings["tool_change"] == "T":
         unlisted(m, words, "; T itself changes the tool")
         return
-    if "next tool" not in m.memory:
+    tool = memory(m).next_tool
+    if tool is None:
         m.alarm("M6 has no tool to put into the spindle", first_word(words), hint="write T before it")
     motion.refuse_change(m, "tool", first_word(words))
-    m.change_tool(m.memory["next tool"])
+    m.change_tool(tool)
 
 
 # --- spindle -------------------------------------------------------------------------------------------------------------
@@ -76,8 +78,8 @@ def supervision(m: Machine, words: Words) -> None:
 
 def run_up(m: Machine, before: float) -> None:
     """Wait once in a block that gives the turning spindle another speed or sense, if that is supervised."""
-    if m.spindle_speed not in (0, before) and m.modal["supervision"] == "G26" and m.memory.get("run-up") != m.step:
-        m.memory["run-up"] = m.step
+    if m.spindle_speed not in (0, before) and m.modal["supervision"] == "G26" and memory(m).run_up != m.step:
+        memory(m).run_up = m.step
         m.dwell(m.settings["spindle_run_up"])
 
 

@@ -6,24 +6,27 @@ import numpy as np
 
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, first_word
+from mnclab.controls.word_address.state import memory
 from mnclab.geometry import frames
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.machine import Machine
+from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
 PLANES = {"G17": "XY", "G19": "YZ"}  # G18: setting g18_axes
 
 
-def together(m: Machine, keyword: str, words: list[Word]) -> None:
+def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
     """Alarms for G functions that may not stand in one block (1.6, 2.6, 2.8.5)."""
     codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
-    if m.pole is not None and len(codes) > 1:
+    if modal.polar and len(codes) > 1:
         message = "more than one G function stands in a block while polar coordinates are active"
-        m.alarm(message, [*codes.values()][1], hint="write two blocks, or G15 first")
+        raise Alarm(message, [*codes.values()][1].span, hint="write two blocks, or G15 first")
     for code, word in codes.items():
-        if "G53" in codes and code in m.control.functions and m.control.functions[code].still:
-            m.alarm(f"{code} stands in a block without motion, G53 in one with motion", word, hint="write two blocks")
+        if "G53" in codes and code in control.functions and control.functions[code].still:
+            message = f"{code} stands in a block without motion, G53 in one with motion"
+            raise Alarm(message, word.span, hint="write two blocks")
 
 
 def power_on(m: Machine) -> None:
@@ -39,7 +42,7 @@ def power_on(m: Machine) -> None:
 
 def absolute(m: Machine) -> bool:
     """Whether coordinates are absolute: G90, and always in a block with G53 (MNC-G53-G91)."""
-    return m.modal["dimension"] == "G90" or "machine coordinates" in m.memory
+    return m.modal["dimension"] == "G90" or memory(m).machine_coordinates
 
 
 @FUNCTIONS("G0", "Rapid positioning", group="motion", takes="X Y Z", power_on="G0", moves=True, source="3.1")
@@ -99,9 +102,9 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     def restore() -> None:
         for name, frame in kept:
             m.set_frame(name, frame)
-        m.memory.pop("machine coordinates")
+        memory(m).machine_coordinates = False
 
-    m.memory["machine coordinates"] = True
+    memory(m).machine_coordinates = True
     for name, _ in kept:
         m.set_frame(name, None)
     if not m.settings["g53_tool_length"]:  # Z is the spindle reference, above the tip by the length

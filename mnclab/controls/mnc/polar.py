@@ -11,9 +11,11 @@ import math
 from typing import Any
 
 from mnclab.controls.mnc.language import absolute
+from mnclab.controls.mnc.state import Polar, memory
 from mnclab.controls.word_address.motion import AXES, first_word, helix
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.machine import PLANES, Machine
+from mnclab.machine.coordinates import PLANES
+from mnclab.machine.machine import Machine
 
 FUNCTIONS = FunctionTable()
 CARTESIAN = {"G10": "G0", "G11": "G1", "G12": "G2", "G13": "G3"}
@@ -45,7 +47,7 @@ def polar_on(m: Machine, words: Words) -> None:
     )
     m.pole = (u, v)
     m.log("pole", m.pole)
-    m.memory["polar"] = polar_of(m, m.pole), m.programmed
+    memory(m).polar = Polar(*polar_of(m, m.pole), m.programmed)
 
 
 @FUNCTIONS("G15", "Polar coordinates off", group="polar", phase="frames", power_on="G15", source="2.8.5")
@@ -54,7 +56,7 @@ def polar_off(m: Machine, words: Words) -> None:
     if m.pole is not None:
         m.log("pole", None)
     m.pole = None
-    m.memory.pop("polar", None)
+    memory(m).polar = None
     motion = m.modal["motion"]
     m.set_modal("motion", CARTESIAN.get(motion, motion))
 
@@ -64,9 +66,11 @@ def target(m: Machine, words: Words) -> dict[str, Any]:
     head = first_word(words)
     if m.pole is None:
         m.alarm(f"{m.modal['motion']} needs a pole", head, hint="write G16 first")
-    if "machine coordinates" in m.memory:
+    if memory(m).machine_coordinates:
         m.alarm("G53 takes X Y Z, not a radius and an angle", head)
-    (radius, angle), place = m.memory["polar"]
+    last = memory(m).polar
+    assert last is not None
+    radius, angle, place = last
     if not absolute(m) and m.programmed != place:  # the last position was not given by R and A
         radius, angle = polar_of(m, m.pole)
     if "R" in words:
@@ -88,7 +92,7 @@ def target(m: Machine, words: Words) -> dict[str, Any]:
     for k in (first, second):
         if AXES[k] in words:
             m.alarm(f"{m.modal['motion']} does not take {AXES[k]}: its end is given by R and A", words[AXES[k]])
-    m.memory["polar"] = (radius, angle), m.target(**{axis: to.get(axis) for axis in "xyz"})
+    memory(m).polar = Polar(radius, angle, m.target(**{axis: to.get(axis) for axis in "xyz"}))
     return to
 
 
@@ -127,7 +131,8 @@ def polar_arc(m: Machine, words: Words) -> None:
     if "K" not in words and m.settings["polar_arc_without_k"] == "line":
         m.line(**to, word=first_word(words))
         return
-    assert m.pole is not None
+    last = memory(m).polar
+    assert m.pole is not None and last is not None
     word, sense = words.get("K", words.words[0]), -1 if words.code == "G12" else 1
     first, second, normal = PLANES[m.plane]
     radius = m.value(word) if "K" in words else begin
@@ -135,11 +140,11 @@ def polar_arc(m: Machine, words: Words) -> None:
         m.alarm("K (radius of the arc) must not be 0", word)
     if AXES[normal] in words:
         helix(m, words)
-    end, by_sign = m.memory["polar"][0][0], m.settings["polar_arc"] == "sign" and "K" in words
+    end, by_sign = last.radius, m.settings["polar_arc"] == "sign" and "K" in words
     fits = max(abs(begin - abs(radius)), abs(end - abs(radius))) <= ON_CENTRE
     if "K" not in words or (fits and not by_sign):
         m.arc(**to, sense=sense, centre={first: m.pole[0], second: m.pole[1]}, word=word, tolerance=2 * ON_CENTRE)
-    elif m.memory["polar"][1] == m.programmed:
+    elif last.place == m.programmed:
         needed = "G2 or G3 with its centre" if by_sign else "K equal to the polar radius"
         m.alarm(f"a full circle needs {needed}", word)
     else:

@@ -7,6 +7,7 @@ clockwise until the first M3, M4 or M5; from then on these say how it turns (ado
 from __future__ import annotations
 
 from mnclab.controls.nc_31 import discretes
+from mnclab.controls.nc_31.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.text.program import INCREMENTAL, RAPID_MARK, Program, Word
@@ -109,7 +110,7 @@ def repeat(m: Machine, words: Words) -> None:
     if count < 1:
         m.alarm(f"G25 P (number of repetitions) must be at least 1, got {count}", given[1])
     first, last = frame_range(m, given[0])
-    m.flow.repeat(first, last + 1, count, given[0].span)
+    m.flow.repeat(m, first, last + 1, count, given[0].span)
 
 
 def frame_range(m: Machine, word: Word) -> tuple[int, int]:
@@ -136,11 +137,10 @@ def frame_range(m: Machine, word: Word) -> tuple[int, int]:
 
 def frames_of(m: Machine, program: Program) -> dict[int, list[int]]:
     """Numbers of the frames of each block, worked out once in a run."""
-    if "frames" not in m.memory:
-        found = m.memory["frames"] = {}
+    frames = memory(m).frames
+    if not frames:
         for number, block in program.labels.items():
-            found.setdefault(block, []).append(int(number))
-    frames: dict[int, list[int]] = m.memory["frames"]
+            frames.setdefault(block, []).append(int(number))
     return frames
 
 

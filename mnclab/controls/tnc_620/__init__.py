@@ -55,6 +55,7 @@ from mnclab.controls.tnc_620.later_parameters import strange_parameters
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
+from mnclab.controls.tnc_620.state import Memory
 from mnclab.controls.tnc_620.tables import datum_tables
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import CycleTable
@@ -156,10 +157,11 @@ CONTROL = Control(
     settings=SETTINGS,
     storage="variables",
     frames=("preset",),
+    memory=Memory,
     compensation=Compensation(approach="perpendicular", rapid=True),
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
-    refused=later.refused(FUNCTIONS, CYCLES),
+    refused=later.REFUSED,
     together=strange_parameters(CYCLES),
     meanings=MEANINGS,
     told=motion.turning_sense,

@@ -1,14 +1,15 @@
 """Q parameters that a cycle does not have; of one that is not built yet they are named beside its refusal.
 
-Once a cycle is built, its own declaration counts and its entry here no more.
+Once a cycle is built, its own declaration counts and its entry here goes.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from mnclab.machine.control import Control, Modal, Remark
 from mnclab.machine.cycle import Cycle
-from mnclab.machine.machine import Machine
+from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
 #: Numbers of Q parameters by the cycles that take them.
@@ -26,10 +27,6 @@ _NUMBERS = {
     "TCH PROBE 450": "409 S409 410",
     "TCH PROBE 451": "253 320 380 406 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 431 432",
     "TCH PROBE 452": "253 320 380 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 432",
-    "CYCL DEF 256": "200 201 202 203 204 206 207 215 218 219 220 224 338 351 367 368 369 370 385 424 425 437",
-    "CYCL DEF 257": "200 201 202 203 204 206 207 215 222 223 338 351 368 369 370 376 385",
-    "CYCL DEF 258": "200 201 202 203 204 206 207 215 220 222 224 338 351 368 369 370 385 571 572 573",
-    "CYCL DEF 233": "200 202 204 207 215 218 219 220 227 253 338 347 348 349 350 357 367 368 369 370 385 386 389",
     "TCH PROBE 1420": "260 309 320 372 1100 1101 1102 1103 1104 1105 1106 1107 1108 1120 1121 1125 1126",
     "TCH PROBE 1410": "260 309 320 372 1100 1101 1102 1103 1104 1105 1120 1121 1125 1126",
     "TCH PROBE 1411": "260 309 320 325 423 1100 1101 1102 1103 1104 1105 1115 1116 1117 1119 1120 1121 1125 1126",
@@ -62,13 +59,9 @@ _NUMBERS = {
     "TCH PROBE 462": "320 380 407 423",
     "TCH PROBE 463": "301 320 380 407 423",
     "TCH PROBE 441": "396 397 399 400",
-    "CYCL DEF 225": "200 201 203 204 206 207 367 374 500 513 514 515 516 517 574",
-    "CYCL DEF 232": "200 202 204 207 218 219 225 226 227 253 357 369 370 385 386 389",
-    "CYCL DEF 239": "570",
     "TCH PROBE 480": "260",
     "TCH PROBE 484": "536",
     "TCH PROBE 481, TCH PROBE 482, TCH PROBE 483": "260 340 341",
-    "CYCL DEF 247": "339",
 }
 PARAMETERS = {
     code: frozenset(f"Q{number}" for number in numbers.split())
@@ -81,19 +74,18 @@ PARAMETERS = {
 _BELONGS = "a line Q… without a block number belongs to the definition above it: number it to assign a variable"
 
 
-def strange_parameters(built: Mapping[str, type[Cycle]]) -> Callable[[Machine, str, list[Word]], None]:
+def strange_parameters(built: Mapping[str, type[Cycle]]) -> Callable[[Control, Modal, str, list[Word]], list[Remark]]:
     """Refuses parameters that a cycle does not have; of a cycle that is not built they are only named."""
 
-    def check(m: Machine, code: str, words: list[Word]) -> None:
-        if code in PARAMETERS and code not in built:
-            for word in words:
-                if word.address not in PARAMETERS[code]:
-                    m.warn(f"{code} has no parameter {word.address}", word)
+    def check(control: Control, modal: Modal, code: str, words: list[Word]) -> list[Remark]:
         if code not in built:
-            return
+            strange = enumerate(words if code in PARAMETERS else ())
+            return [(k, f"{code} has no parameter {w.address}", "") for k, w in strange if w.address not in PARAMETERS[code]]
         taken = {address for p in built[code].parameters() for address in (p.address, *p.aliases)}
         for word in words:
             if word.address[0] == "Q" and word.address not in taken:
-                m.alarm(f"{word} has no meaning in this block ({code} does not take {word.address})", word, _BELONGS)
+                message = f"{word} has no meaning in this block ({code} does not take {word.address})"
+                raise Alarm(message, word.span, hint=_BELONGS)
+        return []
 
     return check

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.machine.machine import Machine
-from mnclab.path.toolpath import COLUMNS
+from mnclab.path.columns import COLUMNS
 from mnclab.running import repeating
 from mnclab.running.interpreter import Interpreter
 
@@ -189,9 +188,9 @@ def test_the_points_of_a_pattern_need_the_tool_axis_z() -> None:
     """PATTERN DEF works out X and Y; with another plane the call is refused."""
     control = mnc.controls["tnc-620"]
     program = control.read(f"0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n{D}{HIGH}{TWO}5 CYCL CALL PAT FMAX\n", "a.h")
-    machine = Machine(control, mnc.Setup())
-    interpreter = Interpreter(control, machine, program)
-    machine.flow.section(0, len(program) - 1)
+    interpreter = Interpreter(control, mnc.Setup(), program)
+    machine = interpreter.machine
+    interpreter.flow.section(machine, 0, len(program) - 1)
     machine.change("plane", "YZ")
     with pytest.raises(mnc.Alarm, match="the tool axis must be Z"):
         interpreter.obey(len(program) - 1)
@@ -209,6 +208,7 @@ TAP = "CYCL DEF 207 T\nQ200=2\nQ201=-15\nQ239=+1\nQ203=0\nQ204=20\n"
 FRAMES = ["", "CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+33\n", "CYCL DEF 7.0 S\nCYCL DEF 7.1 X+12.5\nCYCL DEF 7.2 Z-3\n"]
 
 
+@pytest.mark.deep
 @given(
     st.sampled_from(FRAMES),
     st.integers(1, 40),
@@ -272,40 +272,6 @@ def test_no_rapid_through_material(places: list, surface: int, second: int, at: 
 
 # --- refused ----------------------------------------------------------------------------------------------------------
 
-NO_CYCLE = "{} has no cycle to call (define one before, for example CYCL DEF 200)"
-SIDE = "{}: a cycle is called at a position without radius compensation (write R0 in the block before)"
-RADIUS = "3 L X+50 RL F100 M3\n"
-REFUSED = [
-    ("2 CYCL CALL PAT", 3, 1, NO_CYCLE.format("CYCL CALL PAT")),
-    ("2 CYCL CALL POS X+1 Y+2 Z+3", 3, 1, NO_CYCLE.format("CYCL CALL POS")),
-    ("2 L X+5 R0 FMAX M89", 3, 17, NO_CYCLE.format("M89")),
-    (f"{D}{HIGH}4 CYCL CALL PAT", 13, 1, "CYCL CALL PAT has no pattern (write PATTERN DEF or SEL PATTERN before it)"),
-    (f"{D}{HIGH}4 CYCL CALL POS X+1 Y+2", 13, 1, "CYCL CALL POS Z is missing: all three coordinates are programmed"),
-    (f"{D}{HIGH}4 CYCL CALL POS Y+2 Z+2", 13, 1, "CYCL CALL POS X is missing: all three coordinates are programmed"),
-    (f"{D}{HIGH}4 CYCL CALL POS X+1 Y+2 Z+2 RL", 13, 29, "RL has no meaning in this block"),
-    (f"{D}{HIGH}4 CYCL CALL POS X+1 Y+2 Z+2 F0", 13, 29, "F (feed rate) must be greater than 0, got 0"),
-    (f"{D}{HIGH}4 CYCL CALL POS X+1 X+2 Y+2 Z+2", 13, 21, "X is written twice in this block (keep one of them)"),
-    (f"{D}{HIGH}4 CYCL CALL PAT X+1", 13, 17, "X1 has no meaning in this block"),
-    (f"{D}{HIGH}{TWO}5 CYCL CALL PAT F100 FMAX", 14, 22, "F100 and FMAX stand in one block: one feed is allowed"),
-    (f"{D}{RADIUS}{TWO}5 CYCL CALL PAT", 14, 1, SIDE.format("CYCL CALL PAT")),
-    (f"{D}{RADIUS}4 CYCL CALL POS X+1 Y+2 Z+3", 13, 1, SIDE.format("CYCL CALL POS")),
-    (f"{D}{HIGH}4 L X+5 R0 FMAX M89 M99", 13, 21,
-     "M99 and M89 are of one group: only one function of a group may stand in a block"),
-    (f"{D}{HIGH}4 CYCL CALL M89", 13, 13,
-     "M89 and CYCL CALL are of one group: only one function of a group may stand in a block"),
-    (f"{D}{HIGH}4 L X+5 R0 FMAX M89\n5 APPR LT X+9 Y+9 LEN5 RL", 14, 1,
-     "M89 and APPR LT: a cycle is called without radius compensation (end it with M99)"),
-    (f"{D}{HIGH}{TWO}5 Q200 = -1\n6 CYCL CALL PAT FMAX", 4, 1,
-     "CYCL DEF 200 Q200 (set-up clearance) must be at least 0 and at most 99999.9999, got -1"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("blocks", "line", "column", "text"), REFUSED, ids=[item[3][:50] for item in REFUSED])
-def test_refused(blocks: str, line: int, column: int, text: str) -> None:
-    run = mnc.run(f"0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n{blocks}\n", "tnc-620")
-    alarms = [a for a in run.alarms if a.severity == "alarm"]
-    found = [(a.span.line, a.span.column, a.message + (f" ({a.hint})" if a.hint else "")) for a in alarms]
-    assert found == [(line, column, text)]
 
 
 def test_what_a_call_should_have_before_it(tnc) -> None:

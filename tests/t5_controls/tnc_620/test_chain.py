@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -25,17 +27,13 @@ def checks(code: str, number: int = 0) -> dict:
 def text(code: str, number: int = 0) -> str:
     return [e for e in EXAMPLES if e["code"] == code][number]["program"]
 
-
-def run(blocks: str, setup: mnc.Setup | None = None) -> mnc.Run:
-    found = mnc.run(f"TOOL CALL 1 Z S1000 F1000\n{blocks}\n", "tnc-620", setup or mnc.Setup())
-    assert found.ok, found.alarms
-    return found
+run = partial(running.run, control="tnc-620", before="TOOL CALL 1 Z S1000 F1000\n")
 
 
-def where(definitions: str, points: list, setup: mnc.Setup | None = None) -> np.ndarray:
+def where(definitions: str, points: list, **setup: object) -> np.ndarray:
     """Machine positions (n, 3) of local points under some definitions; a far point before each, so that it is a move."""
     moves = "".join(f"L X-999 Y-999 Z-999\nL X{p[0]} Y{p[1]} Z{p[2] if len(p) > 2 else 0}\n" for p in points)
-    return run(f"{definitions}\n{moves}", setup).toolpath.motion.end[1::2]
+    return run(f"{definitions}\n{moves}", **setup).toolpath.motion.end[1::2]
 
 
 def flat(points: list) -> np.ndarray:
@@ -192,12 +190,12 @@ def test_unequal_scales_refuse_arcs_where_they_stand() -> None:
 
 
 def test_a_preset_replaces_all_but_the_tilt() -> None:
-    presets = mnc.Setup(presets={4: (100, 50, 10)})
+    presets = {4: (100, 50, 10)}
     before = shift(1, 2) + mirror("X") + turn(10) + scale(2)
-    found = run(before + text("CYCL DEF 247") + "\nL X+1 Y+2 Z+3", presets)
+    found = run(before + text("CYCL DEF 247") + "\nL X+1 Y+2 Z+3", presets=presets)
     assert found.toolpath.end[-1].tolist() == [101, 52, 13]  # counted from the preset that was active first
     assert [name for name, _ in found.frames] == ["preset"]
-    kept = run(tilt(0, 90, 0) + text("CYCL DEF 247") + "\nL X+1 Y+2 Z+3", presets)
+    kept = run(tilt(0, 90, 0) + text("CYCL DEF 247") + "\nL X+1 Y+2 Z+3", presets=presets)
     assert [name for name, _ in kept.frames] == ["preset", "tilt"]
 
 
@@ -208,46 +206,6 @@ def test_a_rotary_axis_is_shifted_and_mirrored() -> None:
     assert np.degrees(run(both).toolpath.rotary[-2:, 2]) == pytest.approx([-20, -25])
 
 
-HEAD = "TOOL CALL 1 Z S1000 F100\n"
-REFUSED = [
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 X+1\nCYCL DEF 7.2 #5", 4, 14, "# (row of the datum table) and shifts of axes cannot"),
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 #5", 3, 14, "# (row of the datum table) needs an active datum table"),
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 #10000", 3, 14, "# (row of the datum table) must be a whole number and at least 0"),
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 V+1", 3, 14, "V is refused: the axis V is not built yet"),
-    ("CYCL DEF 7.0 S\nCYCL DEF 7.1 Y-100000", 3, 14, "Y (datum shift along Y) must be at least -99999.9999"),
-    ("CYCL DEF 8.0 M\nCYCL DEF 8.1 X Y A B", 3, 14, "axes (mirrored axes) must be at most three, got X Y A B"),
-    ("CYCL DEF 8.0 M\nCYCL DEF 8.1 X X", 3, 14, "axes (mirrored axes) names X twice"),
-    ("CYCL DEF 8.0 M\nCYCL DEF 8.1 U", 3, 14, "axes (mirrored axes) cannot be U: this axis is not built yet"),
-    ("CYCL DEF 8.0 M\nCYCL DEF 8.1 X+5", 3, 15, "only letters of axes stand here"),
-    ("CYCL DEF 11.0 S\nCYCL DEF 11.1 SCL 0", 3, 15, "SCL (scaling factor) must be at least 1e-06 and at most 99.999999, got 0"),
-    ("CYCL DEF 11.0 S\nCYCL DEF 11.1 SCL -1", 3, 15, "SCL (scaling factor) must be at least 1e-06"),
-    ("CYCL DEF 11.0 S\nCYCL DEF 11.1 SCL 100", 3, 15, "SCL (scaling factor) must be at least 1e-06"),
-    ("CYCL DEF 26.0 S\nCYCL DEF 26.1 X 0 Y 1", 3, 15, "X (factor along X) must be at least 1e-06"),
-    ("CYCL DEF 26.0 S\nCYCL DEF 26.1 X 2 CCX+100000", 3, 19, "CCX (centre of the scaling along X) must be"),
-    ("CYCL DEF 26.0 S\nCYCL DEF 26.1 CCX+1", 2, 1, "needs an axis and its factor"),
-    ("CYCL DEF 26.0 S\nCYCL DEF 26.1 IX 2", 3, 15, "takes no incremental value, got IX"),
-    ("CYCL DEF 247 P\nQ339=4", 3, 1, "Q339 (number of the preset) names row 4, which the preset table does not have"),
-    ("CYCL DEF 247 P\nQ339=65536", 3, 1, "Q339 (number of the preset) must be a whole number"),
-    ("CYCL DEF 247 P", 2, 1, "Q339 (number of the preset) is missing"),
-    ("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+361", 3, 15, "A (tilt angle A) must be at least -360 and at most 360, got 361"),
-    ("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+1 F100", 2, 1, "ABST (set-up clearance) is missing: to position the rotary axes"),
-    ("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+1 ABST5", 2, 1, "F (feed of the rotary axes) is missing"),
-    ("CYCL DEF 19.0 P\nCYCL DEF 19.1 A+1 F0 ABST5", 3, 19, "F (feed of the rotary axes) must be greater than 0"),
-    ("CYCL DEF 19.0 P\nCYCL DEF 19.1 IA+1", 3, 15, "takes no incremental value, got IA"),
-    ('SEL TABLE "NONE.D"', 2, 11, "SEL TABLE NONE.D: there is no datum table of this name"),
-    ('SEL TABLE "5.D"', 2, 11, "SEL TABLE 5.D: the name of a datum table must begin with a letter"),
-    ('SEL TABLE "A.PNT"', 2, 11, "SEL TABLE A.PNT: a datum table has the type .D"),
-    ("SEL TABLE", 2, 10, "the name of a file is missing"),
-    ("TRANS DATUM AXIS X+5", 2, 1, "TRANS DATUM is refused: datum shift, not built yet"),
-    ("PLANE SPATIAL SPA+0 SPB+90 SPC+0 TURN FMAX", 2, 1, "PLANE SPATIAL is refused: tilted plane, not built yet"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("blocks", "line", "column", "message"), REFUSED, ids=[f"{r[0][-24:]}" for r in REFUSED])
-def test_refused(blocks: str, line: int, column: int, message: str) -> None:
-    alarms = [a for a in mnc.run(HEAD + blocks + "\n", "tnc-620").alarms if a.severity == "alarm"]
-    assert len(alarms) == 1
-    assert message in alarms[0].message and alarms[0].span[:2] == (line, column), (alarms[0].message, alarms[0].span)
 
 
 # --- datum tables ------------------------------------------------------------------------------------------------------
@@ -256,7 +214,7 @@ ROWS = checks("datum table")["rows"]
 TABLE = "NULLTAB.D MM\nD X Y Z A B C DOC\n" + "".join(
     f"{row} {' '.join(f'{value:+g}' for value in ROWS.get(str(row), [0] * 6))} clamp {row}\n" for row in range(20)
 ) + "[END]\n"  # fmt: skip
-FILES = mnc.Setup(files={"NULLTAB.D": TABLE})
+FILES = {"NULLTAB.D": TABLE}
 
 
 def test_the_printed_table() -> None:
@@ -264,21 +222,21 @@ def test_the_printed_table() -> None:
     for number in (0, 1):
         check = checks("CYCL DEF 7 (datum table)", number)
         expected = [check["shift"][axis] for axis in "XYZ"]
-        assert where(select + text("CYCL DEF 7 (datum table)", number), [(0, 0)], FILES)[0].tolist() == expected
+        assert where(select + text("CYCL DEF 7 (datum table)", number), [(0, 0)], files=FILES)[0].tolist() == expected
     by_parameter = select + "Q5 = 3\nCYCL DEF 7.0 S\nCYCL DEF 7.1 #Q5\nCYCL DEF 7.0 S\nCYCL DEF 7.1 IX+1"
-    assert where(by_parameter, [(0, 0)], FILES)[0].tolist() == [401.994, 50.001, 0]
+    assert where(by_parameter, [(0, 0)], files=FILES)[0].tolist() == [401.994, 50.001, 0]
 
 
 def test_empty_fields_leave_an_axis_alone() -> None:
     table = "T.D INCH\nD   X    Y    Z   DOC\n0   1         -\n7        2        second\n[END]\n"
-    setup = mnc.Setup(files={"T.D": table})
+    files = {"T.D": table}
     blocks = shift(5, 6, 7) + "SEL TABLE T\nCYCL DEF 7.0 S\nCYCL DEF 7.1 #0\n"
-    assert where(blocks, [(0, 0)], setup)[0].tolist() == pytest.approx([25.4, 6, 7])
-    assert where(blocks.replace("#0", "#7"), [(0, 0)], setup)[0].tolist() == pytest.approx([5, 50.8, 7])
+    assert where(blocks, [(0, 0)], files=files)[0].tolist() == pytest.approx([25.4, 6, 7])
+    assert where(blocks.replace("#0", "#7"), [(0, 0)], files=files)[0].tolist() == pytest.approx([5, 50.8, 7])
 
 
 def test_the_datums_of_the_setup_are_a_table() -> None:
-    assert where("CYCL DEF 7.0 S\nCYCL DEF 7.1 #3", [(0, 0)], mnc.Setup(datums={3: (1, 2, 3)}))[0].tolist() == [1, 2, 3]
+    assert where("CYCL DEF 7.0 S\nCYCL DEF 7.1 #3", [(0, 0)], datums={3: (1, 2, 3)})[0].tolist() == [1, 2, 3]
 
 
 @pytest.mark.parametrize(
@@ -302,5 +260,5 @@ def test_faults_of_a_table(table: str, message: str) -> None:
 
 
 def test_a_row_that_is_not_there() -> None:
-    alarm = mnc.run("SEL TABLE NULLTAB\nCYCL DEF 7.0 S\nCYCL DEF 7.1 #20\n", "tnc-620", FILES).alarms[0]
+    alarm = mnc.run("SEL TABLE NULLTAB\nCYCL DEF 7.0 S\nCYCL DEF 7.1 #20\n", "tnc-620", mnc.Setup(files=FILES)).alarms[0]
     assert "names row 20, which the datum table" in alarm.message and alarm.span[:2] == (3, 14)

@@ -7,8 +7,8 @@ from shapely import LineString, MultiPolygon, Point, Polygon, union_all
 import mnclab
 from mnclab import Kind, Setup, Tool
 from mnclab.controls.tnc_620.cycles.contours import contour_region
-from mnclab.machine.machine import Machine
 from mnclab.running.interpreter import Interpreter
+from mnclab.running.performing import perform
 
 CIRCLE_A = "LBL 1\nL X+{a} Y+50 RR\nCC X+35 Y+50\nC X+{a} Y+50 DR-\nLBL 0\n"
 CIRCLE_B = "LBL 2\nL X+{b} Y+50 {side}\nCC X+65 Y+50\nC X+{b} Y+50 DR-\nLBL 0\n"
@@ -25,9 +25,9 @@ def machine_after(text):
     """A machine that has obeyed a program."""
     control = mnclab.controls["tnc-620"]
     program = mnclab.read(text, "tnc-620")
-    machine = Machine(control, Setup())
-    Interpreter(control, machine, program).run()
-    return machine
+    interpreter = Interpreter(control, Setup(), program)
+    interpreter.run()
+    return interpreter.machine
 
 
 @pytest.mark.parametrize("name", OVERLAPPING)
@@ -36,7 +36,7 @@ def test_overlapping_contours(name):
     labels = CIRCLE_A.format(a=a) + CIRCLE_B.format(b=b, side=side)
     machine = machine_after(f"CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1/2\nM2\n{labels}")
     machine.ended = False
-    region = contour_region(machine)
+    region = perform(machine, "", contour_region(machine))
     assert region.area == pytest.approx(area, abs=1e-3)
     assert sum(loop.length for loop in region.loops) == pytest.approx(perimeter, abs=1e-3)
     assert machine.tip == (0, 0, 0) and not machine.recorder.rows  # nothing has moved

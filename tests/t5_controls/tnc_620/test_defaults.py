@@ -97,40 +97,6 @@ def test_every_cycle_takes_the_values_made_for_it(code: str, parameter: Any, tnc
     )
 
 
-REFUSED = [
-    (cycle(Q200="PREDEF"), 4, 1, "CYCL DEF 200 Q200 (set-up clearance) needs GLOBAL DEF 100 before it for PREDEF"),
-    (cycle(Q211="PREDEF"), 11, 1, "CYCL DEF 200 Q211 (dwell at the bottom) needs GLOBAL DEF 105 before it for PREDEF"),
-    (cycle().replace("-15", "PREDEF"), 5, 1, "CYCL DEF 200 Q201 (depth) has no default: PREDEF is not allowed"),
-    ("GLOBAL DEF 100 G\nQ200=PREDEF", 4, 1, "GLOBAL DEF 100 Q200 (set-up clearance) has no default: PREDEF is not allowed"),
-    ("GLOBAL DEF 100 G\nQ200=3", 3, 1, "GLOBAL DEF 100 Q204 (second set-up clearance) is missing"),
-    (GLOBAL_100 + "Q201=5", 8, 1, "Q201=5 has no meaning in this block (GLOBAL DEF 100 does not take Q201)"),
-    (GLOBAL_100 + "Q200=5", 8, 1, "Q200 is written twice in this block"),
-    (GLOBAL_100.replace("Q200=3", "Q200=-3"), 4, 1,
-     "GLOBAL DEF 100 Q200 (set-up clearance) must be at least 0 and at most 99999.9999, got -3"),
-    (GLOBAL_100.replace("Q200=3", "Q200=FMAX"), 4, 1,
-     "GLOBAL DEF 100 Q200 (set-up clearance) must be a number, got FMAX"),
-    (GLOBAL_105.replace("Q211=0.4", "Q211=4000"), 6, 1,
-     "GLOBAL DEF 105 Q211 (dwell at the bottom) must be at least 0 and at most 3600, got 4000"),
-    ("GLOBAL DEF 110 P\nQ370=2\nQ351=1\nQ366=0", 4, 1,
-     "GLOBAL DEF 110 Q370 (path overlap factor) must be at least 0.0001 and at most 1.9999, got 2"),
-    ("GLOBAL DEF 110 P\nQ370=1\nQ351=0\nQ366=0", 5, 1,
-     "GLOBAL DEF 110 Q351 (sense of milling) must be one of 1, -1, got 0"),
-    ("GLOBAL DEF 111 C\nQ2=1\nQ6=2\nQ7=50\nQ9=2", 7, 1, "GLOBAL DEF 111 Q9 (sense of milling) must be one of 1, -1, got 2"),
-    ("GLOBAL DEF 120 P\nQ320=0\nQ260=100\nQ301=2", 6, 1,
-     "GLOBAL DEF 120 Q301 (height between measuring points) must be one of 0, 1, got 2"),
-    ("GLOBAL DEF 125 P\nQ345=2", 4, 1,
-     "GLOBAL DEF 125 Q345 (positioning height between points) must be one of 0, 1, got 2"),
-    ("GLOBAL DEF 101 P", 3, 1, "GLOBAL DEF 101 is not a function of this control"),
-    ("GLOBAL DEF", 3, 13, "GLOBAL DEF needs the number of a cycle"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("blocks", "line", "column", "text"), REFUSED, ids=[item[3][:50] for item in REFUSED])
-def test_refused(blocks: str, line: int, column: int, text: str, inside) -> None:
-    found = [a for a in inside(f"2 {blocks}").alarms if a.severity == "alarm"]
-    assert [(a.span.line, a.span.column, a.message) for a in found] == [(line, column, text)]
-
-
 def test_every_kind_has_its_help() -> None:
     for number in (100, 105, 110, 111, 120, 125):
         assert f"GLOBAL DEF {number}  " in str(mnc.help(f"GLOBAL DEF {number}", "tnc-620"))

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab.controls.tnc_620.cycles.contours import contour_region
-from mnclab.machine.machine import Machine
 from mnclab.running.interpreter import Interpreter
+from mnclab.running.performing import perform
 
 EXAMPLES = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-klartext.json"
 (C20,) = [e for e in json.loads(EXAMPLES.read_text(encoding="utf-8")) if e["code"] == "FK"]
@@ -48,10 +48,12 @@ def cutting(run):
 
 def test_the_example_is_the_contour_of_cycle_14():
     text = "CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1\nM2\n" + C20["program"] + "\n"
-    machine = Machine(mnc.controls["tnc-620"], mnc.Setup())
-    Interpreter(machine.control, machine, mnc.read(text, "tnc-620")).run()
+    interpreter = Interpreter(mnc.controls["tnc-620"], mnc.Setup(), mnc.read(text, "tnc-620"))
+    interpreter.run()
+    machine = interpreter.machine
     machine.ended = False
-    assert contour_region(machine).area == pytest.approx(4212.730, abs=1e-3)  # [derived: tnc620-contour, C20]
+    region = perform(machine, "", contour_region(machine))
+    assert region.area == pytest.approx(4212.730, abs=1e-3)  # [derived: tnc620-contour, C20]
     assert machine.tip == (0, 0, 0) and machine.pending is None
 
 
@@ -159,60 +161,8 @@ def test_without_fselect_the_contour_that_closes_is_taken(inside):
 
 HEAD = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n"
 
-REFUSED = [
-    ("2 FL AN+30", 3, 1, "FL: the free contour is not determined, 1 more datum is needed; not known here: end point"),
-    ("2 FC DR+ R10\n3 L X+5", 3, 1,
-     "FC: the free contour is not determined, 2 more data are needed; not known here: centre and end point"),
-    ("2 FL X+10 AN+0\n3 FL X+50\n4 M8", 4, 1,
-     "FL: the free contour is not determined, 1 more datum is needed; not known here: direction, place and end point"),
-    ("2 FL LEN30\n3 FL LEN40 X+50 Y+0", 4, 1,
-     "FL: the free contour has 2 solutions here (choose one with FSELECT 1 to FSELECT 2)"),
-    ("2 FL LEN30\n3 FL LEN40 X+50 Y+0\n4 FSELECT 3", 5, 11, "FSELECT must be the number of a solution, 1 to 2 here, got 3"),
-    ("2 FL LEN30\n3 FL LEN40 X+50 Y+0\n4 FSELECT 1.5", 5, 11,
-     "FSELECT must be the number of a solution, 1 to 2 here, got 1.5"),
-    ("2 FSELECT 1", 3, 11, "FSELECT must follow a block of a free contour"),
-    ("2 FL LEN10 AN+0\n3 FSELECT", 4, 1, "FSELECT needs the number of a solution"),
-    ("2 FLT X+25", 3, 1, "FLT needs a path element in the working plane directly before it"),
-    ("2 L Z+5\n3 FCT R5 DR+", 4, 1, "FCT needs a path element in the working plane directly before it"),
-    ("2 FL X+10 Y+0 LEN12", 3, 15, "FL LEN12 contradicts what is known of the contour"),
-    ("2 FL X+10 Y+0 AN+180", 3, 1,
-     "FL has no solution: the element cannot be joined to what is known of the contour"),
-    ("2 FC DR+ R5 CCX+20 CCY+0", 3, 10, "FC R5 contradicts what is known of the contour"),
-    ("2 FL X+0 Y+0", 3, 1, "FL: the free contour is not determined, 1 more datum is needed; not known here: direction"),
-    ("2 FC DR- R30 CCX+30 CCY+0\n3 FL AN+0 PDX+30 PDY+90 D10", 4, 1,
-     "FL has no solution: the element cannot be joined to what is known of the contour"),
-    ("2 FL PR+10 AN+0", 3, 6, "FL PR needs a pole (write FPOL X\u2026 Y\u2026 before it)"),
-    ("2 FPOL X+10", 3, 8, "FPOL needs Y, the coordinate of the pole"),
-    ("2 FL AN+0\n3 FPOL IX+1 Y+0", 4, 8, "FPOL X (pole) must be absolute inside a free contour"),
-    ("2 FL AN+0 R5", 3, 11, "R5 has no meaning in this block (FL does not take R)"),
-    ("2 FL Z+5", 3, 6, "Z5 has no meaning in this block (FL does not take Z)"),
-    ("2 FC R0 DR+", 3, 6, "FC R (radius) must be greater than 0, got 0"),
-    ("2 FL LEN0 AN+0", 3, 6, "FL LEN (length) must be greater than 0, got 0"),
-    ("2 FC R5 CCA90", 3, 9, "FC CCA (central angle) needs the sense of rotation (write DR+ or DR-)"),
-    ("2 FC R5 DR+ CCA361", 3, 13, "FC CCA (central angle) must be at most 360, got 361"),
-    ("2 FL PDX+5 AN+0 D1", 3, 6, "FL PDX needs PDY beside it"),
-    ("2 FL PDX+5 PDY+5 AN+0", 3, 6, "FL PDX PDY need D, the distance of the element from that point"),
-    ("2 FL D5 AN+0", 3, 6, "FL D (distance) needs PDX and PDY, the point beside the element"),
-    ("2 FL X+5 RX 2", 3, 10, "RX2 needs IX, which counts from that block"),
-    ("2 FL X+5 Y+1\n3 FL IX+5 Y+9 RX 7", 4, 15, "RX7 must name an earlier block of a free contour, block 7 is none"),
-    ("2 FL DP5 AN+0", 3, 6, "DP (distance of parallels) needs PAR, the block of the parallel line"),
-    ("2 FL AN+5 RAN 1", 3, 11, "RAN1 needs IAN, which counts from that block"),
-    ("2 FL IAN+5 LEN5", 3, 6, "FL IAN needs a path element in the working plane directly before it"),
-    ("2 FL X+5 Y+5 CLSD-", 3, 14, "CLSD- ends a closed contour that no CLSD+ began"),
-    ("2 FL X+5 Y+5 CLSD+\n3 FL X+9 Y+5 CLSD+", 4, 14,
-     "CLSD+ begins a closed contour inside another one (end that with CLSD- first)"),
-    ("2 FC DR+ R5 FMAX", 3, 13, "FC runs at feed: FMAX is for straight lines"),
-    ("2 FC DR+ R5 RL", 3, 13, "RL cannot begin the radius compensation in FC (write it in a straight line L)"),
-    ("2 FL X+5 Y+5\n3 RND R1\n4 RND R1\n5 FL X+9 Y+0", 5, 7, "RND needs a path element directly before it"),
-]  # fmt: skip
 
 
-@pytest.mark.parametrize(("blocks", "line", "column", "text"), REFUSED, ids=[item[3][:40] for item in REFUSED])
-def test_refused(blocks, line, column, text):
-    run = mnc.run(f"{HEAD}{blocks}\n", "tnc-620")
-    alarms = [a for a in run.alarms if a.severity == "alarm"]
-    found = [(a.span.line, a.span.column, a.message + (f" ({a.hint})" if a.hint else "")) for a in alarms]
-    assert found == [(line, column, text)]
 
 
 @pytest.mark.parametrize("pairs", [1, 6, 40])
@@ -229,9 +179,10 @@ def test_what_is_missing_is_said_soon(pair, pairs):
 def test_a_contour_needs_a_start(tnc):
     run = tnc("CYCL DEF 14.0 C\nCYCL DEF 14.1 LABEL 1\nLBL 1\nFL X+5 Y+0 F100\nLBL 0\n")
     assert run.ok  # outside a recording the tool stands somewhere
-    machine = Machine(mnc.controls["tnc-620"], mnc.Setup())
     text = "LBL 1\nFL X+0 Y+0\nLBL 0\n"
-    Interpreter(machine.control, machine, mnc.read("M2\n" + text, "tnc-620")).run()
+    interpreter = Interpreter(mnc.controls["tnc-620"], mnc.Setup(), mnc.read("M2\n" + text, "tnc-620"))
+    interpreter.run()
+    machine = interpreter.machine
     machine.ended = False
     with pytest.raises(mnc.Alarm, match="needs a point to begin from"):
         machine.record("1")
@@ -246,6 +197,7 @@ SCRAPS = st.sampled_from([
 ])  # fmt: skip
 
 
+@pytest.mark.deep
 @settings(max_examples=60, deadline=None)
 @given(edits=st.lists(st.tuples(st.integers(0, len(MUTATED)), st.integers(0, 25), SCRAPS), min_size=1, max_size=6))
 def test_mutated_programs_raise_only_alarms(edits):

@@ -77,55 +77,6 @@ def test_values_are_those_of_the_definition(inside) -> None:
     assert drilled(run)[:, 0].tolist() == [7]
 
 
-GRID = "X+0 Y+0 DX+1 DY+1 NUMX{} NUMY{} ROT+0 ROTX+0 ROTY+0 Z+0"
-MISSING = "PATTERN DEF {} ({}) is missing"
-WHOLE = "PATTERN DEF {} ({}) must be a whole number from 1 to 100000, got {}"
-PATTERNS_REFUSED = [
-    ("PATTERN DEF", 3, 1, "PATTERN DEF needs at least one of POS, ROW, PAT, FRAME, CIRC, PITCHCIRC"),
-    ("PATTERN DEF POS1 (IX+5 Y+0 Z+0)", 3, 21,
-     "PATTERN DEF POS1 X must be absolute (POS2 to POS9 may count from the one before)"),
-    ("PATTERN DEF ROW1 (IX+5 Y+0 D+1 NUM2 ROT+0 Z+0)", 3, 21,
-     "PATTERN DEF ROW1 X must be absolute (POS2 to POS9 may count from the one before)"),
-    ("PATTERN DEF POS1 (X+5 Y+0)", 3, 15, MISSING.format("POS1 Z", "workpiece surface")),
-    ("PATTERN DEF ROW1 (X+5 Y+0 D+3 ROT+0 Z+0)", 3, 15, MISSING.format("ROW1 NUM", "number of positions")),
-    ("PATTERN DEF CIRC1 (X+5 Y+0 D+3 NUM2 Z+0)", 3, 15, MISSING.format("CIRC1 START", "starting angle")),
-    ("PATTERN DEF PITCHCIRC1 (X+5 Y+0 D+3 START+0 NUM2 Z+0)", 3, 15, MISSING.format("PITCHCIRC1 STEP", "stepping angle")),
-    ("PATTERN DEF PITCHCIRC1 (X+5 Y+0 D+3 START+0 STEP+5 END+9 NUM2 Z+0)", 3, 54,
-     "PATTERN DEF PITCHCIRC1 has both STEP and END (keep one of them)"),
-    ("PATTERN DEF ROW1 (X+5 Y+0 D+3 NUM0 ROT+0 Z+0)", 3, 33, WHOLE.format("ROW1 NUM", "number of positions", "0")),
-    ("PATTERN DEF ROW1 (X+5 Y+0 D+3 NUM2.5 ROT+0 Z+0)", 3, 33, WHOLE.format("ROW1 NUM", "number of positions", "2.5")),
-    (f"PATTERN DEF PAT1 ({GRID.format(0, 3)})", 3, 39, WHOLE.format("PAT1 NUMX", "number of columns", "0")),
-    (f"PATTERN DEF FRAME1 ({GRID.format(3, -1)})", 3, 47, WHOLE.format("FRAME1 NUMY", "number of rows", "-1")),
-    (f"PATTERN DEF PAT1 ({GRID.format(1000, 1000)})", 3, 15, "PATTERN DEF PAT1 has more than 100000 positions"),
-    (f"PATTERN DEF PAT1 ({GRID.format(1000, 90)}) PAT2 ({GRID.format(1000, 90)})", 3, 80,
-     "PATTERN DEF has more than 100000 points"),
-    ("PATTERN DEF CIRC1 (X+5 Y+0 D-3 START+0 NUM2 Z+0)", 3, 30, "PATTERN DEF CIRC1 D (diameter) must be at least 0, got -3"),
-    ("PATTERN DEF POS1 (X+5 Y+0 D+3 Z+0)", 3, 29, "PATTERN DEF POS1 does not take D (it takes X Y Z)"),
-    ("PATTERN DEF POS1 (X+5 Y+0 X+3 Z+0)", 3, 29, "PATTERN DEF POS1 X is written twice (keep one of them)"),
-    ("PATTERN DEF POS2 (X+5 Y+0 Z+0)", 3, 15, "PATTERN DEF POS2 stands where POS1 is expected"),
-    ("PATTERN DEF POS1 (X+5 Y+0 Z+0)\nPOS1 (X+5 Y+0 Z+0)", 4, 1, "PATTERN DEF POS1 stands where POS2 is expected"),
-    ("PATTERN DEF\n" + "\n".join(f"POS{k} (X+{k} Y+0 Z+0)" for k in range(1, 11)), 13, 1,
-     "PATTERN DEF has more than 9 elements POS"),
-    ("PATTERN DEF POS1 (X+5 Y+0 Z+0", 3, 15, "PATTERN DEF POS1: its bracket is not closed (write ))"),
-    ("PATTERN DEF POS1 X+5 Y+0 Z+0", 3, 20, "POS needs its words in brackets (write POS1 (X+… Y+…))"),
-    ("PATTERN DEF POS (X+5 Y+0 Z+0)", 3, 15, "POS needs its number (write POS1)"),
-    ("PATTERN DEF STAR1 (X+5)", 3, 15,
-     "a pattern must be one of POS, ROW, PAT, FRAME, CIRC, PITCHCIRC (for example POS1 (X+10 Y+20 Z+0))"),
-    ("PATTERN DEF POS1 (X+5 Y Z+0)", 3, 25, "Y needs a number"),
-    ("PATTERN DEF POS1 (X+5 Y+0 Z\n)", 4, 1, "Z needs a number"),
-    ("PATTERN DEF POS1 (X+5 Y+0 Z", 3, 15, "PATTERN DEF POS1: its bracket is not closed (write ))"),
-    ("PATTERN DEF POS1 (X+5 Y+0 W+1)", 3, 29, "W is no word of a pattern (X Y Z)"),
-    ("PATTERN DEF ROW1 (X+5 Y+0 D+3 NUM200000 ROT+0 Z+0)", 3, 33, WHOLE.format("ROW1 NUM", "number of positions", "200000")),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("pattern", "line", "column", "text"), PATTERNS_REFUSED, ids=[f"{k}" for k in range(len(PATTERNS_REFUSED))]
-)
-def test_a_pattern_is_refused(pattern: str, line: int, column: int, text: str, inside) -> None:
-    alarms = [a for a in inside(f"2 {pattern}").alarms if a.severity == "alarm"]
-    found = [(a.span.line, a.span.column, a.message + (f" ({a.hint})" if a.hint else "")) for a in alarms]
-    assert found == [(line, column, text)]
 
 
 # --- point tables -----------------------------------------------------------------------------------------------------

@@ -165,40 +165,6 @@ def test_a_form_of_each_pattern_begins_with_a_path() -> None:
         assert run.alarms == () and len({tuple(hole) for hole in drilled(run)[:, :2].round(6).tolist()}) == count
 
 
-FIRST = "CYCL DEF 220"
-NO_CYCLE = "{} has no machining cycle to run: define one before it, for example CYCL DEF 200"
-CYCLES_REFUSED = [
-    (polar(), 3, 1, NO_CYCLE.format(FIRST)),
-    (lines(), 3, 1, NO_CYCLE.format("CYCL DEF 221")),
-    (f"{D}{polar(Q241=None)}", 12, 1, f"{FIRST} Q241 (number of operations) is missing"),
-    (f"{D}{polar(Q241=0)}", 19, 1,
-     f"{FIRST} Q241 (number of operations) must be a whole number and at least 1 and at most 99999, got 0"),
-    (f"{D}{polar(Q241=2.5)}", 19, 1,
-     f"{FIRST} Q241 (number of operations) must be a whole number and at least 1 and at most 99999, got 2.5"),
-    (f"{D}{polar(Q246=0)}", 17, 1, f"{FIRST} Q246 (stopping angle) must differ from the starting angle Q245, got 0"),
-    (f"{D}{polar(Q245=400)}", 16, 1, f"{FIRST} Q245 (starting angle) must be at least -360 and at most 360, got 400"),
-    (f"{D}{polar(Q244=-1)}", 15, 1,
-     f"{FIRST} Q244 (diameter of the pitch circle) must be at least 0 and at most 99999.9999, got -1"),
-    (f"{D}{polar(Q301=2)}", 23, 1, f"{FIRST} Q301 (level between the points) must be one of 0, 1, got 2"),
-    (f"{D}{polar(Q365=2)}", 24, 1, f"{FIRST} Q365 (way between the points) must be one of 0, 1, got 2"),
-    (f"{D}{lines(Q243=0)}", 18, 1,
-     "CYCL DEF 221 Q243 (number of lines) must be a whole number and at least 1 and at most 99999, got 0"),
-    (f"{D}{lines(Q242=1000, Q243=1000)}", 18, 1, "CYCL DEF 221 Q243 (number of lines) makes 1e+06 points, more than 100000"),
-    (f"{D}{lines(Q365=0)}", 24, 1, "Q365=0 has no meaning in this block (CYCL DEF 221 does not take Q365)"),
-    (f"{D}3 L X+5 RL F100\n{polar()}", 13, 1, f"{FIRST} cannot run under radius compensation: write R0 before it"),
-    (f"{D}{polar(Q200='FMAX')}", 20, 1, f"{FIRST} Q200 (set-up clearance) must be a number, got FMAX"),
-    ("2 CYCL DEF 22 R\nQ10=5\nQ11=100\nQ12=200\nQ18=0\nQ19=0\nQ208=FMAX\n" + polar(), 10, 1,
-     f"{FIRST} cannot be combined with CYCL DEF 22 (Rough-out)"),
-    ("2 CYCL DEF 224 P", 3, 1, "CYCL DEF 224 is not a function of this control"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("blocks", "line", "column", "text"), CYCLES_REFUSED, ids=[f"{k}" for k in range(len(CYCLES_REFUSED))]
-)
-def test_a_point_pattern_is_refused(blocks: str, line: int, column: int, text: str, inside) -> None:
-    alarms = [a for a in inside(blocks).alarms if a.severity == "alarm"]
-    assert [(a.span.line, a.span.column, a.message) for a in alarms] == [(line, column, text)]
 
 
 def test_more_points_on_a_pitch_circle_than_anybody_mills():

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -23,11 +25,7 @@ HEAD = "TOOL CALL 1 Z S200 F100\n"
 def example(code: str, number: int = 0) -> dict:
     return [e for e in EXAMPLES if e["code"] == f"CYCL DEF {code}"][number]
 
-
-def run(blocks: str, setup: mnc.Setup | None = None) -> mnc.Run:
-    found = mnc.run(f"{HEAD}{blocks}\n", "tnc-620", setup or mnc.Setup())
-    assert found.ok, found.alarms
-    return found
+run = partial(running.run, control="tnc-620", before=HEAD)
 
 
 def test_a_dwell() -> None:
@@ -77,7 +75,7 @@ def test_a_tolerance_makes_corners_faster() -> None:
     """32.1 T0.05 counts as the corner tolerance of the limits does, until it is reset; the path stays as it is."""
     limits = mnc.Limits(acceleration=1000, corner_tolerance=0.05)
     program = example("32")["program"]
-    with_cycle, with_limits, without = run(program + "\n" + CORNER), run(CORNER, mnc.Setup(limits=limits)), run(CORNER)
+    with_cycle, with_limits, without = run(program + "\n" + CORNER), run(CORNER, limits=limits), run(CORNER)
     assert np.array_equal(with_cycle.toolpath.end, without.toolpath.end)
     assert (
         with_cycle.profile().time == pytest.approx(with_limits.profile().time)
@@ -98,7 +96,7 @@ def test_the_tolerance_of_a_part_of_the_path() -> None:
     none = CORNER + "L X+0\nL Y+0\n"
     fast, some, slow = (run(blocks).profile().time for blocks in (both, part, none))
     assert fast < some < slow
-    jerky = [run(blocks, mnc.Setup(limits=mnc.Limits(jerk=20000))).profile().time for blocks in (both, part, none)]
+    jerky = [run(blocks, limits=mnc.Limits(jerk=20000)).profile().time for blocks in (both, part, none)]
     assert jerky[0] < jerky[1] < jerky[2]
 
 
@@ -209,32 +207,6 @@ def test_facing_leaves_nothing_of_the_surface(
         assert ys[0] - radius <= y0 + 1e-9 and ys[-1] + radius >= y1 - 1e-9
         ends = np.sort(np.stack([on.start[:, 0], on.end[:, 0]]), axis=0)
         assert (ends[0] <= x0 + 1e-9).all() and (ends[1] >= x1 - 1e-9).all()
-
-
-REFUSED = [
-    ("CYCL DEF 9.0 D\nCYCL DEF 9.1 DWELL 3601", 3, 14, "DWELL (dwell) must be at least 0 and at most 3600, got 3601"),
-    ("CYCL DEF 9.0 D\nCYCL DEF 9.1 TEMP -1", 3, 14, "DWELL (dwell) must be at least 0"),
-    ("CYCL DEF 9.0 D\nCYCL DEF 9.1 TEMP", 3, 14, "a number is missing: the dwell in seconds"),
-    ("CYCL DEF 9.0 D", 2, 1, "DWELL (dwell) is missing"),
-    ("CYCL DEF 13.0 O\nCYCL DEF 13.1 UNGHI 361", 3, 15, "ANGLE (angle of the spindle) must be at least 0 and at most 360"),
-    ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -5\nCYCL DEF 18.2 PITCH 0\nCYCL CALL", 4, 15, "PITCH (pitch of the thread) must be"),
-    ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -5\nCYCL CALL", 2, 1, "PITCH (pitch of the thread) is missing"),
-    ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -100000\nCYCL DEF 18.2 PITCH 1", 3, 15, "DEPTH (depth of the thread"),
-    ("CYCL DEF 18.0 T\nCYCL DEF 18.1 DEPTH -5\nCYCL DEF 18.2 PITCH 1\nL X1 M3\nCYCL CALL", 6, 1, "needs a spindle that stands"),
-    ("CYCL DEF 32.0 T\nCYCL DEF 32.1 T10.1", 3, 15, "T (permissible contour deviation) must be at least 0 and at most 10"),
-    ("CYCL DEF 32.0 T\nCYCL DEF 32.1 T1\nCYCL DEF 32.2 HSC-MODE:2", 4, 15, "HSC-MODE (filter) must be one of 0, 1, got 2"),
-    ("CYCL DEF 32.0 T\nCYCL DEF 32.1 T1\nCYCL DEF 32.2 TA-1", 4, 15, "TA (permissible deviation of rotary axes) must be"),
-    ("CYCL DEF 32.0 T\nCYCL DEF 32.1 X1", 3, 15, "T, the tolerance, stands here"),
-    ("CYCL DEF 239 L\nQ570=2", 3, 1, "Q570 (what to do) must be one of 0, 1, got 2"),
-    ("CYCL DEF 239 L", 2, 1, "Q570 (what to do) is missing"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("blocks", "line", "column", "message"), REFUSED, ids=[r[0][-20:] for r in REFUSED])
-def test_refused(blocks: str, line: int, column: int, message: str) -> None:
-    alarms = [a for a in mnc.run(f"{HEAD}{blocks}\n", "tnc-620").alarms if a.severity == "alarm"]
-    assert len(alarms) == 1
-    assert message in alarms[0].message and alarms[0].span[:2] == (line, column), (alarms[0].message, alarms[0].span)
 
 
 FLAT = mnc.Tool(radius=10)

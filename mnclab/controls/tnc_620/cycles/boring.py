@@ -18,7 +18,7 @@ from mnclab.machine.true_size import MILLS, SHIFTS, tool, with_the_spindle
 from mnclab.machining.depths import DRIFT
 from mnclab.machining.holes.drilling import back_bore, back_to_axis, bore
 from mnclab.machining.holes.helical import bore_milling, steepest_pitch, turns
-from mnclab.machining.steps import Step
+from mnclab.machining.steps import Say, Step, Write
 
 CYCLES = CycleTable()
 
@@ -53,6 +53,7 @@ class Boring(Hole):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Down, dwell, off the wall, to the set-up plane, end plane, axis."""
+        yield Write("memory", self.spindle_angle, "orientation")
         bored = bore(
             self.bottom(m), above=self.above, feed=self.feed, retract=rate(self.retract_feed, self.feed),
             dwell=self.dwell_bottom, angle=self.spindle_angle, direction=int(self.disengage),
@@ -108,6 +109,7 @@ class BackBoring(Hole):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Shifted through the hole, counterbore from below, shifted out; end plane, axis."""
+        yield Write("memory", self.spindle_angle, "orientation")
         lower = self.surface - self.thickness - self.edge_height
         bored = back_bore(
             above=self.above, below=lower - self.clearance, bottom=lower + self.counterbore_depth,
@@ -164,10 +166,9 @@ class BoreMilling(Hole):
     def steps(self, m: Machine) -> Iterator[Step]:
         """To the wall, helix, circle, back to the axis; end plane."""
         pitch, sense = self.pitch_on(m), -1 if self.climb < 0 else 1
-        if pitch < self.pitch and self.radius(m) and m.cycle and m.cycle.extra.setdefault("told", pitch) == pitch:
-            m.cycle.extra["told"] = None  # once is enough
+        if pitch < self.pitch and self.radius(m):
             allowed = f"the plunge angle {m.tool.plunge_angle:g} of tool {m.tool.number} allows {pitch:.4g}"
-            m.warn(f"{self.code} Q334 {self.pitch:g} is reduced: {allowed}", m.cycle.words.get("pitch"))
+            yield Say(f"Q334 {self.pitch:g} is reduced: {allowed}", word=m.cycle and m.cycle.words.get("pitch"))
         yield from bore_milling(
             self.bottom(m), above=self.above, radius=self.radius(m), pitch=pitch, sense=sense * m.orientation,
             feed=self.feed, by_arc=True,

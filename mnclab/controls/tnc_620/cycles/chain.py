@@ -3,16 +3,18 @@
 A new value replaces the old one in its place; a neutral one takes the frame out, and a later definition is appended. What is
 defined while the plane is tilted acts in the tilted system; it is a frame of its own, with the mark `TILTED`.
 
-Rotary axes have no frame: their shift and their mirror image are kept in the memory of the machine, see `to_rotary`.
+What changes the chain yields steps. Rotary axes have no frame: their shift and their mirror image are kept in the memory of
+the machine, see `to_rotary`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Generator, Iterator, Mapping
 
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.machine import Machine
+from mnclab.machining.steps import Write
 from mnclab.text.program import Word
 
 SHIFT, MIRROR, ROTATION, SCALE, FACTORS = "shift", "mirror", "rotation", "scale", "axis scales"
@@ -20,8 +22,6 @@ KINDS = (SHIFT, MIRROR, ROTATION, SCALE, FACTORS)
 TILT = "tilt"
 TILTED = " (tilted)"
 ALSO = " (before)"  # what outlived its tilt, beside one of its kind
-ROTARY_SHIFT, ROTARY_MIRROR, ANGLES = "rotary shift", "rotary mirror", "rotation angles"
-REST = (0.0, 0.0, 0.0)
 
 
 def absolute(m: Machine, code: str, given: Mapping[str, Word]) -> None:
@@ -36,12 +36,12 @@ def place(m: Machine, kind: str) -> str:
     return kind + TILTED if TILT in m.frames else kind
 
 
-def define(m: Machine, kind: str, matrix: Matrix | None) -> None:
+def define(m: Machine, kind: str, matrix: Matrix | None) -> Iterator[Write]:
     """Set the frame of a kind where it belongs, None for a neutral one; the register is read anew from where the tip stands."""
     name = place(m, kind)
     if name == kind and kind + ALSO in m.frames:  # one value stands for both
-        m.set_frame(kind + ALSO, None)
-    m.set_frame(name, matrix, keep="tip")
+        yield Write("frame", None, kind + ALSO)
+    yield Write("frame", matrix, name)
 
 
 def shift_of(m: Machine) -> tuple[float, float, float]:
@@ -53,53 +53,52 @@ def shift_of(m: Machine) -> tuple[float, float, float]:
 
 def angle_of(m: Machine) -> float:
     """The rotation that a new one replaces, degrees."""
-    angles: dict[str, float] = m.memory.get(ANGLES, {})
+    angles = memory(m).rotation_angles
     name = place(m, ROTATION)
     return angles.get(name, 0.0) + (angles.get(ROTATION + ALSO, 0.0) if name == ROTATION else 0.0)
 
 
-def remember_angle(m: Machine, angle: float) -> None:
+def remember_angle(m: Machine, angle: float) -> Iterator[Write]:
     """Note the rotation that is set now, degrees."""
     name = place(m, ROTATION)
-    kept = {key: value for key, value in m.memory.get(ANGLES, {}).items() if key != ROTATION + ALSO or name != ROTATION}
-    m.memory[ANGLES] = {**kept, name: angle}
+    angles = memory(m).rotation_angles
+    kept = {key: value for key, value in angles.items() if key != ROTATION + ALSO or name != ROTATION}
+    yield Write("memory", {**kept, name: angle}, "rotation_angles")
 
 
-def untilt(m: Machine) -> list[str]:
+def untilt(m: Machine) -> Generator[Write, None, list[str]]:
     """Take the tilt out; what was defined behind it acts in the untilted system from now on. The kinds of those are told."""
-    left = []
-    for kind in KINDS:
-        if kind + TILTED in m.frames:
-            now = kind if kind not in m.frames else kind + ALSO
-            m.frames.rename(kind + TILTED, now)
-            if kind == ROTATION:
-                angles = dict(m.memory.get(ANGLES, {}))
-                m.memory[ANGLES] = {**angles, now: angles.pop(kind + TILTED, 0.0)}
-            left.append(kind)
-    m.set_frame(TILT, None)
+    left = [kind for kind in KINDS if kind + TILTED in m.frames]
+    for kind in left:
+        now = kind if kind not in m.frames else kind + ALSO
+        yield Write("renamed", now, kind + TILTED)
+        if kind == ROTATION:
+            angles = dict(memory(m).rotation_angles)
+            angles[now] = angles.pop(kind + TILTED, 0.0)
+            yield Write("memory", angles, "rotation_angles")
+    yield Write("frame", None, TILT)
     return left
 
 
-def reset(m: Machine) -> None:
+def reset(m: Machine) -> Iterator[Write]:
     """Take the transformations of cycles 7, 8, 10, 11 and 26 away; a tilt stays (11.4)."""
     for name, _ in list(m.frames):
         if name != TILT and name not in m.frames.slots:
-            m.set_frame(name, None)
-    for name in (ANGLES, ROTARY_SHIFT, ROTARY_MIRROR):
-        m.memory.pop(name, None)
+            yield Write("frame", None, name)
+    for neutral, name in (({}, "rotation_angles"), ((0.0, 0.0, 0.0), "rotary_shift"), ("", "rotary_mirror")):
+        yield Write("memory", neutral, name)
 
 
-def cancel(m: Machine) -> None:
+def cancel(m: Machine) -> Iterator[Write]:
     """The end of a program takes every transformation away (11.1)."""
-    reset(m)
-    m.set_frame(TILT, None)
+    yield from reset(m)
+    yield Write("frame", None, TILT)
 
 
 def rotary(m: Machine) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Shift (degrees) and sense (1 or -1) of the axes A, B and C."""
-    shift: Any = m.memory.get(ROTARY_SHIFT, REST)
-    mirrored = m.memory.get(ROTARY_MIRROR, "")
-    return shift, tuple(-1.0 if axis in mirrored else 1.0 for axis in "ABC")
+    kept = memory(m)
+    return kept.rotary_shift, tuple(-1.0 if axis in kept.rotary_mirror else 1.0 for axis in "ABC")
 
 
 def to_rotary(m: Machine, axis: int, angle: float) -> float:

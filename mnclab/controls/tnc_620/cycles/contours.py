@@ -5,10 +5,12 @@ A contour is read from its labels when a cycle that machines it is called; `pock
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator, Sequence
 from dataclasses import replace
 from typing import Any, ClassVar, NamedTuple
 
+from mnclab.controls.tnc_620.cycles.holes import rate
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machine.cycle import Cycle, CycleTable, param
@@ -18,9 +20,9 @@ from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.residue import left_by
 from mnclab.machining.milling.rings import rings
+from mnclab.machining.steps import Along, Go, Record, Say, Step, Write
 from mnclab.path.outline import outline
 from mnclab.running.binding import unit_of
-from mnclab.running.performing import follow
 
 CYCLES = CycleTable()
 FEEDS = ("FAUTO", "FU", "FZ")
@@ -53,10 +55,10 @@ class ContourGeometry(Cycle):
             if f"{number:g}" not in m.flow.program.labels:
                 yield "labels", f"names label {number:g}, which does not exist"
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Keep the list until the next one."""
         names = tuple(f"{number:g}" for number in self.labels)
-        m.memory["contour labels"] = Labels(names, m.flow.running[-1], m.variable_unit)
+        yield Write("memory", Labels(names, m.program, m.variable_unit), "contour_labels")
 
 
 @CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="8.4")
@@ -82,23 +84,23 @@ class ContourData(Cycle):
         if self.height < self.surface + self.clearance:
             yield "height", f"must not lie below Q5 + Q6 = {self.surface + self.clearance:g}, got {self.height:g}"
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Keep the data; they are read again when a cycle is called, since Q parameters may have changed."""
-        m.memory["contour data"] = self
+        yield Write("memory", self, "contour_data")
 
 
 def contour_data(m: Machine) -> ContourData:
     """The data of cycle 20 with the Q parameters as they stand now."""
-    data = m.memory["contour data"]
-    assert isinstance(data, ContourData)
+    data = memory(m).contour_data
+    assert data is not None
     now: dict[str, Any] = {
         p.name: m.variables[p.address] * unit_of(m, p) for p in data.parameters() if p.address in m.variables
     }
     return replace(data, **now)
 
 
-def contour_region(m: Machine) -> Region:
-    """The area that the labels of cycle 14 describe (TNC 8.3).
+def contour_region(m: Machine) -> Generator[Step, Any, Region]:
+    """The area that the labels of cycle 14 describe (TNC 8.3), which the steps read.
 
     The path inside its contour is a pocket: clockwise with RR, counter-clockwise with RL; else an island. A further
     pocket is united with the area, or intersected with it if the first pocket begins inside it; islands are taken away.
@@ -106,13 +108,11 @@ def contour_region(m: Machine) -> Region:
     pockets: list[tuple[Contour, tuple[float, float]]] = []
     islands: list[Contour] = []
     recording: Recording | None = None
-    labels: Labels = m.memory["contour labels"]
-    unit = m.variable_unit
+    labels = memory(m).contour_labels
+    assert labels is not None
     for label in labels.names:
-        with m.flow.inside(labels.program):
-            m.variable_unit = labels.unit
-            recording = m.record(label, after=recording)
-        m.variable_unit = unit
+        recording = yield Record(label, labels.program, labels.unit, after=recording)
+        assert recording is not None
         if not len(recording.path):
             m.alarm(f"label {label} describes no contour")
         if (abs(recording.path.end[:, 2] - recording.start[2]) > 1e-9).any():
@@ -127,15 +127,20 @@ def contour_region(m: Machine) -> Region:
     if not pockets:
         m.alarm("the contour has no pocket", hint="a pocket is clockwise with RR or counter-clockwise with RL")
     try:
-        (first, begin), *others = pockets
-        region = Region.of(first)
-        for contour, _ in others:
-            other = Region.of(contour)
-            region = region.intersection(other) if other.contains([begin])[0] else region.union(other)
-        for contour in islands:
-            region = region.difference(Region.of(contour))
+        return united(pockets, islands)
     except ValueError as error:
         m.alarm(f"the contour is no area: {error}")
+
+
+def united(pockets: Sequence[tuple[Contour, tuple[float, float]]], islands: Sequence[Contour]) -> Region:
+    """The area of pockets, each with the point where it begins, without islands; a ValueError if one encloses no area."""
+    (first, begin), *others = pockets
+    region = Region.of(first)
+    for contour, _ in others:
+        other = Region.of(contour)
+        region = region.intersection(other) if other.contains([begin])[0] else region.union(other)
+    for contour in islands:
+        region = region.difference(Region.of(contour))
     return region
 
 
@@ -178,9 +183,9 @@ class RoughOut(Cycle):
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Contour and data are there, the infeed is not zero; what is not built is refused."""
-        if "contour labels" not in m.memory:
+        if memory(m).contour_labels is None:
             yield "", "needs a contour: CYCL DEF 14 comes before it"
-        if "contour data" not in m.memory:
+        if memory(m).contour_data is None:
             yield "", "needs its contour data: CYCL DEF 20 comes before it"
         if self.infeed == 0:
             yield "infeed", "must not be 0"
@@ -197,9 +202,14 @@ class RoughOut(Cycle):
         if m.radius <= 0:
             yield "", f"needs a tool with a radius, got {m.radius:g}"
 
-    def moves(self, m: Machine) -> None:
+    def about(self, m: Machine) -> tuple[float, float]:
+        """Contours are told in coordinates of the program."""
+        return 0.0, 0.0
+
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Every level, every piece of the area, every ring."""
-        data, region = contour_data(m), contour_region(m)
+        data = contour_data(m)
+        region = yield from contour_region(m)
         down = -1 if data.depth < 0 else 1
         floor = data.surface + down * (abs(data.depth) - data.floor_allowance)
         climb = data.sense * m.orientation > 0  # on the machine: no mirror image changes it
@@ -211,43 +221,31 @@ class RoughOut(Cycle):
         except ValueError as error:
             m.alarm(f"{self.code}: {error}{remark(m)}", hint="take a smaller tool")
         if data.overlap > 1:
-            self.warn_of_residue(m, region, data)
+            yield from residue(m, region, data)
         above, plunge = data.surface + data.clearance, self.swing_feed or self.plunge_feed
         levels = infeeds(data.surface, floor, abs(self.infeed))
         for number, level in enumerate(levels, 1):
-            m.label = f"22 level {number} of {len(levels)}"
+            label = f"level {number} of {len(levels)}"
             for piece in clearing.pieces:
-                self.enter(m, piece.passes[0], data.height, above, level, plunge)
-                for k, ring in enumerate(piece.passes):
-                    if k and piece.linked[k - 1]:
-                        m.line(*_start(ring), f=self.feed)
-                    elif k:
-                        m.rapid(z=above)
-                        self.enter(m, ring, above, above, level, plunge)
-                    follow(m, ring, self.feed)
-        m.label = "22 retract"
-        feed = self.retract_feed
-        m.line(z=data.height, f=INF if isinstance(feed, str) else feed or self.feed)
-
-    def warn_of_residue(self, m: Machine, region: Region, data: ContourData) -> None:
-        """Rings more than a radius apart may not meet in sharp corners."""
-        stepover = data.overlap * m.radius
-        area = left_by(rings(region, m.radius, stepover, allowance=data.side_allowance)) * m.scale**2
-        if area >= 0.001:
-            sentence = f"leaves {area:.3f} mm² of each level uncut, where the rings turn sharply"
-            m.warn(f"{self.code} Q2={data.overlap:.10g} {sentence}", hint="Q2=1 leaves nothing")
-
-    def enter(self, m: Machine, ring: Contour, height: float, above: float, level: float, plunge: float) -> None:
-        """Over the start of a ring, then down to its level.
-
-        It goes across at the clearance height Q7, from above as from below: that is the height for positioning (8.4), and
-        nothing stands in the way there, so that coming down to it at the old place is safe.
-        """
-        m.rapid(z=height)
-        m.rapid(*_start(ring))
-        m.rapid(z=above)
-        m.line(z=level, f=plunge)
+                height = data.height  # for positioning (8.4), from above as from below: nothing stands in the way there
+                for ring, linked in zip(piece.passes, (False, *piece.linked)):
+                    x, y = ring.points[0].tolist()
+                    if linked:
+                        yield Go(label, x=x, y=y, feed=self.feed)
+                    else:
+                        yield Go(label, height)
+                        yield Go(label, x=x, y=y)
+                        yield Go(label, above)
+                        yield Go(label, level, plunge)
+                    yield Along(label, ring, self.feed)
+                    height = above
+        yield Go("retract", data.height, rate(self.retract_feed, self.feed))
 
 
-def _start(ring: Contour) -> tuple[float, float]:
-    return float(ring.points[0, 0]), float(ring.points[0, 1])
+def residue(m: Machine, region: Region, data: ContourData) -> Iterator[Say]:
+    """A warning where rings more than a radius apart do not meet in sharp corners."""
+    stepover = data.overlap * m.radius
+    area = left_by(rings(region, m.radius, stepover, allowance=data.side_allowance)) * m.scale**2
+    if area >= 0.001:
+        sentence = f"leaves {area:.3f} mm² of each level uncut, where the rings turn sharply"
+        yield Say(f"Q2={data.overlap:.10g} {sentence}", "Q2=1 leaves nothing")

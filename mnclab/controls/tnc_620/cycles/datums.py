@@ -12,6 +12,7 @@ from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.machining.steps import Step, Write
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
@@ -71,13 +72,13 @@ class DatumShift(Cycle):
             except LookupError as error:
                 yield "datum_number", str(error.args[0])
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion: the register is read anew from where the tip stands."""
         new = self.written if self.datum_number is None else row_of(m, int(self.datum_number))
         x, y, z = (new.get(axis, before) for axis, before in zip("xyz", chain.shift_of(m), strict=True))
         turned = tuple(new.get(axis, before) for axis, before in zip("abc", chain.rotary(m)[0], strict=True))
-        m.memory[chain.ROTARY_SHIFT] = turned
-        chain.define(m, chain.SHIFT, frames.shift(x, y, z) if (x, y, z) != (0, 0, 0) else None)
+        yield Write("memory", turned, "rotary_shift")
+        yield from chain.define(m, chain.SHIFT, frames.shift(x, y, z) if (x, y, z) != (0, 0, 0) else None)
 
 
 @CYCLES("CYCL DEF 247", "Presetting", runs="definition", source="11.4")
@@ -99,9 +100,9 @@ class Presetting(Cycle):
         if any((preset.a, preset.b, preset.c, preset.rotation)):
             yield "preset_number", f"names row {row}, which carries a rotation: that is not built yet"
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion: the register is read anew from where the tip stands."""
         row = int(self.preset_number)
-        chain.reset(m)
-        m.memory["preset"] = row
-        m.select_datum(m.tables.presets.get(row, Datum()), "preset")
+        yield from chain.reset(m)
+        yield Write("memory", row, "preset")
+        yield Write("datum", m.tables.presets.get(row, Datum()), "preset")

@@ -6,11 +6,14 @@ values are no Q parameters of the program: GLOBAL DEF 100 with Q200=3 leaves Q20
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from collections.abc import Iterator
+from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.cycle import Cycle, CycleTable, Parameter, param
 from mnclab.machine.machine import Machine
+from mnclab.machining.steps import Step, Write
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
@@ -29,18 +32,12 @@ class Defaults(Cycle):
     serves: ClassVar[frozenset[str]] = frozenset()
     in_variables: ClassVar[bool] = False
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion."""
-        for parameter in self.parameters():
-            value = getattr(self, parameter.name)
-            defaults(m)[parameter.address] = value
-            m.log(f"default {parameter.address}", value)
-
-
-def defaults(m: Machine) -> dict[str, Any]:
-    """The values of all GLOBAL DEF so far by Q parameter; mm, mm/min, s, or a word such as FMAX."""
-    found: dict[str, Any] = m.memory.setdefault("defaults", {})
-    return found
+        values = {parameter.address: getattr(self, parameter.name) for parameter in self.parameters()}
+        yield Write("memory", memory(m).defaults | values, "defaults")
+        for address, value in values.items():
+            yield Write("history", value, f"default {address}")
 
 
 @CYCLES("GLOBAL DEF 100", "Defaults of all fixed cycles", runs="definition", source="3.2")
@@ -122,9 +119,9 @@ def predefined(m: Machine, code: str, parameter: Parameter, word: Word) -> float
     offered = source is not None and issubclass(source, Defaults) and code in source.serves
     if source is None or not (parameter.predef or offered):
         m.alarm(f"{named} has no default: PREDEF is not allowed", word, hint="write its value")
-    if parameter.address not in defaults(m):
+    if parameter.address not in memory(m).defaults:
         m.alarm(f"{named} needs {source.code} before it for PREDEF", word)
-    value: float | str = defaults(m)[parameter.address]
+    value = memory(m).defaults[parameter.address]
     if isinstance(value, str) and value not in parameter.also:
         m.alarm(f"{named} cannot be {value}, which {source.code} gives", word, hint="write its value")
     return value

@@ -12,7 +12,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, ream
-from mnclab.machining.steps import Go, Step, Wait
+from mnclab.machining.steps import Go, Say, Step, Wait
 
 CYCLES = CycleTable()
 
@@ -53,12 +53,12 @@ class Centering(Hole):
                 yield "mode", "1 cannot run under unequal scales of the plane: a diameter would be two"
         yield from moving("feed", self.feed, "to drill with")
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """As every hole; a cone is not wider than the tool."""
         if self.mode and abs(self.diameter) > 2 * m.radius > 0:
             sentence = f"is wider than the tool, {2 * m.radius:.10g}: the cone ends at the tool's diameter"
-            m.warn(f"{self.code} Q344={self.diameter:.10g} {sentence}")
-        super().moves(m)
+            yield Say(f"Q344={self.diameter:.10g} {sentence}")
+        yield from super().moves(m)
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Down, dwell, out."""

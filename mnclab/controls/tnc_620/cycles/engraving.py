@@ -116,7 +116,8 @@ class Engraving(AtSurface):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Stroke by stroke; nothing where the depth is 0."""
-        if not self.executed(m):
+        if not self.down:
+            yield self.left_out
             return
         found = self.tokens(m)
         height = self.height(found)

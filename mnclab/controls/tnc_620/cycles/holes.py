@@ -10,7 +10,6 @@ from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import tool
 from mnclab.machining.steps import RAPID, Go, Step
-from mnclab.running.performing import perform
 
 
 class Hole(AtSurface):
@@ -44,10 +43,9 @@ class Hole(AtSurface):
             yield from point_angle(m, "reference")
         yield from moving("feed", self.feed, "to drill with")
 
-    def moves(self, m: Machine) -> None:
-        """To the set-up plane and then what the cycle does; nothing for a depth of 0."""
-        if self.executed(m):  # with spindle and coolant as at the call
-            perform(m, self.code, [Go("to the set-up clearance", self.above), *self.steps(m)])
+    def moves(self, m: Machine) -> Iterable[Step]:
+        """To the set-up plane and then what the cycle does, with spindle and coolant as at the call."""
+        return [Go("to the set-up clearance", self.above), *self.steps(m)] if self.down else [self.left_out]
 
 
 def point_length(radius: float, angle: float) -> float:

@@ -10,6 +10,7 @@ come down again before the way across would make Q301 = 0 the longer way of the 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from typing import ClassVar
 
@@ -21,8 +22,7 @@ from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import faults, is_round
 from mnclab.machining import patterns
-from mnclab.running.performing import run_cycle
-from mnclab.running.repeating import at_each
+from mnclab.machining.steps import Call, Each, Go, Step, Turn
 
 CYCLES = CycleTable()
 MOST = 100_000  # points
@@ -34,7 +34,7 @@ WAY: dict[float, str] = {0: "straight", 1: "on the pitch circle"}
 Floats = NDArray[np.float64]
 
 
-class PointPattern(Cycle):
+class PointPattern(Cycle, ABC):
     """What both have in common: heights, the machining cycle, the way from point to point."""
 
     combines: ClassVar[frozenset[str]] = frozenset(f"CYCL DEF {n}" for n in _BOTH)
@@ -74,39 +74,39 @@ class PointPattern(Cycle):
         """The second set-up clearance, where it is the greater one."""
         return self.surface + max(self.clearance, self.second_clearance)
 
-    def run(self, m: Machine, points: Floats) -> None:
-        """At the second set-up clearance over the first of the points (n, 2); then the cycle at each."""
-        self.go(m, z=self.high, to="the second set-up clearance")
-        (x, y), others = points[0], points[1:]
-        self.go(m, x=float(x), y=float(y), to="the first point")
-        self.work(m, last=not len(others))
-        self.run_others(m, others)
+    @abstractmethod
+    def points(self) -> Floats:
+        """Where the cycle runs, (n, 2)."""
 
-    def run_others(self, m: Machine, points: Floats) -> None:
+    def about(self, m: Machine) -> tuple[float, float]:
+        """Points are told in coordinates of the program."""
+        return 0.0, 0.0
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """At the second set-up clearance over the first of the points; then the cycle at each."""
+        points = self.points()
+        (x, y), others = points[0].tolist(), points[1:]
+        yield Go("to the second set-up clearance", self.high)
+        yield Go("to the first point", x=x, y=y)
+        yield from self.work(last=not len(others))
+        yield from self.others(m, others)
+
+    def others(self, m: Machine, points: Floats) -> Iterator[Step]:
         """All points but the first, on straight lines."""
-
-        def visit(x: float, y: float, last: bool = False) -> None:
-            self.go(m, z=self.between, to="the level between the points")
-            self.go(m, x=x, y=y, to="the next point")
-            self.work(m, last)
-
-        at_each(m, points[:-1], visit)
+        yield Each(points[:-1], self.visit)
         for x, y in points[-1:].tolist():
-            visit(x, y, last=True)
+            yield from self.visit(x, y, last=True)
 
-    def work(self, m: Machine, last: bool) -> None:
+    def visit(self, x: float, y: float, last: bool = False) -> Iterator[Step]:
+        """One of the points, from the one before."""
+        yield Go("to the level between the points", self.between)
+        yield Go("to the next point", x=x, y=y)
+        yield from self.work(last)
+
+    def work(self, last: bool) -> Iterator[Step]:
         """At a point: to the set-up clearance, and the machining cycle; it ends at the level between the points."""
-        self.go(m, z=self.above, to="the set-up clearance")
-        assert m.cycle is not None
-        run_cycle(m, m.cycle, second_clearance=(self.high if last else self.between) - self.surface)
-
-    def go(
-        self, m: Machine, x: float | None = None, y: float | None = None, z: float | None = None, to: str = ""
-    ) -> None:
-        """A rapid move with its label."""
-        label, m.label = m.label, f"{self.code} to {to}"
-        m.rapid(x, y, z)
-        m.label = label
+        yield Go("to the set-up clearance", self.above)
+        yield Call({"second_clearance": (self.high if last else self.between) - self.surface})
 
 
 @CYCLES("CYCL DEF 220", "Polar pattern", runs="definition", source="7.2")
@@ -151,23 +151,22 @@ class PolarPattern(PointPattern):
         """Of the pitch circle."""
         return self.center_in_1st_axis, self.center_in_2nd_axis
 
-    def moves(self, m: Machine) -> None:
-        """Points on the circle, from the starting angle."""
+    def points(self) -> Floats:
+        """On the circle, from the starting angle."""
         start, radius = math.radians(self.starting_angle), self.pitch_circle_diameter / 2
-        self.run(m, patterns.circle(self.centre(), radius, start, self.step(), int(self.nr_of_repetitions)))
+        return patterns.circle(self.centre(), radius, start, self.step(), int(self.nr_of_repetitions))
 
-    def run_others(self, m: Machine, points: Floats) -> None:
+    def others(self, m: Machine, points: Floats) -> Iterator[Step]:
         """Straight, or along the pitch circle, as fast as each axis may go: an arc has a feed rate."""
         if self.type_of_traverse == 0:
-            super().run_others(m, points)
+            yield from super().others(m, points)
             return
+        rapid = float(np.min(m.setup.limits.rapid))
         for number in range(len(points)):
-            self.go(m, z=self.between, to="the level between the points")
-            label, m.label = m.label, f"{self.code} along the pitch circle"
+            yield Go("to the level between the points", self.between)
             if self.pitch_circle_diameter:
-                m.turn(self.centre(), self.step(), f=float(np.min(m.setup.limits.rapid)))
-            m.label = label
-            self.work(m, last=number == len(points) - 1)
+                yield Turn("along the pitch circle", self.step(), feed=rapid, centre=self.centre())
+            yield from self.work(last=number == len(points) - 1)
 
 
 @CYCLES("CYCL DEF 221", "Cartesian pattern", runs="definition", source="7.3")
@@ -197,12 +196,11 @@ class CartesianPattern(PointPattern):
             many = self.number_of_columns * self.number_of_lines
             yield "number_of_lines", f"makes {many:g} points, more than {MOST}"
 
-    def moves(self, m: Machine) -> None:
+    def points(self) -> Floats:
         """Line by line, to and fro."""
-        points = patterns.grid(
+        return patterns.grid(
             (self.starting_point_1st_axis, self.starting_point_2nd_axis),
             (self.spacing_in_1st_axis, self.spacing_in_2nd_axis),
             (int(self.number_of_columns), int(self.number_of_lines)),
             math.radians(self.angle_of_rotation),
         )
-        self.run(m, points)

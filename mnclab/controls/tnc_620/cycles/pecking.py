@@ -14,13 +14,12 @@ from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import advanced_stops, infeeds
 from mnclab.machining.holes.drilling import Guided, drill, guided, gun_drill
-from mnclab.machining.steps import Go, Step
+from mnclab.machining.steps import Go, Step, Write
 
 CYCLES = CycleTable()
 
 ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: "stopped (M5)"}
 TURNING = {3: 1, 4: -1, 5: 0}
-SPINDLE = {1: "M3", -1: "M4", 0: "M5"}
 
 
 class DeepHole(Hole):
@@ -172,10 +171,10 @@ class SingleLipDrilling(DeepHole):
         yield Go("retract", self.above, out)
         yield from self.leave()
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """As every hole; then spindle and coolant are what their M functions say."""
-        super().moves(m)
+        yield from super().moves(m)
         if self.depth:
-            m.set_modal("spindle", SPINDLE[m.turning])
+            yield Write("modal", f"M{self.spindle_direction:g}", "spindle")
             for code in filter(None, (self.coolant_on, self.coolant_off)):
-                m.set_modal("coolant", f"M{code:g}")
+                yield Write("modal", f"M{code:g}", "coolant")

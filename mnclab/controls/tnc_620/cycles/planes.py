@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machining.steps import RAPID, Go
+from mnclab.machining.steps import RAPID, Go, Say
 
 
 class AtSurface(Cycle):
@@ -33,12 +33,11 @@ class AtSurface(Cycle):
                 return -1.0 if depth > 0 else 1.0
         return 0.0
 
-    def executed(self, m: Machine) -> bool:
-        """Whether there is a depth; the manual leaves a cycle with a depth of 0 out, which a warning says."""
-        if not self.down:
-            depth = next(p.address for p in self.parameters() if p.name in self.depths())
-            m.warn(f"{self.code} {depth} makes a depth of 0: the cycle is not executed")
-        return bool(self.down)
+    @property
+    def left_out(self) -> Say:
+        """All that a cycle does with a depth of 0: the manual leaves it out, which a warning says."""
+        depth = next(p.address for p in self.parameters() if p.name in self.depths())
+        return Say(f"{depth} makes a depth of 0: the cycle is not executed")
 
     @property
     def above(self) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.language.flow import call_program
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
+from mnclab.machining.steps import Blocks, Step
 from mnclab.running import files
 from mnclab.text.alarm import Alarm
 
@@ -26,6 +27,6 @@ class ProgramCall(Cycle):
         except Alarm as missing:
             yield "program_name", missing.message.removeprefix(f"{self.code} ")
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Those of the program, from where the tool stands."""
-        call_program(m, self.program_name, self.code, None)
+        yield Blocks(lambda: call_program(m, self.program_name, self.code, None))

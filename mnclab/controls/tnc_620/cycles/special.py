@@ -13,13 +13,11 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS
-from mnclab.machining.steps import Spin, Step, Thread, Wait
+from mnclab.machining.steps import Say, Spin, Step, Thread, Wait, Write
 from mnclab.path.recorder import NAN
-from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 
-ORIENTATION = "spindle angle"  # in the memory: where M19 and M20 stop the spindle, degrees
 FILTERS: dict[float, str] = {0: "finishing: more exact", 1: "roughing: faster"}
 LOADS: dict[float, str] = {0: "forget the values found before", 1: "weigh: the axes move to find the load"}
 
@@ -30,9 +28,9 @@ class DwellTime(Cycle):
 
     dwell_time: float = param("DWELL", "dwell", "s", at_least=0, at_most=addresses.LONG)
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """One wait."""
-        m.dwell(self.dwell_time)
+        yield Wait("dwell", self.dwell_time)
 
 
 @CYCLES("CYCL DEF 13", "Oriented spindle stop", runs="definition", source="12.4")
@@ -41,10 +39,10 @@ class SpindleOrientation(Cycle):
 
     orientation_angle: float = param("ANGLE", "angle of the spindle", "deg", at_least=0, at_most=360, modal=True)
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion."""
-        m.memory[ORIENTATION] = self.orientation_angle
-        m.log("orientation", self.orientation_angle)
+        yield Write("memory", self.orientation_angle, "orientation")
+        yield Write("history", self.orientation_angle, "orientation")
 
 
 @CYCLES("CYCL DEF 32", "Tolerance", runs="definition", source="12.5")
@@ -64,12 +62,12 @@ class Tolerance(Cycle):
         note="with M128; 0: that of the machine",
     )  # fmt: skip
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion."""
-        m.tolerance, m._state = self.tolerance or NAN, None
-        m.log("tolerance", self.tolerance or 0.0)
-        m.log("filter", FILTERS[self.hsc_mode])
-        m.log("tolerance of rotary axes", self.rotary_axis_tolerance)
+        yield Write("tolerance", self.tolerance or NAN)
+        yield Write("history", self.tolerance or 0.0, "tolerance")
+        yield Write("history", FILTERS[self.hsc_mode], "filter")
+        yield Write("history", self.rotary_axis_tolerance, "tolerance of rotary axes")
 
 
 def hobbing_tolerance(contact_length: float, rotary_tolerance: float) -> float:
@@ -88,13 +86,11 @@ class LoadAscertaining(Cycle):
 
     load: float = param("Q570", "what to do", "choice", choices=LOADS, modal=True)
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No path; a message where the axes would move."""
-        m.log("load", LOADS[self.load])
+        yield Write("history", LOADS[self.load], "load")
         if self.load:
-            m.message(
-                f"{self.code}: the axes would move here to weigh the load, as the machine tool builder has set; no path"
-            )
+            yield Say("has no path: the axes would move to weigh the load, as the machine tool builder has set")
 
 
 @CYCLES("CYCL DEF 18", "Thread cutting", runs="call", source="12.9")
@@ -133,15 +129,12 @@ class ThreadCutting(Cycle):
         if not m.speed:
             yield "", "needs a spindle speed: write S in TOOL CALL"
 
-    def steps(self, m: Machine) -> Iterator[Step]:
-        """On, into the thread, off; a wait where the machine has one."""
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """On, into the thread, off; a wait where the machine has one. Nothing where the depth is 0."""
+        if not self.thread_depth:
+            return
         opposite = (self.thread_pitch > 0) != (self.thread_depth > 0)
         yield Spin("spindle on", 1 if opposite else -1)
         yield Thread("cut the thread", m.programmed[2] + self.thread_depth, abs(self.thread_pitch))
         yield Spin("stop the spindle", 0)
         yield Wait("wait for the spindle", m.settings["thread_wait"])
-
-    def moves(self, m: Machine) -> None:
-        """Nothing where the depth is 0."""
-        if self.thread_depth:
-            perform(m, self.code, self.steps(m))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
@@ -14,8 +14,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.tapping import tap
-from mnclab.machining.steps import Go, Spin, Step
-from mnclab.running.performing import perform
+from mnclab.machining.steps import Go, Spin, Step, Write
 
 CYCLES = CycleTable()
 
@@ -58,14 +57,12 @@ class Tapping(AtSurface):
     def steps(self, m: Machine) -> Iterator[Step]:
         """From the set-up plane into the thread and back to it."""
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterable[Step]:
         """Set-up plane, thread, end plane; a spindle that stands still turns again as it did before."""
-        if not self.executed(m):
-            return
-        turning, speed = m.turning, m.speed
-        perform(m, self.code, [Go("to the set-up clearance", self.above)])
-        perform(m, self.code, self.steps(m))
-        perform(m, self.code, [*self.leave(), Spin("spindle on again", turning, speed)])
+        if not self.down:
+            return [self.left_out]
+        again = Spin("spindle on again", m.turning, m.speed)
+        return [Go("to the set-up clearance", self.above), *self.steps(m), *self.leave(), again]
 
 
 @CYCLES("CYCL DEF 206", "Tapping with a floating tap holder", runs="call", source="5.2")
@@ -172,8 +169,9 @@ class ChipBreakingTapping(RigidTapping):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """Oriented; in, reversed, back, reversed, …; out faster, as far as the spindle can."""
+        yield Write("memory", self.spindle_angle, "orientation")
         lead = abs(self.pitch)
-        return tap(
+        yield from tap(
             self.levels(), above=self.above, pitch=lead, sense=self.sense, end=0, speed=m.speed,
             out_speed=min(self.retract_rpm_factor * m.speed, m.setup.limits.spindle),
             back=self.chip_breaking_retract_factor * lead, angle=self.spindle_angle, stand=m.settings["thread_wait"],

@@ -70,11 +70,13 @@ class InnerThreadMilling(AtSurface):
             yield from check(self, m, milling_feed=True)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """The thread alone; not executed with a depth of 0."""
-        if self.executed(m):
-            yield Go("to the set-up clearance", self.above)
-            yield from thread(self, m)
-            yield from self.leave()
+        """The thread alone; nothing with a depth of 0."""
+        if not self.down:
+            yield self.left_out
+            return
+        yield Go("to the set-up clearance", self.above)
+        yield from thread(self, m)
+        yield from self.leave()
 
 
 @CYCLES("CYCL DEF 263", "Thread milling with countersinking", runs="call", source="5.7")

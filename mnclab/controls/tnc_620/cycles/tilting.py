@@ -12,12 +12,13 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.cycles.addresses import FAR, FAST
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import tilting
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
-from mnclab.machine.rotary import Angles, set_angles, turn_axes
 from mnclab.machine.settings import Setting
+from mnclab.machining.steps import Go, Say, Step, Swivel, Write
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
@@ -32,7 +33,6 @@ SETTINGS = (
     ),
 )  # fmt: skip
 AXES = "ABC"
-ANGLES = "tilt angles"  # in the memory: those of the active cycle 19, degrees
 RESULTS = {"A": "Q120", "B": "Q121", "C": "Q122"}
 
 
@@ -77,7 +77,7 @@ class WorkingPlane(Cycle):
         """Angles are absolute; one that is not written is that of the cycle before."""
         chain.absolute(m, cls.code, given)
         if given:
-            before: Mapping[str, float] = m.memory.get(ANGLES, {})
+            before = memory(m).tilt_angles
             values |= {f"angle_{axis}": before.get(axis, 0.0) for axis in "abc" if f"angle_{axis}" not in given}
         return values
 
@@ -109,21 +109,25 @@ class WorkingPlane(Cycle):
                         f"must be 0, got {angle:g}: the rotary axes are {' and '.join(sorted(pair))}",
                     )
 
-    def moves(self, m: Machine) -> None:
+    def about(self, m: Machine) -> tuple[float, float]:
+        """Where the tip goes is told in coordinates of the program."""
+        return 0.0, 0.0
+
+    def moves(self, m: Machine) -> Iterator[Step]:
         """The frame, the results, and the motion of the rotary axes where it is asked for."""
         if self.off:
-            m.memory.pop(ANGLES, None)
-            if chain.TILT in m.frames and (left := chain.untilt(m)):
-                m.warn(f"{self.code} is switched off, and {', '.join(left)} defined behind it act in the untilted system",
-                       None, "reset in the reverse order of definition")  # fmt: skip
+            yield Write("memory", {}, "tilt_angles")
+            if chain.TILT in m.frames and (left := (yield from chain.untilt(m))):
+                sentence = f"is switched off, and {', '.join(left)} defined behind it act in the untilted system"
+                yield Say(sentence, "reset in the reverse order of definition")
             return
-        m.memory[ANGLES] = {axis.lower(): angle for axis, angle in self.angles.items()}
-        m.set_frame(chain.TILT, self.matrix(m), keep="tip")
+        yield Write("memory", {axis.lower(): angle for axis, angle in self.angles.items()}, "tilt_angles")
+        yield Write("frame", self.matrix(m), chain.TILT)
         to = self.positions(m)
         for axis, name in RESULTS.items():
-            m.variables[name] = round(math.degrees(to[axis]), 12)
+            yield Write("variable", round(math.degrees(to[axis]), 12), name)
         if self.rotary_feed is not None:
-            self.position(m, to)
+            yield from self.position(m, to)
 
     def matrix(self, m: Machine) -> Matrix:
         """The tilted system in the untilted one."""
@@ -140,24 +144,19 @@ class WorkingPlane(Cycle):
         tool_axis = (m.frames.before(chain.TILT) @ m.frames[chain.TILT])[:3, 2]
         return now | tilting.nearest(tilting.positions(pair, tool_axis, now), now)
 
-    def position(self, m: Machine, to: Mapping[str, float]) -> None:
+    def position(self, m: Machine, to: Mapping[str, float]) -> Iterator[Step]:
         """Turn the axes together; the point ABST below the tip stands still, so the tip goes round it."""
         assert self.rotary_feed is not None and self.set_up_clearance is not None
         pair = m.settings["rotary_axes"]
         now = dict(zip(AXES, m.rotary, strict=True))
         travel = self.set_up_clearance * (tilting.direction(pair, to) - tilting.direction(pair, now))
         way = math.degrees(max(abs(to[axis] - now[axis]) for axis in AXES))
+        a, b, c = (math.degrees(to[axis]) for axis in AXES)
         if not way:
             return
-        m.label = f"{self.code} tilt"
         if not (length := math.hypot(*travel)):
-            turn_axes(m, degrees(to), self.rotary_feed)
+            yield Swivel("tilt", (a, b, c), self.rotary_feed)
             return
-        set_angles(m, degrees(to))
-        m.line(*m.to_program(p + d for p, d in zip(m.tip, travel, strict=True)), f=length * self.rotary_feed / way)
-
-
-def degrees(angles: Mapping[str, float]) -> Angles:
-    """A, B and C, degrees."""
-    a, b, c = (math.degrees(angles[axis]) for axis in AXES)
-    return a, b, c
+        yield Write("rotary", tuple(map(math.radians, (a, b, c))))
+        x, y, z = m.to_program(p + d for p, d in zip(m.tip, travel, strict=True))
+        yield Go("tilt", z, length * self.rotary_feed / way, x, y)

@@ -15,6 +15,7 @@ from mnclab.controls.tnc_620.cycles.addresses import FAR
 from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
+from mnclab.machining.steps import Step, Write
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
@@ -43,12 +44,12 @@ class Mirroring(Cycle):
         if absent := next((axis for axis in named if axis in NOT_BUILT), None):
             yield "mirrored_axes", f"cannot be {absent}: this axis is not built yet"
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion; an arc turns the other way and RL becomes RR where one axis of the plane is mirrored."""
         named = self.mirrored_axes or ()
         linear = "".join(axis for axis in named if axis in "XYZ")
-        m.memory[chain.ROTARY_MIRROR] = "".join(axis for axis in named if axis in "ABC")
-        chain.define(m, chain.MIRROR, frames.mirror(linear) if linear else None)
+        yield Write("memory", "".join(axis for axis in named if axis in "ABC"), "rotary_mirror")
+        yield from chain.define(m, chain.MIRROR, frames.mirror(linear) if linear else None)
 
 
 @CYCLES("CYCL DEF 10", "Rotation", runs="definition", source="11.6")
@@ -68,11 +69,11 @@ class Rotation(Cycle):
             values["angle"] = math.fmod(chain.angle_of(m) + values["angle"], 360)
         return values
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion: the register is read anew from where the tip stands."""
-        m.change("side", 0)
-        chain.remember_angle(m, self.angle)
-        chain.define(m, chain.ROTATION, frames.turn(math.radians(self.angle)) if self.angle % 360 else None)
+        yield Write("side", 0)
+        yield from chain.remember_angle(m, self.angle)
+        yield from chain.define(m, chain.ROTATION, frames.turn(math.radians(self.angle)) if self.angle % 360 else None)
 
 
 def factor(address: str, meaning: str, **more: Any) -> Any:
@@ -89,10 +90,10 @@ class Scaling(Cycle):
 
     scaling_factor: float = factor("SCL", "scaling factor")
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion."""
         s = self.scaling_factor
-        chain.define(m, chain.SCALE, frames.scale(s, s, s) if s != 1 else None)
+        yield from chain.define(m, chain.SCALE, frames.scale(s, s, s) if s != 1 else None)
 
 
 def centre(address: str) -> Any:
@@ -124,7 +125,7 @@ class AxisScaling(Cycle):
             m.alarm(f"{cls.code} needs an axis and its factor, for example CYCL DEF 26.1 X 1.4 Y 0.6", None)
         return values
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """No motion."""
         scales, about = (self.x, self.y, self.z), (self.centre_x or 0.0, self.centre_y or 0.0, self.centre_z or 0.0)
-        chain.define(m, chain.FACTORS, frames.scale(*scales, about) if scales != (1, 1, 1) else None)
+        yield from chain.define(m, chain.FACTORS, frames.scale(*scales, about) if scales != (1, 1, 1) else None)

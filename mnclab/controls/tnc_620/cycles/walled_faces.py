@@ -236,7 +236,8 @@ class WalledFaceMilling(AtSurface):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """To the start, over all levels, along the walls, to the second set-up clearance."""
-        if not self.executed(m):
+        if not self.down:
+            yield self.left_out
             return
         passes, levels, lift = self.passes(m.radius), self.levels(tool(m)), self.down * self.clearance
         walls = self.along(m.radius, 0.0) if self.finishes_side else ()

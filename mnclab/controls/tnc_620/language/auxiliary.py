@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 
@@ -59,7 +60,8 @@ def tool_change(m: Machine, words: Words) -> None:
 @FUNCTIONS("M19 M20", "Oriented spindle stop", group="spindle", phase="start", modal=False, source="12.4")
 def orient(m: Machine, words: Words) -> None:
     """Before the motion of the block the spindle turns to the angle of Cycle 13, without it to that of the machine."""
-    m.orient(m.memory.get(ORIENTATION, m.settings["spindle_angle"]))
+    angle = memory(m).orientation
+    m.orient(m.settings["spindle_angle"] if angle is None else angle)
     m.set_modal("spindle", "M5")
 
 

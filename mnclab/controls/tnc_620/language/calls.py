@@ -6,15 +6,16 @@ CYCL CALL PAT is in `controls.tnc_620.language.pattern_calls`.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 
 from mnclab.controls.tnc_620.language.motion import coordinates, feed
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
+from mnclab.machining.steps import Call, Go, Step, Write
 from mnclab.running.binding import as_it_stands, instance, refuse_frame
-from mnclab.running.performing import run_cycle
+from mnclab.running.performing import perform, run_cycle
+from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
@@ -53,12 +54,12 @@ def end_modal_call(m: Machine) -> None:
         m.set_modal("call", "")
 
 
-def calls_again(m: Machine, keyword: str, words: Sequence[Word]) -> bool:
+def calls_again(keyword: str, words: Sequence[Word]) -> bool:
     """Whether M89 of a block before calls its cycle in a block of this kind; it does not go with free contours."""
     if keyword in FREE:
-        m.alarm(f"M89 and {keyword}: a modal cycle call does not go with free contours", None, hint="end it with M99")
+        raise Alarm(f"M89 and {keyword}: a modal cycle call does not go with free contours", hint="end it with M99")
     if keyword.startswith(("APPR", "DEP")):
-        m.alarm(f"M89 and {keyword}: a cycle is called without radius compensation", None, hint="end it with M99")
+        raise Alarm(f"M89 and {keyword}: a cycle is called without radius compensation", hint="end it with M99")
     return keyword in POSITIONING and (keyword[0] == "C" or any(word.address in PLACES for word in words))
 
 
@@ -98,17 +99,12 @@ def cycle_call_at(m: Machine, words: Words) -> None:
     kept = m.feed, m.per_rev
     f = feed(m, words)
     surface, first, second = planes(m, definition)
-    m.label = "CYCL CALL POS to the position"
-    if m.programmed[2] > surface + z:
-        m.line(x=x, y=y, f=f)
-        m.line(z=surface + z + first, f=f)
-    else:
-        m.line(z=surface + z + max(first, second), f=f)
-        m.line(x=x, y=y, f=f)
-    m.label = ""
+    over, label = m.programmed[2] > surface + z, "to the position"
+    across, down = Go(label, x=x, y=y, feed=f), Go(label, surface + z + (first if over else max(first, second)), f)
+    perform(m, "CYCL CALL POS", (across, down) if over else (down, across), about=(0.0, 0.0))
     m.change("feed", kept[0])
     m.change("per_rev", kept[1])
-    run_at(m, definition, x, y, z)
+    perform(m, "CYCL CALL POS", call_at(definition, x, y, z))
 
 
 def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:
@@ -126,22 +122,14 @@ def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:
     return float(found.get("Q227", surface)), first, second
 
 
-def run_at(m: Machine, definition: Definition, x: float, y: float, z: float, **instead: float) -> None:
-    """Run a cycle where the tool stands, x y, its surface shifted by z; a contour cycle with its datum there.
+def call_at(definition: Definition, x: float, y: float, z: float, **instead: float) -> Iterator[Step]:
+    """The cycle where the tool stands, x y, its surface shifted by z; a contour cycle with its datum there.
 
     `instead` are values that count in place of its own.
     """
     shift = (x, y, z) if definition.cycle.code in PLACED_BY_DATUM else (0.0, 0.0, z)
-    with shifted(m, shift):
-        run_cycle(m, definition, **instead)
-
-
-@contextmanager
-def shifted(m: Machine, shift: tuple[float, float, float]) -> Iterator[None]:
-    """Inside, programs count from a datum shifted further."""
-    if shift == (0.0, 0.0, 0.0):
-        yield
-        return
-    m.set_frame("point", frames.shift(*shift))
-    yield
-    m.set_frame("point", None)
+    if any(shift):
+        yield Write("frame", frames.shift(*shift), "point")
+    yield Call(instead)
+    if any(shift):
+        yield Write("frame", None, "point")

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import INF, Machine
 from mnclab.text.program import Word
 
 FORMS = ("F", "FMAX", "FAUTO", "FU", "FZ")
-PER_TOOTH = "feed per tooth"  # mm, kept beside the feed per revolution that it makes with the tool in the spindle
 MEANINGS = {"F": "feed rate", "FU": "feed per revolution", "FZ": "feed per tooth"}
 
 
@@ -27,13 +27,13 @@ def feed(m: Machine, words: Words) -> float | None:
     word = given[0]
     if word.address == "FMAX":
         return INF
-    m.memory.pop(PER_TOOTH, None)
+    memory(m).feed_per_tooth = None
     if word.address == "FAUTO":
         set_feed(m, auto_feed(m, word))
         return None
     value = positive(m, word)
     if word.address == "FZ":
-        m.memory[PER_TOOTH] = value
+        memory(m).feed_per_tooth = value
         value *= teeth(m, word)
     set_feed(m, value, per_rev=word.address != "F")
     return None
@@ -62,13 +62,13 @@ def teeth(m: Machine, word: Word) -> int:
 
 def with_another_tool(m: Machine) -> None:
     """A feed per tooth goes on with the teeth of the new tool; with none there is no feed until one is written."""
-    if PER_TOOTH in m.memory:
-        set_feed(m, m.memory[PER_TOOTH] * m.tool.teeth if m.tool.teeth > 0 else None, per_rev=True)
+    if (per_tooth := memory(m).feed_per_tooth) is not None:
+        set_feed(m, per_tooth * m.tool.teeth if m.tool.teeth > 0 else None, per_rev=True)
 
 
 def auto_feed(m: Machine, word: Word) -> float:
     """The feed of the TOOL CALL block, mm/min."""
-    value: float | None = m.memory.get("auto feed")
+    value = memory(m).auto_feed
     if value is None:
         m.alarm("FAUTO needs a feed in the TOOL CALL block", word, hint="write TOOL CALL … F500")
     return value

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from mnclab.controls.tnc_620.language.parameters import PREASSIGNED, text
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.running import files
@@ -34,14 +35,14 @@ def call_label(m: Machine, words: Words) -> None:
     if name == "0":
         m.alarm("CALL LBL 0: LBL 0 is the end of a subprogram and cannot be called", word)
     if "REP" not in words:
-        m.flow.call(name, m._span(word))
+        m.flow.call(m, name, m.span_of(word))
         return
-    first, here = m.flow.index_of(name, m._span(word)), m.flow.current
+    first, here = m.flow.index_of(name, m.span_of(word)), m.flow.current
     if first >= here:
         m.alarm(
             f"CALL LBL {name} REP: the section must begin before this block", word, hint="REP repeats what stands above"
         )
-    m.flow.repeat(first, here, int(m.value(words["REP"])), m._span(word))
+    m.flow.repeat(m, first, here, int(m.value(words["REP"])), m.span_of(word))
 
 
 CONDITIONS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
@@ -62,36 +63,31 @@ def jump(m: Machine, words: Words) -> None:
     m.flow.ask(word.value)
     if "state" in words:
         name = str(words["parameter"].value)
-        m.flow.loops.asked[name] = m.flow.loops.otherwise = m.step
+        m.flow.ask_whether(name)
         holds = (name in m.variables or name in PREASSIGNED) == (words["state"].value == "DEFINED")
     else:
         first, second = words["first"], words["second"]
         one, other = m.value(first), m.value(second)
-        m.flow.loops.compare(m, first.value, second.value, one - other)
+        m.flow.compare(first.value, second.value, one - other)
         holds = CONDITIONS[words.code][1](one, other)
     name = label_name(m, word)
     if name == "0":
         m.alarm(f"{words.code} GOTO LBL 0: LBL 0 is the end of a subprogram and no place to go to", word)
-    m.flow.index_of(name, m._span(word))  # a label that is missing is a fault even when the jump is not made
+    m.flow.index_of(name, m.span_of(word))  # a label that is missing is a fault even when the jump is not made
     if holds:
-        m.flow.jump(name, m._span(word))
-
-
-_OF_A_PROGRAM: tuple[str, ...] = ("name", "unit")  # what BEGIN PGM says
+        m.flow.jump(m, name, m.span_of(word))
 
 
 def call_program(m: Machine, name: str, what: str, word: Word | None) -> None:
     """Run another program here, with its own QL parameters; `what` is the statement that calls it."""
-    place = m._span(word)
+    place = m.span_of(word)
     index = files.called(m, name, what, place)
-    kept = {key: m.memory.pop(key) for key in _OF_A_PROGRAM if key in m.memory}
-    unit = m.variable_unit
+    kept, length = (memory(m).name, memory(m).unit), m.variable_unit
+    memory(m).name = memory(m).unit = None
     with m.variables.own_level():
-        m.flow.call_program(index, place)
-    m.variable_unit = unit
-    for key in _OF_A_PROGRAM:
-        m.memory.pop(key, None)
-    m.memory.update(kept)
+        m.flow.call_program(m, index, place)
+    m.variable_unit = length
+    memory(m).name, memory(m).unit = kept
 
 
 @FUNCTIONS("CALL PGM,", "Program call", takes="name", source="3.4")
@@ -105,13 +101,14 @@ def call_named(m: Machine, words: Words) -> None:
 def select(m: Machine, words: Words) -> None:
     """The program that CALL SELECTED PGM runs; its name may stand in a QS parameter."""
     m.flow.ask(words["name"].value)
-    m.memory["selected program"] = text(m, words["name"])
-    m.log("selected program", m.memory["selected program"])
+    memory(m).selected_program = text(m, words["name"])
+    m.log("selected program", memory(m).selected_program)
 
 
 @FUNCTIONS("CALL SELECTED PGM,", "Call of the chosen program", source="Klartext, not described")
 def call_selected(m: Machine, words: Words) -> None:
     """Runs the program that SEL PGM has chosen."""
-    if "selected program" not in m.memory:
+    name = memory(m).selected_program
+    if name is None:
         m.alarm("CALL SELECTED PGM: no program was chosen", None, hint='write SEL PGM "NAME" before it')
-    call_program(m, m.memory["selected program"], "CALL SELECTED PGM", None)
+    call_program(m, name, "CALL SELECTED PGM", None)

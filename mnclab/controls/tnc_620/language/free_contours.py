@@ -18,6 +18,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.language.free_words import describe
 from mnclab.controls.tnc_620.language.motion import TOLERANCE, feed, refuse_rapid, side
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import free_choice
 from mnclab.geometry.free_contour import FreeContour, Pair, Piece, known
 from mnclab.geometry.newton import Exhausted
@@ -33,9 +34,6 @@ FUNCTIONS = FunctionTable()
 BOTH = "X Y PR PA LEN AN P1X P1Y P2X P2Y PDX PDY D CLSD RX RY RPR RPA RAN R0 RL RR F FMAX FAUTO"
 LINE = f"{BOTH} PAR DP"
 ARC = f"{BOTH} P3X P3Y R DR CCA CCX CCY CCPR CCPA RCCX RCCY RCCPR RCCPA"
-START = "free start"  # in the machine's memory: where a contour began with CLSD+
-POLE = "free pole"
-EARLIER = "free elements"
 MOST_COMPARED = 2000  # elements in all solutions, when those that do not cross themselves are sought
 
 
@@ -117,7 +115,7 @@ class Chain:
         for k in reversed(range(len(self.blocks) - 1)):
             if self.blocks[k].number == number:
                 return Earlier(self.contour.end(k), self.contour.normal(k), self.contour.level(k))
-        found: dict[str, Earlier] = m.memory.get(EARLIER, {})
+        found = memory(m).free_elements
         if number not in found:
             m.alarm(f"{word} must name an earlier block of a free contour, block {number} is none", word)
         return found[number]
@@ -125,17 +123,16 @@ class Chain:
     def close(self, m: Machine, word: Word, k: int) -> None:
         """CLSD+ at the first element of a closed contour, CLSD- at its last."""
         if word.value == "+":
-            if START in m.memory:
+            if memory(m).free_start is not None:
                 m.alarm("CLSD+ begins a closed contour inside another one", word, hint="end that with CLSD- first")
-            m.memory = {**m.memory, START: self.contour.elements[k].start}
+            memory(m).free_start = self.contour.elements[k].start
         elif word.value != "-":
             m.alarm(f"CLSD must be CLSD+ or CLSD-, got {word}", word)
-        elif START not in m.memory:
+        elif (start := memory(m).free_start) is None:
             m.alarm("CLSD- ends a closed contour that no CLSD+ began", word)
         else:
-            memory = dict(m.memory)
-            self.contour.same(self.contour.end(k), memory.pop(START), word)
-            m.memory, self.closed = memory, True
+            self.contour.same(self.contour.end(k), start, word)
+            memory(m).free_start, self.closed = None, True
 
     # --- when it is over ------------------------------------------------------------------------------------------------
 
@@ -161,7 +158,7 @@ class Chain:
 
     def keep(self, m: Machine, values: np.ndarray[Any, Any]) -> None:
         """What later contours may refer to, in numbers."""
-        found: dict[str, Earlier] = dict(m.memory.get(EARLIER, {}))
+        kept = memory(m)
         for k, block in enumerate(self.blocks):
             element = self.contour.elements[k]
             if element.normal is not None:
@@ -171,10 +168,9 @@ class Chain:
                 spoke, radius = element.centre - element.start, element.radius.at(values)
                 normal = spoke.times(1 / radius)
             n, end, start = (_fixed(pair, values) for pair in (normal, element.end, element.start))
-            found[block.number] = Earlier(end, n, n.dot(start))
-        m.memory = {**m.memory, EARLIER: found}
-        if START in m.memory:
-            m.memory[START] = _fixed(m.memory[START], values)
+            kept.free_elements[block.number] = Earlier(end, n, n.dot(start))
+        if kept.free_start is not None:
+            kept.free_start = _fixed(kept.free_start, values)
 
     def refuse_open(self, m: Machine) -> None:
         """The alarm of a contour of which too little is known; nothing if no reading leaves anything open."""
@@ -208,7 +204,7 @@ class Chain:
     def likely(self, m: Machine, solutions: list[list[Piece]]) -> int:
         """The one solution that closes, stays inside the blank and does not cross itself; an alarm if it is not alone."""
         left = list(range(len(solutions)))
-        blank = m.memory.get("stock")
+        blank = memory(m).stock
 
         def inside(pieces: list[Piece]) -> bool:
             return (
@@ -282,11 +278,9 @@ def free_pole(m: Machine, words: Words) -> None:
             m.alarm(f"FPOL needs {axis}, the coordinate of the pole", words.words[0] if len(words) else None)
         if words[axis].incremental and m.pending:
             m.alarm(f"FPOL {axis} (pole) must be absolute inside a free contour", words[axis])
-    pole = tuple(
-        m.value(words[axis]) + (m.programmed[k] if words[axis].incremental else 0.0) for k, axis in enumerate("XY")
-    )
-    m.memory = {**m.memory, POLE: pole}
-    m.log(POLE, pole)
+    x, y = (m.value(words[axis]) + (m.programmed[k] if words[axis].incremental else 0.0) for k, axis in enumerate("XY"))
+    memory(m).free_pole = (x, y)
+    m.log("free pole", (x, y))
 
 
 @FUNCTIONS("FSELECT", "Choice of a free contour", takes="number", collects=True, source="8.13, example")

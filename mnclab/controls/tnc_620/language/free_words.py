@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.free_contour import FreeContour, Pair, known, normal_of
 from mnclab.geometry.quadratic_form import Form
 from mnclab.machine.control import Words
@@ -127,7 +128,7 @@ def polar(chain: Chain, m: Machine, words: Words, point: Pair, kind: str, k: int
     first = far or turn
     if first is None:
         return
-    pole = m.memory.get("free pole")
+    pole = memory(m).free_pole
     if pole is None:
         m.alarm(f"{words.code} {first.address} needs a pole", first, hint="write FPOL X… Y… before it")
     contour, away = chain.contour, point - known(*pole)

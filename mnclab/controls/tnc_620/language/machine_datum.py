@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
+from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 TITLES = {"M91": "Machine coordinates", "M92": "Coordinates from a position of the machine tool builder"}
-DATUM = "machine datum"  # in the memory while its block runs: the word, and the machine coordinates to count from
 
 
 @FUNCTIONS("M91 M92", TITLES, group="machine datum", phase="start", modal=False, source="11.9")
@@ -21,21 +22,23 @@ def machine_datum(m: Machine, words: Words) -> None:
         m.alarm(f"{words.code} stands in a straight line L alone", word)
     if m.side:
         m.alarm(f"{words.code} cannot stand under radius compensation", word, "write R0 in the block before")
-    built = words.code == "M92"
-    m.memory[DATUM] = word, [m.settings[f"m92_{axis}"] if built else 0.0 for axis in "xyz"]
-    m.at_block_end(lambda: m.memory.pop(DATUM))
+    x, y, z = (m.settings[f"m92_{axis}"] if words.code == "M92" else 0.0 for axis in "xyz")
+    memory(m).machine_datum = word, (x, y, z)
+    m.at_block_end(lambda: setattr(memory(m), "machine_datum", None))
 
 
-def machine_target(m: Machine, written: dict[int, tuple[float, bool]]) -> dict[str, Any]:
-    """The point of the program that these values (axis -> value, whether incremental) mean while M91 or M92 is active."""
-    (word, datum), target = m.memory[DATUM], list(m.tip)
+def machine_target(
+    m: Machine, counted: tuple[Word, Place], written: dict[int, tuple[float, bool]]
+) -> dict[str, Any]:
+    """The point of the program that these values (axis -> value, whether incremental) mean under M91 or M92 (`counted`)."""
+    (word, datum), target = counted, list(m.tip)
     for axis, (value, incremental) in written.items():
         length = m.tool.effective_length if axis == 2 else 0.0  # Z is the spindle reference, above the tip
         target[axis] = target[axis] + value if incremental else datum[axis] + value - length
     if m.side:
         m.alarm(f"{word} cannot begin radius compensation", word, "write RL or RR in the block after")
     point = m.to_program(target)
-    return {"xyz"[axis]: point[axis] for axis in (written if m._shift is not None else range(3))}
+    return {"xyz"[axis]: point[axis] for axis in (written if m.shift is not None else range(3))}
 
 
 @FUNCTIONS("M94", "Rotary axes within one turn", takes="M94:A M94:B M94:C", phase="start", modal=False, source="11.9")

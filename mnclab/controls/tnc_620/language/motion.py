@@ -7,11 +7,13 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
 from mnclab.controls.tnc_620.language.feeds import feed
-from mnclab.controls.tnc_620.language.machine_datum import DATUM, machine_target
+from mnclab.controls.tnc_620.language.machine_datum import machine_target
 from mnclab.controls.tnc_620.language.pole import polar_point, pole
+from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words
-from mnclab.machine.machine import PLANES, Machine
+from mnclab.machine.coordinates import PLANES
+from mnclab.machine.machine import Machine
 from mnclab.machine.rotary import AXES as AXES_OF_ROTATION
 from mnclab.machine.rotary import Angles, angles, set_angles, turn_axes
 from mnclab.path.corners import Corner
@@ -26,9 +28,9 @@ TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue:
 
 def coordinates(m: Machine, words: Words, axes: str = AXES) -> dict[str, Any]:
     """Targets of the axes that are written, as arguments of a verb (`x=`, …); IX counts from the register."""
-    if DATUM in m.memory:
+    if (counted := memory(m).machine_datum) is not None:
         written = {k: words[axis] for k, axis in enumerate(AXES) if axis in axes and axis in words}
-        return machine_target(m, {k: (m.value(word), word.incremental) for k, word in written.items()})
+        return machine_target(m, counted, {k: (m.value(word), word.incremental) for k, word in written.items()})
     found: dict[str, Any] = {}
     for k, axis in enumerate(AXES):
         if axis in axes and axis in words:

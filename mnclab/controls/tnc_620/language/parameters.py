@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.text.alarm import Alarm
@@ -118,7 +119,7 @@ PREASSIGNED: dict[str, Callable[[Machine], float | None]] = {
     "Q110": spindle_status,
     "Q111": coolant_status,
     "Q112": lambda m: float(m.settings["overlap"]),
-    "Q113": lambda m: 1.0 if m.memory.get("main unit") == "INCH" else 0.0,
+    "Q113": lambda m: 1.0 if memory(m).main_unit == "INCH" else 0.0,
     "Q114": lambda m: m.tool.effective_length / m.variable_unit,
 }
 
@@ -179,5 +180,5 @@ def write_system(m: Machine, words: Words) -> None:
     identity, number = m.value(words["ID"]), m.value(words["NR"])
     if (identity, number) != (990, 6) or "IDX" in words:
         m.alarm(f"FN 17: SYSWRITE ID{identity:g} NR{number:g} is not built yet", words["ID"], "ID990 NR6 is")
-    m.memory["probe input"] = m.value(words["value"])
-    m.log("probe input", m.memory["probe input"])
+    memory(m).probe_input = m.value(words["value"])
+    m.log("probe input", memory(m).probe_input)

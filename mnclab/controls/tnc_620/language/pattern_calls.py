@@ -8,19 +8,21 @@ way between the points and for the cycle, which retracts to it; where it does no
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.cycles.defaults import defaults
-from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM, planes, ready, run_at
+from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM, call_at, planes, ready
 from mnclab.controls.tnc_620.language.motion import feed
 from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Definition
 from mnclab.machine.machine import Machine
-from mnclab.running.repeating import at_each
+from mnclab.machining.steps import Each, Go, Step
+from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
 CODE = "CYCL CALL PAT"
@@ -33,38 +35,35 @@ Floats = NDArray[np.float64]
 def cycle_call_pattern(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at every point of the pattern; F is the feed from point to point."""
     definition = ready(m, CODE, None)
-    pattern: Pattern | None = m.memory.get("pattern")
+    pattern = memory(m).pattern
     if pattern is None:
         m.alarm(f"{CODE} has no pattern", None, hint="write PATTERN DEF or SEL PATTERN before it")
     if m.plane != "XY":
         m.alarm(f"{CODE}: the points of a pattern lie in X and Y, the tool axis must be Z", None)
     f = feed(m, words)
+    perform(m, CODE, at_points(m, definition, pattern, f), about=(0.0, 0.0))
+
+
+def at_points(m: Machine, definition: Definition, pattern: Pattern, f: float | None) -> Iterator[Step]:
+    """Visits, told together for points that differ in their place alone."""
     heights, second = clearance_heights(m, definition, pattern)
     surface = pattern.points[:, 2]
     last = np.flatnonzero((np.diff(surface) != 0) | (np.diff(heights) != 0)) + 1
-    for run in np.split(np.arange(len(surface)), last):  # of points that differ in their place alone
+    for run in np.split(np.arange(len(surface)), last):
         if len(run):
             one = (float(column[run[0]]) for column in (surface, heights, second))
-            at_each(m, pattern.points[run, :2], visit(m, definition, f, *one))
+            yield Each(pattern.points[run, :2], partial(visit, m, definition, f, *one))
 
 
 def visit(
-    m: Machine, definition: Definition, f: float | None, z: float, height: float, second: float
-) -> Callable[[float, float], None]:
+    m: Machine, definition: Definition, f: float | None, z: float, height: float, second: float, x: float, y: float
+) -> Iterator[Step]:
     """What happens at a point: up if need be, over it, the cycle with its second set-up clearance, up."""
-
-    def go(x: float, y: float) -> None:
-        m.label = f"{CODE} to the point"
-        if m.programmed[2] < height:
-            m.rapid(z=height)
-        m.line(x=x, y=y, f=f)
-        m.label = ""
-        run_at(m, definition, x, y, z, second_clearance=second)
-        m.label = f"{CODE} to the clearance height"
-        m.rapid(z=height)
-        m.label = ""
-
-    return go
+    if m.programmed[2] < height:
+        yield Go("to the point", height)
+    yield Go("to the point", x=x, y=y, feed=f)
+    yield from call_at(definition, x, y, z, second_clearance=second)
+    yield Go("to the clearance height", height)
 
 
 def clearance_heights(m: Machine, definition: Definition, pattern: Pattern) -> tuple[Floats, Floats]:
@@ -74,7 +73,7 @@ def clearance_heights(m: Machine, definition: Definition, pattern: Pattern) -> t
     table holds clearance heights, Q204 does not count, unless GLOBAL DEF 125 asks for it.
     """
     own, first, second = planes(m, definition)
-    at_call, choice = m.programmed[2], defaults(m).get("Q345")
+    at_call, choice = m.programmed[2], memory(m).defaults.get("Q345")
     z = pattern.points[:, 2]
     surface = own + z
     whole = pattern.table or definition.cycle.code in PLACED_BY_DATUM

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.reading.pattern_words import ADDRESSES, CLOSED, FORMS
+from mnclab.controls.tnc_620.state import memory
 from mnclab.controls.tnc_620.tables.point_tables import PointTable, read_points
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -45,7 +46,7 @@ class Pattern(NamedTuple):
 
 def activate(m: Machine, pattern: Pattern) -> None:
     """The pattern of the following CYCL CALL PAT."""
-    m.memory["pattern"] = pattern
+    memory(m).pattern = pattern
     m.log("pattern", len(pattern.points))
 
 

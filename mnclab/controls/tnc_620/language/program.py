@@ -7,9 +7,11 @@ from typing import NamedTuple
 from mnclab.controls.tnc_620.cycles.chain import cancel
 from mnclab.controls.tnc_620.language import parameters
 from mnclab.controls.tnc_620.reading.words import INCH
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
 
@@ -41,19 +43,21 @@ def start(m: Machine) -> None:
 @FUNCTIONS("BEGIN PGM,", "Program begin", takes="name unit", source="4.11, example")
 def begin(m: Machine, words: Words) -> None:
     """Names the program and its unit; lengths and feeds of an INCH program become mm where they are read."""
-    m.memory["name"], m.memory["unit"] = words["name"].value if "name" in words else "", words["unit"].value
-    m.variable_unit = INCH if words["unit"].value == "INCH" else 1.0
-    m.memory.setdefault("main unit", words["unit"].value)  # the first one is that of the main program
+    kept, unit = memory(m), str(words["unit"].value)
+    kept.name, kept.unit = str(words["name"].value) if "name" in words else "", unit
+    kept.main_unit = kept.main_unit or unit  # the first one is that of the main program
+    m.variable_unit = INCH if unit == "INCH" else 1.0
 
 
 @FUNCTIONS("END PGM,", "Program end", takes="name unit", phase="last", source="4.11, example")
 def end(m: Machine, words: Words) -> None:
     """The last block of a program; a program that was called goes back to the one that calls."""
     name, unit = words["name"].value if "name" in words else "", words["unit"]
-    if "unit" in m.memory and unit.value != m.memory["unit"]:
-        m.alarm(f"END PGM says {unit.value}, BEGIN PGM {m.memory['unit']}", unit)
-    if "name" in m.memory and name != m.memory["name"]:
-        m.warn(f"END PGM names {name}, BEGIN PGM {m.memory['name']}", words.words[0])
+    kept = memory(m)
+    if kept.unit is not None and unit.value != kept.unit:
+        m.alarm(f"END PGM says {unit.value}, BEGIN PGM {kept.unit}", unit)
+    if kept.name is not None and name != kept.name:
+        m.warn(f"END PGM names {name}, BEGIN PGM {kept.name}", words.words[0])
     if m.flow.called:
         m.flow.end_program()
     else:
@@ -62,13 +66,13 @@ def end(m: Machine, words: Words) -> None:
 
 def finish(m: Machine) -> None:
     """The end of the run: spindle and coolant off, transformations cancelled (11.1)."""
-    if (blank := m.memory.get("stock")) is not None and blank.maximum is None:
+    if (blank := memory(m).stock) is not None and blank.maximum is None:
         m.warn("the blank has no greatest corner: BLK FORM 0.2 is missing")
     m.spindle(turning=0)
     if m.modal.get("coolant", "M9") != "M9":
         m.set_modal("coolant", "M9")
         m.coolant()
-    cancel(m)
+    perform(m, "END PGM", cancel(m))
     m.ended = True
 
 
@@ -77,7 +81,7 @@ def least_corner(m: Machine, words: Words) -> None:
     """Tool axis and the corner with the least coordinates; for pictures only, no motion."""
     if "axis" not in words:
         m.alarm("BLK FORM 0.1 needs the tool axis", None, hint="for example BLK FORM 0.1 Z X+0 Y+0 Z-20")
-    if (blank := m.memory.get("stock")) is not None and blank.maximum is None:
+    if (blank := memory(m).stock) is not None and blank.maximum is None:
         m.alarm("BLK FORM 0.1 stands twice: BLK FORM 0.2 belongs behind the first", words["axis"])
     axis = str(words["axis"].value)
     if axis not in ("X", "Y", "Z"):
@@ -88,7 +92,7 @@ def least_corner(m: Machine, words: Words) -> None:
 @FUNCTIONS("BLK FORM 0.2,", "Blank: greatest corner", takes="X Y Z", source="4.11, example")
 def greatest_corner(m: Machine, words: Words) -> None:
     """The corner with the greatest coordinates; IX IY IZ count from the least corner."""
-    blank: Blank | None = m.memory.get("stock")
+    blank = memory(m).stock
     if blank is None or blank.maximum is not None:
         m.alarm("BLK FORM 0.2 needs BLK FORM 0.1 before it", words.words[0] if len(words) else None)
     greatest = corner(m, words, blank.minimum)
@@ -117,7 +121,7 @@ def corner(m: Machine, words: Words, least: Corner | None) -> Corner:
 
 def keep(m: Machine, blank: Blank) -> None:
     """Remember the blank."""
-    m.memory["stock"] = blank
+    memory(m).stock = blank
     m.log("stock", blank)
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from mnclab.controls.tnc_620.language.feeds import PER_TOOTH, set_feed, with_another_tool
+from mnclab.controls.tnc_620.language.feeds import set_feed, with_another_tool
+from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
@@ -34,8 +35,8 @@ def tool_call(m: Machine, words: Words) -> None:
     if speed is not None:
         m.spindle(speed=speed)
     if feed is not None:
-        m.memory["auto feed"] = feed
-        m.memory.pop(PER_TOOTH, None)
+        memory(m).auto_feed = feed
+        memory(m).feed_per_tooth = None
         set_feed(m, feed)
 
 

@@ -6,12 +6,14 @@ height are those of the ball's centre.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from typing import Any
 
+from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.machining.steps import Go, Step, Touch, Write
 
 CYCLES = CycleTable()
 WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
@@ -50,7 +52,11 @@ class PresetInOneAxis(Cycle):
         if self.transfer == -1 and self.row:
             yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
 
-    def moves(self, m: Machine) -> None:
+    def about(self, m: Machine) -> tuple[float, float]:
+        """Where to touch is told in coordinates of the program."""
+        return 0.0, 0.0
+
+    def moves(self, m: Machine) -> Generator[Step, Any, None]:
         """Position, touch, back, up; then the preset."""
         k, ball, probe = int(self.axis) - 1, m.radius, m.setup.probe
         away = probe.clearance + self.clearance + ball
@@ -58,33 +64,31 @@ class PresetInOneAxis(Cycle):
         start[k] -= self.direction * away
         pole = start[2] - ball
         if m.programmed[2] < self.height:
-            m.rapid(z=self.height)
-        m.rapid(start[0], start[1])
-        m.rapid(z=pole)
-        goal = [start[0], start[1], pole]
-        goal[k] += self.direction * probe.reach
-        m.label = "419 touch"
-        touched = m.touch(*goal, f=probe.feed, ball=ball, word=None)
-        m.label = "419 back"
-        m.rapid(start[0], start[1], pole)
-        m.rapid(z=self.height)
-        self.preset(m, k, touched.point[k] + self.direction * ball)
+            yield Go("to the clearance height", self.height)
+        yield Go("over the starting point", x=start[0], y=start[1])
+        yield Go("to the starting point", pole)
+        x, y, z = (place + self.direction * probe.reach * (axis == k) for axis, place in enumerate((*start[:2], pole)))
+        contact = yield Touch("touch", x, y, z, probe.feed, ball)
+        yield Go("back", pole, x=start[0], y=start[1])
+        yield Go("to the clearance height", self.height)
+        yield from self.preset(m, k, contact.point[k] + self.direction * ball)
 
-    def preset(self, m: Machine, k: int, found: float) -> None:
+    def preset(self, m: Machine, k: int, found: float) -> Iterator[Step]:
         """Write the row, and activate it where it is row 0 or the active one (TNC 15.1)."""
-        active = int(m.memory.get("preset", m.settings["preset"]))
+        active = active_preset(m)
         before = m.tables.presets.get(active, Datum())
         if self.transfer == 0 and self.row:
             row = m.tables.datums.get(int(self.row), Datum())
-            m.write_table("datums", int(self.row), _with(row, k, found - self.datum))
+            yield Write("datums", with_axis(row, k, found - self.datum), int(self.row))
             return
         base = before if self.row == 0 or self.row == active else m.tables.presets.get(int(self.row), Datum())
-        m.write_table("presets", int(self.row), _with(base, k, before[k] + found - self.datum))
+        preset = with_axis(base, k, before[k] + found - self.datum)
+        yield Write("presets", preset, int(self.row))
         if self.row in (0, active):
-            m.memory["preset"] = int(self.row)
-            m.select_datum(m.tables.presets[int(self.row)], "preset")
+            yield Write("memory", int(self.row), "preset")
+            yield Write("datum", preset, "preset")
 
 
-def _with(datum: Datum, axis: int, value: float) -> Datum:
+def with_axis(datum: Datum, axis: int, value: float) -> Datum:
     """A row with one of its linear axes replaced."""
     return datum._replace(**{"xyz"[axis]: value})

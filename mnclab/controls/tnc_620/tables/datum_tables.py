@@ -16,6 +16,7 @@ import re
 from collections.abc import Mapping
 
 from mnclab.controls.tnc_620.reading.words import INCH, LARGEST
+from mnclab.controls.tnc_620.state import memory
 from mnclab.controls.tnc_620.tables.table_files import Fault, text_of
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -26,9 +27,9 @@ SUFFIX = ".D"
 EMPTY = "-"
 UNITS = {"MM": 1.0, "INCH": INCH}
 LINEAR, ROTARY = "XYZ", "ABC"
-TABLE = "datum table"  # in the memory: its name and rows
 
 Rows = Mapping[int, Mapping[str, float]]
+DatumTable = tuple[str, Rows]  # its name, and its rows
 
 _NUMBER = re.compile(r"[+-]?(\d+(?:[.,]\d*)?|[.,]\d+)", re.ASCII)
 _FIELD = re.compile(r"\S+")
@@ -38,16 +39,15 @@ _FIELD = re.compile(r"\S+")
 def select_table(m: Machine, words: Words) -> None:
     """The table that cycle 7 reads with #; it stays active until another one is selected."""
     word = words["file"]
-    m.memory[TABLE] = str(word.value), read_table(m, word)
+    memory(m).datum_table = str(word.value), read_table(m, word)
 
 
 def row_of(m: Machine, row: int) -> Mapping[str, float]:
     """Shifts by axis (x, y, z, a, b, c) in a row of the active table; a LookupError says what is missing."""
-    name, rows = m.memory.get(TABLE, ("of the setup", None))
-    if rows is None:
-        rows = {number: datum._asdict() for number, datum in m.tables.datums.items()}
-        if not rows:
-            raise LookupError("needs an active datum table: write SEL TABLE before, or give Setup(datums=…)")
+    of_setup = {number: datum._asdict() for number, datum in m.tables.datums.items()}
+    name, rows = memory(m).datum_table or ("of the setup", of_setup)
+    if rows is of_setup and not rows:
+        raise LookupError("needs an active datum table: write SEL TABLE before, or give Setup(datums=…)")
     if row not in rows:
         known = ", ".join(map(str, sorted(rows)[:12]))
         raise LookupError(f"names row {row}, which the datum table {name} does not have (rows: {known})")

@@ -1,0 +1,31 @@
+"""What the MNC keeps beside the common state of a machine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from mnclab.controls.word_address import state
+from mnclab.machine.machine import Machine
+
+
+class Polar(NamedTuple):
+    """The last polar position: radius, mm, and angle, degrees, about the pole; and the point that it is."""
+
+    radius: float
+    angle: float
+    place: tuple[float, float, float]
+
+
+@dataclass
+class Memory(state.Memory):
+    """Of the MNC."""
+
+    polar: Polar | None = None  # while a pole is active
+    run_up: int = -1  # the step that last waited for the spindle
+
+
+def memory(m: Machine) -> Memory:
+    """What the MNC keeps."""
+    kept: Memory = m.memory
+    return kept

@@ -1,0 +1,70 @@
+"""What the TNC 620 keeps beside the common state of a machine."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from mnclab.machine.machine import Machine
+from mnclab.text.program import Word
+
+if TYPE_CHECKING:
+    from mnclab.controls.tnc_620.cycles.contours import ContourData, Labels
+    from mnclab.controls.tnc_620.language.free_contours import Earlier
+    from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
+    from mnclab.controls.tnc_620.language.program import Blank
+    from mnclab.controls.tnc_620.tables.datum_tables import DatumTable
+    from mnclab.geometry.free_contour import Pair
+
+Place = tuple[float, float, float]
+
+
+@dataclass
+class Memory:
+    """Of the TNC 620; None stands for what the program has not said."""
+
+    # the program
+    name: str | None = None  # as BEGIN PGM of the running program has it
+    unit: str | None = None  # "MM" or "INCH", of the running program
+    main_unit: str | None = None
+    selected_program: str | None = None
+    stock: Blank | None = None
+
+    # feed, spindle, probe
+    auto_feed: float | None = None  # of TOOL CALL, mm/min
+    feed_per_tooth: float | None = None  # mm, beside the feed per revolution that it makes with the tool in the spindle
+    orientation: float | None = None  # where M19 and M20 stop the spindle, degrees
+    probe_input: float | None = None
+
+    # datums and transformations
+    machine_datum: tuple[Word, Place] | None = None  # M91 or M92 of the block, and the machine coordinates it counts from
+    preset: int | None = None  # the active row
+    datum_table: DatumTable | None = None
+    rotation_angles: dict[str, float] = field(default_factory=dict)  # by frame, degrees
+    rotary_shift: Place = (0.0, 0.0, 0.0)  # of A, B and C, degrees
+    rotary_mirror: str = ""  # which of A, B and C are mirrored
+    tilt_angles: Mapping[str, float] = field(default_factory=dict)  # a, b and c of the active cycle 19, degrees
+
+    # cycles
+    defaults: dict[str, float | str] = field(default_factory=dict)  # of GLOBAL DEF, by Q parameter
+    pattern: Pattern | None = None
+    contour_labels: Labels | None = None
+    contour_data: ContourData | None = None
+
+    # free contours
+    free_pole: tuple[float, float] | None = None
+    free_start: Pair | None = None  # where a contour began with CLSD+
+    free_elements: dict[str, Earlier] = field(default_factory=dict)  # by block number
+
+
+def memory(m: Machine) -> Memory:
+    """What the TNC 620 keeps."""
+    kept: Memory = m.memory
+    return kept
+
+
+def active_preset(m: Machine) -> int:
+    """The active row of the preset table."""
+    row = memory(m).preset
+    return int(m.settings["preset"]) if row is None else row

@@ -1,0 +1,14 @@
+; 14:1 alarm: CYCL CALL POS: a cycle is called at a position without radius compensation (write R0 in the block before)
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 CYCL DEF 200 D
+Q200=2
+Q201=-15
+Q206=250
+Q202=0
+Q210=0
+Q203=0
+Q204=20
+Q211=0
+3 L X+50 RL F100 M3
+4 CYCL CALL POS X+1 Y+2 Z+3

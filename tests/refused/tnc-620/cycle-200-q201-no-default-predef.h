@@ -1,0 +1,14 @@
+; 6:1 alarm: CYCL DEF 200 Q201 (depth) has no default: PREDEF is not allowed (write its value)
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 CYCL DEF 200 D
+Q200=2
+Q201=PREDEF
+Q206=250
+Q202=10
+Q210=0
+Q203=0
+Q204=20
+Q211=0
+
+99 END PGM A MM

@@ -1,0 +1,11 @@
+; 4:1 alarm: CYCL DEF 200 Q204 (second set-up clearance) is missing
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 CYCL DEF 200 D
+Q200=2
+Q201=-15
+Q206=250
+Q202=5
+Q210=0
+Q203=0
+Q211=0

@@ -1,0 +1,18 @@
+; 4:1 alarm: CYCL DEF 220 has no machining cycle to run: define one before it, for example CYCL DEF 200
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+4 CYCL DEF 220 P
+Q216=50
+Q217=40
+Q244=60
+Q245=0
+Q246=360
+Q247=0
+Q241=8
+Q200=2
+Q203=30
+Q204=50
+Q301=1
+Q365=0
+
+99 END PGM A MM

@@ -1,0 +1,17 @@
+; 4:1 alarm: CYCL DEF 221 has no machining cycle to run: define one before it, for example CYCL DEF 200
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+4 CYCL DEF 221 L
+Q225=15
+Q226=25
+Q237=10
+Q238=8
+Q242=6
+Q243=4
+Q224=15
+Q200=2
+Q203=30
+Q204=50
+Q301=1
+
+99 END PGM A MM

@@ -1,0 +1,2 @@
+; 2:1 alarm: FN 99 is not a function of this control (near: FN 9)
+1 FN 99 X

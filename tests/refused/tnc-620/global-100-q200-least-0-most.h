@@ -1,0 +1,10 @@
+; 5:1 alarm: GLOBAL DEF 100 Q200 (set-up clearance) must be at least 0 and at most 99999.9999, got -3
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 GLOBAL DEF 100 GENERAL
+Q200=-3 ;A
+Q204=40 ;B
+Q253=750 ;C
+Q208=1000 ;D
+
+99 END PGM A MM

@@ -1,0 +1,15 @@
+; 15:1 alarm: M89 and APPR LT: a cycle is called without radius compensation (end it with M99)
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 CYCL DEF 200 D
+Q200=2
+Q201=-15
+Q206=250
+Q202=0
+Q210=0
+Q203=0
+Q204=20
+Q211=0
+3 L Z+50 R0 FMAX M3
+4 L X+5 R0 FMAX M89
+5 APPR LT X+9 Y+9 LEN5 RL

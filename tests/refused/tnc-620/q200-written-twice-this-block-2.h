@@ -1,0 +1,10 @@
+; 9:1 alarm: Q200 is written twice in this block (keep one of them)
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 GLOBAL DEF 100 GENERAL
+Q200=3 ;A
+Q204=40 ;B
+Q253=750 ;C
+Q208=1000 ;D
+Q200=5
+99 END PGM A MM

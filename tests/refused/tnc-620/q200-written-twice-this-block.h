@@ -1,0 +1,13 @@
+; 13:1 alarm: Q200 is written twice in this block (keep one of them)
+0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000 F100
+2 CYCL DEF 200 D
+Q200=2
+Q201=-15
+Q206=250
+Q202=5
+Q210=0
+Q203=0
+Q204=20
+Q211=0
+Q200=2

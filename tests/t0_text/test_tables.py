@@ -1,0 +1,22 @@
+"""Tables of texts, as HTML and as text."""
+
+from mnclab.text.tables import html_table, text_table
+
+
+def plain(table: str) -> str:
+    return table.replace(' style="text-align:left"', "").replace("; white-space:normal", "")
+
+
+def test_cells_are_escaped_and_a_line_end_begins_a_line():
+    table = html_table(("a", "b"), [("1 < 2", "x\ny")], code=(1,))
+    assert plain(table).endswith("<tr><td>1 &lt; 2</td><td><code>x<br>y</code></td></tr></table>")
+    assert text_table(("a", "b"), [("1 < 2", "x\ny"), ("3", "")]) == "a      b\n-----  -\n1 < 2  x\n       y\n3"
+
+
+def test_numbers_stand_to_the_right():
+    assert html_table((), [("a", "1")], numbers=(1,)).count("text-align:right") == 1
+
+
+def test_a_cell_spans_those_below_it_and_those_after_it():
+    table = html_table(("a", "b", "c"), [("1", "two", "x"), ("2", None, "y"), ("… 3 rows …",)])
+    assert table.count("<td") == 6 and 'rowspan="2">two<' in table and 'colspan="3">… 3 rows …<' in table
