@@ -108,7 +108,7 @@ def box(corner: ArrayLike, opposite: ArrayLike) -> Part:
 
 
 def ball(centre: ArrayLike, radius: float) -> Part:
-    """A ball."""
+    """A ball about a point; the radius in mm."""
     middle = np.asarray(centre, dtype=float)
     return Part(partial(_ball, middle, radius), "ball")
 
