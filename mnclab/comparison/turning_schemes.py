@@ -103,13 +103,7 @@ class TurningTrial:
     @cached_property
     def _cover(self) -> list[tuple[bool, Any]]:
         """Of every stroke, whether it is a rapid, and what the tool covers on it."""
-        begin, found = self.plan.start, []
-        for s in self.plan.strokes:
-            here = (s.z, s.r)
-            way = Contour([begin, here], [s.bulge, 0.0], closed=False)
-            found.append((s.role == RAPID, swept(self._outlines[s.tool - 1], way)))
-            begin = here
-        return found
+        return [(s.role == RAPID, swept(self._outlines[s.tool - 1], way)) for s, way in self.plan.ways]
 
     @cached_property
     def _areas(self) -> tuple[Any, Any, Any]:
@@ -234,11 +228,8 @@ def compare(
     by_role = {role: feed for role in ROLES} | {PLUNGE: feed / 2} | dict(feeds or {})
     if unknown := set(by_role) - set(ROLES):
         raise Alarm(f"there is no role {min(unknown)!r}; known: {', '.join(ROLES)}")
-    for name, value in (
-        ("spindle speed", spindle),
-        ("rapid rate", rapid),
-        *((f"feed of {k}", v) for k, v in by_role.items()),
-    ):
+    rates = {"spindle speed": spindle, "rapid rate": rapid} | {f"feed of {k}": v for k, v in by_role.items()}
+    for name, value in rates.items():
         check_number(value, f"the {name}", above=0)
     wanted = SUITED[zone_of(contour, blank)] if schemes is None else schemes
     named = wanted if isinstance(wanted, Mapping) else {name: name for name in wanted}
@@ -264,10 +255,7 @@ def toolpath(
     vertices = np.vstack([(plan.start[1], 0.0, plan.start[0]), ends])
     rapid = np.array([s.role == RAPID for s in plan.strokes])
     bulge = np.array([s.bulge for s in plan.strokes])
-    centre = np.full((len(ends), 3), np.nan)
-    for k in np.flatnonzero(bulge):
-        piece = Contour(vertices[k : k + 2][:, [2, 0]], [bulge[k], 0.0], closed=False)
-        centre[k] = piece.centres[0][1], 0.0, piece.centres[0][0]
+    z, r = np.array([way.centres[0] for _, way in plan.ways]).T  # nan for lines
     middle = np.maximum((vertices[1:, 0] + vertices[:-1, 0]) / 2, 1e-6)
     speed = np.full(len(ends), spindle)
     if surface is not None:
@@ -278,7 +266,7 @@ def toolpath(
     numbers = [tool.number or k for k, tool in enumerate(tools, 1)]
     columns = {
         "kind": np.where(rapid, np.uint8(Kind.RAPID), np.where(bulge != 0, np.uint8(Kind.ARC), np.uint8(Kind.LINE))),
-        "centre": centre,
+        "centre": np.column_stack([r, 0 * r, z]),
         "sweep": 4 * np.arctan(bulge),
         "axis": np.broadcast_to((0.0, 1.0, 0.0), (len(ends), 3)),
         "feed": np.where(rapid, np.inf, per_rev * speed),

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mnclab.path.cutting_speed import mean_turn, spindle_speed
 from mnclab.path.kinds import Kind
-from mnclab.path.recorder import NAN
+from mnclab.path.recorder import NAN, State
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -42,13 +42,30 @@ def add_row(
             assert m.feed is not None
             feed = m.feed / mean_turn(m.surface, radii(m, kind, tip, centre, angle), m.speed_limit)
         m.change("speed", speed_at(m, tip))
-    state = m.state() if m._state is None else m._state
+    state = row_state(m) if m.row_state is None else m.row_state
     if m.exact_here and not m.exact:
         state = recorder.state(recorder.states[state]._replace(exact=True))
     if other_feed:
         state = recorder.state(recorder.states[state]._replace(per_rev=NAN))
     label = recorder.label(m.label) if m.label else 0
     recorder.add((kind, m.source_line, m.step, label, *tip, *centre, angle, feed, time, number, state))
+
+
+def row_state(m: Machine) -> int:
+    """The state that rows made now share."""
+    if m.row_state is None:
+        per_rev = m.feed if m.per_rev and m.feed is not None else NAN
+        cutting = {}
+        if m.surface is not None:
+            cutting = {"surface": m.surface, "speed_limit": m.speed_limit, "spindle_x": spindle_axis(m)}
+        m.row_state = m.recorder.state(
+            State(
+                program=m.program, axis=m.axis, rotary=m.rotary, per_rev=per_rev, spindle=m.spindle_speed,
+                tool=m.tool.number, radius=m.tool.effective_radius, side=m.side * m.orientation,
+                corner_rule=m.corner_rule, exact=m.exact, synchronous=m.synchronous, tolerance=m.tolerance, **cutting,
+            )
+        )  # fmt: skip
+    return m.row_state
 
 
 def spindle_axis(m: Machine) -> float:
@@ -67,7 +84,7 @@ def length(m: Machine, kind: Kind, tip: Point, centre: Point, angle: float) -> f
     """The length of a row from where the tool stands, mm."""
     if kind != Kind.ARC:
         return math.dist(m.tip, tip)
-    spoke, axis = np.subtract(m.tip, centre), np.array(m.recorder.states[m.state()].axis)
+    spoke, axis = np.subtract(m.tip, centre), np.array(m.recorder.states[row_state(m)].axis)
     along = float(np.subtract(tip, m.tip) @ axis)
     return math.hypot(float(np.linalg.norm(spoke - (spoke @ axis) * axis)) * angle, along)
 
@@ -78,6 +95,6 @@ def radii(m: Machine, kind: Kind, tip: Point, centre: Point, angle: float) -> ND
     if kind != Kind.ARC:
         return np.array([m.tip[0] - here, tip[0] - here])
     turn = np.linspace(0.0, angle, PARTS + 1)
-    spoke, axis = np.subtract(m.tip, centre), np.array(m.recorder.states[m.state()].axis)
+    spoke, axis = np.subtract(m.tip, centre), np.array(m.recorder.states[row_state(m)].axis)
     across = float(np.cross(axis, spoke)[0])
     return np.asarray(centre[0] - here + spoke[0] * np.cos(turn) + across * np.sin(turn))

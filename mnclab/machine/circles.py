@@ -1,4 +1,4 @@
-"""What an arc must be before a machine runs it: a radius that reaches, a centre as far from its end as from its start.
+"""Arcs of a machine and what they must be: a radius that reaches, a centre as far from the end as from the start.
 
 And turns about a centre, which have no such faults.
 
@@ -8,12 +8,12 @@ Points are pairs in mm in the axes of the plane.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from mnclab.geometry.arcs import centre_of_one
-from mnclab.geometry.frames import Matrix
+from mnclab.geometry.arcs import centre_of_one, sweep_of_one
+from mnclab.machine.coordinates import PLANES
+from mnclab.machine.state import Place
 from mnclab.path.kinds import Kind
 from mnclab.text.program import Word
 
@@ -21,13 +21,6 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 Point = tuple[float, float]
-
-
-def normal(matrix: Matrix, first: int, second: int) -> tuple[float, float, float]:
-    """The unit normal of a plane behind a frame, on the side that it has without a mirror image."""
-    across = np.cross(matrix[:3, first], matrix[:3, second]) * (1 if np.linalg.det(matrix[:3, :3]) > 0 else -1)
-    x, y, z = (across / np.linalg.norm(across)).tolist()
-    return x, y, z
 
 
 def check_start(m: Machine, tolerance: float = 0.01, word: Word | None = None) -> None:
@@ -68,13 +61,42 @@ def check_radii(m: Machine, s: Point, e: Point, c: Point, tolerance: float, word
         )
 
 
-def turn(
-    m: Machine, axes: tuple[int, int, int], centre: tuple[float, float], angle: float, level: float | None,
-    f: float | None,
+def arc(
+    m: Machine, point: Place, sense: int, centre: Mapping[int, float] | None, radius: float | None, feed: float,
+    word: Word | None, tolerance: float,
 ) -> None:  # fmt: skip
-    """Round a centre in the first two axes by an angle, to a level of the third; a whole turn ends where it began."""
-    first, second, normal = axes
-    feed, sense = m.feed_of(f), m._arc_sense()
+    """An arc of the active plane to a point, by its centre or by a signed radius."""
+    check_start(m, tolerance, word)
+    first, second, _ = PLANES[m.plane]
+    here = m.programmed
+    s, e = (here[first], here[second]), (point[first], point[second])
+    if radius is not None:
+        c = centre_by_radius(m, s, e, radius, sense, tolerance, word)
+    else:
+        given = centre or {}
+        c = (given.get(first, here[first]), given.get(second, here[second]))
+        check_radii(m, s, e, c, tolerance, word)
+    angle = sweep_of_one(s, e, c, sense) * on_machine(m, word)
+    middle = list(here)
+    middle[first], middle[second] = c
+    tip = m.to_machine(point)
+    m.add_row(Kind.ARC, tip, m.to_machine(middle), angle, feed)
+    m.programmed, m.tip = point, tip
+
+
+def on_machine(m: Machine, word: Word | None = None) -> int:
+    """-1 where the frame turns arcs over, else 1; an alarm when it would turn the circle into an ellipse."""
+    if m.shift is None and not m.keeps_circles:
+        m.alarm("an arc under unequal scales of its plane would be an ellipse", word)
+    return m.orientation
+
+
+def turn(
+    m: Machine, centre: Point, angle: float, level: float | None = None, f: float | None = None
+) -> None:  # fmt: skip
+    """Round a centre in the plane by an angle, to a level along its normal; a whole turn ends where it began."""
+    first, second, normal = PLANES[m.plane]
+    feed, sense = m.feed_of(f), on_machine(m)
     check_start(m)
     point, middle = list(m.programmed), list(m.programmed)
     middle[first], middle[second] = centre
@@ -85,5 +107,5 @@ def turn(
     if level is not None:
         point[normal] = level
     x, y, z = point
-    m._row(Kind.ARC, m.to_machine(point), m.to_machine(middle), angle * sense, feed)
+    m.add_row(Kind.ARC, m.to_machine(point), m.to_machine(middle), angle * sense, feed)
     m.programmed, m.tip = (x, y, z), m.to_machine(point)

@@ -23,6 +23,12 @@ class Log:
         self.values: list[Any] = []
         self._chunks: list[tuple[NDArray[np.integer[Any]], Values]] = []
 
+    def copy(self) -> Log:
+        """The same changes, apart from those to come."""
+        twin = Log()
+        twin.steps, twin.values, twin._chunks = self.steps.copy(), self.values.copy(), self._chunks.copy()
+        return twin
+
     def extend(self, steps: NDArray[np.integer[Any]], values: Values) -> None:
         """Changes of many steps at once."""
         if len(steps):

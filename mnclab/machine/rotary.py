@@ -38,4 +38,4 @@ def turn_axes(m: Machine, to: Angles, f: float | None) -> None:
     set_angles(m, to)
     rate = m.feed_of(f)
     kind = Kind.LINE if math.isfinite(rate) else Kind.RAPID
-    m._row(kind, m.tip, feed=math.radians(rate), time=60 * way / rate if kind == Kind.LINE else math.nan)
+    m.add_row(kind, m.tip, feed=math.radians(rate), time=60 * way / rate if kind == Kind.LINE else math.nan)

@@ -4,13 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 
-class Variables(dict[str, Any]):
+class Kept(dict[str, Any]):
+    """Values by name, of a machine that hears of their changes."""
+
+    def __init__(self, machine: Machine) -> None:
+        super().__init__()
+        self._machine = machine
+
+    def copy(self) -> Self:
+        """The same values, apart from those to come."""
+        twin = type(self)(self._machine)
+        dict.update(twin, self)
+        vars(twin).update(vars(self))
+        return twin
+
+
+class Variables(Kept):
     """Q parameters and the like, numbers and texts; every change is logged.
 
     What the control itself keeps in a variable (`Control.preassigned`: the radius of the tool, …) is worked out when
@@ -18,8 +33,7 @@ class Variables(dict[str, Any]):
     """
 
     def __init__(self, machine: Machine) -> None:
-        super().__init__()
-        self._machine = machine
+        super().__init__(machine)
         self.state_read = -1
         """The step at which the state of the machine was read last, in a variable that the control keeps or otherwise."""
 
@@ -58,12 +72,8 @@ class Variables(dict[str, Any]):
             self[name] = value
 
 
-class Measured(dict[str, Any]):
+class Measured(Kept):
     """What probing found; every value is logged."""
-
-    def __init__(self, machine: Machine) -> None:
-        super().__init__()
-        self._machine = machine
 
     def __setitem__(self, name: str, value: Any) -> None:
         super().__setitem__(name, value)

@@ -35,7 +35,7 @@ class Moment(NamedTuple):
     """What a block that waits was read under."""
 
     step: int
-    line: int
+    source_line: int
     side: int
     label: str
 
@@ -58,5 +58,4 @@ def as_of(m: Machine, then: Moment) -> Iterator[None]:
 
 
 def _set(m: Machine, at: Moment) -> None:
-    m.step, m.source_line, m.side, m.label = at
-    m._state = None
+    m.put(**at._asdict())

@@ -15,7 +15,8 @@ from mnclab.text.alarm import several
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
-    from mnclab.path.toolpath import Move, Toolpath
+    from mnclab.path.columns import Move
+    from mnclab.path.toolpath import Toolpath
 
 HEAD, TAIL = 12, 6
 NUMBERS = (0, 1, 3, 4, 5, 6, 7, 8)

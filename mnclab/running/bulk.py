@@ -20,13 +20,15 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import centre_from_radius, sweep
+from mnclab.machine.adding import row_state
+from mnclab.machine.coordinates import PLANES
 from mnclab.path.kinds import Kind
 from mnclab.running.repeating import repeat_hole
 from mnclab.text.program import Program
 
 if TYPE_CHECKING:
-    from mnclab.machine.control import Control
     from mnclab.machine.machine import Machine
+    from mnclab.running.flow import Course
 
 SHORTEST, LARGEST = 32, 1 << 15  # blocks obeyed at once: below, one by one is faster; above, the cache is lost
 
@@ -80,9 +82,11 @@ class _Run:
 class Bulk:
     """Finds and obeys the runs of one program."""
 
-    def __init__(self, control: Control, machine: Machine, program: Program, faulty: set[int]) -> None:
+    def __init__(self, machine: Machine, flow: Course, program: Program, faulty: set[int]) -> None:
+        control = machine.control
         self.rule: PlainWords | None = control.bulk
-        self.machine, self.program, self.group = machine, program, control.motion
+        self.machine, self.flow = machine, flow
+        self.program, self.group = program, control.motion
         self.enabled = self.rule is not None and machine.settings.get("bulk", True)
         self.not_before, self.size, self.last = 0, SHORTEST, 0
         self.next_break = -1
@@ -159,7 +163,7 @@ class Bulk:
         assert rule is not None
         words, n = self.columns(first, end), end - first
         points, moves = machine.recorder.room(n), np.zeros(n, dtype=bool)
-        same = machine._shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed == tuple(points[0].tolist())
+        same = machine.shift == (0.0, 0.0, 0.0) and machine.tip == machine.programmed == tuple(points[0].tolist())
         if not same:
             points = np.empty((n + 1, 3))
             points[0] = machine.programmed
@@ -208,8 +212,8 @@ class Bulk:
 
     def to_machine(self, points: Array) -> Array:
         """Program coordinates (n, 3) to machine coordinates."""
-        shift = self.machine._shift
-        return frames.apply(self.machine._matrix, points) if shift is None else points + np.array(shift)
+        shift = self.machine.shift
+        return frames.apply(self.machine.matrix, points) if shift is None else points + np.array(shift)
 
     def motions(self, g: Array | None, n: int) -> tuple[NDArray[np.int64], Mask]:
         """The sense of each block's motion, and which blocks have a G word that is none."""
@@ -226,8 +230,6 @@ class Bulk:
 
     def arcs(self, run: _Run, words: dict[str, Array]) -> None:
         """Centres and sweeps of the arcs; what is doubtful is a fault."""
-        from mnclab.machine.machine import PLANES
-
         machine, rule = self.machine, self.rule
         assert rule is not None
         first, second, normal = PLANES[machine.plane]
@@ -254,7 +256,7 @@ class Bulk:
         angle = sweep(s, e, c, sense)
         centre = run.points[k].copy()
         centre[:, [first, second]] = c
-        if machine._shift is None:
+        if machine.shift is None:
             run.fault[k] |= not machine.keeps_circles
             angle = angle * machine.orientation
         run.centre, run.angle = np.full(run.tips[1:].shape, np.nan), np.zeros(len(run.moves))
@@ -265,7 +267,7 @@ class Bulk:
     def commit(self, run: _Run, first: int, count: int) -> None:
         """Make the rows, the history and the state of the first `count` blocks."""
         machine = self.machine
-        step = machine.flow.begin_many(first, count)
+        step = self.flow.begin_many(machine, first, count)
         steps = np.arange(step, step + count, dtype=np.int32)
         machine.step = step + count - 1
         self.log(run, steps, count)
@@ -289,7 +291,7 @@ class Bulk:
             "line": lines[moved].astype(np.int32, copy=False),
             "step": steps[moved],
             "feed": np.where(motion == 0, np.inf, run.feed[moved]),
-            "state": np.asarray(self.machine.state()),
+            "state": np.asarray(row_state(self.machine)),
         }
         if arc.any():
             columns |= {"centre": run.centre[moved], "sweep": run.angle[moved]}
@@ -308,8 +310,7 @@ class Bulk:
         changed = np.flatnonzero(~np.isnan(feed) & (feed != np.concatenate([[start], feed[:-1]])))
         if len(changed):
             history.extend("feed", steps[changed], feed[changed])
-            machine.feed = float(feed[-1])
-            machine._state = None
+            machine.put(feed=float(feed[-1]))
 
         names = {sense: code for code, sense in self.senses.items()}
         if self.group and None not in self.codes:

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from mnclab.running.flow import course
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.code_pages import decode
 from mnclab.text.file import read
@@ -25,7 +26,7 @@ def called(m: Machine, name: str, what: str, span: Span | None = None) -> int:
 
     `what` begins the sentence of the alarm: the statement that calls.
     """
-    flow = m.flow
+    flow = course(m)
     index = flow.found.get((flow.program.folder, name))
     if index is None:
         if name.lower().endswith(".i"):
@@ -36,7 +37,7 @@ def called(m: Machine, name: str, what: str, span: Span | None = None) -> int:
         if index is None:
             program = m.control.read(text, key)
             object.__setattr__(program, "folder", folder)
-            index = flow.add(program)
+            index = flow.add(m, program)
         flow.found[flow.program.folder, name] = index
     return index
 

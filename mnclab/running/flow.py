@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.machine.flow import Recording
-from mnclab.machine.lasting import lasting_over_passes
+from mnclab.machine.state import COMPARED, REPEAT
 from mnclab.running.loops import Loop, Loops
 from mnclab.running.recording import record
 from mnclab.text.alarm import Alarm, Span
@@ -41,26 +41,38 @@ class Steps(NamedTuple):
         return shapes(self)
 
 
+def course(m: Machine) -> Course:
+    """The course of a machine: on this floor it is known which one that is."""
+    assert isinstance(m.flow, Course)
+    return m.flow
+
+
+def _nothing(which: int) -> None:
+    """Where nobody listens."""
+
+
+def _none_at_once(first: int, stop: int) -> int:
+    """All blocks go one by one."""
+    return 0
+
+
 class Course:
     """Where the program is: the running section, the depth of calls, the log of steps.
 
-    `programs` are the main program and those it has called, each once; `switch` is called with the index of one when
-    its blocks are to be obeyed from now on.
+    `programs` are the main program and those it has called, each once. `obey` obeys a block, `bulk` as many as it can of
+    the blocks from one on; `switch` is called with the index of a program when blocks are to be those of it.
     """
 
     def __init__(
-        self, program: Program, obey: Callable[[int], None], bulk: Callable[[int, int], int], switch: Callable[[int], None]
+        self, program: Program, obey: Callable[[int], None] | None = None, switch: Callable[[int], None] | None = None
     ) -> None:
         self.programs = [program]
-        self.obey, self.bulk, self.switch = obey, bulk, switch
-        self.machine: Machine
+        self.obey, self.switch = obey or _nothing, switch or _nothing
+        self.bulk: Callable[[int, int], int] = _none_at_once
         self.spent = 0  # of the limit, by blocks that take as long as many
         self.depth, self.calls = 0, 0  # calls: subprograms alone, without repeats
-        self.limit, self.in_bulk = (
-            LONGEST + len(program),
-            0,
-        )  # steps obeyed in bulk do not count: they end by themselves
-        self.watched: Callable[[int], None] = lambda steps: None  # hears now and then how many steps were begun
+        self.limit, self.in_bulk = LONGEST + len(program), 0  # steps obeyed in bulk do not count: they end by themselves
+        self.watched: Callable[[int], None] = _nothing  # hears now and then how many steps were begun
         self.returning = self.over = False  # the subprogram, the called program ends
         self.target = -1  # block to go on at, after a jump
         self.found: dict[tuple[str, str], int] = {}  # indices of programs by folder of the caller, and name
@@ -71,6 +83,13 @@ class Course:
         self._blocks: list[int] = []
         self._counted = 0
 
+    def standing(self) -> tuple[object, ...]:
+        """Where the program stands; the same before and after what neither calls, jumps, counts nor finds a program."""
+        return (
+            self.depth, self.calls, self.limit, self.in_bulk, self.returning, self.over, self.target, self.current,
+            self.begun, *self.running, *self.found,
+        )  # fmt: skip
+
     @property
     def program(self) -> Program:
         """The running program."""
@@ -78,10 +97,10 @@ class Course:
 
     # --- running -----------------------------------------------------------------------------------------------------
 
-    def section(self, first: int, stop: int, least: int = 0) -> None:
+    def section(self, m: Machine, first: int, stop: int, least: int = 0) -> None:
         """Run the blocks [first, stop) of the running program; a jump to one outside [least, stop) ends the section."""
-        machine, block = self.machine, first
-        while block < stop and not (machine.ended or self.over):
+        block = first
+        while block < stop and not (m.ended or self.over):
             done = self.bulk(block, stop)
             if done:
                 block += done
@@ -96,61 +115,60 @@ class Course:
                     return
                 block, self.target = self.target, -1
 
-    def call(self, label: str, span: Span | None = None) -> None:
+    def call(self, m: Machine, label: str, span: Span | None = None) -> None:
         """Run from a label to the end of its subprogram."""
         self.enter(span)
         here = self.current
         self.calls += 1
-        self.loops.running.append(Loop(self.running[-1], here, 0, self.machine.step))
-        self.section(self.index_of(label, span) + 1, len(self.program))
+        self.loops.running.append(Loop(self.running[-1], here, 0, self.begun - 1))
+        self.section(m, self.index_of(label, span) + 1, len(self.program))
         self.loops.running.pop()
         self.calls -= 1
         self.depth, self.returning, self.current = self.depth - 1, False, here
 
-    def call_program(self, index: int, span: Span | None = None) -> None:
+    def call_program(self, m: Machine, index: int, span: Span | None = None) -> None:
         """Run another program, from its first block to its end; its rows have no label of a cycle that called it."""
-        machine = self.machine
         if index in self.running:
             name = self.programs[index].name
             raise Alarm(f"{name} is running already: a program cannot call itself, nor one that calls it", span)
         self.enter(span)
-        kept = self.current, self.calls, machine.source_line, machine.label
-        self.calls, machine.label = 0, ""
-        self.loops.running.append(Loop(self.running[-1], self.current, 0, machine.step))
-        with self.inside(index):
-            self.section(0, len(self.program))
+        kept = self.current, self.calls, m.source_line, m.label
+        self.calls, m.label = 0, ""
+        self.loops.running.append(Loop(self.running[-1], self.current, 0, self.begun - 1))
+        with self.inside(m, index):
+            self.section(m, 0, len(self.program))
         self.loops.running.pop()
-        self.current, self.calls, machine.source_line, machine.label = kept
+        self.current, self.calls, m.source_line, m.label = kept
         self.depth, self.over = self.depth - 1, False
 
     def record(self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
         """Obey a label for its contour; nothing moves."""
-        return record(m, label, span, after)
+        return record(m, self, label, span, after)
 
     @contextmanager
-    def inside(self, index: int) -> Iterator[None]:
+    def inside(self, m: Machine, index: int) -> Iterator[None]:
         """Blocks and labels are those of another program."""
         if index == self.running[-1]:
             yield
             return
         self._flush()
         self.running.append(index)
-        self._change_program()
+        self._change_program(m)
         yield  # after an alarm the place stays where it happened: the run is over
         self._flush()
         self.running.pop()
-        self._change_program()
+        self._change_program(m)
 
-    def _change_program(self) -> None:
+    def _change_program(self, m: Machine) -> None:
         """Blocks are those of another program from now on."""
-        self.machine.program, self.machine._state = self.running[-1], None  # rows carry it
+        m.put(program=self.running[-1])
         self.switch(self.running[-1])
 
-    def add(self, program: Program) -> int:
+    def add(self, m: Machine, program: Program) -> int:
         """Another program that may be called; its index."""
         self.programs.append(program)
         self.limit += len(program)
-        self.machine.recorder.most = self.most_rows
+        m.recorder.most = self.most_rows(m)
         return len(self.programs) - 1
 
     @property
@@ -162,37 +180,45 @@ class Course:
         """Go back to the calling program."""
         self.over = True
 
-    def jump(self, label: str, span: Span | None = None) -> None:
+    def jump(self, m: Machine, label: str, span: Span | None = None) -> None:
         """Go on at a label."""
         self.target = self.index_of(label, span)
         if self.target <= self.current:
-            self.loops.back(self.machine, self.target, span)
+            self.loops.back(m, (self.running[-1], self.current, self.target), span or self.span_of_block(self.current))
 
     def ask(self, *values: Any) -> None:
         """A function is about to decide where the program goes on; the values of the words that it reads for that."""
-        self.loops.ask(self.machine.step, values)
+        self.loops.ask(self.begun - 1, values)
 
-    def repeat(self, first: int, stop: int, times: int, span: Span | None = None) -> None:
+    def ask_whether(self, variable: str) -> None:
+        """A function is about to decide so by whether a variable has a value."""
+        self.loops.asked[variable] = self.loops.otherwise = self.begun - 1
+
+    def compare(self, one: Any, other: Any, difference: float) -> None:
+        """A function is about to decide so by two values of words, whose numbers differ by so much."""
+        self.loops.compare(self.begun - 1, (self.running[-1], self.current), (one, other), difference)
+
+    def repeat(self, m: Machine, first: int, stop: int, times: int, span: Span | None = None) -> None:
         """Run the blocks [first, stop) a number of times more; a jump out of them ends that."""
         self.enter(span)
-        here, recorder, before = self.current, self.machine.recorder, None
-        loop = Loop(self.running[-1], here, times, self.machine.step)
+        here, recorder, before = self.current, m.recorder, None
+        loop = Loop(self.running[-1], here, times, self.begun - 1)
         self.loops.running.append(loop)
         for loop.done in range(1, times + 1):
-            loop.begun, begin, made = self.machine.step, self.begun - self.in_bulk, recorder.made
-            self.section(first, stop, least=first)
-            if self.returning or self.over or self.target >= 0 or self.machine.ended:
+            loop.begun, begin, made = self.begun - 1, self.begun - self.in_bulk, recorder.made
+            self.section(m, first, stop, least=first)
+            if self.returning or self.over or self.target >= 0 or m.ended:
                 break
             if loop.done > 2:
                 continue
             blocks, rows = (self.begun - self.in_bulk - begin) * times, made + (recorder.made - made) * (times - loop.done)
             if blocks > CERTAIN * self.limit and not self.loops.asked_since(loop.begun):
-                self._too_long(self.begun - 1, here)
+                self._too_long(here)
             if rows > recorder.most:  # and will be, if this pass was like the one before
-                now = lasting_over_passes(self.machine)
+                now = m.snapshot(COMPARED[REPEAT])
                 if before == now:
                     self.current = here
-                    self.too_many_rows(rows)
+                    self.too_many_rows(m, rows)
                 before = now
         self.loops.running.pop()
         self.depth, self.current = self.depth - 1, here
@@ -200,7 +226,7 @@ class Course:
     def enter(self, span: Span | None) -> None:
         """Go one call deeper."""
         if self.depth >= DEEPEST:
-            raise Alarm(f"calls are nested deeper than {DEEPEST}", span or self.span_of_step(self.machine.step))
+            raise Alarm(f"calls are nested deeper than {DEEPEST}", span or self.span_of_step(self.begun - 1))
         self.depth += 1
 
     def leave(self) -> None:
@@ -212,7 +238,7 @@ class Course:
         if label not in self.program.labels:
             known = ", ".join(list(self.program.labels)[:8])
             hint = f"labels of this program: {known}" if known else "this program has no labels"
-            raise Alarm(f"label {label} does not exist", span or self.span_of_step(self.machine.step), hint=hint)
+            raise Alarm(f"label {label} does not exist", span or self.span_of_step(self.begun - 1), hint=hint)
         return self.program.labels[label]
 
     # --- steps -------------------------------------------------------------------------------------------------------
@@ -231,7 +257,7 @@ class Course:
         blocks = self._blocks
         step = self._counted + len(blocks)
         if step - self.in_bulk >= self.limit:
-            self._too_long(step, block)
+            self._too_long(block)
         if not step & 1023:
             self.watched(step)
         blocks.append(block)
@@ -241,32 +267,30 @@ class Course:
         """Count a block as so many more of the limit: it takes as long as they do."""
         self.limit, self.spent = self.limit - work, self.spent + work
 
-    def _too_long(self, step: int, block: int) -> NoReturn:
+    def _too_long(self, block: int) -> NoReturn:
         """Stop at a block: there are too many to obey."""
-        self.machine.step = step
         work = f"{LONGEST} blocks" if self.spent < LONGEST // 10 else f"as much work as {LONGEST} blocks"
-        message = f"jumps, repeats and calls ran {work} without an end{self.loops.told(self.machine)}"
+        message = f"jumps, repeats and calls ran {work} without an end{self.loops.told(self.programs)}"
         raise Alarm(message, self.span_of_block(block))
 
-    @property
-    def most_rows(self) -> int:
+    def most_rows(self, m: Machine) -> int:
         """How many rows a run may have."""
         blocks = sum(len(program) for program in self.programs)
-        return int(self.machine.settings["most_rows"]) + ROWS_A_BLOCK * blocks
+        return int(m.settings["most_rows"]) + ROWS_A_BLOCK * blocks
 
-    def too_many_rows(self, count: int) -> NoReturn:
+    def too_many_rows(self, m: Machine, count: int) -> NoReturn:
         """Stop where the path would have so many rows."""
-        allowed = int(self.machine.settings["most_rows"])
+        allowed = int(m.settings["most_rows"])
         raise Alarm(
             f"the path would have {count} rows, more than the setting most_rows ({allowed}) and {ROWS_A_BLOCK} for each "
-            f"block of the text allow{self.loops.told(self.machine)}",
+            f"block of the text allow{self.loops.told(self.programs)}",
             self.span_of_block(self.current),
         )
 
-    def begin_many(self, first: int, count: int) -> int:
+    def begin_many(self, m: Machine, first: int, count: int) -> int:
         """Note the execution of blocks in a row; the number of the first step."""
-        if self.begun + count > self.most_rows + self.limit:  # that move nothing
-            self._too_long(self.begun - 1, first)
+        if self.begun + count > self.most_rows(m) + self.limit:  # that move nothing
+            self._too_long(first)
         self._flush()
         self.watched(self._counted)
         self._chunks.append((self.running[-1], range(first, first + count)))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ import numpy as np
 from mnclab.machine.control import Control, Function, Modal, Remark, Words
 from mnclab.machine.cycle import Cycle, Definition
 from mnclab.machine.machine import Machine
+from mnclab.machine.setup import Setup
 from mnclab.machine.waiting import determine
 from mnclab.running.binding import assign, instance, refuse_marks, store, verify
 from mnclab.running.bulk import Bulk
@@ -30,6 +32,8 @@ from mnclab.text.progress import progress
 
 WINDOW = 256  # blocks whose words are made at once; more would keep the garbage collector busy
 RECENT = 4  # windows that are kept
+#: What stops a run where the reader found so many faults of a kind that it only counts them.
+UNTOLD = "this block is faulty: it has one of the many faults that are only counted"
 
 
 class Stop(Exception):
@@ -39,12 +43,12 @@ class Stop(Exception):
 class Loaded:
     """A program ready to run: its alarms as a run shows them, the blocks that a fault stands in, its bulk tier."""
 
-    def __init__(self, control: Control, machine: Machine, program: Program, index: int) -> None:
+    def __init__(self, machine: Machine, flow: Course, program: Program, index: int) -> None:
         self.program, self.skips = program, bool(machine.settings.get("block_skip"))
         self.alarms = [self._passed_over(alarm) for alarm in alarms_of(program, index)]
         self.told = {self._block_of(alarm) for alarm in self.alarms if alarm.severity == ALARM and alarm.span}
         self.faulty = set(program.faulty_blocks().tolist())
-        self.bulk = Bulk(control, machine, program, self.faulty)
+        self.bulk = Bulk(machine, flow, program, self.faulty)
 
     def _block_of(self, alarm: Alarm) -> int:
         """The block in which the reader found a fault: the run stops there."""
@@ -60,10 +64,12 @@ class Loaded:
 
 
 class Interpreter:
-    """Runs a program, and those it calls, on one machine."""
+    """Runs a program, and those it calls, on a machine of its own."""
 
-    def __init__(self, control: Control, machine: Machine, program: Program) -> None:
-        self.control, self.machine, self.program = control, machine, program
+    def __init__(self, control: Control, setup: Setup, program: Program) -> None:
+        self.control, self.program = control, program
+        self.flow = Course(program, self.obey, self.switch)
+        self.machine = machine = Machine(control, setup, self.flow)
         self.plans: dict[Any, Plan] = {}
         self.window = range(0)
         self.blocks: list[tuple[int, bool, str, list[Word], tuple[Any, ...]]] = []
@@ -71,21 +77,21 @@ class Interpreter:
         makes another function."""
         self.recent: deque[tuple[int, range, list[Any]]] = deque(maxlen=RECENT)  # of which program; window, blocks
         self.skips = bool(machine.settings.get("block_skip"))
-        main = Loaded(control, machine, program, 0)
-        self.loaded, self.alarms, self.faulty = {0: main}, main.alarms, main.faulty
+        self.loaded: dict[int, Loaded] = {}
+        self.alarms: list[Alarm] = []  # that readers found
+        self.switch(0)
         machine.recorder.expected = len(program)
-        machine.flow = Course(program, self.obey, main.bulk.obey, self.switch)
-        machine.flow.machine = machine
-        machine.recorder.most, machine.recorder.refuse = machine.flow.most_rows, machine.flow.too_many_rows
+        machine.recorder.most = self.flow.most_rows(machine)
+        machine.recorder.refuse = partial(self.flow.too_many_rows, machine)
 
     def switch(self, index: int) -> None:
         """Obey the blocks of another program from now on."""
-        flow = self.machine.flow
-        self.program = flow.programs[index]
+        self.program = self.flow.programs[index]
         if index not in self.loaded:
-            self.loaded[index] = Loaded(self.control, self.machine, self.program, index)
+            self.loaded[index] = Loaded(self.machine, self.flow, self.program, index)
             self.alarms += self.loaded[index].alarms
-        flow.bulk, self.faulty, self.window = self.loaded[index].bulk.obey, self.loaded[index].faulty, range(0)
+        self.flow.bulk, self.faulty = self.loaded[index].bulk.obey, self.loaded[index].faulty
+        self.window = range(0)
 
     def run(self) -> None:
         """From the first block to the end, or to the first alarm."""
@@ -95,8 +101,8 @@ class Interpreter:
             self.machine.alarm(f"Setup(variables=…): programs of {self.control.name} have no variables")
         if self.control.start:
             self.control.start(self.machine)
-        with progress("running", len(self.program), "blocks") as self.machine.flow.watched:
-            self.machine.flow.section(0, len(self.program))
+        with progress("running", len(self.program), "blocks") as self.flow.watched:
+            self.flow.section(self.machine, 0, len(self.program))
         determine(self.machine)
         if self.control.finish and not self.machine.ended:
             self.control.finish(self.machine)
@@ -106,14 +112,14 @@ class Interpreter:
     def obey(self, index: int) -> None:
         """Obey one block."""
         machine, window = self.machine, self.window
-        machine.step = machine.flow.begin(index)
+        machine.step = self.flow.begin(index)
         if index not in window:
             window = self.open_window(index)
         machine.source_line, skip, keyword, words, kinds = self.blocks[index - window.start]
         if skip and self.skips:
             return
         if index in self.faulty:
-            raise Stop if index in self.loaded[machine.program].told else untold_fault(machine, index)
+            raise Stop if index in self.loaded[machine.program].told else Alarm(UNTOLD, self.flow.span_of_block(index))
         before = machine.programmed
         plan = self.plan_for(keyword, kinds, words)
         self.remark(plan.remarks, words)
@@ -191,9 +197,9 @@ class Interpreter:
     def take_cycle(self, cycle: type[Cycle], code: str, head: Word | None, given: tuple[Word, ...]) -> None:
         """A block that defines a cycle, or runs the active one again."""
         machine = self.machine
-        machine.flow.spend(len(given))
+        self.flow.spend(len(given))
         values, words = assign(machine, cycle, code, given)
-        head = head or Word(code, None, int(place_of(*self.program.span_of_block(machine.flow.current)[:3])))
+        head = head or Word(code, None, int(place_of(*self.program.span_of_block(self.flow.current)[:3])))
         if head.flag:
             refuse_marks(cycle, code, head)
         marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
@@ -227,8 +233,3 @@ class Interpreter:
         else:
             machine.cycle, machine.position_cycle = None, definition
             run_cycle(machine, definition)
-
-def untold_fault(machine: Machine, index: int) -> Alarm:
-    """What stops a run where the reader found so many faults of a kind that it only counts them."""
-    span = machine.flow.span_of_block(index)
-    return Alarm("this block is faulty: it has one of the many faults that are only counted", span)

@@ -9,12 +9,13 @@ runs the wrong way. Whether others end, nobody can say: they run up to a limit.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.expression import Expression
+from mnclab.text.program import Program
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -80,16 +81,15 @@ class Loops:
             elif not isinstance(value, int | float | str):
                 self.asked[UNKNOWN] = self.otherwise = step
 
-    def compare(self, m: Machine, one: Any, other: Any, difference: float) -> None:
-        """A decision compares the values of two words."""
+    def compare(self, step: int, place: tuple[int, int], values: tuple[Any, Any], difference: float) -> None:
+        """A decision in a block of a program (its place) compares the values of two words."""
         before = self.otherwise
-        self.ask(m.step, (one, other))
+        self.ask(step, values)
         if self.otherwise == before:  # two numbers
             return
         self.otherwise = before
-        key = m.program, m.flow.current
-        last = self.compared.get(key)
-        now = self.compared[key] = _Comparison(m.step, difference)
+        last = self.compared.get(place)
+        now = self.compared[place] = _Comparison(step, difference)
         if last is not None:
             now.growth = difference - last.difference
             even = abs(now.growth - last.growth) <= EVEN * max(1.0, abs(difference))
@@ -99,9 +99,8 @@ class Loops:
         """The variables that decided something after a step."""
         return [name for name, last in self.asked.items() if last > step]
 
-    def back(self, m: Machine, target: int, span: Span | None) -> None:
-        """A jump back is made: an Alarm if it is made for ever."""
-        key = m.program, m.flow.current, target
+    def back(self, m: Machine, key: tuple[int, int, int], span: Span) -> None:
+        """A jump back (program, block, target) is made: an Alarm if it is made for ever."""
         passes, seen = tuple(loop.begun for loop in self.running), self.seen.get(key)
         if seen is None or seen.passes != passes:
             self.seen[key] = _Seen(m.step, passes, dict(m.variables), m.step)
@@ -110,14 +109,14 @@ class Loops:
             raise Alarm(
                 "the program never gets out of this loop: nothing that decides where it goes on changes from one round to "
                 "the next",
-                span or m.flow.span_of_block(m.flow.current),
+                span,
                 hint="change in the loop what its condition reads, or repeat it with a count",
             )
         if seen.count >= ROUNDS and self._runs_away(seen.step):
             raise Alarm(
                 f"the program does not get out of this loop: in {seen.count} rounds its conditions moved away from being met "
                 "otherwise",
-                span or m.flow.span_of_block(m.flow.current),
+                span,
                 hint="the count runs the wrong way, or the condition asks for the opposite",
             )
         seen.step, seen.count = m.step, seen.count + 1
@@ -137,7 +136,7 @@ class Loops:
                 return False
         return True
 
-    def told(self, m: Machine) -> str:
+    def told(self, programs: Sequence[Program]) -> str:
         """The loops around the block that runs, the innermost first, to be said after a sentence."""
         found = [(loop.program, loop.block, loop.done, loop.times) for loop in reversed(self.running[-SHOWN:])]
         if not found and self.seen:
@@ -145,7 +144,7 @@ class Loops:
             found = [(index, at, seen.count, 0)]
         said = []
         for index, block, done, times in found:
-            program = m.flow.programs[index]
+            program = programs[index]
             line = int(program.line_of(block))
             count = f", pass {done} of {times}" if times else f", made {done} times" if done else ""
             said.append(f"{program.line_text(line).strip()[:WIDTH]} in line {line}{count}")

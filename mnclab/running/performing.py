@@ -121,7 +121,7 @@ def carry_out(m: Machine, name: str, step: Step, place: Place) -> Any:
         case Blocks():
             step.run()
         case Record():
-            with m.flow.inside(step.program), m.within(variable_unit=step.unit):
+            with m.flow.inside(m, step.program), m.within(variable_unit=step.unit):
                 return m.record(step.name, after=step.after)
         case Say():
             m.warn(f"{name} {step.text}", step.word, step.hint)
@@ -149,6 +149,9 @@ def write(m: Machine, step: Write) -> None:
             m.set_modal(step.key, step.value)
         case "memory":
             keep(m, step.key, step.value)
+        case "kept":
+            assert m.cycle is not None
+            m.cycle.extra[step.key] = step.value
         case "history":
             m.log(step.key, step.value)
         case _:

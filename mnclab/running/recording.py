@@ -8,14 +8,14 @@ contour is told in the coordinates of the program that calls, and the next label
 
 from __future__ import annotations
 
-from copy import deepcopy
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mnclab.geometry import frames
 from mnclab.geometry.frames import Matrix
-from mnclab.machine.flow import Recording
+from mnclab.machine.flow import Flow, Recording
+from mnclab.machine.state import PUT_BACK
 from mnclab.machine.waiting import determine
 from mnclab.path import corners
 from mnclab.path.fault import PathFault
@@ -25,35 +25,31 @@ from mnclab.text.alarm import Alarm, Span
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
-#: What a recorded label may change for good.
-_OUTLIVES = ("alarms", "noted", "variables", "measured", "tables", "step", "logs", "flow")
 _NOWHERE = (float("nan"), float("nan"), 0.0)
 
 
-def record(m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
+def record(m: Machine, flow: Flow, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
     """Obey a label for its contour; an Alarm when it has none or does not begin with both coordinates.
 
     `after` is the label before it in the same contour, whose transformations still act.
     """
-    kept, outer = dict(vars(m)), m._matrix
-    m.frames, m.memory = (after or m).frames.copy(), deepcopy((after or m).memory)
-    m.compose()
-    m.recorder, m.programmed_pieces, m.settled = m.recorder.another(_NOWHERE), [], []
-    m.modal, m._state, m.recorded_only = dict(m.modal), None, True
-    m.tip = m.programmed = _NOWHERE
-    m.side, m.feed, m.exact_here = 0, m.feed or 1.0, False
+    kept, outer = m.snapshot(PUT_BACK), m.matrix
+    path_so_far = {"recorder": m.recorder, "programmed_pieces": m.programmed_pieces, "settled": m.settled}
+    if after is not None:
+        m.put(frames=after.frames, memory=after.memory)
+    m.put(recorder=m.recorder.another(_NOWHERE), programmed_pieces=[], settled=[], recorded_only=True)
+    m.put(tip=_NOWHERE, programmed=_NOWHERE, side=0, feed=m.feed or 1.0, exact_here=False)
     try:
         with m.variables.own_level():
-            m.flow.call(label, span)
+            flow.call(m, label, span)
             determine(m)
         path = corners.apply(m.recorder.take())
         chain, memory = m.frames, m.memory
     except PathFault as fault:
-        raise Alarm(fault.message, m.flow.span_of_step(fault.step), hint=fault.hint) from None
+        raise Alarm(fault.message, flow.span_of_step(fault.step), hint=fault.hint) from None
     finally:
-        for name, value in kept.items():
-            if name not in _OUTLIVES:
-                setattr(m, name, value)
+        m.put(**path_so_far)
+        m.restore(kept)
     path = _within(path.motion, outer)
     if not len(path):
         raise Alarm(f"label {label} describes no contour", span)

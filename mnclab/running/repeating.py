@@ -19,9 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
-from mnclab.machine.lasting import lasting, lasting_over_blocks
+from mnclab.machine.snapshot import Snapshot
+from mnclab.machine.state import COMPARED, HOLES, PATTERN
 from mnclab.path.kinds import Kind
-from mnclab.path.recorder import ROW
+from mnclab.path.recorder import PLACES, ROW
+from mnclab.running.flow import Course, course
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -30,7 +32,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 FEWEST = 8  # points worth repeating as columns
 SAME = 1e-7  # mm; places nearer than this are one
-_END, _CENTRE = slice(ROW.index("x"), ROW.index("z") + 1), slice(ROW.index("cx"), ROW.index("cz") + 1)
+_END, _CENTRE = PLACES["end"], PLACES["centre"]
 _ELSE = [ROW.index(name) for name in ("kind", "label", "sweep", "feed", "time", "state")]
 
 
@@ -61,7 +63,7 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
     visits: list[Visit | None] = []
     for block in (first, first + 1):
         step = machine.step
-        visits.append(visit(machine, places[block - first], partial(_obey, machine, block), lasting_over_blocks))
+        visits.append(visit(machine, places[block - first], partial(_obey, bulk.flow, block), lasting_over_blocks))
         if visits[-1] is None or machine.step != step + 1:  # the other tier makes them
             bulk.not_before = first + least
             return block - first + 1
@@ -76,7 +78,7 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
         for name, log in machine.logs.by_name.items()
         if log.steps and log.steps[-1] == machine.step and name != "position"
     }
-    begun = machine.flow.begin_many(first + 2, count)
+    begun = bulk.flow.begin_many(machine, first + 2, count)
     steps = np.arange(begun, begun + count, dtype=np.int32)
     ends = places[2:][:count] + model.left[1]
     machine.logs.extend("position", steps, np.column_stack([ends, np.full(count, machine.programmed[2])]))
@@ -88,9 +90,26 @@ def repeat_hole(bulk: Bulk, first: int, end: int, least: int) -> int:
     return count + 2
 
 
-def _obey(m: Machine, block: int) -> None:
-    m.flow.current = block
-    m.flow.obey(block)
+def _obey(flow: Course, block: int) -> None:
+    flow.current = block
+    flow.obey(block)
+
+
+def lasting(m: Machine) -> tuple[object, ...]:
+    """Everything that stays from one visit to the next within a block: equal where the machine is as it was."""
+    return _level(m), m.snapshot(COMPARED[PATTERN]), course(m).standing()
+
+
+def lasting_over_blocks(m: Machine) -> tuple[object, ...]:
+    """The same where each visit is a plain block under the same cycle, of which only what is modal stays."""
+    definition = m.position_cycle
+    assert definition is not None
+    modal = {p.name: definition.values.get(p.name) for p in definition.cycle.parameters() if p.modal}
+    return _level(m), m.snapshot(COMPARED[HOLES]), definition.cycle, Snapshot(modal), Snapshot(definition.extra)
+
+
+def _level(m: Machine) -> tuple[float, int]:
+    return m.programmed[2], len(m.recorder.joints)
 
 
 def at_each(m: Machine, points: Array, make: Callable[[float, float], None]) -> None:
@@ -189,8 +208,8 @@ def _moved(
     room = m.recorder.room(n * r)[1:]
     ends = room.reshape(n, r, 3)
     np.add(base, model.ends, out=ends)
-    if m._shift is not None:
-        ends[:, :, 2] = column["z"]  # exactly the levels of the first hole
+    if m.shift is not None:
+        ends[:, :, 2] = column["end_z"]  # exactly the levels of the first hole
     columns: dict[str, NDArray[Any]] = {
         "kind": np.tile(column["kind"].astype(np.uint8), n),
         "line": np.broadcast_to(lines.astype(np.int32)[:, None], (n, r)),

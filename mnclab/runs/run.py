@@ -26,7 +26,7 @@ from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Toolpath
-from mnclab.running.flow import Steps
+from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import still_spindle
 from mnclab.runs.explanation import Explanation
@@ -61,8 +61,9 @@ class Run:
 
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
         self.program, self.setup, self.control = program, setup, control
-        self.programs = tuple(machine.flow.programs)
-        self.steps = Steps._make(fixed(column) for column in machine.flow.steps())
+        flow = course(machine)
+        self.programs = tuple(flow.programs)
+        self.steps = Steps._make(fixed(column) for column in flow.steps())
         self.programmed: Toolpath
         self.toolpath: Toolpath
         self.programmed, self.toolpath = paths(machine)
@@ -337,9 +338,8 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
     setup = (Setup() if setup is None else setup).kept()  # somebody may have written into its tables, and may again
-    machine = Machine(control, setup)
-    interpreter = Interpreter(control, machine, program)
-    alarms = interpreter.alarms
+    interpreter = Interpreter(control, setup, program)
+    machine, alarms = interpreter.machine, interpreter.alarms
     broken = False
     try:
         with collector_paused():

@@ -215,6 +215,15 @@ class Alarms(list[Alarm]):
         for alarm in alarms:
             self.append(alarm)
 
+    def copy(self) -> Alarms:
+        """The same alarms, apart from those to come."""
+        own, twin = {id(alarm): alarm.changed() for alarm in self}, Alarms()
+        list.extend(twin, own.values())
+        twin.total, twin.untold = self.total, self.untold[:]
+        twin._first = {key: own[id(alarm)] for key, alarm in self._first.items()}
+        twin._kinds = {kind: [count, own[id(alarm)]] for kind, (count, alarm) in self._kinds.items()}
+        return twin
+
     def warned(self, message: str, program: int = 0) -> Alarm | None:
         """The warning of these words that was given before."""
         return self._first.get((program, message, ""))

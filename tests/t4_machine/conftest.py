@@ -5,8 +5,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup
-from mnclab.machine.machine import Machine
-from mnclab.path.toolpath import COLUMNS
+from mnclab.path.columns import COLUMNS
 from mnclab.running.interpreter import Interpreter
 
 
@@ -46,8 +45,8 @@ def assert_equal():
 def executed():
     def count(text):
         """How many blocks went one by one."""
-        machine = Machine(mnclab.controls["mnc"], Setup())
-        Interpreter(mnclab.controls["mnc"], machine, mnclab.read(text, "mnc")).run()
-        return len(machine.flow.steps().block) - machine.flow.in_bulk
+        interpreter = Interpreter(mnclab.controls["mnc"], Setup(), mnclab.read(text, "mnc"))
+        interpreter.run()
+        return len(interpreter.flow.steps().block) - interpreter.flow.in_bulk
 
     return count

@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab
-from mnclab.machine.machine import Machine
 from mnclab.running.bulk import SHORTEST
 from mnclab.running.interpreter import Interpreter
 
@@ -132,9 +131,9 @@ def test_helices_go_on_in_bulk_and_are_one_warning(both, assert_equal, control, 
     assert f"1999 more like it (lines {first + 1}, {first + 2}" in str(told[0])
     assert np.array_equal(bulk.toolpath.end, single.toolpath.end) and len(bulk.toolpath) >= 2000
     program = mnclab.read(text, control)
-    machine = Machine(mnclab.controls[control], mnclab.Setup())
-    Interpreter(mnclab.controls[control], machine, program).run()
-    assert len(machine.flow.steps().block) - machine.flow.in_bulk < 300
+    interpreter = Interpreter(mnclab.controls[control], mnclab.Setup(), program)
+    interpreter.run()
+    assert len(interpreter.flow.steps().block) - interpreter.flow.in_bulk < 300
 
 
 def test_a_long_run_is_really_obeyed_in_bulk(both, assert_equal, executed):

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab import Setup
-from mnclab.path.toolpath import COLUMNS
+from mnclab.path.columns import COLUMNS
 
 TEXTUAL = {
     "line",

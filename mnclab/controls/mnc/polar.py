@@ -14,7 +14,8 @@ from mnclab.controls.mnc.language import absolute
 from mnclab.controls.mnc.state import Polar, memory
 from mnclab.controls.word_address.motion import AXES, first_word, helix
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.machine import PLANES, Machine
+from mnclab.machine.coordinates import PLANES
+from mnclab.machine.machine import Machine
 
 FUNCTIONS = FunctionTable()
 CARTESIAN = {"G10": "G0", "G11": "G1", "G12": "G2", "G13": "G3"}

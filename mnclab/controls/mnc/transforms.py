@@ -13,7 +13,8 @@ import math
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.machine import PLANES, Machine
+from mnclab.machine.coordinates import PLANES
+from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 
 FUNCTIONS = FunctionTable()

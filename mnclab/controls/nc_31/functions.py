@@ -110,7 +110,7 @@ def repeat(m: Machine, words: Words) -> None:
     if count < 1:
         m.alarm(f"G25 P (number of repetitions) must be at least 1, got {count}", given[1])
     first, last = frame_range(m, given[0])
-    m.flow.repeat(first, last + 1, count, given[0].span)
+    m.flow.repeat(m, first, last + 1, count, given[0].span)
 
 
 def frame_range(m: Machine, word: Word) -> tuple[int, int]:

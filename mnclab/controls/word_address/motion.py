@@ -6,7 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from mnclab.machine.control import Words
-from mnclab.machine.machine import PLANES, Machine
+from mnclab.machine.coordinates import PLANES
+from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import PLACES
 from mnclab.text.program import Word

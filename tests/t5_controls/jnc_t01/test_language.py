@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import mnclab
 from mnclab import Kind, Setup
 from mnclab.controls.jnc_t01.reader import looks_like
-from mnclab.path.toolpath import COLUMNS
+from mnclab.path.columns import COLUMNS
 from mnclab.running.bulk import SHORTEST
 
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Alarm, Kind, Limits, Setup, Tool
+from mnclab.path.columns import COLUMNS
 from mnclab.path.kinds import Rule
-from mnclab.path.toolpath import COLUMNS
 from mnclab.running import bulk as tiers
 
 SETTINGS = {setting.name: setting for setting in mnclab.controls["mnc"].settings}

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.machine.machine import Machine
-from mnclab.path.toolpath import COLUMNS
+from mnclab.path.columns import COLUMNS
 from mnclab.running import repeating
 from mnclab.running.interpreter import Interpreter
 
@@ -189,9 +188,9 @@ def test_the_points_of_a_pattern_need_the_tool_axis_z() -> None:
     """PATTERN DEF works out X and Y; with another plane the call is refused."""
     control = mnc.controls["tnc-620"]
     program = control.read(f"0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n{D}{HIGH}{TWO}5 CYCL CALL PAT FMAX\n", "a.h")
-    machine = Machine(control, mnc.Setup())
-    interpreter = Interpreter(control, machine, program)
-    machine.flow.section(0, len(program) - 1)
+    interpreter = Interpreter(control, mnc.Setup(), program)
+    machine = interpreter.machine
+    interpreter.flow.section(machine, 0, len(program) - 1)
     machine.change("plane", "YZ")
     with pytest.raises(mnc.Alarm, match="the tool axis must be Z"):
         interpreter.obey(len(program) - 1)

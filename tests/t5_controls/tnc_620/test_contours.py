@@ -7,7 +7,6 @@ from shapely import LineString, MultiPolygon, Point, Polygon, union_all
 import mnclab
 from mnclab import Kind, Setup, Tool
 from mnclab.controls.tnc_620.cycles.contours import contour_region
-from mnclab.machine.machine import Machine
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import perform
 
@@ -26,9 +25,9 @@ def machine_after(text):
     """A machine that has obeyed a program."""
     control = mnclab.controls["tnc-620"]
     program = mnclab.read(text, "tnc-620")
-    machine = Machine(control, Setup())
-    Interpreter(control, machine, program).run()
-    return machine
+    interpreter = Interpreter(control, Setup(), program)
+    interpreter.run()
+    return interpreter.machine
 
 
 @pytest.mark.parametrize("name", OVERLAPPING)

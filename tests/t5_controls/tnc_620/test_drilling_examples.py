@@ -17,6 +17,7 @@ from mnclab import Kind
 from mnclab.geometry import frames
 from mnclab.machine.machine import Machine
 from mnclab.machining.holes.drilling import guided
+from mnclab.running.flow import Course
 from mnclab.running.performing import perform
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-drilling.json"
@@ -286,7 +287,7 @@ def test_a_mirror_image_turns_neither_the_direction_nor_the_kind_of_milling(mirr
         (204, without | back | {"dwell_bottom": 0.0, "disengage": 1.0, "spindle_angle": 0.0}, 3.0),
         (208, bore | milling, 0),
     ):
-        machine = Machine(control, mnc.Setup())
+        machine = Machine(control, mnc.Setup(), Course(control.read("")))
         machine.set_modal("coolant", "M9")
         machine.change_tool(mnc.Tool(radius=5))
         machine.set_frame("rotation", frames.turn(math.radians(turned)))

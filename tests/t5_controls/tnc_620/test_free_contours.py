@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab.controls.tnc_620.cycles.contours import contour_region
-from mnclab.machine.machine import Machine
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import perform
 
@@ -49,8 +48,9 @@ def cutting(run):
 
 def test_the_example_is_the_contour_of_cycle_14():
     text = "CYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 CONTOUR LABEL 1\nM2\n" + C20["program"] + "\n"
-    machine = Machine(mnc.controls["tnc-620"], mnc.Setup())
-    Interpreter(machine.control, machine, mnc.read(text, "tnc-620")).run()
+    interpreter = Interpreter(mnc.controls["tnc-620"], mnc.Setup(), mnc.read(text, "tnc-620"))
+    interpreter.run()
+    machine = interpreter.machine
     machine.ended = False
     region = perform(machine, "", contour_region(machine))
     assert region.area == pytest.approx(4212.730, abs=1e-3)  # [derived: tnc620-contour, C20]
@@ -179,9 +179,10 @@ def test_what_is_missing_is_said_soon(pair, pairs):
 def test_a_contour_needs_a_start(tnc):
     run = tnc("CYCL DEF 14.0 C\nCYCL DEF 14.1 LABEL 1\nLBL 1\nFL X+5 Y+0 F100\nLBL 0\n")
     assert run.ok  # outside a recording the tool stands somewhere
-    machine = Machine(mnc.controls["tnc-620"], mnc.Setup())
     text = "LBL 1\nFL X+0 Y+0\nLBL 0\n"
-    Interpreter(machine.control, machine, mnc.read("M2\n" + text, "tnc-620")).run()
+    interpreter = Interpreter(mnc.controls["tnc-620"], mnc.Setup(), mnc.read("M2\n" + text, "tnc-620"))
+    interpreter.run()
+    machine = interpreter.machine
     machine.ended = False
     with pytest.raises(mnc.Alarm, match="needs a point to begin from"):
         machine.record("1")

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.path.toolpath import COLUMNS
+from mnclab.path.columns import COLUMNS
 
 NUMBERS = st.sampled_from(["+0", "-1", "2.5", "+10.125", "-.5", "7.", "+3.1415926535"])
 WORDS = st.tuples(

@@ -74,7 +74,8 @@ def untilt(m: Machine) -> Generator[Write, None, list[str]]:
         yield Write("renamed", now, kind + TILTED)
         if kind == ROTATION:
             angles = dict(memory(m).rotation_angles)
-            yield Write("memory", {**angles, now: angles.pop(kind + TILTED, 0.0)}, "rotation_angles")
+            angles[now] = angles.pop(kind + TILTED, 0.0)
+            yield Write("memory", angles, "rotation_angles")
     yield Write("frame", None, TILT)
     return left
 

@@ -58,7 +58,7 @@ class ContourGeometry(Cycle):
     def moves(self, m: Machine) -> Iterator[Step]:
         """Keep the list until the next one."""
         names = tuple(f"{number:g}" for number in self.labels)
-        yield Write("memory", Labels(names, m.flow.running[-1], m.variable_unit), "contour_labels")
+        yield Write("memory", Labels(names, m.program, m.variable_unit), "contour_labels")
 
 
 @CYCLES("CYCL DEF 20", "Contour data", runs="definition", source="8.4")

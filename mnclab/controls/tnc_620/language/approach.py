@@ -15,7 +15,8 @@ import numpy as np
 from mnclab.controls.tnc_620.language.motion import SIDES, coordinates, feed, heading, refuse_rapid, scaled, side
 from mnclab.controls.tnc_620.language.pole import polar_point
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.machine import INF, PLANES, Machine
+from mnclab.machine.coordinates import PLANES
+from mnclab.machine.machine import INF, Machine
 from mnclab.path.kinds import Kind
 from mnclab.path.leads import Lead, way
 

@@ -35,14 +35,14 @@ def call_label(m: Machine, words: Words) -> None:
     if name == "0":
         m.alarm("CALL LBL 0: LBL 0 is the end of a subprogram and cannot be called", word)
     if "REP" not in words:
-        m.flow.call(name, m._span(word))
+        m.flow.call(m, name, m.span_of(word))
         return
-    first, here = m.flow.index_of(name, m._span(word)), m.flow.current
+    first, here = m.flow.index_of(name, m.span_of(word)), m.flow.current
     if first >= here:
         m.alarm(
             f"CALL LBL {name} REP: the section must begin before this block", word, hint="REP repeats what stands above"
         )
-    m.flow.repeat(first, here, int(m.value(words["REP"])), m._span(word))
+    m.flow.repeat(m, first, here, int(m.value(words["REP"])), m.span_of(word))
 
 
 CONDITIONS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
@@ -63,29 +63,29 @@ def jump(m: Machine, words: Words) -> None:
     m.flow.ask(word.value)
     if "state" in words:
         name = str(words["parameter"].value)
-        m.flow.loops.asked[name] = m.flow.loops.otherwise = m.step
+        m.flow.ask_whether(name)
         holds = (name in m.variables or name in PREASSIGNED) == (words["state"].value == "DEFINED")
     else:
         first, second = words["first"], words["second"]
         one, other = m.value(first), m.value(second)
-        m.flow.loops.compare(m, first.value, second.value, one - other)
+        m.flow.compare(first.value, second.value, one - other)
         holds = CONDITIONS[words.code][1](one, other)
     name = label_name(m, word)
     if name == "0":
         m.alarm(f"{words.code} GOTO LBL 0: LBL 0 is the end of a subprogram and no place to go to", word)
-    m.flow.index_of(name, m._span(word))  # a label that is missing is a fault even when the jump is not made
+    m.flow.index_of(name, m.span_of(word))  # a label that is missing is a fault even when the jump is not made
     if holds:
-        m.flow.jump(name, m._span(word))
+        m.flow.jump(m, name, m.span_of(word))
 
 
 def call_program(m: Machine, name: str, what: str, word: Word | None) -> None:
     """Run another program here, with its own QL parameters; `what` is the statement that calls it."""
-    place = m._span(word)
+    place = m.span_of(word)
     index = files.called(m, name, what, place)
     kept, length = (memory(m).name, memory(m).unit), m.variable_unit
     memory(m).name = memory(m).unit = None
     with m.variables.own_level():
-        m.flow.call_program(index, place)
+        m.flow.call_program(m, index, place)
     m.variable_unit = length
     memory(m).name, memory(m).unit = kept
 

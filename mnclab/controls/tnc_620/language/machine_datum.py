@@ -38,7 +38,7 @@ def machine_target(
     if m.side:
         m.alarm(f"{word} cannot begin radius compensation", word, "write RL or RR in the block after")
     point = m.to_program(target)
-    return {"xyz"[axis]: point[axis] for axis in (written if m._shift is not None else range(3))}
+    return {"xyz"[axis]: point[axis] for axis in (written if m.shift is not None else range(3))}
 
 
 @FUNCTIONS("M94", "Rotary axes within one turn", takes="M94:A M94:B M94:C", phase="start", modal=False, source="11.9")

@@ -12,7 +12,8 @@ from mnclab.controls.tnc_620.language.pole import polar_point, pole
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words
-from mnclab.machine.machine import PLANES, Machine
+from mnclab.machine.coordinates import PLANES
+from mnclab.machine.machine import Machine
 from mnclab.machine.rotary import AXES as AXES_OF_ROTATION
 from mnclab.machine.rotary import Angles, angles, set_angles, turn_axes
 from mnclab.path.corners import Corner

@@ -24,4 +24,4 @@ def text_of(m: Machine, word: Word, statement: str, kind: str, suffix: str) -> t
         name, file = name + suffix, file + suffix
     if not file.upper().endswith(suffix):
         m.alarm(f"{statement} {name}: a {kind} has the type {suffix}", word)
-    return name, found(m, name, statement, m._span(word), kind).text
+    return name, found(m, name, statement, m.span_of(word), kind).text
