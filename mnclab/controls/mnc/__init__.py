@@ -2,8 +2,8 @@
 
 `language` holds motion, offsets and feed, `auxiliary` tool, spindle and M functions, `polar` polar motion,
 `transforms` scaling, mirror image, rotation and datums, `compensation` the radius functions, `cycles` those of
-drilling and milling (chapters 9 and 10), `settings` what a machine may need otherwise. Still to come is probing; its codes
-are refused by name.
+drilling and milling (chapters 9 and 10), `settings` what a machine may need otherwise. The codes of
+probing are refused by name.
 """
 
 from __future__ import annotations
