@@ -53,10 +53,10 @@ __version__ = "0.1.0"
 
 #: What is opened when it is first asked for.
 OPENED = Shelf("mnclab", "the names that need more than numpy", {
+    "mnclab.controls.cycle_steps": "steps",
     "mnclab.comparison.diff": "diff",
     "mnclab.comparison.strategies": "compare",
     "mnclab.comparison.turning_schemes": "compare as compare_turning",
-    "mnclab.controls.cycle_steps": "steps",
     "mnclab.show.editor": "editor",
     "mnclab.show.forms": "compensation_panel, form, panel, profile_panel",
     "mnclab.show.magic": "load_ipython_extension",
