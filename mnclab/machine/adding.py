@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mnclab.path.cutting_speed import mean_turn, spindle_speed
 from mnclab.path.kinds import Kind
-from mnclab.path.recorder import INF, NAN, State
+from mnclab.path.recorder import NAN, State
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -55,12 +55,14 @@ def row_state(m: Machine) -> int:
     """The state that rows made now share."""
     if m.row_state is None:
         per_rev = m.feed if m.per_rev and m.feed is not None else NAN
-        surface = (NAN, INF, 0.0) if m.surface is None else (m.surface, m.speed_limit, spindle_axis(m))
+        cutting = {}
+        if m.surface is not None:
+            cutting = {"surface": m.surface, "speed_limit": m.speed_limit, "spindle_x": spindle_axis(m)}
         m.row_state = m.recorder.state(
             State(
-                m.program, m.axis, m.rotary, per_rev, surface[0], m.spindle_speed, m.tool.number,
-                m.tool.effective_radius, m.side * m.orientation, m.corner_rule, m.exact,
-                m.synchronous, m.tolerance, *surface[1:],
+                program=m.program, axis=m.axis, rotary=m.rotary, per_rev=per_rev, spindle=m.spindle_speed,
+                tool=m.tool.number, radius=m.tool.effective_radius, side=m.side * m.orientation,
+                corner_rule=m.corner_rule, exact=m.exact, synchronous=m.synchronous, tolerance=m.tolerance, **cutting,
             )
         )  # fmt: skip
     return m.row_state

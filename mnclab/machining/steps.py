@@ -159,7 +159,8 @@ class Write(NamedTuple):
     """A value that stays: an attribute of the machine that rows carry ("side"), or with a `key` one of these.
 
     A "variable", a "measured" value, a row of "tools", "datums" or "presets", a "frame", the new name of a frame ("renamed"),
-    the "datum" as a frame, a "modal" group, "memory" of the control, a value that only the "history" keeps.
+    the "datum" as a frame, a "modal" group, "memory" of the control, what is "kept" for the next
+    call of the cycle, a value that only the "history" keeps.
     """
 
     what: str

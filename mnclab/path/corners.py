@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import Element, meet
 from mnclab.geometry.vectors import cross, dot, left
+from mnclab.path.columns import COLUMNS
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind
 from mnclab.path.plane import PlaneView
-from mnclab.path.toolpath import COLUMNS, Toolpath
+from mnclab.path.toolpath import Toolpath
 
 
 class Rounding(NamedTuple):

@@ -21,10 +21,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.vectors import cross, dot, left
+from mnclab.path.columns import COLUMNS
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind
 from mnclab.path.plane import PlaneView
-from mnclab.path.toolpath import COLUMNS, Toolpath
+from mnclab.path.toolpath import Toolpath
 
 Point = NDArray[np.float64]
 NEAR = 1e-9  # mm

@@ -12,9 +12,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.columns import COLUMNS
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import PerAxis
-from mnclab.path.toolpath import COLUMNS, Toolpath
+from mnclab.path.toolpath import Toolpath
 
 
 def broken(path: Toolpath, speed: PerAxis) -> Toolpath:

@@ -9,44 +9,37 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable, Iterable
 from copy import copy
-from typing import Any, NamedTuple, NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.columns import COLUMNS, Column, fields
 from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import COLUMNS, Toolpath, concatenate
+from mnclab.path.toolpath import Toolpath, concatenate
 
-NAN, INF = float("nan"), float("inf")
-
-
-class State(NamedTuple):
-    """What a row shares with its neighbours; the fields are columns of the toolpath."""
-
-    program: int = 0
-    axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
-    rotary: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    per_rev: float = NAN
-    surface: float = NAN
-    spindle: float = 0.0
-    tool: int = 0
-    radius: float = 0.0
-    side: int = 0
-    corner_rule: int = 0
-    exact: bool = False
-    synchronous: bool = False
-    tolerance: float = NAN
-    speed_limit: float = INF
-    spindle_x: float = 0.0
-
-
-#: What a column is where a chunk of rows does not say.
+NAN, INF = np.nan, np.inf
+#: The columns, and which state (an index) a row has.
+KEPT = COLUMNS | {"state": Column(np.int64, 0, "index of the State", per="row")}
+SHARED = {name: each for name, each in KEPT.items() if each.per == "state"}
+SINGLE = {name: each for name, each in KEPT.items() if each.per == "row"}
+ROW = [part for name, each in SINGLE.items() for part in each.flat(name)]  # the order of `Recorder.add`
+#: Where each column of single rows stands in `ROW`.
+PLACES = {name: slice(ROW.index(each.flat(name)[0]), ROW.index(each.flat(name)[-1]) + 1) for name, each in SINGLE.items()}
+ALWAYS = ("kind", "line", "step", "end")  # said in every chunk of rows
+#: What the other columns are where a chunk does not say.
 PLAIN: dict[str, Any] = {
-    "label": 0, "sweep": 0.0, "feed": NAN, "time": NAN, "joint": -1, "state": 0, "centre": np.array([NAN] * 3),
-}  # fmt: skip
-STATE = (np.int64,)
+    name: np.full(each.shape, each.default) if each.parts else each.default
+    for name, each in SINGLE.items()
+    if name not in ALWAYS
+}
 TOGETHER = 1 << 16  # single rows that are made columns at once: they take less room then
-ROW = ("kind", "line", "step", "label", "x", "y", "z", "cx", "cy", "cz", "sweep", "feed", "time", "joint", "state")
+
+
+class State(fields("State", SHARED)):  # type: ignore[misc]
+    """What a row shares with its neighbours: a value for each column per state."""
+
+    __slots__ = ()
 
 
 class Recorder:
@@ -219,7 +212,7 @@ class Recorder:
         chunk, row = last
         end = chunk["end"][row]
         if chunk["kind"][row] == Kind.ARC:
-            state, turn = (_column([chunk[name]], [len(chunk["kind"])], np.float64)[row] for name in ("state", "sweep"))
+            state, turn = (_column(name, [chunk[name]], [len(chunk["kind"])])[row] for name in ("state", "sweep"))
             axis = np.array(self.states[int(state)].axis)
             spoke = end - chunk["centre"][row]
             travel = np.cross(axis, spoke) * np.sign(turn)
@@ -235,13 +228,8 @@ class Recorder:
             return
         table = np.frombuffer(self.rows).reshape(-1, len(ROW))
         self.rows = array("d")
-        named = {
-            name: _plain(name, table[:, i]).astype(COLUMNS.get(name, STATE)[0])
-            for i, name in enumerate(ROW)
-            if len(name) > 2
-        }
-        centre = PLAIN["centre"] if np.isnan(table[:, 7]).all() else table[:, 7:10].copy()
-        self._append({**named, "centre": centre}, table[:, 4:7])
+        chunk = {name: _plain(name, table[:, place]) for name, place in PLACES.items()}
+        self._append(chunk, chunk.pop("end"))
 
     def take(self) -> Toolpath:
         """The rows since the last call as a path that begins at `start`, which moves on to its end."""
@@ -252,7 +240,7 @@ class Recorder:
         sizes = [len(chunk["kind"]) for chunk in chunks]
         self.taken += sum(sizes)
         columns = {  # each part is let go when its column is made
-            name: _column([chunk.pop(name, PLAIN.get(name)) for chunk in chunks], sizes, COLUMNS.get(name, STATE)[0])
+            name: _column(name, [chunk.pop(name, PLAIN.get(name)) for chunk in chunks], sizes)
             for name in list(dict.fromkeys(name for chunk in chunks for name in chunk))
             if name != "end"
         }
@@ -266,12 +254,11 @@ class Recorder:
             constant = which.strides[0] == 0
             for name in State._fields:
                 if constant:
-                    value = np.asarray(getattr(self.states[int(which[0])], name), dtype=COLUMNS[name][0])
-                    columns[name] = np.broadcast_to(value, (len(which), *value.shape))
+                    columns[name] = COLUMNS[name].of(len(which), getattr(self.states[int(which[0])], name))
                     continue
-                values = np.array([getattr(state, name) for state in self.states], dtype=COLUMNS[name][0])
+                values = np.array([getattr(state, name) for state in self.states], dtype=COLUMNS[name].dtype)
                 same = bool((values == values[:1]).all() or (values != values).all())  # equal, or nothing but nan
-                columns[name] = np.broadcast_to(values[0], (len(which), *values.shape[1:])) if same else values[which]
+                columns[name] = COLUMNS[name].of(len(which), values[0]) if same else values[which]
             if not np.isnan(columns["per_rev"]).all():  # what does not cut at a feed has none per revolution
                 columns["per_rev"] = np.where(np.isfinite(columns["feed"]), columns["per_rev"], NAN)
         else:
@@ -283,28 +270,28 @@ def _refuse(count: int) -> NoReturn:
     raise ValueError(f"there would be {count} rows")
 
 
-def _plain(name: str, column: NDArray[np.float64]) -> NDArray[Any]:
-    """One value for all rows of a column (n,) where it is that of `PLAIN`, so that it costs nothing."""
-    if name == "state" or name not in PLAIN:
-        return column[0] if name == "state" and (column == column[0]).all() else column
-    usual = PLAIN[name]
-    return np.asarray(usual) if (column == usual).all() or (usual != usual and np.isnan(column).all()) else column
+def _plain(name: str, part: NDArray[np.float64]) -> NDArray[Any]:
+    """A column of single rows (n, k); where one value serves for all of them it is that value, which costs nothing."""
+    vector, dtype = bool(SINGLE[name].parts), SINGLE[name].dtype
+    usual = PLAIN.get(name) if name != "state" else part[0]
+    if usual is not None and ((part == usual) | (usual != usual) & np.isnan(part)).all():
+        return usual if vector else np.asarray(usual, dtype).reshape(())
+    return part.copy() if vector else part[:, 0].astype(dtype)
 
 
-def _column(parts: list[Any], sizes: list[int], dtype: Any) -> NDArray[Any]:
+def _column(name: str, parts: list[Any], sizes: list[int]) -> NDArray[Any]:
     """One column from parts, some of which are a single value for all their rows; a constant column costs nothing."""
-    if all(np.ndim(part) == 0 for part in parts) and len({repr(float(part)) for part in parts}) == 1:
-        return np.broadcast_to(np.asarray(parts[0], dtype=dtype), (sum(sizes),))
-    if all(part is PLAIN["centre"] for part in parts):
-        return np.broadcast_to(PLAIN["centre"], (sum(sizes), 3))
-    vector = any(
-        part is PLAIN["centre"] or np.shape(part) == (size, 3) for part, size in zip(parts, sizes, strict=True)
-    )
-    result = np.empty((sum(sizes), 3) if vector else (sum(sizes),), dtype=dtype)
-    at = 0
+    each, rows = KEPT[name], sum(sizes)
+    if each.parts:
+        constant = all(part is PLAIN.get(name) for part in parts)
+    else:
+        constant = all(np.ndim(part) == 0 for part in parts) and len({repr(float(part)) for part in parts}) == 1
+    if constant:
+        return each.of(rows, parts[0])
+    result, at = np.empty((rows, *each.shape), dtype=each.dtype), 0
     for part, size in zip(parts, sizes, strict=True):
         to = result[at : at + size]
-        if np.ndim(part) == 2 and not vector:
+        if np.ndim(part) == 2 and not each.parts:
             to = to.reshape(np.shape(part))
         to[...] = part
         at += size

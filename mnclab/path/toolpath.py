@@ -13,11 +13,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import NDArray
 
+from mnclab.path.columns import COLUMNS, Columns, Move
 from mnclab.path.kinds import MOTION_KINDS, Kind
 from mnclab.text.alarm import several
 from mnclab.text.columns import fixed
@@ -25,107 +26,13 @@ from mnclab.text.columns import fixed
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: Every column: its type, its shape per row, the value when nothing is said, and what it means.
-COLUMNS: dict[str, tuple[DTypeLike, tuple[int, ...], Any, str]] = {
-    "kind": (np.uint8, (), Kind.LINE, "Kind of the row"),
-    "line": (np.int32, (), 0, "source line, from 1"),
-    "program": (np.int16, (), 0, "index into Run.programs"),
-    "step": (np.int32, (), 0, "which execution of a block made the row"),
-    "label": (np.int32, (), 0, "index into labels"),
-    "start": (np.float64, (3,), 0.0, "tool tip before the row, mm"),
-    "end": (np.float64, (3,), 0.0, "tool tip after the row, mm"),
-    "centre": (np.float64, (3,), np.nan, "centre of an arc, mm"),
-    "axis": (np.float64, (3,), (0.0, 0.0, 1.0), "unit normal of the active plane"),
-    "sweep": (np.float64, (), 0.0, "angle of an arc, right-handed about axis, rad; pitch lies in end"),
-    "rotary": (np.float64, (3,), 0.0, "A, B, C at the end of the row, rad"),
-    "feed": (np.float64, (), np.nan, "feed along the path, mm/min; inf for rapids"),
-    "per_rev": (np.float64, (), np.nan, "feed per revolution of rows at feed, mm/rev"),
-    "surface": (np.float64, (), np.nan, "constant cutting speed, m/min"),
-    "speed_limit": (np.float64, (), np.inf, "greatest spindle speed at constant cutting speed, rev/min"),
-    "spindle_x": (np.float64, (), 0.0, "X of the spindle axis at constant cutting speed, mm"),
-    "time": (np.float64, (), np.nan, "time given by the program, s"),
-    "spindle": (np.float64, (), 0.0, "rev/min at the end of the row, negative for counter-clockwise"),
-    "tool": (np.int32, (), 0, "tool number"),
-    "radius": (np.float64, (), 0.0, "effective tool radius, mm"),
-    "side": (np.int8, (), 0, "radius compensation: +1 left, -1 right, 0 none"),
-    "corner_rule": (np.uint8, (), 0, "how outside corners are joined"),
-    "rule": (np.uint8, (), 0, "Rule of radius compensation that made the row"),
-    "gouge": (np.bool_, (), False, "the tool cuts into the contour on this row (setting gouge = mark)"),
-    "exact": (np.bool_, (), False, "stop exactly at the end"),
-    "synchronous": (np.bool_, (), False, "spindle and feed locked"),
-    "tolerance": (np.float64, (), np.nan, "how far the program lets corners be cut, mm; nan: as the limits have it"),
-    "joint": (np.int16, (), -1, "index into joints"),
-}
 
-
-class Move(NamedTuple):
-    """One row of a toolpath; the fields are those of `COLUMNS`."""
-
-    kind: Kind
-    line: int
-    program: int
-    step: int
-    label: str
-    start: NDArray[np.float64]
-    end: NDArray[np.float64]
-    centre: NDArray[np.float64]
-    axis: NDArray[np.float64]
-    sweep: float
-    rotary: NDArray[np.float64]
-    feed: float
-    per_rev: float
-    surface: float
-    speed_limit: float
-    spindle_x: float
-    time: float
-    spindle: float
-    tool: int
-    radius: float
-    side: int
-    corner_rule: int
-    rule: int
-    gouge: bool
-    exact: bool
-    synchronous: bool
-    tolerance: float
-    joint: Any
-
-
-class Toolpath:
+class Toolpath(Columns):
     """Moves and events in columns of n rows; the names and meanings are in `COLUMNS`.
 
     `labels` and `joints` are what the columns of these names index; `origin` (3,) is the machine position, mm,
     that all positions are relative to; `lathe` says that pictures and listings show X (a radius) and Z.
     """
-
-    kind: NDArray[np.uint8]
-    line: NDArray[np.int32]
-    program: NDArray[np.int16]
-    step: NDArray[np.int32]
-    label: NDArray[np.int32]
-    start: NDArray[np.float64]
-    end: NDArray[np.float64]
-    centre: NDArray[np.float64]
-    axis: NDArray[np.float64]
-    sweep: NDArray[np.float64]
-    rotary: NDArray[np.float64]
-    feed: NDArray[np.float64]
-    per_rev: NDArray[np.float64]
-    surface: NDArray[np.float64]
-    speed_limit: NDArray[np.float64]
-    spindle_x: NDArray[np.float64]
-    time: NDArray[np.float64]
-    spindle: NDArray[np.float64]
-    tool: NDArray[np.int32]
-    radius: NDArray[np.float64]
-    side: NDArray[np.int8]
-    corner_rule: NDArray[np.uint8]
-    rule: NDArray[np.uint8]
-    gouge: NDArray[np.bool_]
-    exact: NDArray[np.bool_]
-    synchronous: NDArray[np.bool_]
-    tolerance: NDArray[np.float64]
-    joint: NDArray[np.int16]
 
     def __init__(
         self,
@@ -136,13 +43,13 @@ class Toolpath:
         lathe: bool = False,
     ) -> None:
         self._n = len(columns["kind"])
-        for name, (dtype, shape, default, _) in COLUMNS.items():
+        for name, each in COLUMNS.items():
             column = columns.get(name)
             if column is None:
-                column = np.broadcast_to(np.asarray(default, dtype=dtype), (self._n, *shape))
-            elif column.dtype != dtype and self._n and column.strides[0] == 0:  # keep a constant column constant
-                column = np.broadcast_to(column[0].astype(dtype), (self._n, *shape))
-            setattr(self, name, fixed(np.asarray(column, dtype=dtype)))
+                column = each.of(self._n)
+            elif column.dtype != each.dtype and self._n and column.strides[0] == 0:  # keep a constant column constant
+                column = each.of(self._n, column[0])
+            setattr(self, name, fixed(np.asarray(column, dtype=each.dtype)))
         self.labels, self.joints = tuple(labels), tuple(joints)
         self.origin = fixed(np.asarray(tuple(origin), dtype=np.float64))
         self.lathe = lathe
@@ -246,10 +153,9 @@ class Toolpath:
     def columns(self) -> dict[str, NDArray[Any]]:
         """A dict of one-dimensional arrays for pandas, polars or pyarrow; vectors become `end_x`, `end_y`, …"""
         flat: dict[str, NDArray[Any]] = {}
-        for name, (_, shape, _, _) in COLUMNS.items():
+        for name, each in COLUMNS.items():
             column = getattr(self, name)
-            names = "abc" if name == "rotary" else "xyz"
-            flat |= {f"{name}_{names[k]}": column[:, k] for k in range(3)} if shape else {name: column}
+            flat |= {one: column[:, k] if each.parts else column for k, one in enumerate(each.flat(name))}
         return flat
 
     # --- shown -------------------------------------------------------------------------------------------------------

@@ -149,6 +149,9 @@ def write(m: Machine, step: Write) -> None:
             m.set_modal(step.key, step.value)
         case "memory":
             keep(m, step.key, step.value)
+        case "kept":
+            assert m.cycle is not None
+            m.cycle.extra[step.key] = step.value
         case "history":
             m.log(step.key, step.value)
         case _:

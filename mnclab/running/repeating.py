@@ -22,7 +22,7 @@ from mnclab.geometry import frames
 from mnclab.machine.snapshot import Snapshot
 from mnclab.machine.state import COMPARED, HOLES, PATTERN
 from mnclab.path.kinds import Kind
-from mnclab.path.recorder import ROW
+from mnclab.path.recorder import PLACES, ROW
 from mnclab.running.flow import Course, course
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 FEWEST = 8  # points worth repeating as columns
 SAME = 1e-7  # mm; places nearer than this are one
-_END, _CENTRE = slice(ROW.index("x"), ROW.index("z") + 1), slice(ROW.index("cx"), ROW.index("cz") + 1)
+_END, _CENTRE = PLACES["end"], PLACES["centre"]
 _ELSE = [ROW.index(name) for name in ("kind", "label", "sweep", "feed", "time", "state")]
 
 
@@ -209,7 +209,7 @@ def _moved(
     ends = room.reshape(n, r, 3)
     np.add(base, model.ends, out=ends)
     if m.shift is not None:
-        ends[:, :, 2] = column["z"]  # exactly the levels of the first hole
+        ends[:, :, 2] = column["end_z"]  # exactly the levels of the first hole
     columns: dict[str, NDArray[Any]] = {
         "kind": np.tile(column["kind"].astype(np.uint8), n),
         "line": np.broadcast_to(lines.astype(np.int32)[:, None], (n, r)),

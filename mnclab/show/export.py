@@ -17,8 +17,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.columns import COLUMNS
 from mnclab.path.kinds import Kind
-from mnclab.path.toolpath import COLUMNS, Toolpath
+from mnclab.path.toolpath import Toolpath
 from mnclab.show.export_dxf import write_dxf
 from mnclab.show.export_gcode import write_gcode
 from mnclab.show.export_mesh import write_gltf, write_stl, write_vtk
@@ -98,7 +99,7 @@ def document(run: Any) -> dict[str, Any]:
         "alarms": [named(alarm).as_dict() for alarm in run.alarms],
         "lathe": path.lathe,
         "origin": path.origin.tolist(),
-        "meaning": {name: meaning for name, (_, _, _, meaning) in COLUMNS.items()},
+        "meaning": {name: ", ".join(filter(None, (each.meaning, each.unit))) for name, each in COLUMNS.items()},
         "columns": columns,
     }
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from mnclab.machining.steps import RAPID, Go, Thread, Wait
 from mnclab.machining.turning.grooving import grooves, places
-from mnclab.machining.turning.shoulders import Shoulder, around, facing, loops, roughing, towards
+from mnclab.machining.turning.roughing import Shoulder, around, exchanged, loops, roughing, towards
 from mnclab.machining.turning.threading import lead_along, thread_passes
 
 
@@ -32,7 +32,7 @@ def test_places_cover_the_way(start, last, step):
 
 def test_grooves_in_a_face():
     """Depth is Z there, the side step X; it may be made at feed."""
-    steps = list(facing(grooves(2, -5, places(20, 25, 5), shift=None)))
+    steps = list(exchanged(grooves(2, -5, places(20, 25, 5), shift=None)))
     assert ways(steps) == [
         (20, None, None), (None, -5, None), (None, 2, RAPID), (25, None, None), (None, -5, None), (None, 2, RAPID),
         (20, None, RAPID),
@@ -62,7 +62,7 @@ def test_around_a_shoulder():
     shoulder = Shoulder(finish=20, corner=-45, rim=25, far=-50)
     for turned in (False, True):
         steps = list(around((30, 2), shoulder, label="contour", wall=RAPID))
-        steps = list(facing(steps)) if turned else steps
+        steps = list(exchanged(steps)) if turned else steps
         across, along = ("z", "x") if turned else ("x", "z")
         assert getattr(steps[0], across) == 20 and getattr(steps[1], along) == -45
         assert (getattr(steps[2], across), getattr(steps[2], along)) == (25, -50)
@@ -79,6 +79,6 @@ def test_loops_stay_on_this_side_of_the_start():
 
 
 def test_a_hole_along_x():
-    steps = list(facing([Go("drill", 5, None), Thread("cut", -3, 1.25), Wait("dwell", 2)]))
+    steps = list(exchanged([Go("drill", 5, None), Thread("cut", -3, 1.25), Wait("dwell", 2)]))
     assert [(step.x, step.z) for step in steps[:2]] == [(5, None), (-3, None)] and steps[1].pitch == 1.25
     assert steps[2] == Wait("dwell", 2)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Setup
-from mnclab.machining.turning.shoulders import Pass, Shoulder, chip_breaks, count_of_levels, levels, roughing
+from mnclab.machining.turning.roughing import Pass, Shoulder, chip_breaks, count_of_levels, levels, roughing
 
 COORDINATE = st.integers(-20_000, 20_000)
 

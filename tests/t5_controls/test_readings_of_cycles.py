@@ -18,7 +18,7 @@ def said(found):
 
 
 TAP = "T2 S500 {start}\nG0 X0 Y0 Z20\nG309 Q2 H-10 Z0 P{pitch}\nX5 M99\nX15 {between} M99\nX25 {between} M99\n"
-STANDS = "G309: the spindle stands since the thread before, and the cycle turns it itself"
+STANDS = "G309 turns the spindle itself: the spindle stands since the thread before"
 
 
 @pytest.mark.parametrize("pitch", [1.25, -1.25])

@@ -13,7 +13,7 @@ import running
 from matplotlib.figure import Figure
 
 import mnclab
-from mnclab import Kind, Setup, Tool, Toolpath
+from mnclab import Alarm, Kind, Setup, Tool, Toolpath
 from mnclab.show.plot.path import plot_path
 from mnclab.workpiece.blank import cylinder
 
@@ -258,7 +258,7 @@ def test_a_view_goes_into_axes_of_ones_own():
 
 @pytest.mark.parametrize("options", [{"view": "front"}, {"frame": "some"}])
 def test_unknown_options_are_refused_with_those_known(options):
-    with pytest.raises(ValueError, match="must be auto"):
+    with pytest.raises(Alarm, match="must be auto"):
         run(SQUARE).plot(**options)
 
 

@@ -10,7 +10,7 @@ from matplotlib.collections import PathCollection
 from matplotlib.colors import to_rgb
 
 import mnclab
-from mnclab import Kind, Toolpath
+from mnclab import Alarm, Kind, Toolpath
 from mnclab.show.plot import arrows, classes
 from mnclab.show.plot.path import plot_path
 
@@ -132,7 +132,7 @@ def test_a_move_without_a_feed_is_drawn_and_says_so():
 
 
 def test_an_unknown_colour_is_refused_with_those_known():
-    with pytest.raises(ValueError, match="colour must be one of kind, feed, speed, tool, line, z"):
+    with pytest.raises(Alarm, match="colour must be kind, feed, speed, tool, line or z"):
         run(SQUARE).plot(colour="weight")
 
 

@@ -245,7 +245,7 @@ def test_what_makes_no_sense_is_refused():
         with pytest.raises(Alarm):
             plot.compensation(found, **options)
     for options in ({"view": "UV"}, {"discs": -1.0}, {"ax": found.plot().axes[0], "radii": [1, 2]}):
-        with pytest.raises(ValueError, match="view|discs|axes"):
+        with pytest.raises(Alarm, match="view|discs|axes"):
             plot.compensation(found, **options)
 
 

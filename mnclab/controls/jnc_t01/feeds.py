@@ -39,22 +39,26 @@ FUNCTIONS("F", "Feed", phase="feed", source="3, table 1")(motion.feed)
 
 
 def cutting_feed(m: Machine, word: Word | None) -> float | None:
-    """None for the modal feed; under G95 with a spindle that stands, what the programmed speed would make of it.
-
-    An Alarm if there is no feed, no speed, or if a spindle that stands is to be refused.
-    """
+    """As `standing_feed`; an Alarm if there is no feed, no speed, or if a spindle that stands is to be refused."""
     need_cutting_speed(m)
-    if m.feed is not None and m.per_rev and not m.turning and m.speed:
+    if (feed := standing_feed(m)) is not None:
         motion.remark_at(
             m, "stopped_spindle", f"G95: the spindle stands, the feed is that of {m.speed:g} rev/min", word
         )
-        return m.feed * m.speed
+        return feed
     if m.feed is None and (code := memory(m).feed_ended_by):
         m.alarm(
             f"no feed rate was programmed after {code}, which gives F another unit", word, "write F with a new value"
         )
     m.feed_of(None, word)
     return None
+
+
+def standing_feed(m: Machine) -> float | None:
+    """None for the modal feed; under G95 with a spindle that stands, what the programmed speed would make of it."""
+    if m.feed is None or not m.per_rev or m.turning or not m.speed:
+        return None
+    return m.feed * m.speed
 
 
 # --- spindle ---------------------------------------------------------------------------------------------------------

@@ -14,48 +14,21 @@ from mnclab.machine.control import Control
 from mnclab.machine.settings import Setting
 
 SETTINGS = (
-    Setting("parameter_6", 0, "G31: infeed angle of the thread", "group P, adopted 0", unit="deg"),
+    Setting("parameter_6", 0, "G31: infeed angle of the thread", "group P, adopted 0", {}, "deg"),
+    Setting("parameter_7", 0, "G31: run-out at the end of the thread", "group P, adopted 0", {}, "tenths of the pitch", 0),
+    Setting("parameter_8", 100, "G72, G73: gap left when the drill returns", "group P, adopted 1 mm", {}, "0.01 mm", 0),
     Setting(
-        "parameter_7",
-        0,
-        "G31: run-out at the end of the thread",
-        "group P, adopted 0",
-        unit="tenths of the pitch",
-        at_least=0,
+        "parameter_10", 0, "G77, G78: length of cut until the chip is broken; 0: not broken", "group P", {}, "0.01 mm", 0
     ),
     Setting(
-        "parameter_8",
-        100,
-        "G72, G73: gap left when the drill returns",
-        "group P, adopted 1 mm",
-        unit="0.01 mm",
-        at_least=0,
-    ),
-    Setting(
-        "parameter_10",
-        0,
-        "G77, G78: length of cut until the chip is broken; 0: not broken",
-        "group P",
-        unit="0.01 mm",
-        at_least=0,
-    ),
-    Setting(
-        "parameter_11",
-        50,
-        "G77, G78: rapid retract that breaks the chip",
-        "group P, adopted 0.5 mm",
-        unit="0.01 mm",
-        at_least=0,
+        "parameter_11", 50, "G77, G78: rapid retract that breaks the chip", "group P, adopted 0.5 mm", {}, "0.01 mm", 0
     ),
     Setting("p1_on_radius", False, "G77 P1, G72 P: on the radius, not on the diameter", "not stated"),
     Setting(
-        "g78_bevel",
-        "along_z",
-        "G78: which way its bevel P2 counts",
-        "3.20.6, its figure is lost",
+        "g78_bevel", "along_z", "G78: which way its bevel P2 counts", "3.20.6, its figure is lost",
         {"along_z": "along Z, as its table says: a conical face", "along_x": "along X: G77 with the axes exchanged"},
     ),
-)
+)  # fmt: skip
 
 #: Known from elsewhere to be part of this control, but not described in the source: refused by name.
 _OTHER_CHAPTERS = {

@@ -2,37 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import chain
+from collections.abc import Iterable, Iterator
 
 from mnclab.controls.nc_31 import discretes
-from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, in_mm
+from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, size, start
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill
 from mnclab.machining.steps import Go, Step
-from mnclab.machining.turning.shoulders import facing
-from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 
 AFTER = "left out: it stays on the axis of the hole"
 
 
-def faults(m: Machine, feed: float | None, peck: float, depth: float) -> Iterator[tuple[str, str]]:
+def faults(cycle: FromStart, m: Machine, peck: float, depth: float) -> Iterator[tuple[str, str]]:
     """A peck that is not deeper than the hole, not too many of them, and a feed."""
     if peck > depth * (1 + 1e-9):
         yield "peck", f"must be at most {depth:.10g}, the depth of the hole, got {peck:.10g}"
     yield from too_many("peck", lambda: infeeds(0, depth, peck))
-    if feed is None and m.feed is None:
-        yield "", "needs a feed: F here, or before it"
+    yield from cycle.needs_feed(m)
 
 
-def deep_hole(start: float, bottom: float, peck: float, clearance: float) -> Iterator[Step]:
-    """Drill in pecks, each from `clearance` before the last depth, each followed by a retract to the start."""
-    levels = infeeds(start, bottom, peck)
-    return chain(drill(levels, above=start, feed=None, reenter=clearance), [Go("retract", start)])
+def deep_hole(m: Machine, start: float, bottom: float, peck: float, aside: float | None) -> Iterator[Step]:
+    """Drill along in pecks, each from a gap before the last depth, each followed by a retract to the start; then aside."""
+    gap = m.settings["parameter_8"] / discretes.TRAVEL
+    yield from drill(infeeds(start, bottom, peck), above=start, feed=None, reenter=gap)
+    yield Go("retract", start)
+    if aside is not None:
+        yield Go("aside", x=aside)
 
 
 @CYCLES("G73", "Deep-hole drilling", runs="definition", source="NC-31 3.20.7")
@@ -47,23 +46,17 @@ class DeepDrilling(FromStart):
                             note=FROM_START, example=6000)  # fmt: skip
     z: float = param("Z", "bottom of the hole", "0.01 mm", note=FROM_START, example=-3000)
     feed: float | None = feed_word("feed of the cycle")
-    peck: float = param(
-        "P", "depth drilled per pass", "0.01 mm", above=0, incremental=True, type="integer", example=1000
-    )
+    peck: float = size("depth drilled per pass", above=0, example=1000)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """A hole, and pecks that it holds."""
         yield from apart(None, self.z, m)
-        yield from faults(m, self.feed, self.peck, abs(self.z - here(m)[1]))
+        yield from faults(self, m, self.peck, abs(self.z - here(m)[1]))
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterable[Step]:
         """The hole, then aside."""
-        z1 = m.programmed[2]
-        gap = m.settings["parameter_8"] / discretes.TRAVEL
-        with m.within(feed=m.feed if self.feed is None else in_mm(self.feed)):
-            perform(m, "G73", deep_hole(z1, self.z / discretes.Z, self.peck / discretes.Z, gap), (0.0, 0.0))
-        if self.x is not None:
-            perform(m, "G73", [Go("aside", x=self.x / discretes.X)], (0.0, 0.0))
+        aside = None if self.x is None else self.x / discretes.X
+        return deep_hole(m, start(m)[1], self.z / discretes.Z, self.peck / discretes.Z, aside)
 
 
 @CYCLES("G72", "Deep-hole drilling along X", runs="definition", source="NC-31 3.20.7")
@@ -77,9 +70,9 @@ class RadialDrilling(FromStart):
     z: float | None = param("Z", "Z of the drill afterwards", "0.01 mm", default=None, default_means=AFTER,
                             note=FROM_START, example=1000)  # fmt: skip
     feed: float | None = feed_word("feed of the cycle")
-    peck: float = param(
-        "P", "depth drilled per pass", "0.01 mm on diameter", above=0, incremental=True, type="integer", example=600,
-    )  # fmt: skip
+    peck: float = size("depth drilled per pass", "0.01 mm on diameter", above=0, example=600)
+
+    transverse = True
 
     def depth(self, m: Machine) -> float:
         """P in discretes on the diameter."""
@@ -88,14 +81,9 @@ class RadialDrilling(FromStart):
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """A hole, and pecks that it holds."""
         yield from apart(self.x, None, m)
-        yield from faults(m, self.feed, self.depth(m), abs(self.x - here(m)[0]))
+        yield from faults(self, m, self.depth(m), abs(self.x - here(m)[0]))
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterable[Step]:
         """The hole, then aside."""
-        x1 = m.programmed[0]
-        gap = m.settings["parameter_8"] / discretes.TRAVEL
-        hole = deep_hole(x1, self.x / discretes.X, self.depth(m) / discretes.X, gap)
-        with m.within(feed=m.feed if self.feed is None else in_mm(self.feed)):
-            perform(m, "G72", facing(hole), (0.0, 0.0))
-        if self.z is not None:
-            perform(m, "G72", [Go("aside", z=self.z / discretes.Z)], (0.0, 0.0))
+        aside = None if self.z is None else self.z / discretes.Z
+        return self.in_axes(deep_hole(m, start(m)[0], self.x / discretes.X, self.depth(m) / discretes.X, aside))

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.functions import refuse_rapid
 from mnclab.machine.cycle import Cycle, param
 from mnclab.machine.machine import Machine
+from mnclab.machining.steps import Step
+from mnclab.machining.turning.roughing import exchanged
 from mnclab.text.program import RAPID_MARK, Word
 
 SWITCH = {0.0: "no", 1.0: "yes"}
@@ -16,7 +18,13 @@ FROM_START = "@: from the start point"
 
 
 class FromStart(Cycle):
-    """A cycle whose X and Z count from the start point where they have the mark @."""
+    """A cycle whose X and Z count from the start point where they have the mark @, with a feed of its own.
+
+    It is written down as (across, along): for cuts along Z this is (X, Z), in a `transverse` cycle (Z, X).
+    """
+
+    feed: float | None
+    transverse = False
 
     @classmethod
     def prepare(
@@ -29,6 +37,32 @@ class FromStart(Cycle):
             if name in ends and ends[name].incremental:
                 values[name] += round(m.programmed[axis] * scale, 6)
         return values
+
+    def about(self, m: Machine) -> tuple[float, float]:
+        """Steps are in coordinates of the program."""
+        return 0.0, 0.0
+
+    def modal_feed(self, m: Machine) -> float | None:
+        """F of the cycle, mm/rev or mm."""
+        return None if self.feed is None else self.feed / discretes.CYCLE_FEED
+
+    def needs_feed(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """The fault of a cycle without F where none was set before."""
+        if self.feed is None and m.feed is None:
+            yield "", "needs a feed: F here, or before it"
+
+    def across_along(self, x: Any, z: Any) -> tuple[Any, Any]:
+        """What belongs to X and what to Z in the order of the cut."""
+        return (z, x) if self.transverse else (x, z)
+
+    def in_axes(self, steps: Iterable[Step]) -> Iterable[Step]:
+        """Steps of x across and z along with their true axes."""
+        return exchanged(steps) if self.transverse else steps
+
+
+def start(m: Machine) -> tuple[float, float]:
+    """The start point (X, Z) in mm, X on the radius."""
+    return m.programmed[0], m.programmed[2]
 
 
 def here(m: Machine) -> tuple[float, float]:
@@ -53,11 +87,11 @@ def feed_word(meaning: str, unit: str = "0.0001 mm/rev", default: str = "the mod
     )  # fmt: skip
 
 
+def size(meaning: str, unit: str = "0.01 mm", **options: Any) -> Any:
+    """A P frame: a length of its own, never a coordinate."""
+    return param("P", meaning, unit, incremental=True, type="integer", **options)
+
+
 def rapid_mark(meaning: str) -> Any:
     """The mark ~ on the G frame."""
     return param("~", meaning, "mark", default=0, choices=SWITCH, mark=RAPID_MARK, example=1)
-
-
-def in_mm(feed: float | None) -> float | None:
-    """F of a cycle, mm/rev or mm; None where it was left out."""
-    return None if feed is None else feed / discretes.CYCLE_FEED

@@ -7,11 +7,11 @@ in a path: the label says it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.functions import refuse_rapid, targets
-from mnclab.controls.nc_31.targets import FROM_START, SWITCH, FromStart, apart, feed_word, here, in_mm
+from mnclab.controls.nc_31.targets import FROM_START, SWITCH, FromStart, apart, feed_word, here, size, start
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
@@ -19,20 +19,19 @@ from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Go, Step, Thread
 from mnclab.machining.turning.threading import lead_along, thread_passes
-from mnclab.running.performing import perform
 from mnclab.text.program import INCREMENTAL, RAPID_MARK
 
 CYCLES = CycleTable()
 FUNCTIONS = FunctionTable()
 
 SAME = "the modal feed"
+ONE_PASS = "a single pass at X"
 ZERO_MARK = "start at the zero mark of the spindle"
 
 
 def pitch_of(m: Machine, feed: float | None) -> float:
-    """The pitch, mm: F of the cycle, or the modal feed (check has seen that there is one)."""
-    pitch = in_mm(feed)
-    return pitch if pitch is not None else float(m.feed or 0.0)
+    """The pitch, mm: F, or the modal feed (there is one, as `needs_pitch` has seen)."""
+    return float(m.feed or 0.0) if feed is None else feed / discretes.CYCLE_FEED
 
 
 def needs_pitch(m: Machine, feed: float | None) -> Iterator[tuple[str, str]]:
@@ -56,17 +55,13 @@ class ThreadCutting(FromStart):
     x: float = param("X", "crest diameter, or root with no P", "0.01 mm on diameter", note=FROM_START, example=3600)
     z: float = param("Z", "end of the thread", "0.01 mm", note=FROM_START, example=-3000)
     feed: float | None = feed_word("pitch", "0.0001 mm", SAME, 15_000)
-    thread_depth: float | None = param(
-        "P", "depth of the thread", "0.01 mm on radius", default=None, default_means="a single pass at X", above=0,
-        incremental=True, type="integer", example=92,
-    )  # fmt: skip
-    depth_per_pass: float | None = param(
-        "P", "depth of cut per pass", "0.01 mm on radius", default=None, default_means="a single pass at X", above=0,
-        incremental=True, type="integer", example=25,
-    )  # fmt: skip
-    taper: float = param(
-        "P", "taper", "0.01 mm on diameter", default=0, at_least=0, incremental=True, type="integer", example=0,
-    )  # fmt: skip
+    thread_depth: float | None = size(
+        "depth of the thread", "0.01 mm on radius", default=None, default_means=ONE_PASS, above=0, example=92
+    )
+    depth_per_pass: float | None = size(
+        "depth of cut per pass", "0.01 mm on radius", default=None, default_means=ONE_PASS, above=0, example=25
+    )
+    taper: float = size("taper", "0.01 mm on diameter", default=0, at_least=0, example=0)
 
     def depths(self) -> tuple[float, ...]:
         """The depth of each pass below X, mm on the radius."""
@@ -96,13 +91,11 @@ class ThreadCutting(FromStart):
         """Machine parameter 7: tenths of the pitch, as mm."""
         return float(m.settings["parameter_7"]) * 0.1 * pitch_of(m, self.feed)
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterable[Step]:
         """All passes, then at the start."""
-        start, end = (m.programmed[0], m.programmed[2]), (self.x / discretes.X, self.z / discretes.Z)
+        end, taper = (self.x / discretes.X, self.z / discretes.Z), self.taper / discretes.X
         angle, pitch = math.radians(m.settings["parameter_6"]), pitch_of(m, self.feed)
-        taper = self.taper / discretes.X
-        cuts = thread_passes(start, end, pitch, self.depths(), taper=taper, angle=angle, run_out=self.run_out(m))
-        perform(m, "G31", cuts, (0.0, 0.0))
+        return thread_passes(start(m), end, pitch, self.depths(), taper=taper, angle=angle, run_out=self.run_out(m))
 
 
 @CYCLES("G33", "Tapping (tap or die)", runs="definition", source="NC-31 3.20.14")
@@ -124,7 +117,7 @@ class Tapping(FromStart):
         yield from apart(None, self.z, m)
         yield from needs_pitch(m, self.feed)
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterable[Step]:
         """In, reversal, out, reversal, aside."""
         sense, pitch = m.turning, pitch_of(m, self.feed)
         steps: list[Step] = [*tap([self.z / discretes.Z], above=m.programmed[2], sense=sense, end=sense, pitch=pitch)]
@@ -133,7 +126,7 @@ class Tapping(FromStart):
             steps[cut] = steps[cut]._replace(label=f"{steps[cut].label}, synchronised start")
         if self.x is not None:
             steps.append(Go("aside", x=self.x / discretes.X))
-        perform(m, "G33", steps, (0.0, 0.0))
+        return steps
 
 
 @FUNCTIONS("G32", "Single threading move", takes="X Z F", modal=False, source="3.20.13")

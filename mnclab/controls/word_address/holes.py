@@ -1,14 +1,42 @@
-"""What fixed cycles at holes of G-word controls share: their faults, over the hole, to level R, and up again afterwards."""
+"""What fixed cycles at holes of G-word controls share: their addresses, their faults, and the way to a hole and away from it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from typing import Any
 
 from mnclab.controls.word_address.state import memory
+from mnclab.machine.cycle import param
 from mnclab.machine.machine import Machine
-from mnclab.machining.steps import Go
-from mnclab.running.performing import perform
+from mnclab.machining.steps import Go, Step
+from mnclab.text.program import Word
+
+# --- addresses -----------------------------------------------------------------------------------------------------------
+
+
+def position(axis: str, example: float) -> Any:
+    """X and Y: the hole."""
+    return param(
+        axis, f"hole position along {axis}", default=None, default_means="the present point",
+        note="under G91 from the present point", example=example,
+    )  # fmt: skip
+
+
+bottom = partial(param, "Z", "bottom of the hole", modal=True, note="under G91 from level R, signed", example=-20)
+r_level = partial(param, "R", "level R", modal=True, note="under G91 from the initial level, signed", example=2)
+feed = partial(
+    param, "F", "feed rate", "mm/min", default=None, default_means="the modal feed", above=0, modal=True, example=120
+)  # fmt: skip
+
+
+def take_feed(m: Machine, values: Mapping[str, Any], given: Mapping[str, Word]) -> None:
+    """F of a cycle becomes the modal feed."""
+    if "feed" in given and values["feed"] > 0:
+        m.change("feed", values["feed"])
+
+
+# --- faults --------------------------------------------------------------------------------------------------------------
 
 
 def upside_down(bottom: float, r_level: float) -> Iterator[tuple[str, str]]:
@@ -38,31 +66,32 @@ def no_pitch(m: Machine) -> Iterator[tuple[str, str]]:
         yield "", "has no feed rate: the pitch is F under G95, and F divided by S under G94"
 
 
+# --- motion --------------------------------------------------------------------------------------------------------------
+
+
 def initial_level(m: Machine, kept: dict[str, Any]) -> float:
     """Z of the program where the tool stood when the cycle was first called (`kept["initial"]`, of the machine)."""
     x, y, _ = m.tip
     return m.to_program((x, y, kept["initial"]))[2]
 
 
-def approach(m: Machine, code: str, x: float | None, y: float | None, r_level: float) -> None:
-    """Movements 1 and 2: over the hole, then to level R; from below R first up to it, for below it a rapid across would cut.
-
-    No source says what happens from below R; LinuxCNC does this.
-    """
-    if m.programmed[2] < r_level:
-        perform(m, code, [Go("to level R", r_level)])
-    m.label = f"{code} to the hole"
-    m.rapid(x=x, y=y)
-    perform(m, code, [Go("to level R", r_level)])
+def axis_of(m: Machine, x: float | None, y: float | None) -> tuple[float, float]:
+    """The place of a hole of which a coordinate may be left out."""
+    return m.programmed[0] if x is None else x, m.programmed[1] if y is None else y
 
 
-def leave(m: Machine, code: str, r_level: float) -> None:
-    """Movements 5 and 6: to level R, and with G98 to the initial level.
+def at_hole(m: Machine, x: float | None, y: float | None, r_level: float, work: Iterable[Step]) -> Iterator[Step]:
+    """Movements 1 to 6: over the hole, to level R, the work, to level R, and with G98 to the initial level.
 
-    An initial level below R is none to return to: R is where nothing is in the way, and a rapid down from it would end in
+    From below R the tool goes up to it first, for a rapid across would cut; no source says so, LinuxCNC does this. An
+    initial level below R is none to return to: R is where nothing is in the way, and a rapid down from it would end in
     the hole, the next one lead through the workpiece. So the tool stays at R, as ISO controls have it.
     """
-    steps = [Go("retract", r_level)]
+    if m.programmed[2] < r_level:
+        yield Go("to level R", r_level)
+    yield Go("to the hole", x=None if x is None else 0.0, y=None if y is None else 0.0)
+    yield Go("to level R", r_level)
+    yield from work
+    yield Go("retract", r_level)
     if m.modal["return"] == "G98" and m.position_cycle:
-        steps.append(Go("to the initial level", max(r_level, initial_level(m, m.position_cycle.extra))))
-    perform(m, code, steps)
+        yield Go("to the initial level", max(r_level, initial_level(m, m.position_cycle.extra)))

@@ -15,7 +15,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from mnclab.geometry.contours import Contour
+from mnclab.machining.turning.grooving import grooves
 from mnclab.machining.turning.profiles import SAME
 from mnclab.machining.turning.schemes import loop, semi_finish
 from mnclab.machining.turning.strokes import FINISH, PLUNGE, Pen, Plan
@@ -89,61 +92,106 @@ def plunges(right: float, width: float, tool: float, finish: bool = False) -> tu
     return tuple(right - tool - spare - k * step for k in range(count + 1))
 
 
+class _Blade(Pen):
+    """The grooving tool over its groove; every stroke begins and ends outside the rim."""
+
+    def __init__(self, groove: Groove, tool: float, z: float, r: float | None = None) -> None:
+        super().__init__(z, groove.rim + OUT if r is None else r)
+        self.groove, self.width = groove, tool
+
+    def check(self) -> None:
+        """A tool that fits into the groove, and needs three strokes at most."""
+        width, tool = self.groove.width, self.width
+        if not 0 < tool <= width + SAME:
+            raise ValueError(f"the tool must be at most as wide as the groove, {width:g}, got {tool:g}")
+        if width > 3 * tool + SAME:
+            raise ValueError(f"3 strokes need a tool of at least {width / 3:g} mm, got {tool:g}")
+
+    @property
+    def right(self) -> float:
+        """z of the tip at the right wall."""
+        return self.groove.right - self.width
+
+    @property
+    def middle(self) -> float:
+        """z of the tip in the middle of the groove."""
+        return self.groove.left + (self.groove.width - self.width) / 2
+
+    def plunge(self, *places: float, role: str = PLUNGE, bottom: float | None = None) -> None:
+        """At each of the places down and up again."""
+        depth = self.groove.bottom if bottom is None else bottom
+        for z in places:
+            self.number += 1
+            self.follow(grooves(self.groove.rim + OUT, depth, [z]), role)
+
+    def along_bottom(self, begin: float, end: float, slope: float = 0.0, side: float = 1.0) -> None:
+        """Down a wall at one place, along the bottom to another, up there.
+
+        Outside the rim the stroke is already at feed, on the line of the wall: `side` 1 is the right one.
+        """
+        self.number += 1
+        outside = self.groove.rim + OUT
+        self.rapid(begin + side * self.groove.wall(slope, outside), outside)
+        self.feed(begin, self.groove.bottom, FINISH)
+        self.feed(end, self.groove.bottom, FINISH)
+        self.rapid(end, outside)
+
+    def finish(self, walls: bool, bottom: bool) -> None:
+        """Strokes n + 1 and n + 2, right wall first; with a fine bottom a stroke along it from the left."""
+        if walls:
+            self.plunge(self.right, self.groove.left, role=FINISH)
+        if bottom:
+            self.along_bottom(self.groove.left, self.right)
+
+
 def scheme_1(groove: Groove, tool: float) -> Plan:
     """Corner groove: one plunge with a tool of its profile; else beside the shoulder, on the cylinder side, along the bottom.
 
     The shoulder stands on the left.
     """
-    if abs(tool - groove.width) <= SAME:
-        pen = _pen(groove, groove.left)
-        _plunge(pen, groove, groove.left, 1)
-        return pen.plan("groove 1")
-    _wide_enough(groove, tool, 3)
-    pen = _pen(groove, groove.left)
-    _plunge(pen, groove, groove.left, 1)
-    middle = groove.left + (groove.width - tool) / 2
-    _plunge(pen, groove, middle if groove.width > 2 * tool else groove.right - tool, 2)
-    _along_bottom(pen, groove, tool, groove.right - tool, groove.left, 3, groove.slope_right)
+    pen = _Blade(groove, tool, groove.left)
+    if abs(tool - groove.width) > SAME:
+        pen.check()
+    pen.plunge(groove.left)
+    if abs(tool - groove.width) > SAME:
+        pen.plunge(pen.middle if groove.width > 2 * tool else pen.right)
+        pen.along_bottom(pen.right, groove.left, groove.slope_right)
     return pen.plan("groove 1")
 
 
 def scheme_2(groove: Groove, tool: float, bottom: bool = False) -> Plan:
     """Undercut for a thread: two or three plunges side by side, then along the bottom if wanted."""
+    pen = _Blade(groove, tool, groove.right - tool)
+    pen.check()
     count = max(2, math.ceil(groove.width / tool - 1e-9))
-    _wide_enough(groove, tool, 3)
-    step = (groove.width - tool) / (count - 1)
-    pen = _pen(groove, groove.right - tool)
-    for k in range(count):
-        _plunge(pen, groove, groove.right - tool - k * step, k + 1)
-    if bottom:
-        _along_bottom(pen, groove, tool, groove.left, groove.right - tool, count + 1)
+    pen.plunge(*np.linspace(pen.right, groove.left, count))
+    pen.finish(walls=False, bottom=bottom)
     return pen.plan("groove 2")
 
 
 def scheme_3(groove: Groove, tool: float) -> Plan:
     """Groove for a ring: a plunge in the middle, one along the right wall, one along the left wall and the bottom."""
-    _wide_enough(groove, tool, 3)
-    pen = _pen(groove, groove.left + (groove.width - tool) / 2)
-    _plunge(pen, groove, pen.z, 1)
-    _plunge(pen, groove, groove.right - tool, 2, FINISH)
-    _along_bottom(pen, groove, tool, groove.left, groove.right - tool, 3)
+    pen = _Blade(groove, tool, groove.left + (groove.width - tool) / 2)
+    pen.check()
+    pen.plunge(pen.middle)
+    pen.plunge(pen.right, role=FINISH)
+    pen.along_bottom(groove.left, pen.right)
     return pen.plan("groove 3")
 
 
 def scheme_4(groove: Groove, tool: float) -> Plan:
     """Sloping walls: a plunge in the middle, then down the right slope, then down the left one and along the bottom."""
-    _wide_enough(groove, tool, 3)
-    middle = groove.left + (groove.width - tool) / 2
+    pen = _Blade(groove, tool, groove.left + (groove.width - tool) / 2)
+    pen.check()
     for slope in (groove.slope_right, groove.slope_left):
         gap = (groove.width - tool) / 2 + groove.wall(slope, groove.rim)
         if gap > tool + SAME:
             raise ValueError(
                 f"three strokes leave {gap - tool:g} mm at the rim: the tool must be at least {gap:g} wide"
             )
-    pen = _pen(groove, middle)
-    _plunge(pen, groove, middle, 1)
-    _slope(pen, groove, groove.right - tool, groove.slope_right, 1.0, 2)
-    _slope(pen, groove, groove.left, groove.slope_left, -1.0, 3, groove.right - tool)
+    pen.plunge(pen.middle)
+    pen.along_bottom(pen.right, pen.right, groove.slope_right)
+    pen.along_bottom(groove.left, pen.right, groove.slope_left, -1.0)
     return pen.plan("groove 4")
 
 
@@ -152,11 +200,10 @@ def scheme_5(groove: Groove, tool: float, finish: bool = False, bottom: bool = F
 
     `finish` is for walls of Rz 20 µm and finer, `bottom` for a bottom that is as fine: 0.5 mm are left for both.
     """
-    pen = _pen(groove, plunges(groove.right, groove.width, tool, finish)[0])
-    depth = groove.bottom + (ALLOWANCE if bottom else 0.0)
-    for number, z in enumerate(plunges(groove.right, groove.width, tool, finish), 1):
-        _plunge(pen, groove, z, number, bottom=depth)
-    _finish(pen, groove, tool, finish, bottom)
+    places = plunges(groove.right, groove.width, tool, finish)
+    pen = _Blade(groove, tool, places[0])
+    pen.plunge(*places, bottom=groove.bottom + (ALLOWANCE if bottom else 0.0))
+    pen.finish(finish, bottom)
     return pen.plan("groove 5")
 
 
@@ -182,14 +229,11 @@ def scheme_6(
         raise ValueError(f"the groove is too deep for its width: the line needs {wedge:g} mm")
     pocket = [(right, groove.rim), (right - wedge, floor), (left, floor), (left, groove.rim)]
     first = semi_finish(Contour(pocket, closed=False), groove.rim, depth, contour_tool)
-    pen = Pen(*first.start)
+    pen = _Blade(groove, tool, *first.start)
     pen.append(first, groove.rim + OUT)
     pen.tool = 2
-    count = math.ceil(side_steps(max(wedge, tool), tool) - 1e-9)
-    step = (max(wedge, tool) - tool) / count if count else 0.0
-    for k in range(count + 1):
-        _plunge(pen, groove, right - tool - k * step, pen.number + 1, bottom=floor)
-    _finish(pen, groove, tool, finish, bottom)
+    pen.plunge(*plunges(right, max(wedge, tool), tool), bottom=floor)
+    pen.finish(finish, bottom)
     return pen.plan("groove 6")
 
 
@@ -202,73 +246,15 @@ def scheme_7(groove: Groove, tool: float, depth: float, shoulder_tool: Tool = SH
     opening = max(tool, (groove.rim - groove.bottom) / math.tan(angle))
     if opening >= groove.width:
         raise ValueError(f"the second tool needs an opening of {opening:g} mm, the groove is {groove.width:g} wide")
-    pen = _pen(groove, plunges(groove.right, opening, tool)[0])
-    for number, z in enumerate(plunges(groove.right, opening, tool), 1):
-        _plunge(pen, groove, z, number)
+    places = plunges(groove.right, opening, tool)
+    pen = _Blade(groove, tool, places[0])
+    pen.plunge(*places)
     begin = (groove.right - opening, groove.bottom)
     rest = Contour([begin, (groove.left, groove.bottom), (groove.left, groove.rim)], closed=False)
-    second = loop(rest, groove.rim, depth, shoulder_tool, front=0.0)
     pen.tool = 2
-    pen.append(second, groove.rim + OUT)
+    pen.append(loop(rest, groove.rim, depth, shoulder_tool, front=0.0), groove.rim + OUT)
     pen.rapid(pen.z, groove.rim + OUT)
     return pen.plan("groove 7")
-
-
-# ---- strokes ----
-
-
-def _pen(groove: Groove, z: float) -> Pen:
-    return Pen(z, groove.rim + OUT)
-
-
-def _wide_enough(groove: Groove, tool: float, count: int) -> None:
-    if not 0 < tool <= groove.width + SAME:
-        raise ValueError(f"the tool must be at most as wide as the groove, {groove.width:g}, got {tool:g}")
-    if groove.width > count * tool + SAME:
-        raise ValueError(f"{count} strokes need a tool of at least {groove.width / count:g} mm, got {tool:g}")
-
-
-def _plunge(pen: Pen, groove: Groove, z: float, number: int, role: str = PLUNGE, bottom: float | None = None) -> None:
-    """Over the place, down and up again."""
-    pen.number = number
-    pen.rapid(z, groove.rim + OUT)
-    pen.feed(z, groove.bottom if bottom is None else bottom, role)
-    pen.rapid(z, groove.rim + OUT)
-
-
-def _along_bottom(
-    pen: Pen, groove: Groove, tool: float, begin: float, end: float, number: int, slope: float = 0.0
-) -> None:
-    """Down at one place, along the bottom to another, up there; outside the rim already at feed, on the line of the wall."""
-    pen.number = number
-    pen.rapid(begin + groove.wall(slope, groove.rim + OUT), groove.rim + OUT)
-    pen.feed(begin, groove.bottom, FINISH)
-    pen.feed(end, groove.bottom, FINISH)
-    pen.rapid(end, groove.rim + OUT)
-
-
-def _slope(
-    pen: Pen, groove: Groove, z: float, slope: float, side: float, number: int, along_to: float | None = None
-) -> None:
-    """Down a sloping wall; up again in the middle of the groove, or at the other end of the bottom.
-
-    The stroke begins outside the rim, on the line of the wall.
-    """
-    pen.number = number
-    pen.rapid(z + side * groove.wall(slope, groove.rim + OUT), groove.rim + OUT)
-    pen.feed(z, groove.bottom, FINISH)
-    if along_to is not None:
-        pen.feed(along_to, groove.bottom, FINISH)
-    pen.rapid(pen.z, groove.rim + OUT)
-
-
-def _finish(pen: Pen, groove: Groove, tool: float, walls: bool, bottom: bool) -> None:
-    """Strokes n + 1 and n + 2, right wall first; with a fine bottom a stroke along it from the left."""
-    if walls:
-        for z in (groove.right - tool, groove.left):
-            _plunge(pen, groove, z, pen.number + 1, FINISH)
-    if bottom:
-        _along_bottom(pen, groove, tool, groove.left, groove.right - tool, pen.number + 1)
 
 
 #: The schemes by their numbers.

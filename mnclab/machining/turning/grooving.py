@@ -1,11 +1,11 @@
 """Grooves cut by plunging at places side by side: several grooves, or a wide one.
 
-Coordinates are (across, along) as in `shoulders`, mm: the tool plunges across, the places lie along.
+Coordinates are (across, along) as in `roughing`, mm: the tool plunges across, the places lie along.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import RAPID, Go
@@ -25,7 +25,7 @@ def places(first: float, last: float, step: float | None) -> tuple[float, ...]:
 def grooves(
     across: float,
     bottom: float,
-    along: tuple[float, ...],
+    along: Sequence[float],
     feed: float | None = None,
     home: bool = True,
     shift: float | None = RAPID,

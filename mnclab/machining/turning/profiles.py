@@ -136,26 +136,23 @@ def joined(pieces: Iterable[Contour | None]) -> Contour:
     return Contour(np.array(points), [*bulges, 0.0], closed=False)
 
 
-def entry_way(profile: Contour, level: float) -> float | None:
-    """The way to the first point at or below a level, None where the profile begins below it."""
-    r = profile.points[:, 1]
-    if r[0] <= level + SAME:
-        return None
-    for i in range(len(r) - 1):
-        if r[i + 1] <= level + SAME:
-            return float(profile.lengths[: i + 1].sum()) if r[i + 1] >= level - SAME else way_at(profile, i, level)
-    raise ValueError(f"the profile never comes down to {level:g}")
-
-
 def exit_way(profile: Contour, level: float) -> float:
     """The way to the last point at or below a level."""
     r = profile.points[:, 1]
-    for i in range(len(r) - 1, -1, -1):
-        if r[i] <= level + SAME:
-            if i == len(r) - 1 or r[i] >= level - SAME:
-                return float(profile.lengths[:i].sum())
-            return way_at(profile, i, level)
-    raise ValueError(f"the profile never comes down to {level:g}")
+    below = np.flatnonzero(r <= level + SAME)
+    if not len(below):
+        raise ValueError(f"the profile never comes down to {level:g}")
+    last = int(below[-1])
+    if last == len(r) - 1 or r[last] >= level - SAME:
+        return float(profile.lengths[:last].sum())
+    return way_at(profile, last, level)
+
+
+def entry_way(profile: Contour, level: float) -> float | None:
+    """The way to the first point at or below a level, None where the profile begins below it."""
+    if profile.points[0, 1] <= level + SAME:
+        return None
+    return profile.length - exit_way(profile.reversed(), level)
 
 
 # ---- the uppermost of many ----
@@ -321,10 +318,7 @@ def _for_width(contour: Contour, width: float) -> Contour:
 
 def lowest(profile: Contour, z: float) -> float:
     """The least radius of a checked profile over a z: the foot of the wall where one stands there."""
-    turned = Contour(profile.points[:, ::-1], -profile.bulge, closed=False)
-    stop = entry_way(turned, z)
-    ways = np.array([_behind(turned, z), 0.0 if stop is None else stop])
-    return float(profile.point_at(ways)[0][:, 1].min())
+    return float(profile.point_at(ways_over(profile, z))[0][:, 1].min())
 
 
 def highest(profile: Contour, left: float, right: float) -> float:
@@ -335,17 +329,15 @@ def highest(profile: Contour, left: float, right: float) -> float:
 
 def over(profile: Contour, left: float, right: float) -> Contour | None:
     """The part of a checked profile strictly between two z, None if there is none."""
-    turned = Contour(profile.points[:, ::-1], -profile.bulge, closed=False)  # (r, z): its levels are z
-    stop = entry_way(turned, left)
-    return between(profile, *sorted((_behind(turned, right), 0.0 if stop is None else stop)))
+    return between(profile, *sorted((ways_over(profile, right)[1], ways_over(profile, left)[0])))
 
 
-def _behind(turned: Contour, z: float) -> float:
-    """The way to the last point at or in front of a z."""
-    if z > turned.points[0, 1] + SAME:
-        return 0.0
-    found = entry_way(Contour(-turned.points[::-1], turned.reversed().bulge, closed=False), -z)
-    return turned.length - (0.0 if found is None else found)
+def ways_over(profile: Contour, z: float) -> tuple[float, float]:
+    """The ways along a checked profile to the first and to the last point over a z; its begin for a z in front of it."""
+    falling = Contour(profile.points[:, ::-1], -profile.bulge, closed=False)  # (r, z): its levels are z
+    rising = Contour(falling.points * (1, -1), profile.bulge, closed=False)
+    last = exit_way(rising, -z) if z <= profile.points[0, 0] + SAME else 0.0
+    return entry_way(falling, z) or 0.0, last
 
 
 def edges_of(tool: Tool, height: float) -> Floats:

@@ -22,25 +22,20 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.machining.turning.clearance import OUT, cleared
+from mnclab.machining.turning.grooving import grooves
 from mnclab.machining.turning.offsets import offset
 from mnclab.machining.turning.passes import (
     FRONT,
     LIFT,
     MOST,
     POINT,
+    Cutter,
     Level,
     Task,
-    away,
-    down,
     falls_again,
-    lift_off,
-    off,
-    out,
-    plunge,
     task,
-    wall,
     without_drop,
-)  # fmt: skip
+)
 from mnclab.machining.turning.profiles import SAME, between, entry_way, exit_way, lowest, reachable
 from mnclab.machining.turning.strokes import CLEANUP, PICK_UP, PLUNGE, ROUGH, Pen, Plan
 from mnclab.machining.turning.zones import CLOSED, OPEN, filled, zones
@@ -56,33 +51,43 @@ def loop(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **dis
 
 
 def _loop(t: Task) -> Plan:
-    pen = Pen(*t.start)
-    for number, level in enumerate(t.levels, 1):
-        pen.number = number
-        down(pen, t, number - 1)
+    pen = _passes(t, len(t.levels))
+    if t.levels[-1].first is not None:
+        pen.off(len(t.levels) - 1)
+    return pen.out("loop")
+
+
+def _passes(t: Task, count: int, pick_up: bool = False) -> Cutter:
+    """The first passes of a task, each followed by the way back; after the last one of a closed zone it stands still."""
+    pen = Cutter(t)
+    above = t.blank
+    for k, level in enumerate(t.levels[:count]):
+        pen.number += 1
+        pen.down(k)
         pen.feed(level.left, level.r, ROUGH)
-        if number < len(t.levels) or level.first is None:
-            lift_off(pen, t, level)
-        else:
-            off(pen, t, level)
-    return out(pen, t, "loop")
+        right = level.right
+        if pick_up:
+            pen.along(between(t.profile, level.last, exit_way(t.profile, above)), PICK_UP)
+            right = _way_back(t, above, level, min(pen.r + t.lift, t.blank))
+        if k + 1 < len(t.levels) or level.first is None:
+            pen.lift_off(k, right)
+        above = level.r
+    return pen
+
+
+def _way_back(t: Task, above: float, level: Level, r: float) -> float:
+    """The z to go back to at a radius: where the pass before began, if the wall lets the tool pass there."""
+    if level.first is None:
+        return level.right
+    way = entry_way(t.profile, above)
+    z, wall = t.profile.points[0] if way is None else t.profile.point_at(way)[0]
+    return float(z) if wall <= r + SAME else level.right
 
 
 def pick_up(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
     """As the loop, but each pass goes on along the contour up to the level of the pass before: no ridges are left."""
     t = task(profile, blank, depth, tool, **distances)
-    pen = Pen(*t.start)
-    above = t.blank
-    for number, level in enumerate(t.levels, 1):
-        pen.number = number
-        down(pen, t, number - 1)
-        pen.feed(level.left, level.r, ROUGH)
-        pen.along(between(t.profile, level.last, exit_way(t.profile, above)), PICK_UP)
-        if number < len(t.levels) or level.first is None:
-            height = min(pen.r + t.lift, t.blank)
-            lift_off(pen, t, level, None if level.first is None else wall(t, above, level, height))
-        above = level.r
-    return cleared(out(pen, t, "pick-up"), profile, blank, tool)
+    return cleared(_passes(t, len(t.levels), pick_up=True).out("pick-up"), profile, blank, tool)
 
 
 def semi_finish(
@@ -98,26 +103,20 @@ def semi_finish(
 
 
 def _semi_finish(t: Task, after: str = "last") -> Plan:
-    roughing = len(t.levels) - (after == "penultimate")
-    pen = Pen(*t.start)
-    for number, level in enumerate(t.levels[:roughing], 1):
-        pen.number = number
-        down(pen, t, number - 1)
-        pen.feed(level.left, level.r, ROUGH)
-        if number < len(t.levels) or level.first is None:
-            lift_off(pen, t, level)
-    pen.number = roughing + 1
-    bottom = t.levels[-1]
+    count = len(t.levels) - (after == "penultimate")
+    pen = _passes(t, count)
+    bottom, begin = t.levels[-1], 0.0
     if bottom.first is None:  # from the face along everything
+        pen.number += 1
         pen.rapid(t.front, float(t.profile.points[0, 1]))
-        pen.along(t.profile, CLEANUP)
-    elif roughing < len(t.levels):
-        down(pen, t, roughing)
-        pen.along(between(t.profile, bottom.first, t.profile.length), CLEANUP)
+    elif count < len(t.levels):
+        pen.number += 1
+        pen.down(count)
+        begin = bottom.first
     else:
-        pen.number = roughing
-        pen.along(between(t.profile, bottom.last, t.profile.length), CLEANUP)
-    return out(pen, t, "semi-finish")
+        begin = bottom.last
+    pen.along(between(t.profile, begin, t.profile.length), CLEANUP)
+    return pen.out("semi-finish")
 
 
 def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
@@ -126,31 +125,28 @@ def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **d
     The tool must cut in both directions.
     """
     t = task(profile, blank, depth, tool, **distances)
-    pen = Pen(*t.start)
-    above: Level | None = None
-    for number, level in enumerate(t.levels, 1):
-        pen.number = number
-        if number % 2:  # from the right
-            if above is None:
-                down(pen, t, 0)
-            elif level.first is None:
-                pen.feed(t.front, level.r, ROUGH)
-            else:
-                plunge(pen, t, above, level)
-            pen.feed(level.left, level.r, ROUGH)
-        else:
-            assert above is not None
+    pen = Cutter(t)
+    for k, level in enumerate(t.levels):
+        pen.number += 1
+        above = t.levels[k - 1]
+        if k % 2:  # from the left
             wall = between(t.profile, level.last, above.last)
-            pen.along(wall.reversed() if wall is not None else None, ROUGH)
-            pen.feed(level.left, level.r, ROUGH)
+            pen.along(wall and wall.reversed(), ROUGH)
+        elif k == 0:
+            pen.down(0)
+        elif level.first is None:
+            pen.feed(t.front, level.r, ROUGH)
+        else:
+            pen.plunge(above, level)
+        pen.feed(level.left, level.r, ROUGH)
+        if k % 2:
             pen.feed(level.right, level.r, ROUGH)
-        above = level
-    last = t.levels[-1]
-    if len(t.levels) % 2 and last.first is None:
-        lift_off(pen, t, last)
-    elif len(t.levels) % 2:
-        off(pen, t, last)
-    return cleared(out(pen, t, "zigzag"), profile, blank, tool)
+    last = len(t.levels) - 1
+    if last % 2 == 0 and t.levels[last].first is None:
+        pen.lift_off(last)
+    elif last % 2 == 0:
+        pen.off(last)
+    return cleared(pen.out("zigzag"), profile, blank, tool)
 
 
 def descent(
@@ -176,11 +172,9 @@ def descent(
     if not cuts:
         raise ValueError("no stroke fits between the walls")
     pen = Pen(cuts[0][0], t.outside)
-    for number, (z, r) in enumerate(cuts, 1):
-        pen.number = number
-        pen.rapid(z, t.outside)
-        pen.feed(z, r, PLUNGE)
-        pen.rapid(z, t.outside)
+    for z, r in cuts:
+        pen.number += 1
+        pen.follow(grooves(t.outside, r, [z]), PLUNGE)
     return cleared(pen.plan("descent"), profile, blank, tool)
 
 
@@ -198,16 +192,13 @@ def equidistant(profile: Contour, blank: float, depth: float, tool: Tool = POINT
         strokes = [*found, *strokes]
     else:
         raise ValueError(f"a depth of {depth:g} gives more than {MOST} strokes")
-    pen = Pen(*t.start)
-    for number, (free, stroke) in enumerate(strokes, 1):
-        pen.number = number
+    pen = Cutter(t)
+    for free, stroke in strokes:
         begin = stroke.points[0]
-        pen.rapid(t.front if free else float(begin[0]), t.blank if number == 1 else t.outside)
+        pen.rapid(t.front if free else float(begin[0]), t.outside if pen.number else t.blank)
         pen.rapid(*begin)
-        pen.along(stroke, ROUGH)
-        if pen.r < t.blank - SAME:
-            away(pen, t._replace(profile=stroke), t.blank)
-        pen.rapid(pen.z, t.outside)
+        pen.number += 1
+        pen.once_along(stroke, ROUGH, t.outside)
         if free:
             pen.rapid(t.front, t.outside)
     return cleared(pen.plan("equidistant"), profile, blank, tool)
@@ -229,18 +220,15 @@ def contour(
     if dr < 0 or dz < 0:
         raise ValueError(f"the shift must lead away from the contour, got {dr:g}, {dz:g}")
     z0, r0 = t.start[0], float(t.profile.points[0, 1])
-    pen = Pen(z0 + dz, t.blank)
-    for number, k in enumerate(range(count - 1, -1, -1), 1):
-        pen.number = number
+    pen = Cutter(t, shift=dz)
+    for k in range(count - 1, -1, -1):
+        pen.number += 1
         share = k / (count - 1) if count > 1 else 0.0
         zs, rs = z0 + dz * share, t.blank + dr * share
         pen.rapid(zs, rs)
         pen.rapid(zs, r0 + dr * share)
         copy = Contour(t.profile.points + (dz * share, dr * share), t.profile.bulge, closed=False)
-        pen.along(copy, ROUGH)
-        if pen.r < t.blank - SAME:
-            away(pen, t._replace(profile=copy), t.blank)
-        pen.rapid(pen.z, rs)
+        pen.once_along(copy, ROUGH, rs)
         pen.rapid(zs, rs)
     return cleared(pen.plan("contour"), profile, blank, tool)
 
@@ -255,36 +243,30 @@ def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, *
     found = zones(reached, blank)
     wet = [zone.profile for zone in found if zone.kind == CLOSED]
     dry = [zone for zone in found if zone.kind != CLOSED]
-    lift, front = distances.get("lift", LIFT), distances.get("front", FRONT)
     edges = replace(tool, width=0.0)  # what is reached already minds the width
-    plans = []
-    t = None
-    if wet and dry:  # passes at the rims too, so that every closed zone is free from above
+    both = bool(wet and dry)
+    if both:  # passes at the rims too, so that every closed zone is free from above
         above = filled(reached)
         sections = [zone.profile for zone in dry] if falls_again(above) else [above]
         rims = [float(pool.points[0, 1]) for pool in wet]
-        tasks = [task(section, blank, depth, edges, lift, front, rims) for section in sections]
-        plans += [_loop(each) for each in tasks]
-        t = tasks[0]
+        tasks = [task(section, blank, depth, edges, also=rims, **distances) for section in sections]
+        plans = [_loop(each) for each in tasks]
     else:
-        for zone in dry:
-            simple = task(zone.profile, blank, depth, edges, **distances)
-            plans.append(_loop(simple) if zone.kind == OPEN else _semi_finish(simple))
+        tasks = [task(zone.profile, blank, depth, edges, **distances) for zone in dry]
+        plans = [_loop(t) if zone.kind == OPEN else _semi_finish(t) for t, zone in zip(tasks, dry, strict=True)]
     for pool in wet:
-        simple = task(pool, min(blank, float(pool.points[0, 1])), depth, edges, **distances)
-        plans.append(_loop(simple) if t else _semi_finish(simple))
-    pen = Pen(plans[0].start[0], blank)
+        tasks.append(task(pool, min(blank, float(pool.points[0, 1])), depth, edges, **distances))
+        plans.append(_loop(tasks[-1]) if both else _semi_finish(tasks[-1]))
+    t = tasks[0]._replace(blank=blank)
+    pen = Cutter(t)
     for plan in plans:
         pen.append(plan, blank + OUT)
-    if t is not None:
+    if both:
         pen.number += 1
         pen.rapid(pen.z, t.outside)
         pen.rapid(t.front, t.outside)
         pen.rapid(t.front, float(reached.points[0, 1]))
-        pen.along(reached, CLEANUP)
-        if pen.r < blank - SAME:
-            away(pen, t._replace(profile=reached), blank)
-        pen.rapid(pen.z, t.outside)
+        pen.once_along(reached, CLEANUP, t.outside)
     return cleared(pen.plan("combined"), profile, blank, tool)
 
 

@@ -5,12 +5,15 @@ A stroke ends at (z, r); its `role` says which feed it gets, its `number` which 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
 from mnclab.geometry.contours import Contour
+from mnclab.machining.steps import RAPID as AT_RAPID
+from mnclab.machining.steps import Go, Thread
 
 RAPID, ROUGH, PICK_UP, CLEANUP, PLUNGE, FINISH, THREAD = (
     "rapid", "rough", "pick-up", "clean-up", "plunge", "finish", "thread",
@@ -39,28 +42,23 @@ class Plan:
     start: tuple[float, float]
     strokes: tuple[Stroke, ...]
 
-    def __len__(self) -> int:
-        return len(self.strokes)
-
     @property
     def passes(self) -> int:
         """How many working strokes there are."""
         return len({stroke.number for stroke in self.strokes if stroke.role != RAPID})
 
-    def contours(self, *roles: str) -> list[Contour]:
-        """Every stroke of some roles (of all but rapids without a role), each as a contour of (z, r)."""
-        wanted = roles or ROLES[1:]
-        begin, found = self.start, []
-        for stroke in self.strokes:
-            here = (stroke.z, stroke.r)
-            if stroke.role in wanted:
-                found.append(Contour([begin, here], [stroke.bulge, 0.0], closed=False))
-            begin = here
-        return found
+    @property
+    def ways(self) -> list[tuple[Stroke, Contour]]:
+        """Every stroke with its way, a contour of (z, r)."""
+        begins = [self.start, *((stroke.z, stroke.r) for stroke in self.strokes)]
+        return [
+            (stroke, Contour([begin, (stroke.z, stroke.r)], [stroke.bulge, 0.0], closed=False))
+            for begin, stroke in zip(begins, self.strokes, strict=False)
+        ]
 
     def length(self, *roles: str) -> float:
         """Length of the strokes of some roles, or of all but rapids."""
-        return sum(contour.length for contour in self.contours(*roles))
+        return sum(way.length for stroke, way in self.ways if stroke.role in (roles or ROLES[1:]))
 
     def mapped(self, swap: bool = False, mirror: bool = False) -> Plan:
         """The plan with z and r exchanged (for a face), or with r turned over (for a bore: the caller shifts it)."""
@@ -73,7 +71,7 @@ class Plan:
         moved = (Stroke(*place(s.z, s.r), s.role, turned * s.bulge, s.number, s.tool) for s in self.strokes)
         return Plan(self.name, place(*self.start), tuple(moved))
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         lines = [f"start R{self.start[1]:g} Z{self.start[0]:g}"]
         lines += [f"{'rapid' if s.role == RAPID else 'feed'} R{s.r:.6g} Z{s.z:.6g}  {s.role}" for s in self.strokes]
         return "\n".join(lines)
@@ -95,36 +93,10 @@ class Pen:
 
     def rapid(self, z: float, r: float) -> None:
         """Straight, at rapid."""
-        self._to(z, r, RAPID)
+        self.feed(z, r, RAPID)
 
-    def feed(self, z: float, r: float, role: str) -> None:
-        """Straight, at the feed of the role."""
-        self._to(z, r, role)
-
-    def along(self, contour: Contour | None, role: str) -> None:
-        """Along a contour, at the feed of the role: straight to its start, if the tip is elsewhere."""
-        if contour is None:
-            return
-        self._to(float(contour.points[0, 0]), float(contour.points[0, 1]), role)
-        for end, bulge in zip(contour.ends, contour.bulge, strict=False):
-            self._to(float(end[0]), float(end[1]), role, float(bulge))
-
-    def append(self, plan: Plan, outside: float) -> None:
-        """Another plan, reached outside the blank."""
-        if np.hypot(plan.start[0] - self.z, plan.start[1] - self.r) > SAME:
-            self.rapid(self.z, outside)
-            self.rapid(plan.start[0], outside)
-            self.rapid(*plan.start)
-        base = self.number
-        for stroke in plan.strokes:
-            self.number = base + stroke.number
-            self._to(stroke.z, stroke.r, stroke.role, stroke.bulge)
-
-    def plan(self, name: str) -> Plan:
-        """What has been drawn."""
-        return Plan(name, self.start, tuple(self.strokes))
-
-    def _to(self, z: float, r: float, role: str, bulge: float = 0.0) -> None:
+    def feed(self, z: float, r: float, role: str, bulge: float = 0.0) -> None:
+        """Straight or along an arc, at the feed of the role."""
         z, r = float(z), float(r)
         way = np.array([z - self.z, r - self.r])
         if np.hypot(*way) <= SAME:
@@ -139,3 +111,34 @@ class Pen:
                 self.strokes.pop()
         self.strokes.append(Stroke(z, r, role, bulge, number, self.tool))
         self.z, self.r = z, r
+
+    def follow(self, steps: Iterable[Go | Thread], role: str) -> None:
+        """Steps of z along and x across, those at feed in a role."""
+        for step in steps:
+            rapid = isinstance(step, Go) and step.feed == AT_RAPID
+            self.feed(
+                self.z if step.z is None else step.z, self.r if step.x is None else step.x, RAPID if rapid else role
+            )
+
+    def along(self, contour: Contour | None, role: str) -> None:
+        """Along a contour, at the feed of the role: straight to its start, if the tip is elsewhere."""
+        if contour is None:
+            return
+        self.feed(float(contour.points[0, 0]), float(contour.points[0, 1]), role)
+        for end, bulge in zip(contour.ends, contour.bulge, strict=False):
+            self.feed(float(end[0]), float(end[1]), role, float(bulge))
+
+    def append(self, plan: Plan, outside: float) -> None:
+        """Another plan, reached outside the blank."""
+        if np.hypot(plan.start[0] - self.z, plan.start[1] - self.r) > SAME:
+            self.rapid(self.z, outside)
+            self.rapid(plan.start[0], outside)
+            self.rapid(*plan.start)
+        base = self.number
+        for stroke in plan.strokes:
+            self.number = base + stroke.number
+            self.feed(stroke.z, stroke.r, stroke.role, stroke.bulge)
+
+    def plan(self, name: str) -> Plan:
+        """What has been drawn."""
+        return Plan(name, self.start, tuple(self.strokes))

@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.machining.turning.strokes import THREAD, Pen, Plan
+from mnclab.machining.turning.threading import thread_pass
 
 METHODS = ("radial", "flank", "alternate")
 FACTORS = {60.0: 0.5, 55.0: 0.42}
@@ -114,19 +115,15 @@ def thread(
     """
     if end == start:
         raise ValueError("a thread needs a length")
-    positions = shifts(depths, method, profile, nominal_last=True)
     forward = math.copysign(1.0, end - start)
     outside = radius + max(0.0, -taper) + out
     pen = Pen(start, outside)
-    for number, (depth, shift) in enumerate(zip(depths, positions, strict=True), 1):
-        pen.number = number
-        begin, stop = start + forward * shift, end + forward * shift
-        pen.rapid(begin, outside)
-        lean = taper * forward * shift / abs(end - start)  # along the cone
-        pen.rapid(begin, radius - taper + lean - depth)
-        pen.feed(stop, radius + lean - depth, THREAD)
-        pen.rapid(stop, outside)
-        pen.rapid(begin, outside)
+    for depth, shift in zip(depths, shifts(depths, method, profile, nominal_last=True), strict=True):
+        pen.number += 1
+        places = start + forward * shift, end + forward * shift
+        way = [(radius - depth - taper * (end - place) / (end - start), place) for place in places]
+        pen.follow(thread_pass("pass", way, outside, 1.0), THREAD)
+        pen.rapid(places[0], outside)
     return pen.plan(f"thread, {method}")
 
 

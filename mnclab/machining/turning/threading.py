@@ -13,8 +13,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
-from mnclab.machining.steps import Go, Step, Thread
+from mnclab.machining.steps import Go, Thread
+
+Place = tuple[float, float]  # (x, z)
 
 
 def lead_along(across: float, along: float, pitch: float) -> float:
@@ -28,38 +31,40 @@ def lead_along(across: float, along: float, pitch: float) -> float:
     return pitch * math.hypot(across, along) / max(abs(across), abs(along))
 
 
+def thread_pass(label: str, way: Sequence[Place], outside: float, pitch: float) -> Iterator[Go | Thread]:
+    """Over the begin of the way, in, along it locked to the spindle, and out to x `outside`; the pitch counts along Z.
+
+    A way of three places has a run-out at its end.
+    """
+    yield Go(label, z=way[0][1])
+    yield Go(label, x=way[0][0])
+    for name, ((x1, z1), (x, z)) in zip((label, f"{label}, run-out"), pairwise(way), strict=False):
+        yield Thread(name, z, pitch * math.hypot(x - x1, z - z1) / abs(z - z1), x)
+    yield Go(label, x=outside)
+
+
 def thread_passes(
-    start: tuple[float, float],
-    end: tuple[float, float],
+    start: Place,
+    end: Place,
     pitch: float,
     depths: Sequence[float],
     *,
     taper: float = 0.0,
     angle: float = 0.0,
     run_out: float = 0.0,
-) -> Iterator[Step]:
+) -> Iterator[Go | Thread]:
     """Passes from `start` (x, z) beside the part to `end`: the crest of the thread there, and where it ends.
 
     Each pass lies one of the `depths` (mm, radius) below the crest. `taper` is how much deeper (radius) the thread is
     at the start. `angle` (rad) shifts the begin of a pass towards the end by depth * tan(angle), so that one flank
     cuts. Over the last `run_out` mm the tool leaves the thread on a straight line to the x of the start, still locked
-    to the spindle. The pitch counts along Z, and every pass begins at the zero mark of the spindle.
+    to the spindle. Every pass begins at the zero mark of the spindle.
     """
     (x1, z1), (x, z) = start, end
     into, onward = math.copysign(1.0, x - x1), math.copysign(1.0, z - z1)
     for number, depth in enumerate(depths, 1):
         label = f"pass {number} of {len(depths)}" if len(depths) > 1 else "thread"
-        begin, stop = z1 + onward * depth * math.tan(angle), z - onward * run_out
-        across = [x + into * (depth + taper * (z - place) / (z - z1)) for place in (begin, stop)]
-        yield Go(label, z=begin)
-        yield Go(label, x=across[0])
-        yield _thread(label, (across[0], begin), (across[1], stop), pitch)
-        if run_out:
-            yield _thread(f"{label}, run-out", (across[1], stop), (x1, z), pitch)
-        yield Go(label, x=x1)
+        places = z1 + onward * depth * math.tan(angle), z - onward * run_out
+        way = [(x + into * (depth + taper * (z - place) / (z - z1)), place) for place in places]
+        yield from thread_pass(label, [*way, (x1, z)] if run_out else way, x1, pitch)
         yield Go(label, z=z1)
-
-
-def _thread(label: str, begin: tuple[float, float], end: tuple[float, float], pitch: float) -> Thread:
-    dx, dz = end[0] - begin[0], end[1] - begin[1]
-    return Thread(label, end[1], pitch * math.hypot(dx, dz) / abs(dz), end[0])

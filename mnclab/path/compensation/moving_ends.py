@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.columns import COLUMNS
 from mnclab.path.compensation.elements import Mask
 from mnclab.path.compensation.rules import CORNER
 from mnclab.path.kinds import Kind, Rule
 from mnclab.path.plane import PlaneView
-from mnclab.path.toolpath import COLUMNS, Toolpath
+from mnclab.path.toolpath import Toolpath
 
 if TYPE_CHECKING:
     from mnclab.path.compensation.equidistant import Equidistant

@@ -68,8 +68,8 @@ class Bends:
 
 def divided(path: Toolpath, counts: NDArray[np.int64]) -> tuple[Toolpath, NDArray[np.int64]]:
     """The path with each row cut into `counts` (n,) equal parts, and the row (m,) of the path each part belongs to."""
+    from mnclab.path.columns import COLUMNS
     from mnclab.path.kinds import Kind
-    from mnclab.path.toolpath import COLUMNS
 
     row = np.repeat(np.arange(len(path)), counts)
     k = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)

@@ -12,7 +12,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 
 from mnclab.comparison.turning_schemes import TurningComparison, TurningTrial
-from mnclab.geometry.contours import Contour
 from mnclab.machining.turning.clearance import OUT
 from mnclab.machining.turning.strokes import CLEANUP, FINISH, PICK_UP, PLUNGE, RAPID, ROUGH, THREAD
 from mnclab.path.tool import Tool
@@ -83,11 +82,8 @@ def draw(ax: Axes, trial: TurningTrial) -> None:
     ax.add_patch(Polygon(part, facecolor="#d9d5c8", edgecolor=colours.INK, linewidth=1.0, zorder=1.2))
     area(ax, trial.unreachable, facecolor="none", edgecolor=CORNER, hatch="//////", linewidth=0.4, zorder=1.6)
     area(ax, trial.rest, facecolor="none", edgecolor=REST, hatch="xxxxxx", linewidth=0.6, zorder=3.0)
-    begin = trial.plan.start
-    for stroke in trial.plan.strokes:
-        way = Contour([begin, (stroke.z, stroke.r)], [stroke.bulge, 0.0], closed=False)
+    for stroke, way in trial.plan.ways:
         ax.add_line(Line2D(*way.points_within(CHORD).T, **{**LOOKS[stroke.role].style(), "label": f"_{stroke.role}"}))
-        begin = (stroke.z, stroke.r)
     if stand := _stand(trial):
         size = INSERT * float(np.ptp([z for z, _ in _places(trial)]))
         for patch in insert_patches(stand.tool, stand.tip, size, stand.reach, 2.0):  # below the strokes

@@ -6,27 +6,21 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from mnclab.controls.mnc.cycles.prepared import (
-    PreparedCycle,
-    depth,
-    dwell_bottom,
-    dwell_top,
-    feed,
-    retract_feed,
-)
+from mnclab.controls.mnc.cycles import addresses
+from mnclab.controls.mnc.cycles.prepared import PreparedCycle, called, kept
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, gun_drill
-from mnclab.machining.steps import Go, Wait
-from mnclab.running.performing import perform
+from mnclab.machining.steps import Go, Say, Step, Wait, Write
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 
-TO = {0.0: "to the depth H", 1.0: "to the diameter D"}
-ENTRY = {3.0: "clockwise (M3)", 4.0: "counter-clockwise (M4)", 5.0: "stopped (M5)"}
+TO: dict[float, str] = {0: "to the depth H", 1: "to the diameter D"}
+ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: "stopped (M5)"}
+ONE_PASS = {"default": None, "default_means": "one pass"}
 TURNING = {3: 1, 4: -1, 5: 0}
 
 
@@ -34,13 +28,13 @@ TURNING = {3: 1, 4: -1, 5: 0}
 class Drilling(PreparedCycle):
     """Drills with rapid withdrawal to the clearance level after every infeed."""
 
-    depth: float = depth("depth from the surface to the bottom")
-    infeed: float | None = param(
-        "P", "depth of each infeed", default=None, default_means="one pass", above=0, incremental=True, example=5
-    )
-    feed: float | None = feed("plunging feed")
-    dwell_top: float = dwell_top()
-    dwell_bottom: float = dwell_bottom()
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    infeed: float | None = addresses.distance("P", "depth of each infeed", 5, **ONE_PASS)
+    surface: float = addresses.surface()
+    feed: float | None = addresses.feed("plunging feed")
+    dwell_top: float = addresses.dwell_top()
+    dwell_bottom: float = addresses.dwell_bottom()
 
     def levels(self) -> tuple[float, ...]:
         """Infeeds count from the surface."""
@@ -50,36 +44,30 @@ class Drilling(PreparedCycle):
         """No more infeeds than a hole can have."""
         yield from too_many("infeed", self.levels)
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 7 of the manual."""
-        end = self.approach(m)
-        steps = drill(
+        work = drill(
             self.levels(), above=self.level, feed=self.feed, reenter=self.clearance,
             dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,
         )  # fmt: skip
-        perform(m, self.code, steps)
-        self.leave(m, end)
+        return called(m, self.level, work)
 
 
 @CYCLES("G303, G203", "Universal drilling", runs="call", source="MNC 9.7")
 class UniversalDrilling(PreparedCycle):
     """Drills with infeeds that may shrink; breaks the chip some times before each withdrawal."""
 
-    depth: float = depth("depth from the surface to the bottom")
-    infeed: float | None = param(
-        "P", "depth of the first infeed", default=None, default_means="one pass", above=0, incremental=True, example=6
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    infeed: float | None = addresses.distance("P", "depth of the first infeed", 6, **ONE_PASS)
+    min_infeed: float | None = addresses.distance(
+        "M", "least infeed", 2, default=None, default_means="no limit", note="needed where K is greater than 0"
     )
-    min_infeed: float | None = param(
-        "M", "least infeed", default=None, default_means="no limit", above=0, incremental=True, example=2,
-        note="needed where K is greater than 0",
-    )  # fmt: skip
-    feed: float | None = feed("drilling feed")
-    retract_feed: float | None = retract_feed("feed out of the hole")
-    dwell_top: float = dwell_top()
-    dwell_bottom: float = dwell_bottom()
-    decrement: float = param(
-        "K", "amount by which P shrinks after each infeed", default=0, at_least=0, incremental=True, example=3
-    )
+    feed: float | None = addresses.feed("drilling feed")
+    retract_feed: float | None = addresses.other_feed("V", "feed out of the hole", 400)
+    dwell_top: float = addresses.dwell_top()
+    dwell_bottom: float = addresses.dwell_bottom()
+    decrement: float = addresses.allowance("K", "amount by which P shrinks after each infeed", 3)
     chip_breaks: float = param(
         "L", "chip breaks before each withdrawal", "count", default=0, at_least=0, type="integer", example=1,
         note="0: the tool is withdrawn after every infeed",
@@ -87,6 +75,7 @@ class UniversalDrilling(PreparedCycle):
     break_retract: float = param(
         "I", "distance back to break the chip", default=0.1, at_least=0.1, incremental=True, example=0.5
     )
+    surface: float = addresses.surface()
 
     @classmethod
     def prepare(
@@ -108,23 +97,23 @@ class UniversalDrilling(PreparedCycle):
             yield "decrement", f"{self.decrement:g} needs M, the least infeed"
         yield from too_many("infeed", self.levels)
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 6 of the manual."""
-        end, out = self.approach(m), self.retract_feed or self.feed
-        steps = drill(
+        out = self.retract_feed or self.feed
+        work = drill(
             self.levels(), above=self.level, feed=self.feed, reenter=self.clearance, withdraw=out,
             dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,
             breaks=int(self.chip_breaks), back=self.break_retract,
         )  # fmt: skip
-        perform(m, self.code, [*steps, Go("retract", self.level, out)])
-        self.leave(m, end)
+        return called(m, self.level, [*work, Go("retract", self.level, out)])
 
 
 @CYCLES("G305", "Centring", runs="call", source="MNC 9.11")
 class Centring(PreparedCycle):
     """Centres to a depth, or to a diameter that the point angle of the tool turns into one."""
 
-    mode: float = param("L", "what the centring goes to", "choice", default=0, choices=TO, example=0)
+    clearance: float = addresses.clearance()
+    mode: float = addresses.choice("L", "what the centring goes to", TO, 0, default=0)
     depth: float | None = param(
         "H", "depth from the surface to the tip", default=None, default_means="not used with L1", incremental=True,
         note="less than 0 where L is 0", example=-3,
@@ -133,8 +122,9 @@ class Centring(PreparedCycle):
         "D", "diameter of the centring", default=None, default_means="not used with L0",
         note="written with a minus sign: less than 0 where L is 1", example=-8,
     )  # fmt: skip
-    feed: float | None = feed("centring feed")
-    dwell_bottom: float = dwell_bottom()
+    surface: float = addresses.surface()
+    feed: float | None = addresses.feed("centring feed")
+    dwell_bottom: float = addresses.dwell_bottom()
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """What L chooses is given, and negative."""
@@ -151,20 +141,16 @@ class Centring(PreparedCycle):
         if self.mode and not is_round(m):
             yield "mode", "1 cannot run under unequal scales of the plane: a diameter would be two"
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 4 of the manual; the cone of the point is as deep as half the diameter over its tangent."""
+        down, diameter = self.depth or 0.0, self.diameter or 0.0
         if self.mode:
-            down = (self.diameter or 0.0) / 2 / math.tan(math.radians(tool(m).angle / 2))
-        else:
-            down = self.depth or 0.0
-        if self.mode and abs(self.diameter or 0.0) > 2 * m.radius > 0:
-            sentence = f"is wider than the tool, {2 * m.radius:.10g}: the cone ends at the tool's diameter"
-            m.warn(f"{self.code} D{self.diameter:.10g} {sentence}")
-        end = self.approach(m)
-        perform(
-            m, self.code, [Go("centre", self.surface + down, self.feed), Wait("dwell at the bottom", self.dwell_bottom)]
-        )
-        self.leave(m, end)
+            down = diameter / 2 / math.tan(math.radians(tool(m).angle / 2))
+            if -diameter > 2 * m.radius > 0:
+                end = f"{2 * m.radius:.10g}: the cone ends at the tool's diameter"
+                yield Say(f"D{diameter:.10g} is wider than the tool, {end}")
+        work = Go("centre", self.surface + down, self.feed), Wait("dwell at the bottom", self.dwell_bottom)
+        yield from called(m, self.level, work)
 
 
 @CYCLES("G307, G241", "Gun drilling", runs="call", source="MNC 9.10")
@@ -176,31 +162,24 @@ class GunDrilling(PreparedCycle):
     T is the time of both, as there is no other.
     """
 
-    depth: float = depth("depth from the surface to the bottom")
-    feed: float | None = feed("drilling feed")
-    retract_feed: float | None = param(
-        "E", "feed out of the hole", "mm/min", default=None, default_means="F", at_least=0, note="0: the same as F",
-        example=1000,
-    )  # fmt: skip
-    dwell_bottom: float = dwell_bottom()
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth()
+    surface: float = addresses.surface()
+    feed: float | None = addresses.feed("drilling feed")
+    retract_feed: float | None = addresses.other_feed("E", "feed out of the hole", 1000)
+    dwell_bottom: float = addresses.dwell_bottom()
     positioning_feed: float | None = param(
         "V", "feed to the deepened start point", "mm/min", default=None, default_means="F", above=0, example=750
     )
-    start_depth: float = param(
-        "W", "depth of the start point below the surface", default=0, at_least=0, incremental=True, example=5
+    start_depth: float = addresses.allowance("W", "depth of the start point below the surface", 5)
+    spindle_direction: float = addresses.choice("M", "spindle when entering and leaving", ENTRY, 4, default=3)
+    entry_speed: float | None = addresses.speed(
+        "R", "speed when entering and leaving", 25, default_means="S", at_least=0
     )
-    spindle_direction: float = param(
-        "M", "spindle when entering and leaving", "choice", default=3, choices=ENTRY, example=4
+    drilling_speed: float | None = addresses.speed(
+        "S", "speed when drilling", 500, default_means="the modal S", above=0
     )
-    entry_speed: float | None = param(
-        "R", "speed when entering and leaving", "rev/min", default=None, default_means="S", at_least=0, example=25
-    )
-    drilling_speed: float | None = param(
-        "S", "speed when drilling", "rev/min", default=None, default_means="the modal S", above=0, example=500
-    )
-    dwell_depth: float = param(
-        "K", "depth of a dwell on the way", default=0, at_least=0, incremental=True, note="0: none", example=10
-    )
+    dwell_depth: float = addresses.allowance("K", "depth of a dwell on the way", 10, note="0: none")
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """The dwell and the start point lie above the bottom."""
@@ -215,23 +194,19 @@ class GunDrilling(PreparedCycle):
 
     def speed(self, m: Machine) -> float:
         """The speed to drill with: S of the cycle, or that of the program, not what this cycle left behind."""
-        if self.drilling_speed is not None:
-            return self.drilling_speed
-        kept = m.cycle.extra if m.cycle else {}
-        return kept["speed"] if m.speed == kept.get("left", -1.0) else m.speed
+        drilled, left = kept(m).get("speeds", (0.0, None))
+        return self.drilling_speed or (drilled if m.speed == left else m.speed)
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 5 of the manual."""
-        speed, end = self.speed(m), self.approach(m)
+        speed = self.speed(m)
         entry = speed if self.entry_speed is None else self.entry_speed
-        steps = gun_drill(
+        work = gun_drill(
             [self.surface + self.depth], above=self.level, start=self.level - self.start_depth, feed=self.feed,
             approach=self.positioning_feed or self.feed, retract=self.retract_feed or self.feed,
             entry=(TURNING[int(self.spindle_direction)], entry), speed=speed, dwell=self.dwell_bottom,
             pause=self.surface - self.dwell_depth if self.dwell_depth else None,
         )  # fmt: skip
-        perform(m, self.code, steps)
-        m.set_modal("coolant", "M9")
-        if m.cycle:
-            m.cycle.extra.update(speed=speed, left=m.speed)
-        self.leave(m, end)
+        yield from called(m, self.level, work)
+        yield Write("modal", "M9", "coolant")
+        yield Write("kept", (speed, entry), "speeds")

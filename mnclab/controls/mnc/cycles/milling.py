@@ -7,10 +7,10 @@ Coordinates are absolute under G90 and G91 (MNC-MILL-ABS); no parameter is kept 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
-from mnclab.controls.word_address.state import memory
+from mnclab.controls.mnc.cycles import addresses
+from mnclab.controls.mnc.state import memory
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, remark
@@ -19,10 +19,10 @@ from mnclab.machining.milling.clearing import Clearing, numbered
 from mnclab.machining.milling.face_lines import lines, rows
 from mnclab.machining.milling.face_steps import Layer, face
 from mnclab.machining.milling.residue import within
-from mnclab.machining.steps import Go
-from mnclab.running.performing import perform
+from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()
+ORIGIN = (0.0, 0.0)
 STRATEGY: dict[float, str] = {
     0: "meander, stepover outside the surface",
     1: "meander, stepover within the surface",
@@ -30,28 +30,12 @@ STRATEGY: dict[float, str] = {
 }
 
 
-def clearance(meaning: str) -> Any:
-    """Q: how far above the material the tool moves at rapid."""
-    return param("Q", meaning, above=0, incremental=True, example=2)
-
-
-def feed() -> Any:
-    """F: in mm/min whatever G94 or G95 says; it does not become the modal feed."""
-    return param("F", "milling feed", "mm/min", default=None, default_means="the modal feed", above=0, example=500)
-
-
-def second_feed(meaning: str, example: float) -> Any:
-    """T: a feed that is F where it is not written, or 0."""
-    return param(
-        "T", meaning, "mm/min", default=None, default_means="F", at_least=0, note="0: the same as F", example=example
-    )  # fmt: skip
-
-
-@dataclass(frozen=True)
 class MillingCycle(Cycle):
     """What all of them need of the machine: a tool with a radius, a feed, no radius compensation."""
 
     does: ClassVar[str] = MILLS
+
+    feed: float | None
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Tool, feed, compensation; and no machine coordinates."""
@@ -61,36 +45,26 @@ class MillingCycle(Cycle):
             yield "", "and G53 stand in one block: the cycle counts from the workpiece"
         if m.radius <= 0:
             yield "", f"needs a tool with a radius, got {m.radius:g}"
-        if getattr(self, "feed", None) is None and m.feed is None:
+        if self.feed is None and m.feed is None:
             yield "feed", "is missing, and no feed rate was programmed before"
 
 
-@dataclass(frozen=True)
-class Surface(MillingCycle):
-    """The rectangle that is milled, from one of its corners."""
-
-    start_x: float = param("X", "start corner along X", note="absolute", example=0)
-    start_y: float = param("Y", "start corner along Y", note="absolute", example=0)
-    length_x: float = param("A", "length along X", at_least=0, incremental=True, example=60)
-    length_y: float = param("B", "length along Y", at_least=0, incremental=True, example=40)
-    clearance: float = clearance("clearance above the milling height")
-    feed: float | None = feed()
-
-    def approach(self, m: Machine, above: float) -> None:
-        """Up to the clearance level from below it, so that nothing is cut on the way to the start."""
-        perform(m, self.code, [Go("to the clearance level", max(m.programmed[2], above))])
-
-
 @CYCLES("G320", "Line-by-line milling", runs="definition", source="MNC 10.1")
-class LineMilling(Surface):
+class LineMilling(MillingCycle):
     """Mills a surface at one height on a given number of lines along X, to and fro."""
 
-    level: float = param("Z", "height of the milled surface", note="absolute", example=-1)
+    start_x: float = addresses.coordinate("X", "start corner along X", 0)
+    start_y: float = addresses.coordinate("Y", "start corner along Y", 0)
+    level: float = addresses.coordinate("Z", "height of the milled surface", -1)
+    length_x: float = addresses.side("A", "length along X", 60)
+    length_y: float = addresses.side("B", "length along Y", 40)
     passes: float = param(
         "K", "number of lines", "count", type="integer", at_least=0, example=6, note="0 mills nothing"
     )
-    plunge_feed: float = param("V", "feed down to the height", "mm/min", above=0, example=150)
-    stepover_feed: float | None = second_feed("feed to the next line", 250)
+    plunge_feed: float = addresses.own_feed("V", "feed down to the height", 150)
+    feed: float | None = addresses.feed("milling feed", 500)
+    stepover_feed: float | None = addresses.other_feed("T", "feed to the next line", 250)
+    clearance: float = addresses.clearance("clearance above the milling height")
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """Not more lines than somebody would wait for."""
@@ -114,41 +88,43 @@ class LineMilling(Surface):
         elif (step := width - 2 * radius if count == 1 else (width - 2 * radius) / (count - 1)) > 2 * radius:
             yield f"K{count} lines leave strips uncut: they lie {step:g} mm apart, the tool is {2 * radius:g} mm wide"
 
-    def moves(self, m: Machine) -> None:
+    def about(self, m: Machine) -> tuple[float, float]:
+        """The start corner is absolute."""
+        return ORIGIN
+
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 7 of the manual; the tool stays at the clearance level."""
-        for sentence in self.remarks(m.radius):
-            m.warn(f"{self.code} {sentence}{remark(m)}")
+        radius, above = m.radius, self.level + self.clearance
+        for sentence in self.remarks(radius):
+            yield Say(sentence + remark(m))
         if not self.passes:
             return
-        left, right, above = (
-            self.start_x - m.radius,
-            self.start_x + self.length_x + m.radius,
-            self.level + self.clearance,
-        )
-        passes = lines(self.across(m.radius), left, right, m.radius)
-        self.approach(m, above)
+        passes = lines(self.across(radius), self.start_x - radius, self.start_x + self.length_x + radius, radius)
         layer = Layer("", self.level, passes, self.feed, self.stepover_feed or self.feed, self.plunge_feed)
-        perform(m, self.code, face([layer], above), (0.0, 0.0))
-        perform(m, self.code, [Go("to the clearance level", above)])
+        yield Go("to the clearance level", max(m.programmed[2], above))
+        yield from face([layer], above)
+        yield Go("to the clearance level", above)
 
 
 @CYCLES("G321", "Face milling", runs="definition", source="MNC 10.2")
-class FaceMilling(Surface):
+class FaceMilling(MillingCycle):
     """Mills a surface in several infeeds, the last of them a finishing cut; each level backwards over the one before."""
 
-    strategy: float = param("L", "machining strategy", "choice", default=0, choices=STRATEGY, example=0)
-    level_from: float = param("Z", "height from which to mill", note="absolute", example=0)
-    level_to: float = param("W", "height down to which to mill", note="absolute", example=-5)
-    max_infeed: float = param("P", "greatest infeed", above=0, incremental=True, example=2)
-    overlap: float = param(
-        "K", "path overlap factor", "ratio", at_least=0.1, at_most=1.999, example=1.5, note="stepover at most K times R"
-    )  # fmt: skip
-    positioning_feed: float = param("V", "positioning feed", "mm/min", above=0, example=2000)
-    side_clearance: float = param("I", "clearance at the side", above=0, incremental=True, example=3)
-    allowance: float = param(
-        "U", "finishing allowance", default=0, at_least=0, incremental=True, example=0.5, note="the last infeed"
-    )
-    finish_feed: float | None = second_feed("finishing feed", 800)
+    strategy: float = addresses.choice("L", "machining strategy", STRATEGY, 0, default=0)
+    start_x: float = addresses.coordinate("X", "start corner along X", 0)
+    start_y: float = addresses.coordinate("Y", "start corner along Y", 0)
+    level_from: float = addresses.coordinate("Z", "height from which to mill", 0)
+    level_to: float = addresses.coordinate("W", "height down to which to mill", -5)
+    length_x: float = addresses.side("A", "length along X", 60)
+    length_y: float = addresses.side("B", "length along Y", 40)
+    clearance: float = addresses.clearance("clearance above the milling height")
+    max_infeed: float = addresses.distance("P", "greatest infeed", 2)
+    overlap: float = addresses.overlap(1.999, 1.5)
+    feed: float | None = addresses.feed("milling feed", 500)
+    positioning_feed: float = addresses.own_feed("V", "positioning feed", 2000)
+    side_clearance: float = addresses.distance("I", "clearance at the side", 3)
+    allowance: float = addresses.allowance("U", "finishing allowance", 0.5, note="the last infeed")
+    finish_feed: float | None = addresses.other_feed("T", "finishing feed", 800)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """Downwards, and not all of it is allowance."""
@@ -198,28 +174,29 @@ class FaceMilling(Surface):
     def layers(self, radius: float) -> Iterator[Layer]:
         """Every second level backwards; the finishing infeed at its own feed."""
         first, other = self.clearings(radius)
-        levels, within = self.levels(), self.strategy == 1
+        levels, inside = self.levels(), self.strategy == 1
         for k, (name, level) in enumerate(zip(numbered("layer", len(levels)), levels, strict=True)):
             finishing = bool(self.allowance) and k == len(levels) - 1
             feed = (self.finish_feed or self.feed) if finishing else self.feed
             passes = other.reversed() if k % 2 else other if k else first
-            link = feed if within else self.positioning_feed
-            down = self.feed if within and k else self.positioning_feed
+            link = feed if inside else self.positioning_feed
+            down = self.feed if inside and k else self.positioning_feed
             yield Layer("finishing" if finishing else name, level, passes, feed, link, down)
 
-    def moves(self, m: Machine) -> None:
+    def about(self, m: Machine) -> tuple[float, float]:
+        """The start corner is absolute."""
+        return ORIGIN
+
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 9 of the manual."""
         if not self.levels():
-            m.warn(f"{self.code} Z and W are the same height: nothing is milled")
+            yield Say("Z and W are the same height: nothing is milled")
             return
         if (area := self.residue(m.radius) * m.scale**2) > 1e-9:
-            m.warn(
-                f"{self.code} L1 leaves {area:.3f} mm² of the surface uncut: the lines end within it, in the corners and between "
-                "two lines the tool is round",
-                hint="L0 and L2 mill all of it",
-            )
+            where = "the lines end within it, in the corners and between two lines the tool is round"
+            yield Say(f"L1 leaves {area:.3f} mm² of the surface uncut: {where}", "L0 and L2 mill all of it")
         above = self.level_from + self.clearance
         end = max(m.programmed[2], above)
-        self.approach(m, above)
-        perform(m, self.code, face(list(self.layers(m.radius)), above, self.clearance), (0.0, 0.0))
-        perform(m, self.code, [Go("to the start level", end)])
+        yield Go("to the clearance level", end)
+        yield from face(list(self.layers(m.radius)), above, self.clearance)
+        yield Go("to the start level", end)

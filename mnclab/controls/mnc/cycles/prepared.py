@@ -6,19 +6,21 @@ cycle ends at z_end = max(z0, z_q).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mnclab.controls.word_address.motion import first_word
 from mnclab.controls.word_address.state import memory
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.cycle import Cycle, param
+from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machining.steps import Go
-from mnclab.running.performing import perform, run_cycle
+from mnclab.machining.holes.drilling import back_to_axis
+from mnclab.machining.steps import Go, Step
+from mnclab.running.performing import run_cycle
 
 FUNCTIONS = FunctionTable()
 SPINDLE = {1: "M3", -1: "M4", 0: "M5"}
+START = "to the start point"
 
 
 @FUNCTIONS("M99", "Cycle call", phase="call", modal=False, source="9.4")
@@ -37,56 +39,26 @@ def call_cycle(m: Machine, words: Words) -> None:
     m.set_modal("spindle", SPINDLE[m.turning])
 
 
-@dataclass(frozen=True)
 class PreparedCycle(Cycle):
-    """What the cycles for M99 share: the clearance above a surface that is always absolute."""
+    """A cycle for M99, which declares the parameters named here; its surface is always absolute."""
 
-    clearance: float = param("Q", "clearance above the surface", above=0, incremental=True, example=2)
-    surface: float = param("Z", "workpiece surface", note="always absolute", example=0)
+    clearance: float
+    surface: float
 
     @property
     def level(self) -> float:
         """z_q, the clearance level."""
         return self.surface + self.clearance
 
-    def approach(self, m: Machine) -> float:
-        """To the clearance level; z_end, the level to leave to."""
-        end = max(m.programmed[2], self.level)
-        perform(m, self.code, [Go("to the clearance level", self.level)])
-        return end
 
-    def leave(self, m: Machine, end: float) -> None:
-        """To the level of the start point."""
-        perform(m, self.code, [Go("to the start point", end)])
+def called(m: Machine, level: float, work: Iterable[Step], *, shifted: bool = False) -> Iterator[Step]:
+    """To the clearance level, the work, and to the level of the start point; `shifted`: the work ends off the axis."""
+    end, turning = max(m.programmed[2], level), m.turning
+    yield Go("to the clearance level", level)
+    yield from work
+    yield from back_to_axis(end, turning, START) if shifted else (Go(START, end),)
 
 
-def depth(meaning: str) -> Any:
-    """H: how far the bottom lies from the surface, negative."""
-    return param("H", meaning, below=0, incremental=True, example=-15)
-
-
-def feed(meaning: str) -> Any:
-    """F: a feed in mm/min whatever G94 or G95 says; it does not become the modal feed."""
-    return param("F", meaning, "mm/min", default=None, default_means="the modal feed", above=0, example=150)
-
-
-def retract_feed(meaning: str) -> Any:
-    """V: the feed out of the hole, where 0 and nothing mean the feed into it."""
-    return param(
-        "V", meaning, "mm/min", default=None, default_means="F", at_least=0, note="0: the same as F", example=400
-    )  # fmt: skip
-
-
-def dwell_bottom() -> Any:
-    """T: seconds at the bottom."""
-    return param("T", "dwell at the bottom", "s", default=0, at_least=0, example=0.25)
-
-
-def dwell_top() -> Any:
-    """E: seconds at the clearance level."""
-    return param("E", "dwell at the clearance level", "s", default=0, at_least=0, example=0.1)
-
-
-def spindle_angle(meaning: str) -> Any:
-    """A: where the spindle stops, degrees."""
-    return param("A", meaning, "deg", default=0, at_least=-360, at_most=360, example=30)
+def kept(m: Machine) -> dict[str, Any]:
+    """What earlier calls of the prepared cycle have left for the next one."""
+    return m.cycle.extra if m.cycle else {}

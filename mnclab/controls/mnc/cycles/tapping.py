@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
-from mnclab.controls.mnc.cycles.prepared import PreparedCycle, depth
+from mnclab.controls.mnc.cycles import addresses
+from mnclab.controls.mnc.cycles.prepared import PreparedCycle, called, kept
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS
 from mnclab.machining.holes.tapping import tap
-from mnclab.running.performing import perform
+from mnclab.machining.steps import Say, Step, Write
 
 CYCLES = CycleTable()
 
@@ -25,8 +26,10 @@ class RigidTapping(PreparedCycle):
 
     does: ClassVar[str] = TAPS
 
-    depth: float = depth("depth of the thread from the surface")
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth("depth of the thread from the surface")
     pitch: float = param("P", "pitch", "mm/rev", note="positive right-hand, negative left-hand", example=1.25)
+    surface: float = addresses.surface()
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """There is a pitch."""
@@ -38,20 +41,17 @@ class RigidTapping(PreparedCycle):
         if not m.speed:
             yield "", "needs a spindle speed: write S before"
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 4 of the manual: the sign of the pitch is the hand, whatever way the spindle turned before."""
-        kept = m.cycle.extra if m.cycle else {}
-        if kept.get("stopped") == "now" and not m.turning:
-            kept["stopped"] = "told"
-            m.warn(
-                f"{self.code}: the spindle stands since the thread before, and the cycle turns it itself",
+        stopped = kept(m).get("stopped")
+        if stopped == "now" and not m.turning:
+            yield Say(
+                "turns the spindle itself: the spindle stands since the thread before",
                 hint="the manual wants M3 or M4 before the next machining (9.12, note 3)",
             )
-        end = self.approach(m)
-        steps = tap(
-            [self.surface + self.depth], above=self.level, pitch=abs(self.pitch), sense=1 if self.pitch > 0 else -1,
-            end=0,
-        )  # fmt: skip
-        perform(m, self.code, steps)
-        self.leave(m, end)
-        kept.setdefault("stopped", "now")
+            yield Write("kept", "told", "stopped")
+        sense = 1 if self.pitch > 0 else -1
+        work = tap([self.surface + self.depth], above=self.level, pitch=abs(self.pitch), sense=sense, end=0)
+        yield from called(m, self.level, work)
+        if not stopped:
+            yield Write("kept", "now", "stopped")

@@ -81,7 +81,7 @@ def chip_breaks(begin: float, end: float, length: float) -> tuple[float, ...]:
     return tuple(begin + step * i for i in range(1, count_of_breaks(begin, end, length) + 1))
 
 
-# --- as steps of a tool: x across, z along; `facing` makes them the other way round ------------------------------
+# --- as steps of a tool: x across, z along; `exchanged` makes them the other way round ------------------------------
 
 
 def loops(
@@ -154,6 +154,6 @@ def towards(place: float, goal: float, distance: float) -> float:
     return goal if abs(goal - place) <= distance else place + math.copysign(distance, goal - place)
 
 
-def facing(steps: Iterable[Step]) -> Iterator[Step]:
+def exchanged(steps: Iterable[Step]) -> Iterator[Step]:
     """The same steps for a cut along X, or a hole along it: across and along change places."""
     return (s._replace(x=s.z, z=s.x) if isinstance(s, Go | Thread) else s for s in steps)
