@@ -7,10 +7,9 @@ Tests of one file or folder, of the browser and of time run one after the other.
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / ".setup"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / ".setup"))
 
-from environment import run
+from environment import ROOT, run
 
 FAST = "not deep and not browser and not benchmark"
 
