@@ -159,7 +159,7 @@ DOOR = "def plot(self):\n    'A door.'\n    from mnclab.show.plot import path\n 
         ("show/forms.py", "import ipywidgets, mnclab\nfrom mnclab.controls import mnc", None),
         ("controls/__init__.py", "from . import mnc, nc_31", None),
         ("controls/mnc/drilling.py", "from ..word_address import motion\nfrom . import polar", None),
-        ("controls/mnc/drilling.py", "from mnclab.controls.nc_31 import turning", "never another"),
+        ("controls/mnc/drilling.py", "from mnclab.controls.nc_31 import grooving", "never another"),
         ("controls/mnc/__init__.py", "from mnclab import controls", "never another"),
         ("controls/word_address/motion.py", "from ..mnc import polar", "never another"),
         ("extra.py", "", "stands on no floor"),
