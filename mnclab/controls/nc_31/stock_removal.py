@@ -33,18 +33,18 @@ MOST_PASSES = 10_000  # beyond any blank: a P1 that is so small is a slip
 TO_DIAMETER = "diameter of the finished surface"
 
 
-def too_far(name: str, size: float, room: float) -> Iterator[tuple[str, str]]:
+def too_far(name: str, bevel: float, room: float) -> Iterator[tuple[str, str]]:
     """A bevel that is longer than the way to the start."""
-    if size > room * (1 + 1e-9):
-        yield name, f"must be at most {room:.10g}, the distance to the start, got {size:.10g}"
+    if bevel > room * (1 + 1e-9):
+        yield name, f"must be at most {room:.10g}, the distance to the start, got {bevel:.10g}"
 
 
-def back(end: float, size: float, start: float, scale: float) -> float:
-    """The coordinate, mm, that lies `size` from `end` (both in discretes) towards `start` (mm).
+def back(end: float, bevel: float, begin: float, scale: float) -> float:
+    """The coordinate, mm, that lies `bevel` from `end` (both in discretes) towards `begin` (mm).
 
     Added as whole numbers: a bevel as long as the way to the start ends exactly there.
     """
-    return (end + math.copysign(size, start * scale - end)) / scale
+    return (end + math.copysign(bevel, begin * scale - end)) / scale
 
 
 def shoulder_of(cycle: LatheCut, bevel: tuple[float, float]) -> Shoulder:
