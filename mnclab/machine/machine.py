@@ -19,7 +19,7 @@ from mnclab.machine.flow import Flow, Recording
 from mnclab.machine.settings import chosen
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Setup
-from mnclab.machine.state import HISTORY
+from mnclab.machine.state import HISTORY, ROWS
 from mnclab.machine.touching import Contact, touch
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
@@ -89,7 +89,9 @@ class Machine(Placed):
         Where a modal group has the same name (plane), the history holds its codes.
         """
         if getattr(self, name) != value:
-            self.put(**{name: value})
+            setattr(self, name, value)
+            if name in ROWS:
+                self.row_state = None
             if name in HISTORY and name not in self.modal:
                 self.log(name, value)
 

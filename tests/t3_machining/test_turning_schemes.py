@@ -216,6 +216,7 @@ def kept(profile, tool, depth):
     return trials
 
 
+@pytest.mark.deep
 @settings(max_examples=40, deadline=None, derandomize=True)
 @given(profiles(arcs=False), TOOLS, st.sampled_from([2.7, 4.0, 6.0]))
 def test_no_stroke_goes_below_and_no_rapid_through_material(profile, tool, depth):
@@ -228,6 +229,7 @@ def test_no_stroke_goes_below_and_no_rapid_through_material(profile, tool, depth
         assert trial.removed + trial.rest.area + trial.unreachable.area == pytest.approx(material, abs=1e-6)
 
 
+@pytest.mark.deep
 @settings(max_examples=40, deadline=None, derandomize=True)
 @given(profiles(arcs=True), TOOLS, st.sampled_from([2.7, 4.0, 6.0]))
 def test_the_same_with_arcs(profile, tool, depth):

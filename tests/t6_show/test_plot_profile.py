@@ -23,11 +23,6 @@ G0 Z5
 LIMITS = Limits(acceleration=500, corner_tolerance=0.02)
 
 
-@pytest.fixture(scope="module")
-def run():
-    return mnclab.run(PROGRAM, "mnc")
-
-
 @pytest.mark.parametrize("over", ["time", "path"])
 @pytest.mark.parametrize("jerk", [None, 5000])
 def test_the_curves_are_those_of_the_profile(run, over, jerk):

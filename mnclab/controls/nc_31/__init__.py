@@ -10,6 +10,7 @@ from __future__ import annotations
 from mnclab.controls.nc_31 import drilling, functions, grooving, notation, stock_removal, threads
 from mnclab.controls.nc_31.reader import looks_like, read
 from mnclab.controls.nc_31.state import Memory
+from mnclab.controls.nc_31.trial import trial_program
 from mnclab.machine.control import Control
 from mnclab.machine.settings import Setting
 
@@ -68,4 +69,5 @@ CONTROL = Control(
     lathe=True,
     to_turn="write S before the move, and M3 or M4 where M5 was written",
     modern=lambda program: notation.modern(program, CYCLES),
+    trial=trial_program,
 )

@@ -25,11 +25,6 @@ X30
 """
 
 
-@pytest.fixture(scope="module")
-def run():
-    return mnclab.run(PROGRAM, "mnc", SETUP)
-
-
 def test_each_word_has_its_function_its_section_and_what_it_changed(run):
     words = {m.word: m for m in run.explain(line=2).meanings}
     assert list(words) == ["G0", "X0", "Y0", "Z10", "S100", "M3"]
