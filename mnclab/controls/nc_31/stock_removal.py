@@ -12,11 +12,11 @@ from collections.abc import Iterable, Iterator
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.targets import (
     FROM_START,
-    SWITCH,
     FromStart,
     apart,
     feed_word,
     here,
+    own_mark,
     rapid_mark,
     size,
     start,
@@ -25,7 +25,6 @@ from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import RAPID, Go, Step, Write
 from mnclab.machining.turning.roughing import Shoulder, around, count_of_breaks, count_of_levels, loops, roughing
-from mnclab.text.program import INCREMENTAL
 
 CYCLES = CycleTable()
 
@@ -185,9 +184,7 @@ class LongitudinalRoughing(FromStart):
     stock_per_pass: float = size("stock removed per pass", "0.01 mm on diameter", above=0, example=200)
     bevel: float = size("size of the bevel along Z", default=0, at_least=0, example=500)
     rapid_infeed: float = rapid_mark("infeed at rapid")
-    to_contour: float = param(
-        "@", "ends at point B (X, Z1) instead of the start", "mark", default=0, choices=SWITCH, mark=INCREMENTAL
-    )
+    to_contour: float = own_mark("ends at point B (X, Z1) instead of the start")
 
     check, moves = check_roughing, rough
 
@@ -207,9 +204,7 @@ class TransverseRoughing(FromStart):
     stock_per_pass: float = size("stock removed per pass along Z", above=0, example=200)
     bevel: float = size("size of the bevel along Z", default=0, at_least=0, example=500)
     rapid_infeed: float = rapid_mark("infeed at rapid")
-    to_contour: float = param(
-        "@", "ends at point B (X1, Z) instead of the start", "mark", default=0, choices=SWITCH, mark=INCREMENTAL
-    )
+    to_contour: float = own_mark("ends at point B (X1, Z) instead of the start")
     transverse = True
     check, moves = check_roughing, rough
 
