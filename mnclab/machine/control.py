@@ -135,6 +135,9 @@ class FunctionTable(dict[str, Function]):
 
         return register
 
+    def __repr__(self) -> str:
+        return "\n".join(f"{code:8s} {function.title}" for code, function in self.items())
+
     def __or__(self, other: Mapping[str, Function]) -> FunctionTable:  # type: ignore[override]
         return FunctionTable({**self, **other})
 

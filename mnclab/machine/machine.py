@@ -44,6 +44,10 @@ class Machine(Placed):
         self.begin()
         self.log("position", self.programmed)
 
+    def __repr__(self) -> str:
+        x, y, z = self.programmed
+        return f"<Machine {self.control.name}: T{self.tool.number} at X{x:.10g} Y{y:.10g} Z{z:.10g}>"
+
     # --- saying what is wrong ----------------------------------------------------------------------------------------
 
     def alarm(self, message: str, word: Word | Span | None = None, hint: str = "") -> NoReturn:
