@@ -24,7 +24,8 @@ for, with its own signature; `part`, `blank`, `area`, `strategies` and `schemes`
 from typing import TYPE_CHECKING, Any
 
 from mnclab.controls import CONTROLS as controls
-from mnclab.controls.choice import Help, help, modern, read, run
+from mnclab.controls.choice import Help, modern, read, run
+from mnclab.controls.choice import help as help
 from mnclab.machine.setup import Datum, Probe, Setup
 from mnclab.path.kinds import RULE_NAMES, Kind
 from mnclab.path.limits import Limits

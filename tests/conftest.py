@@ -1,18 +1,31 @@
-"""What every test shares: pictures without a screen, examples without chance, and the option --rewrite."""
+"""What every test shares: pictures without a screen, examples without chance, the option --rewrite, the run of a module."""
 
+import functools
 import os
 
 import pytest
-from hypothesis import settings
 
+import mnclab
 from mnclab.runs import still_spindle
 
 os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
 os.environ.setdefault("MPLBACKEND", "agg")
 
-settings.register_profile("ci", deadline=None, derandomize=True, max_examples=60)
-settings.register_profile("long", deadline=None, max_examples=3000)
-settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+@functools.cache
+def without_chance():
+    """Examples of hypothesis: the same ones every time, unless HYPOTHESIS_PROFILE is `long`."""
+    from hypothesis import settings
+
+    settings.register_profile("ci", deadline=None, derandomize=True, max_examples=60)
+    settings.register_profile("long", deadline=None, max_examples=3000)
+    settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+
+def pytest_pycollect_makemodule(module_path):
+    """Set hypothesis up before a file that uses it is imported; for the others its import costs half their time."""
+    if "hypothesis" in module_path.read_text(encoding="utf-8"):
+        without_chance()
 
 
 def pytest_addoption(parser):
@@ -32,3 +45,10 @@ def fragments(request, monkeypatch) -> None:
     folder = request.path.relative_to(request.config.rootpath / "tests").parts[0]
     if folder[:2] in ("t2", "t3", "t4", "t5") and not request.node.get_closest_marker("spindle"):
         monkeypatch.setattr(still_spindle, "remarks", lambda m, path: ())
+
+
+@pytest.fixture(scope="module")
+def run(request) -> mnclab.Run:
+    """What the PROGRAM of a test module does, with its SETUP and on its CONTROL, if it has them."""
+    module = request.module
+    return mnclab.run(module.PROGRAM, getattr(module, "CONTROL", "mnc"), getattr(module, "SETUP", None))

@@ -36,7 +36,7 @@ OUTSIDE = {  # package -> the only modules of mnclab that import it
 SEES_ALL = ("show.forms", "show.editor", "show.magic")
 HEAVY = {"shapely", "matplotlib", "pyvista", "vtkmodules", "ipywidgets", "IPython", "tqdm"}
 VAGUE = {"util", "utils", "helper", "helpers", "common", "base", "core", "misc"}
-LONGEST = 450
+LONGEST = 400
 
 
 class Import(NamedTuple):
@@ -219,3 +219,70 @@ def test_no_path_of_one_machine_is_in_the_tree():
         if path.is_file() and (content := path.read_bytes()) and b"\0" not in content
         if (found := own.search(content))
     )
+
+
+STATE = re.compile(r"(?:\b|\.)(?:m|machine)$")
+
+
+def assigned(node):
+    """Yield what statements below a node assign to, part by part."""
+    for each in ast.walk(node):
+        if isinstance(each, ast.Assign):
+            targets = each.targets
+        elif isinstance(each, ast.AugAssign | ast.AnnAssign):
+            targets = [each.target]
+        else:
+            continue
+        for target in targets:
+            yield from (part for part in ast.walk(target) if isinstance(part, ast.Attribute | ast.Subscript))
+
+
+def intrusions(file, source):
+    """Yield one sentence for every private attribute of a machine that is assigned, and every memory with text for keys."""
+    tree = ast.parse(source)
+    for target in assigned(tree):
+        private = isinstance(target, ast.Attribute) and target.attr.startswith("_")
+        if private and STATE.search(ast.unparse(target.value)) and not file.startswith("machine/"):
+            yield f"mnclab/{file}:{target.lineno} assigns {ast.unparse(target)}, which belongs to the machine."
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Subscript):
+            owner = node.value
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in ("get", "pop"):
+            owner = node.func.value
+        else:
+            continue
+        if ast.unparse(owner).rpartition(".")[2] == "memory":
+            yield f"mnclab/{file}:{node.lineno} keeps {ast.unparse(node)} under a text: it is a field of the control's state."
+
+
+def test_nobody_else_assigns_the_state_of_a_machine():
+    complain(sentence for file in FILES for sentence in intrusions(file, read(file)))
+
+
+@pytest.mark.parametrize(
+    ("file", "source", "reason"),
+    [
+        ("running/bulk.py", "m._state = 1", "belongs to the machine"),
+        ("running/bulk.py", "flow.machine._span, x = 1, 2", "belongs to the machine"),
+        ("running/bulk.py", "self.m._columns[3] += 1", "belongs to the machine"),
+        ("machine/state.py", "m._state = 1", None),
+        ("running/bulk.py", "self._state = form._state = m.state", None),
+        ("controls/mnc/polar.py", "m.memory['pole'] = 1", "under a text"),
+        ("controls/mnc/polar.py", "machine.memory.get('pole')", "under a text"),
+        ("controls/mnc/polar.py", "m.memory.pole = rows['pole']", None),
+    ],
+)
+def test_the_rules_of_state_themselves(file, source, reason):
+    found = list(intrusions(file, source))
+    assert len(found) == (reason is not None)
+    assert reason is None or reason in found[0]
+
+
+def test_docstrings_have_one_dialect():
+    """Single backticks, no roles: nothing renders them here."""
+    foreign = re.compile(r"``|:[a-z]+:`")
+    for file in FILES:
+        for node in ast.walk(ast.parse(read(file))):
+            if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and (text := ast.get_docstring(node)):
+                found = foreign.search(text)
+                assert not found, f"mnclab/{file}: {found[0]} in the docstring of {getattr(node, 'name', 'the file')}"

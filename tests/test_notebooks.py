@@ -28,6 +28,7 @@ def test_notebook_is_a_lesson(path):
     assert headings and headings[-1] == "Exercises", "the last section is headed Exercises"
 
 
+@pytest.mark.deep
 @each_notebook
 def test_notebook_runs(path):
     notebook = nbformat.read(path, as_version=4)

@@ -18,6 +18,7 @@ from mnclab.path.listing import figure, point
 from mnclab.path.points import points
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
+from mnclab.text.records import shapes
 from mnclab.text.tables import html_table
 
 Array = NDArray[np.float64]
@@ -34,6 +35,9 @@ class Traces:
     places: Array
     row: NDArray[np.int64]
     nearest: Array
+
+    def __repr__(self) -> str:
+        return shapes(self)
 
     @property
     def distance(self) -> Array:

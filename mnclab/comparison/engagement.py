@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
+from mnclab.text.records import shapes
 
 FINE = 16  # discs to a tool radius
 BLOCK = 500
@@ -38,6 +39,9 @@ class Engagement(NamedTuple):
     width: Floats
     step: Floats
     move: NDArray[np.intp]
+
+    def __repr__(self) -> str:
+        return shapes(self)
 
     def mean(self) -> float:
         """The mean angle along the way."""

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from mnclab.comparison.engagement import Engagement, engagement
-from mnclab.comparison.table import Table
+from mnclab.comparison.table import Table, told
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
@@ -32,6 +32,8 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, choice, faults_as_alarms, shown
 from mnclab.text.progress import progress
 
 if TYPE_CHECKING:
@@ -75,6 +77,9 @@ class Trial:
     allowance: float
     limits: Limits | None
     rapid_rate: float
+
+    def __repr__(self) -> str:
+        return told(self.row, COLUMNS)
 
     @property
     def entries(self) -> np.ndarray:
@@ -153,6 +158,7 @@ class Comparison(Table[Trial]):
         return plot_strategies(self, **options)
 
 
+@faults_as_alarms()
 def compare(
     region: Region, tool: Tool | float, strategies: Strategies = tuple(STRATEGIES), *, overlap: float = 0.5,
     stepover: float | None = None, allowance: float = 0.0, depth: float = 1.0, feed: float = 500.0,
@@ -164,12 +170,15 @@ def compare(
     `strategies` are names of `STRATEGIES`, or a mapping from names to a strategy, a `Clearing`, or a function of
     region, tool radius and stepover. `overlap` is the share of the tool diameter that two passes have in common;
     `stepover` says it in mm instead. `limit` is the engagement in degrees above which the share is counted. With axis
-    `limits` the time comes from the feed-rate profile. Raises ValueError where the tool does not fit.
+    `limits` the time comes from the feed-rate profile. An Alarm where the tool does not fit.
     """
-    radius = tool.effective_radius if isinstance(tool, Tool) else float(tool)
+    _check(region, strategies, limits)
+    radius = tool.effective_radius if isinstance(tool, Tool) else tool
+    check_number(radius, "the tool (its radius, mm, or a Tool)", above=0)
     if stepover is None:
-        if not 0 <= overlap < 1:
-            raise ValueError(f"the overlap must lie from 0 to below 1, got {overlap:g}")
+        check_number(overlap, "the overlap (of two passes, a share of the tool diameter)", at_least=0)
+        if not overlap < 1:
+            raise Alarm(f"the overlap must be below 1, the whole tool diameter, got {overlap:g}")
         stepover = 2 * radius * (1 - overlap)
     named = strategies if isinstance(strategies, Mapping) else {name: name for name in strategies}
     trials = []
@@ -190,6 +199,22 @@ def compare(
             )
             done(len(trials))
     return Comparison(tuple(trials))
+
+
+def _check(region: Region, strategies: Strategies, limits: Limits | None) -> None:
+    """An Alarm for what is no area, no strategies or no limits."""
+    if not isinstance(region, Region):
+        example = "mnclab.area.Region.of(mnclab.area.rectangle(60, 40))"
+        raise Alarm(f"strategies are compared on a Region, got {shown(region)}", hint=example)
+    named = strategies.values() if isinstance(strategies, Mapping) else strategies
+    if isinstance(strategies, str) or not isinstance(named, Iterable):
+        example = f'["rings", "spiral"], or a dict of names; known: {", ".join(STRATEGIES)}'
+        raise Alarm(f"strategies must be a list of names, got {shown(strategies)}", hint=example)
+    for how in named:
+        if not isinstance(how, Clearing) and not callable(how):
+            choice(how, "a strategy", STRATEGIES)
+    if not isinstance(limits, Limits | None):
+        raise Alarm(f"limits must be Limits, got {shown(limits)}", hint="mnclab.Limits(acceleration=1000)")
 
 
 def level_moves(clearing: Clearing, entry: Entry, depth: float, climb: bool) -> tuple[list[Contour], list[bool]]:

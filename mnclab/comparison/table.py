@@ -22,6 +22,12 @@ class Row(Protocol):
         """The values of the columns."""
 
 
+def told(row: dict[str, Any], titles: dict[str, tuple[str, str]]) -> str:
+    """One row as a page: a title and its value a line."""
+    wide = max(len(title) for title, _ in titles.values())
+    return "\n".join(f"{title:{wide}}  {form.format(row[name])}" for name, (title, form) in titles.items())
+
+
 Kind = TypeVar("Kind", bound=Row)
 
 

@@ -29,7 +29,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mnclab.comparison.table import Table
+from mnclab.comparison.table import Table, told
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import CHORD_ERROR, broad, outlined, swept, under
@@ -43,6 +43,8 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, choice, faults_as_alarms, shown
 
 if TYPE_CHECKING:
     from mnclab.show.plot.picture import Picture
@@ -84,6 +86,9 @@ class TurningTrial:
     path: Toolpath
     limits: Limits | None
     rapid_rate: float
+
+    def __repr__(self) -> str:
+        return told(self.row, COLUMNS)
 
     @cached_property
     def reached(self) -> Contour:
@@ -197,6 +202,7 @@ class TurningComparison(Table[TurningTrial]):
         return plot_schemes(self, **options)
 
 
+@faults_as_alarms()
 def compare(
     profile: Contour, blank: float, tool: Tool | tuple[Tool, ...] = TURNER, schemes: Schemes | None = None, *, depth: float = 2.0,
     step: float | None = None, feed: float = 0.3, feeds: Mapping[str, float] | None = None, spindle: float = 800.0,
@@ -212,21 +218,25 @@ def compare(
     the time comes from the feed-rate profile.
     """
     tools = tool if isinstance(tool, tuple) else (tool,)
+    if not isinstance(profile, Contour):
+        example = "mnclab.area.Contour([(0, 20), (-40, 20), (-50, 30)], closed=False): points (z, r) from the face on"
+        raise Alarm(f"schemes are compared on a Contour, got {shown(profile)}", hint=example)
+    if not all(isinstance(each, Tool) for each in tools):
+        raise Alarm(f"the tool must be a Tool, got {shown(tool)}", hint='mnclab.Tool(kind="turning", main_angle=95)')
+    check_number(blank, "the radius of the blank (mm)", above=0)
     contour = checked(profile)
     by_role = {role: feed for role in ROLES} | {PLUNGE: feed / 2} | dict(feeds or {})
     if unknown := set(by_role) - set(ROLES):
-        raise ValueError(f"there is no role {min(unknown)!r}; known: {', '.join(ROLES)}")
+        raise Alarm(f"there is no role {min(unknown)!r}; known: {', '.join(ROLES)}")
     rates = {"spindle speed": spindle, "rapid rate": rapid} | {f"feed of {k}": v for k, v in by_role.items()}
     for name, value in rates.items():
-        if not value > 0:
-            raise ValueError(f"the {name} must be greater than 0, got {value:g}")
+        check_number(value, f"the {name}", above=0)
     wanted = SUITED[zone_of(contour, blank)] if schemes is None else schemes
     named = wanted if isinstance(wanted, Mapping) else {name: name for name in wanted}
     trials = []
     for name, how in named.items():
         if isinstance(how, str):
-            if how not in SCHEMES:
-                raise ValueError(f"there is no scheme {how!r}; known: {', '.join(SCHEMES)}")
+            choice(how, "a scheme", SCHEMES)
             along = (tools[0].width or depth) if step is None else step
             plan = SCHEMES[how](contour, blank, along if how == "descent" else depth, tools[0], lift=lift, front=front)
         else:

@@ -98,6 +98,9 @@ class FrameChain:
     def __iter__(self) -> Iterator[tuple[str, Matrix]]:
         return iter(self._frames.items())
 
+    def __repr__(self) -> str:
+        return f"<FrameChain: {', '.join(name for name in self._frames if name in self) or 'no frame is active'}>"
+
     def set(self, name: str, matrix: Matrix | None) -> None:
         """Put a frame in its slot; None takes it away."""
         if matrix is not None:

@@ -42,6 +42,9 @@ class Region:
 
     loops: tuple[Contour, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<Region: {len(self.loops)} loop{'s' * (len(self.loops) != 1)}, {self.area:.3f} mm²>"
+
     @classmethod
     def of(cls, *outer: Contour, holes: Iterable[Contour] = ()) -> Region:
         """The union of what the outer contours enclose, less what the holes enclose; their sense is free.

@@ -7,10 +7,10 @@ in its block; the interpreter hands out the words and refuses those that nobody 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from mnclab.machine.settings import Setting, settings_html, with_every
 from mnclab.text.notation import Notation
@@ -25,6 +25,17 @@ if TYPE_CHECKING:
 Obey = Callable[["Machine", "Words"], None]
 AnyObey = TypeVar("AnyObey", bound=Callable[..., None])
 Reader = Callable[[str, str], Program]
+Remark = tuple[int, str, str]  # the word that it is about, a sentence, a hint
+
+
+class Modal(NamedTuple):
+    """What the handing out of the words of a block depends on besides the block: the modal motion and the modal call of
+    a cycle, whether there is a pole, and the cycle that runs at every position."""
+
+    motion: str | None
+    call: str | None
+    polar: bool
+    active: type[Cycle] | None
 
 
 class Words(dict[str, Word]):
@@ -70,6 +81,9 @@ class Function:
     collects: bool = False
     source: str = ""
     doc: str = ""
+
+    def __repr__(self) -> str:
+        return f"<Function {self.code}: {self.title}>"
 
 
 class FunctionTable(dict[str, Function]):
@@ -133,7 +147,7 @@ class Control:
     itself (F, S, T), which a control of keywords does not want, where C is a statement and an axis. `motion` is the
     group whose modal function runs when axis words are left over. `storage` says where cycle parameters live until
     the call ("instance" or "variables"). `together` raises alarms for a keyword and words that may
-    not stand in one block; it is asked once for each kind of block.
+    not stand in one block, and gives remarks about them; it is asked once for each kind of block.
     `refused` maps codes that are known but not built, or do not exist, to the sentence that says so. `one_command`:
     a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
     `meanings` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
@@ -177,12 +191,12 @@ class Control:
     told: Callable[[Function, Word, int], str] | None = None
     marks: Callable[[Function | type[Cycle], Word, bool], Iterator[tuple[str, str]]] | None = None
     names: Mapping[str, str] = field(default_factory=dict)
-    together: Callable[[Machine, str, list[Word]], None] | None = None
+    together: Callable[[Control, Modal, str, list[Word]], Iterable[Remark] | None] | None = None
     bulk: Any = None
     one_command: bool = False
     named: Callable[[Machine, Word], float | str] | None = None
     predefined: Callable[[Machine, str, Parameter, Word], float | str] | None = None
-    calls_again: Callable[[Machine, str, list[Word]], bool] | None = None
+    calls_again: Callable[[str, list[Word]], bool] | None = None
     lathe: bool = False
     to_turn: str = "write S and M3 before the move"
     preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)

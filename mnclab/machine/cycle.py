@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 from mnclab.machine import true_size
 from mnclab.machining.depths import TooMany
 from mnclab.text.program import Word
+from mnclab.text.records import written
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -59,6 +60,9 @@ class Parameter:
     """Whether it is a variable of the program (Q200), not an address (X)."""
     in_units: bool = field(init=False)
     """Whether it is such a variable, of a length or feed in the unit of the program."""
+
+    def __repr__(self) -> str:
+        return written(self)
 
     def __post_init__(self) -> None:
         variable = self.address[0] == "Q" and self.address[1:].isdigit() and self.type != "text"
@@ -242,6 +246,9 @@ class Definition:
     head: Word | None
     extra: dict[str, Any] = field(default_factory=dict)
     program: int = 0  # which of Run.programs the words stand in
+
+    def __repr__(self) -> str:
+        return f"<Definition {' '.join([self.code, *map(str, self.words.values())])}>"
 
 
 def too_many(name: str, levels: Callable[[], object]) -> Iterator[tuple[str, str]]:

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 from mnclab.text.nearest import hint, nearest
+from mnclab.text.records import written
 from mnclab.text.tables import html_table, text_table
 
 
@@ -32,6 +33,9 @@ class Setting(NamedTuple):
     unit: str = ""
     at_least: float | None = None
     at_most: float | None = None
+
+    def __repr__(self) -> str:
+        return written(self)
 
     @property
     def allowed(self) -> str:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple, NoReturn
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, shown
+from mnclab.text.records import written
 from mnclab.workpiece.blank import Revolved, blank
 
 
@@ -26,6 +27,9 @@ class _Datum(NamedTuple):
     b: float = 0.0
     c: float = 0.0
     rotation: float = 0.0
+
+    def __repr__(self) -> str:
+        return written(self)
 
 
 class Datum(_Datum):
@@ -45,6 +49,9 @@ class _Probe(NamedTuple):
     reach: float = 10.0  # DIST
     feed: float = 100.0  # F
     rapid: float = float("inf")  # FMAX
+
+    def __repr__(self) -> str:
+        return written(self)
 
 
 class Probe(_Probe):
@@ -75,26 +82,103 @@ MAGAZINE: Mapping[int, Tool] = MappingProxyType({
 })  # fmt: skip
 
 
-#: Tables by row, and by name: what is in them, and how to write one.
-TABLES: Mapping[str, tuple[type, str]] = {
-    "tools": (Tool, "Setup(tools={1: mnclab.Tool(radius=5, length=80)})"),
-    "datums": (Datum, "Setup(datums={1: (100, 50, -200)})"),
-    "presets": (Datum, "Setup(presets={1: (100, 50, -200)})"),
-    "correctors": (Datum, "Setup(correctors={1: (0, 0, 80)})"),
-}
-NAMED: Mapping[str, str] = {
-    "files": 'Setup(files={"SUB.H": pathlib.Path("sub.h")})',
-    "settings": "Setup(settings={…}); mnclab.help('settings', control) lists them",
-    "variables": 'Setup(variables={"QR1": 2.5})',
-}
-NOT_BUILT: Mapping[str, str] = {
-    "kinematics": "the axes of the machine stand square to each other",
-    "true_tools": "the tools are as their table says",
-}
+ROWS = ("tools", "datums", "presets", "correctors")
+NAMED = ("files", "settings", "variables")
+NOT_BUILT = ("kinematics", "true_tools")
 
 
-def _refuse(what: str, must: str, value: Any, example: str) -> NoReturn:
-    raise Alarm(f"{what} {must}, got {shown(value)}", hint=example)
+def _must(good: bool, what: str, be: str, given: Any) -> None:
+    if not good:
+        raise Alarm(f"{what} must be {be}, got {shown(given)}")
+
+
+def _rows(what: str, given: Any) -> None:
+    _must(isinstance(given, Mapping), what, "a dict", given)
+    for row in given:
+        check_number(row, f"a row of {what}", at_least=0)
+
+
+def _tools(what: str, given: Any) -> None:
+    _rows(what, given)
+    for row, tool in given.items():
+        _must(isinstance(tool, Tool), f"{what}[{row}]", "a Tool", tool)
+
+
+def _datums(what: str, given: Any) -> None:
+    _rows(what, given)
+    for row, datum in given.items():
+        few = isinstance(datum, tuple | list) and len(datum) <= len(Datum._fields)
+        _must(few, f"{what}[{row}]", "a Datum or its numbers", datum)
+        Datum(*datum)
+
+
+def _named(what: str, given: Any) -> None:
+    _must(isinstance(given, Mapping) and all(isinstance(key, str) for key in given), what, "a dict with names", given)
+
+
+def _files(what: str, given: Any) -> None:
+    _named(what, given)
+    for name, file in given.items():
+        _must(isinstance(file, str | Path), f"{what}[{name!r}]", "a text or a Path", file)
+
+
+def _variables(what: str, given: Any) -> None:
+    _named(what, given)
+    for name, value in given.items():
+        if not isinstance(value, str):
+            check_number(value, f"{what}[{name!r}]")
+
+
+def _stock(what: str, given: Any) -> None:
+    try:
+        body = None if given is None else blank(given)
+        good = given is None or (body is not None and bool(np.isfinite(body.bounds).all()))
+        good = good and not (isinstance(body, Revolved) and any(radius < 0 for radius, _ in body.profile))
+    except (TypeError, ValueError, OverflowError):  # of numpy, of what is no number
+        good = False
+    _must(good, what, "two corners (x, y, z), or a blank", given)
+
+
+def _part(what: str, given: Any) -> None:
+    if isinstance(given, str) and given == "cut":
+        raise Alarm('Setup(part="cut") is not built yet: give what a probe touches as a part')
+    _must(given is None or callable(given), what, "a part", given)
+
+
+def _probe(what: str, given: Any) -> None:
+    _must(isinstance(given, Probe), what, "a Probe", given)
+
+
+def _limits(what: str, given: Any) -> None:
+    _must(isinstance(given, Limits), what, "a Limits", given)
+
+
+def _not_built(what: str, given: Any) -> None:
+    if given is not None and not (what == "true_tools" and isinstance(given, Mapping) and not given):
+        raise Alarm(f"Setup({what}=…) is not built yet: {MEANT[what][1]}", hint=f"leave {what} out")
+
+
+#: What each part of a setup is: what checks it, and the hint of an alarm about it.
+MEANT: Mapping[str, tuple[Callable[[str, Any], None], str]] = {
+    "tools": (_tools, "a tool is its radius and length in mm, and what else is known of it: "
+                      'Setup(tools={1: mnclab.Tool(radius=4, length=80, kind="drill")})'),
+    "datums": (_datums, "a datum is a zero point in machine coordinates, mm: Setup(datums={1: (100, 50, -200)})"),
+    "presets": (_datums, "a preset is a zero point in machine coordinates, mm: Setup(presets={1: (100, 50, -200)})"),
+    "correctors": (_datums, "a corrector is an offset along the axes, mm: Setup(correctors={1: (0, 0, 80)})"),
+    "stock": (_stock, "the blank is two corners, or mnclab.blank.cylinder(…): Setup(stock=((0, 0, -20), (60, 40, 0)))"),
+    "part": (_part, "a part is what a probe touches: Setup(part=mnclab.part.box((0, 0, -20), (60, 40, 0)))"),
+    "probe": (_probe, "how a touch probe moves: Setup(probe=mnclab.Probe(clearance=2, reach=10, feed=100))"),
+    "limits": (_limits, "what the axes can do: Setup(limits=mnclab.Limits(rapid=10000, acceleration=1000))"),
+    "start": (lambda what, given: check_point(given, what),
+              "where the spindle stands before the program, machine coordinates, mm: Setup(start=(0, 0, 300))"),
+    "files": (_files, "other programs and tables by name, each a text or a path: "
+                      'Setup(files={"SUB.H": pathlib.Path("sub.h")})'),
+    "settings": (_named, "choices of the control, listed by mnclab.help(\"settings\", control): "
+                         'Setup(settings={"block_skip": True})'),
+    "variables": (_variables, 'values that are there before the program: Setup(variables={"QR1": 2.5})'),
+    "kinematics": (_not_built, "the axes of the machine stand square to each other"),
+    "true_tools": (_not_built, "the tools are as their table says"),
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -128,69 +212,43 @@ class Setup:
     source: Any = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        for name, (kind, example) in TABLES.items():
-            table = getattr(self, name)
-            if not isinstance(table, Mapping):
-                _refuse(name, "must be a dict", table, example)
-            for row, value in table.items():
-                check_number(row, f"a row of {name}", at_least=0)
-                if kind is Tool and not isinstance(value, Tool):
-                    _refuse(f"{name}[{row}]", "must be a Tool", value, example)
-                if kind is Datum and not (isinstance(value, tuple | list) and len(value) <= len(Datum._fields)):
-                    _refuse(f"{name}[{row}]", "must be a Datum or its numbers", value, example)
-                if kind is Datum:
-                    Datum(*value)
-            rows = {row: tuple(value) if isinstance(value, list) else value for row, value in table.items()}
-            object.__setattr__(self, name, rows)
-        for name, example in NAMED.items():
-            table = getattr(self, name)
-            if not isinstance(table, Mapping) or not all(isinstance(key, str) for key in table):
-                _refuse(name, "must be a dict with names", table, example)
-            object.__setattr__(self, name, dict(table))
-        for name, file in self.files.items():
-            if not isinstance(file, str | Path):
-                _refuse(f"files[{name!r}]", "must be a text or a Path", file, NAMED["files"])
-        for name, kind in (("probe", Probe), ("limits", Limits)):
-            if not isinstance(getattr(self, name), kind):
-                _refuse(
-                    name, f"must be a {kind.__name__}", getattr(self, name), f"Setup({name}=mnclab.{kind.__name__}(…))"
-                )
-        check_point(self.start, "start")
+        for name, (check, means) in MEANT.items():
+            try:
+                check(name, getattr(self, name))
+            except Alarm as alarm:
+                alarm.hint = alarm.hint or means
+                raise
+        for name in ROWS:
+            rows = getattr(self, name).items()
+            object.__setattr__(self, name, {row: tuple(v) if isinstance(v, list) else v for row, v in rows})
+        for name in NAMED:
+            object.__setattr__(self, name, dict(getattr(self, name)))
         object.__setattr__(self, "start", tuple(map(float, self.start)))
-        self._check_workpiece()
-        for name, says in NOT_BUILT.items():
-            given = getattr(self, name)
-            if given is not None and not (name == "true_tools" and isinstance(given, Mapping) and not given):
-                raise Alarm(f"Setup({name}=…) is not built yet: {says}")
 
-    def _check_workpiece(self) -> None:
-        """An Alarm unless `stock` is a blank and `part` something that a probe can touch."""
-        try:
-            body = None if self.stock is None else blank(self.stock)
-            good = self.stock is None or (body is not None and bool(np.isfinite(body.bounds).all()))
-            good = good and not (isinstance(body, Revolved) and any(radius < 0 for radius, _ in body.profile))
-        except (TypeError, ValueError, OverflowError):  # of numpy, of what is no number
-            good = False
-        if not good:
-            _refuse(
-                "stock", "must be two corners (x, y, z), or a blank", self.stock, "stock=((0, 0, -20), (60, 40, 0))"
-            )
-        if isinstance(self.part, str) and self.part == "cut":
-            raise Alarm('Setup(part="cut") is not built yet: give what a probe touches as a part')
-        if self.part is not None and not callable(self.part):
-            _refuse("part", "must be a part", self.part, "mnclab.workpiece.part has box, cylinder, ball and plane")
+    def __repr__(self) -> str:
+        lines = ["Setup"]
+        for name in MEANT:
+            value = getattr(self, name)
+            if name == "tools" and dict(value) == dict(MAGAZINE):
+                lines.append(f"  tools: the usual ones: {', '.join(tool.name for tool in MAGAZINE.values() if tool.kind)}")
+            elif isinstance(value, Mapping):
+                quoted = shown if name in NAMED else repr
+                lines += [f"  {name}[{key!r}]: {quoted(each)}" for key, each in value.items()]
+            elif value is not None:
+                lines.append(f"  {name}: {value!r}")
+        return "\n".join(lines)
 
     def kept(self) -> Setup:
         """A copy, checked again, whose tables nobody can write to: what a run was made with."""
         found = replace(self, stock=deepcopy(self.stock))
-        for name in (*TABLES, *NAMED):
+        for name in (*ROWS, *NAMED):
             object.__setattr__(found, name, MappingProxyType(getattr(found, name)))
         return found
 
     def __reduce__(self) -> tuple[Any, ...]:
         """For copies and pickles, which take no mapping that is only read."""
         values = {each.name: getattr(self, each.name) for each in fields(self)}
-        tables = {name: dict(values[name]) for name in (*TABLES, *NAMED)}
+        tables = {name: dict(values[name]) for name in (*ROWS, *NAMED)}
         return _again, (values | tables, isinstance(self.tools, MappingProxyType))
 
     def with_radius(self, radius: float) -> Setup:

@@ -105,3 +105,8 @@ class Move(fields("Move", COLUMNS)):  # type: ignore[misc]
     """One row of a toolpath: a value for each of `COLUMNS`, a label as its text, a joint as itself."""
 
     __slots__ = ()
+
+    def __repr__(self) -> str:
+        from mnclab.path.listing import row
+
+        return f"<Move line {' '.join(row(self).split())}>"

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, plain, shown
+from mnclab.text.records import written
 
 PerAxis = float | tuple[float, ...]
 
@@ -54,6 +55,9 @@ class Limits:
     spindle: float = math.inf
     spindle_acceleration: float | None = None
     tool_change: float = 0.0
+
+    def __repr__(self) -> str:
+        return written(self)
 
     def __post_init__(self) -> None:
         for name in ("rapid", "acceleration", "jerk", "spindle", "spindle_acceleration"):

@@ -72,10 +72,11 @@ def _feed(move: Move) -> str:
 
 def listing(path: Toolpath) -> str:
     """Every row of a path as text: line, kind, where to, and the label."""
-    return "\n".join(_row(move) for move in path)
+    return "\n".join(row(move) for move in path)
 
 
-def _row(move: Move) -> str:
+def row(move: Move) -> str:
+    """One row as text."""
     side = {1: " left", -1: " right"}.get(move.side, "") if move.kind in (Kind.LINE, Kind.ARC) else ""
     label = f"  ; {move.label}" if move.label else ""
     return f"{line(move):>4s} {Kind(move.kind).name.lower():7s} {words(move)}{side}{label}"

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 from mnclab.text.nearest import hint
+from mnclab.text.records import written
 
 TEXTS = ("name", "kind")
 KINDS = (
@@ -48,6 +49,9 @@ class Tool:
     main_angle: float = 0.0
     auxiliary_angle: float = 0.0
     width: float = 0.0
+
+    def __repr__(self) -> str:
+        return written(self)
 
     def __post_init__(self) -> None:
         for each in fields(self):

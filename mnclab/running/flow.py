@@ -20,6 +20,7 @@ from mnclab.running.loops import Loop, Loops
 from mnclab.running.recording import record
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.program import Program
+from mnclab.text.records import shapes
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -35,6 +36,9 @@ class Steps(NamedTuple):
 
     block: NDArray[np.int32]
     program: NDArray[np.int16]
+
+    def __repr__(self) -> str:
+        return shapes(self)
 
 
 def course(m: Machine) -> Course:

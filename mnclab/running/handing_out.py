@@ -1,7 +1,8 @@
 """Handing the words of a block out: each function and cycle takes its own, and what is left is an alarm.
 
-A plan depends on the keyword, the addresses, the G and M words of a block, the modal motion and the active cycle; the
-interpreter makes it once for each kind of block. No word is lost by construction: every one is in a plan or in an alarm.
+A plan depends on the keyword, the addresses, the G and M words of a block, and on the few things in `Modal`; the
+interpreter makes it once for each kind of block, and an explanation makes it again from the history. No word is lost by
+construction: every one is in a plan or in an alarm.
 """
 
 from __future__ import annotations
@@ -11,9 +12,9 @@ from dataclasses import replace
 from operator import itemgetter
 from typing import NamedTuple
 
-from mnclab.machine.control import Control, Function
+from mnclab.machine.control import Control, Function, Modal, Remark
 from mnclab.machine.cycle import Cycle
-from mnclab.machine.machine import Machine
+from mnclab.text.alarm import Alarm
 from mnclab.text.nearest import hint
 from mnclab.text.program import Word, digits
 
@@ -38,28 +39,26 @@ class Plan(NamedTuple):
     """What to do with a kind of block, in order, and remarks about it."""
 
     actions: tuple[tuple[Action, Callable[[list[Word]], tuple[Word, ...]]], ...]
-    remarks: tuple[tuple[int, str, str], ...]  # word, sentence, hint
+    remarks: tuple[Remark, ...]
 
 
 class Planner:
-    """Hands the words of one block out."""
+    """Hands the words of one block out; `strange` is what the control remarks about them, also where that is an alarm."""
 
-    def __init__(
-        self, control: Control, machine: Machine, phases: dict[str, int], keyword: str, words: list[Word],
-        active: type[Cycle] | None,
-    ) -> None:  # fmt: skip
-        self.control, self.machine, self.phases, self.words, self.active = control, machine, phases, words, active
-        self.keyword = keyword
+    def __init__(self, control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
+        self.control, self.modal, self.keyword, self.words, self.active = control, modal, keyword, words, modal.active
+        self.phases = {name: k for k, name in enumerate(control.phases)}
         self.owner: list[str] = [""] * len(words)  # who takes a word
         self.actions: list[Action] = []
-        self.remarks: list[tuple[int, str, str]] = []
+        self.strange: list[Remark] = []
+        self.remarks: list[Remark] = []
 
     def alarm(self, message: str, index: int, hint: str = "") -> None:
-        self.machine.alarm(message, self.words[index] if index >= 0 else None, hint)
+        raise Alarm(message, self.words[index].span if index >= 0 else None, hint=hint)
 
     def plan(self) -> Plan:
         if self.control.together:
-            self.control.together(self.machine, self.keyword, self.words)
+            self.strange = [*(self.control.together(self.control, self.modal, self.keyword, self.words) or ())]
         codes = self.codes()
         cycle = next(((c, i) for c, i in codes if c in self.control.cycles), None)
         if cycle:
@@ -105,7 +104,7 @@ class Planner:
         self.refuse_leftovers([f for f, _ in functions])
         self.refuse_repeated()
         order = sorted(self.actions, key=lambda action: action.phase)
-        return Plan(tuple((action, action.pick) for action in order), tuple(self.remarks))
+        return Plan(tuple((action, action.pick) for action in order), (*self.strange, *self.remarks))
 
     def codes(self) -> list[tuple[str, int]]:
         """The codes of a block: its keyword, and its G and M words."""
@@ -223,7 +222,7 @@ class Planner:
 
     def modal_motion(self, functions: list[Function]) -> None:
         """Axis words that are left belong to the modal motion."""
-        code = self.machine.modal.get(self.control.motion)
+        code = self.modal.motion
         function = self.control.functions.get(code) if code else None
         if function is None or self.keyword or any(f.still or f.moves for f in functions):
             return
@@ -235,11 +234,11 @@ class Planner:
     def modal_call(self, functions: list[Function]) -> None:
         """A modal call of a cycle runs it in every block that positions and has no call of its own."""
         again = self.control.calls_again
-        modal = self.control.functions.get(self.machine.modal.get("call", ""))
+        modal = self.control.functions.get(self.modal.call or "")
         own = next((f for f in functions if f.group == "call"), None)
         if again is None or not (modal or (own and own.modal)):
             return
-        if again(self.machine, self.keyword, self.words) and modal and own is None:
+        if again(self.keyword, self.words) and modal and own is None:
             self.hand_out(modal, -1)
 
     def refuse_motion(self, functions: list[Function]) -> None:

@@ -9,12 +9,13 @@ time than obeying them.
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable
 from functools import partial
 from typing import Any
 
 import numpy as np
 
-from mnclab.machine.control import Control, Function, Words
+from mnclab.machine.control import Control, Function, Modal, Remark, Words
 from mnclab.machine.cycle import Cycle, Definition
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
@@ -69,7 +70,6 @@ class Interpreter:
         self.control, self.program = control, program
         self.flow = Course(program, self.obey, self.switch)
         self.machine = machine = Machine(control, setup, self.flow)
-        self.phases = {name: k for k, name in enumerate(control.phases)}
         self.plans: dict[Any, Plan] = {}
         self.window = range(0)
         self.blocks: list[tuple[int, bool, str, list[Word], tuple[Any, ...]]] = []
@@ -122,8 +122,7 @@ class Interpreter:
             raise Stop if index in self.loaded[machine.program].told else Alarm(UNTOLD, self.flow.span_of_block(index))
         before = machine.programmed
         plan = self.plan_for(keyword, kinds, words)
-        for which, sentence, hint in plan.remarks:
-            machine.warn(sentence, words[which], hint)
+        self.remark(plan.remarks, words)
         for (_, what, code, head, _), pick in plan.actions:
             if machine.pending and not (isinstance(what, Function) and what.collects):
                 determine(machine)
@@ -177,12 +176,21 @@ class Interpreter:
         """The plan for this kind of block, made when it is first met."""
         machine = self.machine
         active = machine.position_cycle.cycle if machine.position_cycle else None
-        calling = machine.modal.get("call")
-        key = (keyword, kinds, machine.modal.get(self.control.motion), active, machine.pole is None, calling)
-        plan = self.plans.get(key)
+        modal = machine.modal.get(self.control.motion), machine.modal.get("call"), machine.pole is not None, active
+        plan = self.plans.get((keyword, kinds, modal))
         if plan is None:
-            plan = self.plans[key] = Planner(self.control, machine, self.phases, keyword, words, active).plan()
+            planner = Planner(self.control, Modal._make(modal), keyword, words)
+            try:
+                plan = self.plans[keyword, kinds, modal] = planner.plan()
+            except Alarm as alarm:
+                self.remark(planner.strange, words)
+                machine.alarm(alarm.message, alarm.span, alarm.hint)  # at its place in the running program
         return plan
+
+    def remark(self, remarks: Iterable[Remark], words: list[Word]) -> None:
+        """Say what is doubtful about the words of a block."""
+        for which, sentence, hint in remarks:
+            self.machine.warn(sentence, words[which], hint)
 
     # --- cycles --------------------------------------------------------------------------------------------------------
 

@@ -49,7 +49,9 @@ def run_cycle(m: Machine, definition: Definition, **instead: float) -> None:
     """
     definition = as_it_stands(m, definition)
     label, m.label = m.label, f"{definition.cycle.code} {definition.cycle.title}"
-    plane = {"plane": "XY"} if definition.cycle.does == MILLS and m.plane != "XY" else {}  # m.radius and m.scale count there
+    plane = (
+        {"plane": "XY"} if definition.cycle.does == MILLS and m.plane != "XY" else {}
+    )  # m.radius and m.scale count there
     try:
         with m.within(**plane):
             bound = bind(definition, m)
@@ -94,7 +96,7 @@ def carry_out(m: Machine, name: str, step: Step, place: Place) -> Any:
             m.line(*to, f=step.feed)
         case Along():
             with m.within(plane="XY"):
-                follow(m, step.contour, step.feed, step.heights, about=place)
+                follow(m, step.contour, step.feed, step.heights, about=(x + step.at[0], y + step.at[1]))
         case Wait():
             m.dwell(step.seconds)
         case Thread():

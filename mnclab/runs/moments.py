@@ -26,7 +26,8 @@ from mnclab.runs.conditions import Condition, Node, parse
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
-    from mnclab.runs.run import Moment, Run
+    from mnclab.runs.moment import Moment
+    from mnclab.runs.run import Run
 
 LOOKS = 16
 HALVINGS = 60

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from html import escape
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,11 +31,12 @@ from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import still_spindle
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
+from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
 from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, several
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
-from mnclab.text.program import Block, Program
+from mnclab.text.program import Program
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
@@ -48,24 +49,7 @@ if TYPE_CHECKING:
     from mnclab.show.player import Player
 
 
-class Moment(NamedTuple):
-    """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
-    the block changed; `rows` are the rows of the toolpath that it made.
-
-    A moment inside a block (`Run.when`) has the row of the toolpath, the share of it (0 to 1) that was done, and
-    the tool tip there, mm; -1 for a row where the block moved nothing.
-    """
-
-    step: int
-    line: int
-    block: Block
-    position: tuple[float, float, float]
-    state: dict[str, Any]
-    changed: dict[str, Any]
-    rows: slice
-    row: int = -1
-    share: float = 1.0
-    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
 
 
 class Run:
@@ -182,7 +166,7 @@ class Run:
         `runs.moments`, and `.exact` of the result.
         """
         if not isinstance(condition, str):
-            raise TypeError(f'a condition is a text such as "z < -5", got {type(condition).__name__}')
+            raise Alarm(f"a condition is a text, got {shown(condition)}", hint='run.when("z < -5")')
         return when(self, condition)
 
     def explain(
@@ -217,7 +201,7 @@ class Run:
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""
         if not isinstance(setup, Setup):
-            raise TypeError(f"setup must be a Setup, got {type(setup).__name__}")
+            raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
         return run_program(self.program, self.control, setup)
 
     # --- doors -------------------------------------------------------------------------------------------------------
@@ -352,7 +336,7 @@ def collector_paused() -> Iterator[None]:
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
     """Run a program that was read; with `strict` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
-        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
+        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
     setup = (Setup() if setup is None else setup).kept()  # somebody may have written into its tables, and may again
     interpreter = Interpreter(control, setup, program)
     machine, alarms = interpreter.machine, interpreter.alarms

@@ -16,6 +16,7 @@ import numpy as np
 
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.given import choice
 
 MARGIN = 2.0  # mm
 VIEWS = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2), "ZX": (2, 0)}
@@ -34,9 +35,8 @@ def write_true_size(run: Any, path: Path, view: str = "auto") -> None:
 
 def lines(path: Toolpath, view: str = "auto", title: str = "tool path") -> Iterator[str]:
     """The lines of the file: one path element for each run of moves of a class."""
-    view = ("ZX" if path.lathe else "XY") if view == "auto" else view.upper()
-    if view not in VIEWS:
-        raise ValueError(f"view must be auto or one of {', '.join(VIEWS)}, got {view!r}")
+    view = choice(view, "view", ("auto", *VIEWS))
+    view = ("ZX" if path.lathe else "XY") if view == "auto" else view
     right, up = VIEWS[view]
     low, high = np.nan_to_num(path.bounds)
     width, height = (float(high[k] - low[k]) + 2 * MARGIN for k in (right, up))

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager
 from numbers import Real
 from reprlib import Repr
 from typing import Any
 
 from mnclab.text.alarm import Alarm
+from mnclab.text.nearest import hint
 
 _QUOTED = Repr()
 _QUOTED.maxstring = _QUOTED.maxother = 60
@@ -46,6 +48,25 @@ def whole(value: Any, what: str) -> int:
     if value != int(value):
         raise Alarm(f"{what} must be a whole number, got {shown(value)}")
     return int(value)
+
+
+def choice(value: Any, what: str, known: Collection[str]) -> str:
+    """The one of some names that is meant, in any case of letters; an Alarm names them all."""
+    found = {name.lower(): name for name in known}
+    if isinstance(value, str) and value.lower() in found:
+        return found[value.lower()]
+    *others, last = known
+    near = hint(value[:40], known, 1) if isinstance(value, str) else ""
+    raise Alarm(f"{what} must be {', '.join(others)} or {last}, got {shown(value)}", hint=near)
+
+
+@contextmanager
+def faults_as_alarms() -> Iterator[None]:
+    """What a function of numbers refuses by a ValueError is an Alarm to whoever called it through a door."""
+    try:
+        yield
+    except ValueError as error:
+        raise Alarm(str(error)) from None
 
 
 def plain(value: Any) -> Any:

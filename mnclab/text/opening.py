@@ -40,7 +40,9 @@ class Shelf(ModuleType):
     def __repr__(self) -> str:
         wide = max(map(len, self.__all__))
         says = {name: _said(getattr(self, name)) for name in self.__all__}
-        return "\n".join([f"{self.__name__}: {self.__doc__}", *(f"    {n:{wide}}  {s}".rstrip() for n, s in says.items())])
+        return "\n".join(
+            [f"{self.__name__}: {self.__doc__}", *(f"    {n:{wide}}  {s}".rstrip() for n, s in says.items())]
+        )
 
 
 def _said(found: Any) -> str:

@@ -76,6 +76,9 @@ class Word(NamedTuple):
         before, after = ("I" if self.incremental else "", "") if not self.flag & AT_MARK else ("", "@")
         return f"{before}{self.address}{equals}{'' if shown is None else shown}{after}"
 
+    def __repr__(self) -> str:
+        return f"<Word {self}, line {self.span.line}, column {self.span.column}>"
+
 
 @dataclass(frozen=True)
 class Block:
@@ -91,6 +94,9 @@ class Block:
     def __str__(self) -> str:
         head = " ".join(part for part in ("/" * self.skip + self.number, self.keyword) if part)
         return " ".join([head, *map(str, self.words)]).strip()
+
+    def __repr__(self) -> str:
+        return f"<Block {self}, line {self.span.line}>"
 
 
 @dataclass(frozen=True, eq=False)

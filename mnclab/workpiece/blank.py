@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.text.records import written
+
 CORNERS = 96  # of a circle in a picture
 Array = NDArray[np.float64]
 
@@ -19,6 +21,9 @@ class Box(NamedTuple):
 
     low: tuple[float, ...]
     high: tuple[float, ...]
+
+    def __repr__(self) -> str:
+        return written(self)
 
     def moved(self, by: ArrayLike) -> Box:
         """The same box moved by a vector (3,), mm."""
@@ -55,6 +60,9 @@ class Revolved(NamedTuple):
     axis: str = "Z"
     at: tuple[float, ...] = (0.0, 0.0, 0.0)
     bore: float = 0.0
+
+    def __repr__(self) -> str:
+        return written(self)
 
     @property
     def along(self) -> int:

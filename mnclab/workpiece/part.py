@@ -28,22 +28,26 @@ AT_ONCE = 200  # places looked at in one go
 
 @dataclass(frozen=True)
 class Part:
-    """Material, given by its signed distance."""
+    """Material, given by its signed distance; `name` says what it is."""
 
     distance: Callable[[Floats], Floats]
+    name: str = "part"
+
+    def __repr__(self) -> str:
+        return f"<Part: {self.name}>"
 
     def __call__(self, points: ArrayLike) -> Floats:
         """Signed distance of each of the points `(n, 3)` from the surface, `(n,)`."""
         return self.distance(np.asarray(points, dtype=float).reshape(-1, 3))
 
     def __or__(self, other: Part) -> Part:
-        return Part(partial(_either, self, other))
+        return Part(partial(_either, self, other), f"({self.name} | {other.name})")
 
     def __and__(self, other: Part) -> Part:
-        return Part(partial(_both, self, other))
+        return Part(partial(_both, self, other), f"({self.name} & {other.name})")
 
     def __sub__(self, other: Part) -> Part:
-        return Part(partial(_less, self, other))
+        return Part(partial(_less, self, other), f"({self.name} - {other.name})")
 
     def placed(self, frame: ArrayLike) -> Part:
         """The same part put elsewhere by a 4×4 frame that turns and shifts."""
@@ -51,7 +55,7 @@ class Part:
         turn, shift = matrix[:3, :3], matrix[:3, 3]
         if not np.allclose(turn @ turn.T, np.eye(3), rtol=0, atol=1e-9):
             raise ValueError("a part is placed by turning and shifting alone, not by scaling")
-        return Part(partial(_placed, self, turn, shift))
+        return Part(partial(_placed, self, turn, shift), f"{self.name} placed elsewhere")
 
 
 # Distances of points p (n, 3); functions of the file, so that a part can go from one process to another.
@@ -94,26 +98,26 @@ def _cylinder(along: Floats, middle: Floats, half: float, radius: float, p: Floa
 def plane(point: ArrayLike, normal: ArrayLike) -> Part:
     """Half of space, bounded by the plane through `point`; the normal points away from the material."""
     through, out = np.asarray(point, dtype=float), _unit(normal, "the normal of a plane")
-    return Part(partial(_plane, through, out))
+    return Part(partial(_plane, through, out), "plane")
 
 
 def box(corner: ArrayLike, opposite: ArrayLike) -> Part:
     """A cuboid along the axes, from one corner to the opposite one."""
     a, b = np.asarray(corner, dtype=float), np.asarray(opposite, dtype=float)
-    return Part(partial(_box, (a + b) / 2, np.abs(b - a) / 2))
+    return Part(partial(_box, (a + b) / 2, np.abs(b - a) / 2), "box")
 
 
 def ball(centre: ArrayLike, radius: float) -> Part:
     """A ball."""
     middle = np.asarray(centre, dtype=float)
-    return Part(partial(_ball, middle, radius))
+    return Part(partial(_ball, middle, radius), "ball")
 
 
 def cylinder(bottom: ArrayLike, top: ArrayLike, radius: float) -> Part:
     """A round bar between the centres of its two faces."""
     a, b = np.asarray(bottom, dtype=float), np.asarray(top, dtype=float)
     along, middle, half = _unit(b - a, "the axis of a cylinder"), (a + b) / 2, float(np.linalg.norm(b - a)) / 2
-    return Part(partial(_cylinder, along, middle, half, radius))
+    return Part(partial(_cylinder, along, middle, half, radius), "cylinder")
 
 
 def contact(part: Part, start: ArrayLike, direction: ArrayLike, radius: float, reach: float) -> float | None:

@@ -6,6 +6,8 @@ import shapely
 
 from mnclab.path.kinds import Rule
 
+pytestmark = pytest.mark.deep
+
 SHARP = 1e-6  # mm
 
 

@@ -7,9 +7,9 @@ the hollow of a corner turned by t takes R tan(t / 2) of each side, and walls th
 import numpy as np
 import pytest
 import shapely
+from running import run
 
-import mnclab
-from mnclab import Kind, Setup, Tool
+from mnclab import Kind, Tool
 from mnclab.path.toolpath import Toolpath
 
 
@@ -159,15 +159,15 @@ def boss(levels, rings, tool, start=10.0):
 CALLS = {"mnc": "T1\n", "g43": "T1 M6\nD1\n"}
 
 
-def run(control, text, radius):
-    found = mnclab.run(CALLS[control] + text, control, Setup(tools={1: Tool(radius=radius)}))
+def fitted(control, text, radius):
+    found = run(text, control, ok=None, before=CALLS[control], tools={1: Tool(radius=radius)})
     return found.ok, [alarm for alarm in found.alarms if alarm.severity == "alarm"]
 
 
 @pytest.mark.parametrize("control", CALLS)
 @pytest.mark.parametrize("radius", [1.0, 1.55, 2.5])
 def test_a_part_in_rings_and_levels_is_accepted(control, radius):
-    ok, alarms = run(control, "\n".join(boss(4, 5, radius)), radius)
+    ok, alarms = fitted(control, "\n".join(boss(4, 5, radius)), radius)
     assert ok, alarms
 
 
@@ -177,7 +177,7 @@ SQUARE = "G90 G17 G54\nG0 X-20 Y-20 Z5\nG1 Z-2 F100\nG41 X0 Y{0}\nY40\nX40\nY0\n
 @pytest.mark.parametrize("control", CALLS)
 @pytest.mark.parametrize("before, past", [(0, -1), (-1, 0), (-0.5, -0.5), (-1, -1.9), (-6, -6), (-1.9, 0)])
 def test_a_square_run_past_its_start(control, before, past):
-    ok, alarms = run(control, SQUARE.format(before, past), 2)
+    ok, alarms = fitted(control, SQUARE.format(before, past), 2)
     assert ok, alarms
 
 
@@ -185,9 +185,9 @@ def test_a_square_run_past_its_start(control, before, past):
 def test_a_tool_that_arrives_in_a_wall_at_depth_is_refused(control):
     """Inside of the square from its corner: where the tool arrives the last side is 0 mm away. In the air it may."""
     pocket = "G90 G17 G54\nG0 X20 Y-20 Z5\nG1 Z{0} F100\nG42 X0 Y0\nY40\nX40\nY0\nX0\nG40 X-30 Y-10\n"
-    ok, alarms = run(control, pocket.format(-2), 2)
+    ok, alarms = fitted(control, pocket.format(-2), 2)
     assert not ok and "arrives at the contour" in alarms[0].message
-    ok, alarms = run(control, pocket.format(5).replace("Y40\n", "Y40\nZ-2\n"), 2)
+    ok, alarms = fitted(control, pocket.format(5).replace("Y40\n", "Y40\nZ-2\n"), 2)
     assert ok, alarms
 
 
@@ -196,12 +196,12 @@ def test_a_tool_that_arrives_in_a_wall_at_depth_is_refused(control):
 def test_a_narrow_place_counts_only_where_heights_meet(control, heights, fits):
     """Along a wall and back 3 mm beside it with a tool 4 mm wide: at its depth, and retracted."""
     text = "G90 G17 G54\nG0 X-20 Y0 Z5\nG1 Z{0} F100\nG42 X0 Y0\nX40\nX60 Y20\nX80\nZ{1}\nY-30\nX40 Y-3\nX0\nG40 X-40\n"
-    assert run(control, text.format(*heights), 2)[0] is fits
+    assert fitted(control, text.format(*heights), 2)[0] is fits
 
 
 @pytest.mark.parametrize("control", CALLS)
 def test_a_ramp_into_a_narrow_slot_is_refused(control):
     """Down the one side and farther down the other, 3 mm apart: on a ramp the tool works all the way."""
     text = "G90 G17 G54\nG0 X-20 Y0 Z5\nG1 Z0 F100\nG41 X0 Y0\nX40 Z-1\nX50 Y1.5 Z-2\nX40 Y3 Z-3\nX0 Z-4\nG40 X-20\n"
-    ok, alarms = run(control, text, 2)
+    ok, alarms = fitted(control, text, 2)
     assert not ok, alarms

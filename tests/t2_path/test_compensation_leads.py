@@ -7,6 +7,7 @@ import warnings
 
 import numpy as np
 import pytest
+from running import run
 
 import mnclab
 from mnclab import Kind, Setup, Tool
@@ -15,11 +16,11 @@ R = 2.0
 CALLS = {"mnc": "T1", "g43": "T1 M6\nD1"}
 
 
-def run(control, lines):
+def led(control, blocks):
     head = f"G17 G90\n{CALLS[control]}\n"
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        return mnclab.run(head + lines.replace(" / ", "\n") + "\n", control, Setup(tools={1: Tool(radius=R)}))
+        return run(blocks.replace(" / ", "\n"), control, ok=None, before=head, tools={1: Tool(radius=R)})
 
 
 def cutting(found):
@@ -33,7 +34,7 @@ def cutting(found):
 @pytest.mark.parametrize("away", ["Y-40", "X5 Y-40", "X-5 Y-40"])
 def test_off_a_round_boss_straight_back_the_tool_goes_straight(control, away):
     """As LinuxCNC does: G0 X0 Y-40, G41 X0 Y0, the circle, and from (-2, 0) straight to the end of the exit."""
-    found = run(control, f"G0 X0 Y-40 Z-1 / G41 G1 X0 Y0 F200 / G2 X0 Y0 I10 J0 / G40 G1 {away}")
+    found = led(control, f"G0 X0 Y-40 Z-1 / G41 G1 X0 Y0 F200 / G2 X0 Y0 I10 J0 / G40 G1 {away}")
     assert found.ok, found.alarms
     path = cutting(found)
     assert path.kind.tolist() == [Kind.LINE, Kind.ARC, Kind.LINE]
@@ -46,7 +47,7 @@ def test_off_a_round_boss_straight_back_the_tool_goes_straight(control, away):
 def test_onto_a_round_boss_against_its_direction_the_tool_goes_straight(control, x, turned):
     side, way = ("G42", "G3") if turned else ("G41", "G2")
     y = -40 if turned else 40
-    found = run(control, f"G0 X{x} Y{y} Z-1 / {side} G1 X0 Y0 F200 / {way} X0 Y0 I10 J0 / G40 G1 Y{-2 * y}")
+    found = led(control, f"G0 X{x} Y{y} Z-1 / {side} G1 X0 Y0 F200 / {way} X0 Y0 I10 J0 / G40 G1 Y{-2 * y}")
     assert found.ok, found.alarms
     path = cutting(found)
     assert path.kind[:2].tolist() == [Kind.LINE, Kind.ARC]
@@ -66,7 +67,7 @@ BAD = {
 @pytest.mark.parametrize("control", CALLS)
 @pytest.mark.parametrize("lines", BAD.values(), ids=BAD)
 def test_a_tool_that_rolls_through_the_part_is_refused(control, lines):
-    found = run(control, lines)
+    found = led(control, lines)
     (alarm,) = [alarm for alarm in found.alarms if alarm.severity == "alarm"]
     kind = "onto" if "G42" in lines else "off"
     assert f"rolls {kind} the contour" in alarm.message
@@ -85,7 +86,7 @@ def test_the_tool_rolls_where_it_keeps_clear(control):
         "G0 X0 Y-10 Z-1 / G41 G1 X0 Y0 F200 / Y20 / X20 / Y17.9 / G40 X20 Y40",
         "G0 X0 Y-10 Z-1 / G41 G1 X0 Y0 F200 / Y20 / X20 / Z5 / Y19 / G40 X20 Y40",
     ):
-        found = run(control, lines)
+        found = led(control, lines)
         assert found.ok, found.alarms
         path = cutting(found)
         assert path.kind[-2] == Kind.ARC and path.sweep[-2] == pytest.approx(-np.pi)
@@ -102,7 +103,7 @@ def test_the_tnc_never_rolls_onto_a_contour_or_off_it():
 @pytest.mark.parametrize("control", CALLS)
 def test_two_arcs_that_nothing_is_left_of_make_no_noise(control):
     """A half circle inside and the circle beside it: the tool inside of the one would cut through the other."""
-    found = run(
+    found = led(
         control,
         "G0 X-20 Y-5 Z-1 / G42 G1 X0 Y-5 F200 / Y0 / G2 X10 Y0 I5 J0 / G2 X10 Y0 I5 J0 / G1 Y-5 / G40 X20",
     )

@@ -273,7 +273,7 @@ def test_times_by_line_tool_and_kind():
     assert profile.time_by("tool") == pytest.approx({1: profile.time})
     assert profile.time_by("cause")["acceleration"] == pytest.approx(move - 0.3 + trapezoid(30, 500 / 3, 1000) - 0.18)
     assert profile.at(profile.starts[2] + 0.01).line == 4
-    with pytest.raises(ValueError, match="line, tool, kind or cause"):
+    with pytest.raises(Alarm, match="line, tool, kind or cause"):
         profile.time_by("colour")
 
 

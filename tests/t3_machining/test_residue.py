@@ -34,6 +34,7 @@ def test_a_face_milled_within_it():
     assert within(100, 50, 10, (10, 25, 40), outside=True) == pytest.approx(3 * corner + beside_disc(5, 10, 10) + cusp)
 
 
+@pytest.mark.deep
 @given(
     length=st.floats(3, 200), width=st.floats(3, 120), radius=st.floats(1, 20), factor=st.floats(0.1, 1.999),
     outside=st.booleans(),

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mnclab import Limits, Tool
+from mnclab import Alarm, Limits, Tool
 from mnclab.comparison.strategies import COLUMNS, compare
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -67,9 +67,9 @@ def test_own_functions_and_other_names():
     assert own[0].entries.tolist() == [[0, 0]]
     with pytest.raises(KeyError, match="there are mine"):
         own["rings"]
-    with pytest.raises(ValueError, match="overlap"):
+    with pytest.raises(Alarm, match="overlap"):
         compare(BOX, 5.0, overlap=1.0)
-    with pytest.raises(ValueError, match="does not fit"):
+    with pytest.raises(Alarm, match="does not fit"):
         compare(Region.of(Contour.circle((0, 0), 4)), 5.0)
 
 

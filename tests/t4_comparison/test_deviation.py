@@ -67,7 +67,7 @@ def test_the_picture_marks_the_largest():
     assert picture.alt == "two paths: largest deviation 3 mm at line 2 of the second program"
     ring = next(line for line in picture.axes[0].lines if line.get_label() == "largest deviation")
     assert ring.get_xydata()[0] == pytest.approx((60, 0))
-    with pytest.raises(ValueError, match="view must be"):
+    with pytest.raises(Alarm, match="view must be"):
         mnclab.diff(plain, dented).plot("front")
 
 

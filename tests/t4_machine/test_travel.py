@@ -1,16 +1,18 @@
 """The travel of the machine: a run stops at the block that would leave it, as a limit switch stops it."""
 
+from functools import partial
+
 import pytest
+import running
+from running import lines
 
 import mnclab
-from mnclab import Limits, Setup, Tool
+from mnclab import Limits, Tool
 
 LIMITS = Limits(travel=((-50, 50), (-30, 30), (-100, 0)))
 MILL = {1: Tool(radius=3, length=50)}
 
-
-def run(program, control="mnc", **setup):
-    return mnclab.run(program.replace("|", "\n") + "\n", control, Setup(limits=LIMITS, **{"tools": MILL} | setup))
+run = partial(running.run, ok=None, limits=LIMITS, tools=MILL)
 
 
 @pytest.mark.parametrize(
@@ -26,7 +28,7 @@ def run(program, control="mnc", **setup):
     ],
 )
 def test_a_run_stops_where_the_travel_ends(program, line, told):
-    found = run(program, datums={1: (20, 0, 0)})
+    found = run(lines(program), datums={1: (20, 0, 0)})
     if line is None:
         assert found.ok
         return
@@ -36,19 +38,19 @@ def test_a_run_stops_where_the_travel_ends(program, line, told):
 
 
 def test_history_and_variables_stop_with_the_path():
-    found = run("TOOL CALL 1 Z S1000 F100|L Z-60 R0 FMAX M3|Q1 = 1|L X+60|Q1 = 2|L X+0", "tnc-620")
+    found = run(lines("TOOL CALL 1 Z S1000 F100|L Z-60 R0 FMAX M3|Q1 = 1|L X+60|Q1 = 2|L X+0"), "tnc-620")
     assert found.variables == {"Q1": 1} and found.at(3).position[0] == 0 and found.alarms[-1].span.line == 4
 
 
 def test_repeated_blocks_stop_at_the_pass_that_leaves():
     text = "TOOL CALL 1 Z S1000 F100|L Z-60 R0 FMAX M3|LBL 1|L IX+20|CALL LBL 1 REP 5|L X+0"
-    found = run(text, "tnc-620")
+    found = run(lines(text), "tnc-620")
     assert found.toolpath.end[-1, 0] == 40 and "X60.000" in found.alarms[-1].message and found.alarms[-1].span.line == 4
 
 
 def test_a_length_that_a_program_selects_counts():
     """G43 takes the length 85: tip at Z-160, the reference at -75; at Z-190 it is at -105."""
-    found = run("T5 M6|G43 G0 Z-160|G0 Z-190", "g43", tools={5: Tool(length=85)})
+    found = run(lines("T5 M6|G43 G0 Z-160|G0 Z-190"), "g43", tools={5: Tool(length=85)})
     assert "Z-105.000" in found.alarms[-1].message and found.alarms[-1].span.line == 3
 
 
@@ -59,5 +61,5 @@ def test_without_a_travel_nothing_ends():
 def test_a_lathe_counts_x_as_radius():
     """NC-31: X8000 is a diameter of 80 mm, radius 40, inside 50; 120 mm is outside."""
     start = {"start": (0, 0, -10), "tools": {}}
-    assert run("S800|M3|F20|X8000 ~ *|Z-200 ~", "nc-31", **start).ok
-    assert "X60.000" in run("S800|M3|F20|X12000 ~ *|Z-200 ~", "nc-31", **start).alarms[-1].message
+    assert run(lines("S800|M3|F20|X8000 ~ *|Z-200 ~"), "nc-31", **start).ok
+    assert "X60.000" in run(lines("S800|M3|F20|X12000 ~ *|Z-200 ~"), "nc-31", **start).alarms[-1].message

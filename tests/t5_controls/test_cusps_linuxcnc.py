@@ -18,6 +18,8 @@ import pytest
 import mnclab
 from mnclab import Kind, Setup, Tool
 
+pytestmark = pytest.mark.deep
+
 FILE = Path(__file__).parents[1] / "authorities" / "cusps.json.gz"
 RECORDS = json.loads(gzip.decompress(FILE.read_bytes()))["records"]
 RADII = sorted({record["radius"] for record in RECORDS})

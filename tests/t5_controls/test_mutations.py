@@ -25,6 +25,8 @@ import pytest
 import mnclab
 from mnclab import Alarm
 
+pytestmark = pytest.mark.deep
+
 TESTS = Path(__file__).resolve().parents[1]
 SAMPLES = TESTS.parent / "data" / "programs"
 CATALOGUE = TESTS / "authorities" / "catalogue"

@@ -6,6 +6,7 @@ changes the path. Cycles begin with the examples of their declaration.
 
 import numpy as np
 import pytest
+from running import run
 
 import mnclab
 from mnclab import Kind
@@ -60,10 +61,8 @@ def control_of(code):
     return "tnc-620" if code.startswith("CYCL DEF") else "jnc-t01" if code in LATHE else "mnc"
 
 
-def run(code, values):
-    found = mnclab.run(trial.program(control_of(code), CYCLES[code], values), control_of(code))
-    assert found.ok, found.alarms
-    return found.toolpath
+def path_of(code, values):
+    return run(trial.program(control_of(code), CYCLES[code], values), control_of(code)).toolpath
 
 
 def beginning(code, name):
@@ -100,8 +99,8 @@ CHANGES = {"s": "dwells", "mm/min": "feeds", "rev/min": "spindle", "deg": "label
 @pytest.mark.parametrize(("code", "parameter"), CASES, ids=lambda case: getattr(case, "name", case))
 def test_a_parameter_changes_what_it_means(code, parameter):
     values = beginning(code, parameter.name)
-    before = seen(run(code, values))
-    after = seen(run(code, values | {parameter.name: another(code, parameter)}))
+    before = seen(path_of(code, values))
+    after = seen(path_of(code, values | {parameter.name: another(code, parameter)}))
     changed = {key for key in before if before[key] != after[key]}
     if (code, parameter.name) in NOTHING:
         assert changed == set()
@@ -133,13 +132,13 @@ def test_left_out_it_is_its_default_or_missing(code, parameter):
         assert found.alarms[0].span[:2] == (4, 1)
     elif parameter.default is not None and (code, parameter.name) not in BESIDE:
         assert found.ok, found.alarms
-        assert seen(found.toolpath) == seen(run(code, values | {parameter.name: parameter.default}))
+        assert seen(found.toolpath) == seen(path_of(code, values | {parameter.name: parameter.default}))
 
 
 def test_every_event_and_every_step_of_a_cycle_is_labelled():
     """The row after each positioning says what is happening, in the name of its cycle."""
     for code in CYCLES:
-        path = run(code, beginning(code, "clearance"))
+        path = path_of(code, beginning(code, "clearance"))
         rows = path[path.line >= 4]
         if rows[0].line != 4:  # the block with M99 positions first; END PGM stops the spindle
             rows = rows[rows.line == rows.line[0]][1:]

@@ -174,6 +174,7 @@ def test_a_pattern_takes_time_in_proportion_to_its_line(written, ways):
             assert seconds(use, line) < MOST, f"{way} of {written[0]} on {line[:5]!r} … {line[-5:]!r}"
 
 
+@pytest.mark.deep
 def test_every_pattern_that_is_put_together_is_tried():
     assert {file for _, pattern, file in written() if pattern is None} <= set(PUT_TOGETHER)
     assert len(USES) > 90

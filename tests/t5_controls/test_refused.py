@@ -47,6 +47,7 @@ def test_the_path_is_kept_up_to_there(file):
     assert kept.toolpath.line.max(initial=0) <= line
 
 
+@pytest.mark.deep
 def test_a_fault_ends_the_program_before_later_blocks():
     """The same programs with a move after the fault end where they ended."""
     for file in (file for file in FILES if file.parent.name == "mnc"):

@@ -5,14 +5,18 @@ leave the same state; only lines and steps differ, since the texts do.
 """
 
 import random
+from functools import partial
 
 import numpy as np
+import pytest
+import running
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab import Setup
 from mnclab.path.columns import COLUMNS
+
+pytestmark = pytest.mark.deep
 
 TEXTUAL = {
     "line",
@@ -105,9 +109,7 @@ def assert_same(repeated, written):
     for name in ("feed", "speed", "turning", "tool", "plane", "tolerance", "rotary", "spindle", "cycle", "per_rev"):
         assert last[0].get(name) == last[1].get(name) or np.isnan(last[0][name]), name
 
-
-def run(text, files=None, control="tnc-620", **chosen):
-    return mnc.run(text, control, Setup(files=files or {}, settings=chosen))
+run = partial(running.run, control="tnc-620", ok=None)
 
 
 def whole(text, tail=SUBPROGRAM):
@@ -133,7 +135,7 @@ def test_subprogram(body, times):
 def test_program_call(body, times):
     called = {"B.H": f"BEGIN PGM B MM\n{body}{SUBPROGRAM.replace('M2', '')}END PGM B MM\n"}
     called["B.H"] = f"BEGIN PGM B MM\n{body}FN 9: IF +0 EQU +0 GOTO LBL 8\n{SUBPROGRAM[3:]}LBL 8\nEND PGM B MM\n"
-    assert_same(run(whole("CALL PGM B.H\n" * times), called), run(whole(copies(body, times))))
+    assert_same(run(whole("CALL PGM B.H\n" * times), files=called), run(whole(copies(body, times))))
 
 
 @given(bodies(), st.integers(2, 4))
@@ -177,7 +179,7 @@ def test_program_as_a_cycle_at_a_pattern(body, which, before):
     before = renamed(before) + "\n"
     repeated = f"{before}{CALLED}PATTERN DEF {PATTERNS[which][0]}\nCYCL CALL PAT FMAX\n"
     written = before + CALLED + "".join(point(x, y, LEVEL[which]) for x, y in POINTS[which])
-    assert_same(run(whole(repeated), as_program(body)), run(whole(written), as_program(body)))
+    assert_same(run(whole(repeated), files=as_program(body)), run(whole(written), files=as_program(body)))
 
 
 @given(bodies(), st.sampled_from(list(PATTERNS)))
@@ -190,7 +192,7 @@ def test_program_as_a_cycle_at_a_point_table(body, which):
     files = as_program(body) | {"T.PNT": table(points)} | {f"T{k}.PNT": table([p]) for k, p in enumerate(points)}
     select = 'SEL PATTERN "{}"\nCYCL CALL PAT FMAX\n'.format
     written = "".join(select(f"T{k}.PNT") for k in range(len(points)))
-    assert_same(run(whole(CALLED + select("T.PNT")), files), run(whole(CALLED + written), files))
+    assert_same(run(whole(CALLED + select("T.PNT")), files=files), run(whole(CALLED + written), files=files))
 
 
 STILL = [c for c in CHANGES if "\nL " not in c and not c.startswith(("L ", "CALL"))]

@@ -138,7 +138,7 @@ def setup(s=1.0, steeper=1.0, peck=1.0):
 RUNS = {}  # paths without a frame are asked for more than once
 
 
-def run(code, text, tools):
+def run_once(code, text, tools):
     control = "mnc" if code in MNC else "tnc-620"
     key = control, text, id(tools)  # a setup lives as long as its cache
     if key not in RUNS:
@@ -235,11 +235,11 @@ cases = pytest.mark.parametrize("case", CASES, ids=idents)
 def test_an_equal_scale_is_larger_lengths_for_the_same_tool(case, s):
     code, more = case
     values, tools = values_of(code, more), setup(s)
-    found = run(code, program(code, values, equal(code, s)), tools)
+    found = run_once(code, program(code, values, equal(code, s)), tools)
     if code in TAPS + TRUE_TO_SIZE:
         return assert_refused(found, code, "under a scale", "keeps its")
     written = program(code, larger(code, values, s), "", s)
-    assert_moved(rows(found), rows(run(code, written, tools)), np.eye(4))
+    assert_moved(rows(found), rows(run_once(code, written, tools)), np.eye(4))
 
 
 FRAMES = [("X", 0), ("XY", 0), ("", 90), ("Y", -90)]
@@ -254,10 +254,10 @@ def test_a_mirror_image_and_a_rotation_move_the_path(case, axes, angle):
         frame, whole, follows = f"{turn(code, angle)}\n{mirror(code, axes) if axes else ''}", second @ first, np.eye(4)
     else:  # what is defined last acts first; the direction off the wall follows the rotation alone (4.5, 4.7)
         frame, whole, follows = (mirror(code, axes) if axes else "") + turn(code, angle), first @ second, second
-    found = run(code, program(code, values, frame), setup())
+    found = run_once(code, program(code, values, frame), setup())
     if code == "CYCL DEF 22" and np.linalg.det(whole) < 0:
         return  # it keeps its sense: see below
-    plain = run(code, program(code, as_the_spindle_has_it(code, values, whole, follows), ""), setup())
+    plain = run_once(code, program(code, as_the_spindle_has_it(code, values, whole, follows), ""), setup())
     assert_moved(rows(found), rows(plain), whole)
 
 
@@ -269,8 +269,8 @@ def test_scale_mirror_and_rotation_together(case):
     values, whole = values_of(code, more), turned(30) @ mirrored("X")
     frame = turn(code, 30) + ("\n" if code in MNC else "") + mirror(code, "X")
     frame += ("\n" if code in MNC else "") + equal(code, 2)
-    found = run(code, program(code, values, frame), setup(2))
-    plain = run(code, program(code, larger(code, values, 2), "", 2), setup(2))
+    found = run_once(code, program(code, values, frame), setup(2))
+    plain = run_once(code, program(code, larger(code, values, 2), "", 2), setup(2))
     assert_moved(rows(found), rows(plain), whole)
 
 
@@ -279,13 +279,13 @@ def test_unequal_scales_of_the_plane_move_holes_and_stop_what_mills(case):
     code, more = case
     values = values_of(code, more)
     for z in (1, 2):
-        found = run(code, program(code, values, scaling(code, 1, 3, z)), setup())
+        found = run_once(code, program(code, values, scaling(code, 1, 3, z)), setup())
         if code in MILLS or more.get("mode") == 1 or more.get("type_of_traverse") == 1:
             assert_refused(found, code, "under unequal scales of the plane")
         elif code in TRUE_TO_SIZE or code in TAPS and z == 2:
             assert_refused(found, code, "under a scale")
         else:
-            plain = rows(run(code, program(code, values, ""), setup(1, z, 1 / z)))
+            plain = rows(run_once(code, program(code, values, ""), setup(1, z, 1 / z)))
             plain = plain.replace(start=fixed_off(plain.start), end=fixed_off(plain.end))
             assert_moved(rows(found), plain, np.diag([1.0, 3, z, 1]))
 
@@ -301,10 +301,10 @@ def test_another_scale_of_z_makes_deeper_what_a_tool_cuts_as_it_can(case):
     """Steps of the depth are longer; edges, point and slopes of the tool are what they are."""
     code, more = case
     values = values_of(code, more)
-    found = run(code, program(code, values, scaling(code, 1, 1, 2)), setup())
+    found = run_once(code, program(code, values, scaling(code, 1, 1, 2)), setup())
     if code in TAPS + TRUE_TO_SIZE:
         return assert_refused(found, code, "under a scale of Z other than 1")
-    plain = run(code, program(code, values, ""), setup(1, 2, 0.5))
+    plain = run_once(code, program(code, values, ""), setup(1, 2, 0.5))
     assert_moved(rows(found), rows(plain), np.diag([1.0, 1, 2, 1]))
 
 
@@ -320,21 +320,21 @@ def test_the_bar_leaves_the_wall_by_the_fixed_0_2_mm_with_its_spindle(factor, an
     for code, way in bored:
         frame = turn(code, angle) + "\n" + (mirror(code, axis) + "\n" if axis else "") + equal(code, factor)
         values = values_of(code, {"disengage": 1})
-        path = rows(run(code, program(code, values, frame), setup()))
+        path = rows(run_once(code, program(code, values, frame), setup()))
         away = next(move for move in path if move.label.endswith("leave the wall"))
         np.testing.assert_allclose((away.end - away.start)[:2], way, atol=1e-12)
 
 
 def test_back_boring_shifts_with_the_spindle_under_a_rotation():
-    path = rows(run("G304", program("G304", values_of("G304", {"disengage": 3}), "G39 A33\nG51 X0"), setup()))
+    path = rows(run_once("G304", program("G304", values_of("G304", {"disengage": 3}), "G39 A33\nG51 X0"), setup()))
     shift = next(move for move in path if move.label.endswith("shift off the axis"))
     np.testing.assert_allclose(shift.end - shift.start, (3.5, 0, 0), atol=1e-12)
 
 
 def test_a_bar_is_not_shifted_where_the_hole_is_tilted():
-    found = run("G302", "T2 S500 M3 F100\nG18 G39 A10\nG302 Q2 H-5 Z0 D1\nX5 M99\n", setup())
+    found = run_once("G302", "T2 S500 M3 F100\nG18 G39 A10\nG302 Q2 H-5 Z0 D1\nX5 M99\n", setup())
     assert_refused(found, "G302", "needs a hole along the spindle")
-    assert run("G302", "T2 S500 M3 F100\nG18 G39 A10\nG302 Q2 H-5 Z0 D0\nX5 M99\n", setup()).ok
+    assert run_once("G302", "T2 S500 M3 F100\nG18 G39 A10\nG302 Q2 H-5 Z0 D0\nX5 M99\n", setup()).ok
 
 
 HOLES = ["G83 X5 Z-9 R2", "G84 X5 Z-9 R2", "G85 X5 Z-9 R2", "G300 Q2 H-9 Z0", "G309 Q2 H-9 Z0 P1.5"]
@@ -343,20 +343,20 @@ HOLES = ["G83 X5 Z-9 R2", "G84 X5 Z-9 R2", "G85 X5 Z-9 R2", "G300 Q2 H-9 Z0", "G
 @pytest.mark.parametrize("cycle", [*HOLES, "G320 X0 Y0 Z0 A50 B10 K3 V150 Q2"])
 def test_no_cycle_works_from_below(cycle):
     text = f"T2 S500 M3 F100\nG0 Z50\nG51 Z0\n{cycle}\n" + ("X5 M99\n" if cycle[:2] == "G3" else "")
-    found = run(cycle.split()[0], text, setup())
+    found = run_once(cycle.split()[0], text, setup())
     assert_refused(found, cycle.split()[0], "cannot run under a mirror image of Z")
 
 
 @pytest.mark.parametrize("frame", ["G37 Z2", "G37 X2 Y2 Z2"])
 def test_a_tap_is_refused_under_another_scale_of_z(frame):
     for cycle, call in (("G84 X5 Z-9 R2 F1.5", "G80"), ("G309 Q2 H-9 Z0 P1.5", "X5 M99")):
-        found = run("G84", f"T2 S500 M3\nG95 {frame}\n{cycle}\n{call}\n", setup())
+        found = run_once("G84", f"T2 S500 M3\nG95 {frame}\n{cycle}\n{call}\n", setup())
         assert_refused(found, cycle.split()[0], "under a scale of Z other than 1", "a thread keeps its pitch")
 
 
 def test_a_tap_under_a_scale_of_the_plane_has_its_pitch():
     for cycle, call in (("G84 X5 Z-9 R2 F1.5", "G80"), ("G309 Q2 H-9 Z0 P1.5", "X5 M99")):
-        path = rows(run("G84", f"T2 S500 M3\nG95 G37 X2 Y3\n{cycle}\n{call}\n", setup()))
+        path = rows(run_once("G84", f"T2 S500 M3\nG95 G37 X2 Y3\n{cycle}\n{call}\n", setup()))
         assert set(path.per_rev[path.synchronous]) == {1.5}
         assert set(path.end[1:, 0]) == {10.0}
 
@@ -367,7 +367,7 @@ def test_a_mirror_image_keeps_the_sense_of_sl_cycles(axes, sense, monkeypatch):
     """8.3: climb milling with M3 goes round the wall of a pocket counter-clockwise on the machine, and its islands clockwise."""
     monkeypatch.setitem(SL, "sense", sense)
     frame = mirror("CYCL DEF 22", axes)
-    path = rows(run("CYCL DEF 22", program("CYCL DEF 22", values_of("CYCL DEF 22", {"swing_feed": 0}), frame), setup()))
+    path = rows(run_once("CYCL DEF 22", program("CYCL DEF 22", values_of("CYCL DEF 22", {"swing_feed": 0}), frame), setup()))
     cut = path[(path.kind == Kind.LINE) & (path.start[:, 2] == path.end[:, 2]) & (path.end[:, 2] == -5)]
     x, y = cut.start[:, 0], cut.start[:, 1]
     outermost = (np.abs(np.abs(x) - 34.5) < 1e-9) | (np.abs(np.abs(y) - 24.5) < 1e-9)  # 40 and 30 less R and Q3
@@ -380,7 +380,7 @@ def test_a_pattern_stops_before_it_moves_to_a_cycle_that_cannot_run():
     pocket = klartext("CYCL DEF 252", values_of("CYCL DEF 252", {}))
     holes = klartext("CYCL DEF 221", values_of("CYCL DEF 221", {}))
     head = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nM3\n" + scaling("CYCL DEF 221", 1, 2, 1)
-    found = run("CYCL DEF 221", head + pocket + holes + "END PGM A MM\n", setup())
+    found = run_once("CYCL DEF 221", head + pocket + holes + "END PGM A MM\n", setup())
     assert_refused(found, "CYCL DEF 221", "cannot run CYCL DEF 252 here", "under unequal scales of the plane")
 
 
@@ -389,7 +389,7 @@ def test_a_call_stops_before_it_moves_to_the_place(call):
     """M99 acts at the end of its block."""
     pocket = "PATTERN DEF POS1 (X+5 Y+5 Z+0)\n" + klartext("CYCL DEF 252", values_of("CYCL DEF 252", {}))
     head = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nM3\n" + scaling("CYCL DEF 252", 1, 2, 1)
-    found = run("CYCL DEF 252", f"{head}{pocket}{call}\nEND PGM A MM\n", setup())
+    found = run_once("CYCL DEF 252", f"{head}{pocket}{call}\nEND PGM A MM\n", setup())
     assert_refused(found, "CYCL DEF 252", "cannot run under unequal scales of the plane")
     assert len(found.toolpath.motion) == ("M99" in call)
 
@@ -397,11 +397,11 @@ def test_a_call_stops_before_it_moves_to_the_place(call):
 def test_a_plane_that_is_not_that_of_the_cycle_does_not_decide():
     """Pockets lie in XY under G18 too (MNC-PREP, chapter 10)."""
     text = "T1 S500 M3\nG0 Z9\n{}\n{}\nG344 Q2 Z0 H-4 P2 D30 K1 V100 F300\n"
-    both = [run("G344", text.format(plane, "G37 X2 Y2"), setup()).toolpath for plane in ("G17", "G18")]
+    both = [run_once("G344", text.format(plane, "G37 X2 Y2"), setup()).toolpath for plane in ("G17", "G18")]
     assert both[0].end.tolist() == both[1].end.tolist()
-    found = run("G344", text.format("G18", "G37 X2 Z2"), setup())
+    found = run_once("G344", text.format("G18", "G37 X2 Z2"), setup())
     assert_refused(found, "G344", "under unequal scales of the plane")
-    centred = [run("G305", f"T2 S500 M3 F100\n{plane}\nG37 X2 Y2\nG305 Q2 Z0 L1 D-3\nM99\n", setup())
+    centred = [run_once("G305", f"T2 S500 M3 F100\n{plane}\nG37 X2 Y2\nG305 Q2 Z0 L1 D-3\nM99\n", setup())
                for plane in ("G17", "G18")]  # fmt: skip
     for one in centred:  # a cone of 118 degrees, 6 wide on the machine
         assert one.toolpath.end[:, 2].min() == pytest.approx(-3 / math.tan(math.radians(59)))
@@ -410,11 +410,11 @@ def test_a_plane_that_is_not_that_of_the_cycle_does_not_decide():
 def test_an_alarm_says_in_which_lengths_the_tool_counts():
     """A bore of 3 under the scale 2 is 6 wide; the tool is 8, and 4 in lengths of the program."""
     for code, small in (("CYCL DEF 208", {"diameter": 3}), ("G306", {"diameter": 3})):
-        found = run(code, program(code, values_of(code, small), equal(code, 2)), setup())
+        found = run_once(code, program(code, values_of(code, small), equal(code, 2)), setup())
         told = "must be at least the tool diameter 4, got 3, in lengths of the program"
         assert_refused(found, code, told, "under the scale 2 the tool diameter 8 counts as 4")
-    plain = run("G306", program("G306", values_of("G306", {"diameter": 3}), "G39 A77"), setup())
+    plain = run_once("G306", program("G306", values_of("G306", {"diameter": 3}), "G39 A77"), setup())
     assert plain.alarms[0].message.endswith("must be at least the tool diameter 8, got 3")
     wide = {"diameter": 30, "predrilled_diameter": 5}
-    warned = run("G306", program("G306", values_of("G306", wide), equal("G306", 2)), setup())
+    warned = run_once("G306", program("G306", values_of("G306", wide), equal("G306", 2)), setup())
     assert warned.alarms[0].message.endswith("under the scale 2 the tool diameter 8 counts as 4")

@@ -13,11 +13,6 @@ from mnclab import Alarm
 PROGRAM = "G90 G54 T1 S1000 M3\nG0 X0.1 Y0 Z5\nG1 Z-2 F100\nG2 X30 Y0.3 R20\nG4 P1.5\nG83 X3 Y4 Z-9 R2 K5\nG80\n"
 
 
-@pytest.fixture(scope="module")
-def run():
-    return mnclab.run(PROGRAM, "mnc")
-
-
 def test_csv_reads_back_with_every_digit(run, tmp_path):
     table = np.genfromtxt(run.save(tmp_path / "a.csv"), delimiter=",", names=True, dtype=None, encoding="utf-8")
     assert len(table) == len(run.toolpath)

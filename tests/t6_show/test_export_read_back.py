@@ -23,15 +23,10 @@ from read_back import blocks_of, same_motion  # noqa: E402
 
 sys.path.pop(0)
 
-SHAPES = (
+PROGRAM = (
     "G90 G54 T1 S1000 M3\nG0 X0.1 Y0 Z5\nG1 Z-2 F100\nG2 X30 Y0.3 R20\nG4 P1.5\nG3 X10 R-20\nG3 I5\n"
     "G18 G2 X40 Z-4 R-17\nG19 G3 Y8 Z-4 R5\nG17 G3 I3 Z-9\n"
 )
-
-
-@pytest.fixture(scope="module")
-def run():
-    return mnclab.run(SHAPES, "mnc")
 
 
 def moves(path, kinds):

@@ -28,11 +28,6 @@ def without(monkeypatch):
     return missing
 
 
-@pytest.fixture
-def run():
-    return mnclab.run(PROGRAM, "mnc")
-
-
 PICTURES = {
     "plot": lambda run, folder: run.plot(),
     "plot of a path": lambda run, folder: run.toolpath.plot(),

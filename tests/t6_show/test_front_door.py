@@ -15,10 +15,7 @@ from mnclab.machine.setup_file import load
 pytest.importorskip("ipywidgets")
 WRONG = [5, None, b"G0 X5\n", 1.5, [1], {}, ("mnc",), object(), True]
 
-
-@pytest.fixture(scope="module")
-def run():
-    return mnclab.run("G0 X5\nG1 X9 F100\n", "mnc")
+PROGRAM = "G0 X5\nG1 X9 F100\n"
 
 
 @pytest.mark.parametrize("wrong", WRONG, ids=lambda value: type(value).__name__)

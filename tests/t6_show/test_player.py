@@ -295,7 +295,7 @@ def test_an_alarm_that_is_told_once_has_all_its_places():
 
 @pytest.mark.parametrize("wrong", [{"theme": "pink"}, {"speed": 0}, {"speed": float("nan")}])
 def test_options_are_checked(wrong):
-    with pytest.raises(ValueError, match=next(iter(wrong))):
+    with pytest.raises(Alarm, match=next(iter(wrong))):
         mnclab.run("G0 X1\n", "mnc").player(**wrong)
 
 

@@ -4,14 +4,16 @@ import itertools
 import subprocess
 import sys
 import warnings
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 from matplotlib.figure import Figure
 
 import mnclab
-from mnclab import Kind, Setup, Tool, Toolpath
+from mnclab import Alarm, Kind, Setup, Tool, Toolpath
 from mnclab.show.plot.path import plot_path
 from mnclab.workpiece.blank import cylinder
 
@@ -44,9 +46,7 @@ G1 X0 Y0 Z1
 WAVES = "G90 G54\n" + "".join(f"G1 X{k} Y{k * k % 11} Z{-(k % 9)} F{100 + 10 * (k % 8)}\n" for k in range(1, 60))
 FIRST = (Path(__file__).parents[2] / "data/programs/mnc/first_path.mnc").read_text("utf-8")
 
-
-def run(text, **setup):
-    return mnclab.run(text, "mnc", Setup(**setup) if setup else None)
+run = partial(running.run, ok=None)
 
 
 def turned():
@@ -258,7 +258,7 @@ def test_a_view_goes_into_axes_of_ones_own():
 
 @pytest.mark.parametrize("options", [{"view": "front"}, {"frame": "some"}])
 def test_unknown_options_are_refused_with_those_known(options):
-    with pytest.raises(ValueError, match="must be auto"):
+    with pytest.raises(Alarm, match="must be auto"):
         run(SQUARE).plot(**options)
 
 

@@ -1,14 +1,16 @@
 """What the colours of a path show, the arrowheads, and the crosses at zero points and poles."""
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 from matplotlib.collections import PathCollection
 from matplotlib.colors import to_rgb
 
 import mnclab
-from mnclab import Kind, Setup, Toolpath
+from mnclab import Alarm, Kind, Toolpath
 from mnclab.show.plot import arrows, classes
 from mnclab.show.plot.path import plot_path
 
@@ -16,9 +18,7 @@ FIRST = (Path(__file__).parents[2] / "data/programs/mnc/first_path.mnc").read_te
 SQUARE = "G90 G54\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX40\nY40\nX0\nY0\nG0 Z5\n"
 FIXED = ("rapid", "probing", "programmed", "start", "end", "plunge", "tool change", "_datum", "_pole")
 
-
-def run(text, **setup):
-    return mnclab.run(text, "mnc", Setup(**setup))
+run = partial(running.run, ok=None)
 
 
 def divided(ax):
@@ -132,7 +132,7 @@ def test_a_move_without_a_feed_is_drawn_and_says_so():
 
 
 def test_an_unknown_colour_is_refused_with_those_known():
-    with pytest.raises(ValueError, match="colour must be one of kind, feed, speed, tool, line, z"):
+    with pytest.raises(Alarm, match="colour must be kind, feed, speed, tool, line or z"):
         run(SQUARE).plot(colour="weight")
 
 

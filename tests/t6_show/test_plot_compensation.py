@@ -23,7 +23,7 @@ STEP = "G90 G54 T1 {plane} F200\nG0 {a}-20 {b}10\nG1 G41 {a}0 {b}10\n{b}40\n{a}3
 PLANES = [("G17", "X", "Y", (0, 1)), ("G18", "Z", "X", (2, 0)), ("G19", "Y", "Z", (1, 2))]
 
 
-def run(text, radius=None, **settings):
+def with_radius(text, radius=None, **settings):
     setup = Setup(settings=settings)
     return mnclab.run(text, "mnc", setup if radius is None else setup.with_radius(radius))
 
@@ -58,7 +58,7 @@ def legend(picture):
 @pytest.mark.parametrize("radius", [0.5, 5.0, 12.0])
 @pytest.mark.parametrize("rule", ["G160", "G161", "G162"])
 def test_offset_vectors_are_as_long_as_the_radius_and_end_on_the_path(rule, radius):
-    (ax,) = run(PLATE, radius, outside_corners=rule).plot_compensation().axes
+    (ax,) = with_radius(PLATE, radius, outside_corners=rule).plot_compensation().axes
     assert ax.get_aspect() == 1
     for name, (feet, vectors) in arrows(ax).items():
         assert name in RULE_NAMES.values()
@@ -72,7 +72,7 @@ def test_offset_vectors_are_as_long_as_the_radius_and_end_on_the_path(rule, radi
 
 
 def test_rows_are_drawn_by_their_rule_and_the_legend_names_them():
-    picture = run(PLATE).plot_compensation()
+    picture = with_radius(PLATE).plot_compensation()
     shown = lines(picture.axes[0])
     length = {name: np.nansum(np.hypot(*np.diff(shown[name].get_xydata(), axis=0).T)) for name in shown}
     edge = 200 + np.sqrt(800)
@@ -88,7 +88,7 @@ def test_rows_are_drawn_by_their_rule_and_the_legend_names_them():
 
 
 def test_the_rules_side_by_side():
-    before = run(PLATE)
+    before = with_radius(PLATE)
     picture = plot.compensation(before, rules=["G160", "G161", "G162"])
     assert [ax.get_title(loc="left").split(",")[0] for ax in picture.axes] == ["G160", "G161", "G162"]
     counts = [{name: len(found[0]) for name, found in arrows(ax).items() if "outside" in name} for ax in picture.axes]
@@ -101,10 +101,10 @@ def test_the_rules_side_by_side():
 
 def test_a_rule_holds_whatever_the_program_says():
     text = PLATE.read_text("utf-8").replace("G41", "G41 G161")
-    as_written, arcs = (run(text, outside_corners=value).toolpath.rule for value in ("programmed", "G160"))
+    as_written, arcs = (with_radius(text, outside_corners=value).toolpath.rule for value in ("programmed", "G160"))
     assert Rule.OUTSIDE_ARC not in as_written and (as_written == Rule.OUTSIDE_STRAIGHT).sum() == 5
     assert Rule.OUTSIDE_STRAIGHT not in arcs and (arcs == Rule.OUTSIDE_ARC).sum() == 5
-    assert (run(PLATE, outside_corners="G161").toolpath.rule == Rule.OUTSIDE_STRAIGHT).sum() == 5
+    assert (with_radius(PLATE, outside_corners="G161").toolpath.rule == Rule.OUTSIDE_STRAIGHT).sum() == 5
 
 
 def test_several_radii_of_one_contour():
@@ -120,7 +120,7 @@ def test_several_radii_of_one_contour():
 
 
 def test_hatches_are_where_the_tool_cuts_too_much_and_nowhere_else():
-    picture = run(SLOT, 5).plot_compensation()  # the slot is 8 wide, so 2 mm are missing, half on either side
+    picture = with_radius(SLOT, 5).plot_compensation()  # the slot is 8 wide, so 2 mm are missing, half on either side
     inside, vertices = hatched(picture.axes[0])
     # the tool centre stays 5 from either wall: at X35 it covers X30 to X40, at X33 X28 to X38, from Y20 to the top
     for y in (20.5, 30, 39.5):
@@ -134,30 +134,30 @@ def test_hatches_are_where_the_tool_cuts_too_much_and_nowhere_else():
 
 def test_where_no_tool_is_small_enough_none_is_asked_for():
     spike = SLOT.replace("X38", "X30.001")  # half of a thousandth would fit
-    (alarm,) = (found for found in run(spike, 5).alarms if found.severity == "alarm")
+    (alarm,) = (found for found in with_radius(spike, 5).alarms if found.severity == "alarm")
     assert "no tool fits here" in alarm.message and "take a smaller tool" not in str(alarm)
-    picture = run(spike, 5).plot_compensation()
+    picture = with_radius(spike, 5).plot_compensation()
     said = picture.axes[0].get_title(loc="left"), picture.texts[-1].get_text()
     assert "no tool fits" in said[0] and "no tool fits here" in said[1] and "0.0005" not in "".join((str(alarm), *said))
 
 
 @pytest.mark.parametrize("radius", [3.99, 1.0])
 def test_nothing_is_hatched_where_the_tool_fits(radius):
-    picture = run(SLOT, radius).plot_compensation()
+    picture = with_radius(SLOT, radius).plot_compensation()
     assert not len(hatched(picture.axes[0])[1]) and "gouge" not in legend(picture)
 
 
 def test_an_inside_arc_that_is_too_small_is_hatched():
     arc = "G90 G54 T1 F200\nG0 X20 Y0\nG1 G41 X40 Y0\nY22\nG3 X32 Y30 R8\nG1 X0\nG40 Y0\n"
-    inside, vertices = hatched(run(arc, 9).plot_compensation().axes[0])
+    inside, vertices = hatched(with_radius(arc, 9).plot_compensation().axes[0])
     # the centre turns in the corner of (31, 21): it reaches X40 and Y30, and beyond the arc in between
     assert inside(32 + 8.05 * np.cos(0.2), 22 + 8.05 * np.sin(0.2)) and len(vertices)
     assert not inside(39, 25) and not inside(20, 25) and not inside(38, 29.9)
-    assert not len(hatched(run(arc, 7.9).plot_compensation().axes[0])[1])
+    assert not len(hatched(with_radius(arc, 7.9).plot_compensation().axes[0])[1])
 
 
 def test_a_refused_run_is_shown_as_if_it_cut():
-    refused = run(KEYHOLE, 5)
+    refused = with_radius(KEYHOLE, 5)
     assert not refused.ok and refused.toolpath.line.max() < 9
     (ax,) = refused.plot_compensation().axes
     assert lines(ax)["programmed"].get_xydata()[:, 0].max() == 80 and len(hatched(ax)[1])
@@ -166,7 +166,7 @@ def test_a_refused_run_is_shown_as_if_it_cut():
 
 @pytest.mark.parametrize(("plane", "a", "b", "axes"), PLANES)
 def test_planes(plane, a, b, axes):
-    found = run(STEP.format(plane=plane, a=a, b=b), 5)
+    found = with_radius(STEP.format(plane=plane, a=a, b=b), 5)
     assert found.ok, found.alarms
     (ax,) = found.plot_compensation().axes
     seen = [number for number in (0, 1, 2) if number in axes]  # G18 is seen with X to the right
@@ -181,14 +181,14 @@ def test_planes(plane, a, b, axes):
 @pytest.mark.parametrize(("plane", "a", "b", "axes"), PLANES)
 def test_hatches_in_planes(plane, a, b, axes):
     turned = SLOT.replace("G54", f"G54 {plane}").translate(str.maketrans("XY", a + b))
-    inside, _ = hatched(run(turned, 5).plot_compensation().axes[0])
+    inside, _ = hatched(with_radius(turned, 5).plot_compensation().axes[0])
     order = 1 if axes[0] < axes[1] else -1
     assert inside(*(29, 30)[::order]) and inside(*(39, 30)[::order]) and not inside(*(34, 30)[::order])
 
 
 def test_a_mirrored_program_is_the_mirror_image():
     text = SLOT.replace("G0 X-20", "{}G0 X-20", 1)
-    plain, mirrored = (run(text.format(block), 5).plot_compensation().axes[0] for block in ("", "G51 X50\n"))
+    plain, mirrored = (with_radius(text.format(block), 5).plot_compensation().axes[0] for block in ("", "G51 X50\n"))
     for name, (feet, vectors) in arrows(plain).items():
         other = arrows(mirrored)[name]
         assert other[0] == pytest.approx(feet * [-1, 1] + [100, 0]) and other[1] == pytest.approx(vectors * [-1, 1])
@@ -198,7 +198,7 @@ def test_a_mirrored_program_is_the_mirror_image():
 
 def test_discs_have_the_radius_of_the_tool_and_stand_where_asked():
     def discs(choice):
-        (ax,) = run(PLATE, 5).plot_compensation(discs=choice).axes
+        (ax,) = with_radius(PLATE, 5).plot_compensation(discs=choice).axes
         (found,) = (one for one in ax.collections if isinstance(one, EllipseCollection))
         assert set(found.get_widths().tolist()) == {10}
         return found.get_offsets().round(9).tolist()
@@ -206,13 +206,13 @@ def test_discs_have_the_radius_of_the_tool_and_stand_where_asked():
     assert discs([9]) == [[40, 40], [40, 25]]  # the arc before line 9 and line 9 itself
     assert [-20, 20] in discs(True) and len(discs(True)) == 14
     assert discs(20.0)[:2] == [[-20, 20], [-5, 25]]  # 15 mm along the entry and 5 more
-    (ax,) = run(PLATE, 5).plot_compensation().axes
+    (ax,) = with_radius(PLATE, 5).plot_compensation().axes
     assert not any(isinstance(one, EllipseCollection) for one in ax.collections)
 
 
 def test_a_change_of_side_and_a_contour_without_exit():
     text = "G90 G54 T1 F200\nG0 X-20 Y0\nG1 G41 X0\nY30\nG42 X30 Y60\nY80\nX60\n"
-    picture = run(text, 5).plot_compensation()
+    picture = with_radius(text, 5).plot_compensation()
     assert {"change of side", "entry"} <= set(legend(picture)) and "exit" not in legend(picture)
     assert all(np.hypot(*vectors.T) == pytest.approx(5) for _, vectors in arrows(picture.axes[0]).values())
 
@@ -239,13 +239,13 @@ def test_a_control_with_its_own_approach():
 
 
 def test_what_makes_no_sense_is_refused():
-    found = run(PLATE)
+    found = with_radius(PLATE)
     lists = [{name: value} for name in ("rules", "radii") for value in ([], (), 5, "5", ["5"], [[1]], [10**400])]
     for options in ({"rules": ["G163"]}, {"radii": [float("nan")]}, {"radii": [-1]}, {"rules": [5]}, *lists):
         with pytest.raises(Alarm):
             plot.compensation(found, **options)
     for options in ({"view": "UV"}, {"discs": -1.0}, {"ax": found.plot().axes[0], "radii": [1, 2]}):
-        with pytest.raises(ValueError, match="view|discs|axes"):
+        with pytest.raises(Alarm, match="view|discs|axes"):
             plot.compensation(found, **options)
 
 
@@ -256,15 +256,15 @@ def test_a_program_without_compensation_and_an_empty_one():
         "G90 T1 G1 F100\nG41 X10\n",
         "G41 G1 F5 X1\nG2 X9\nG9999\n",
     ):
-        picture = run(text).plot_compensation()
+        picture = with_radius(text).plot_compensation()
         assert not hatched(picture.axes[0])[1].size and picture.alt.startswith("radius compensation")
-    assert "no radius compensation" in run("G90\n").plot_compensation().texts[-1].get_text()
+    assert "no radius compensation" in with_radius("G90\n").plot_compensation().texts[-1].get_text()
 
 
 @pytest.mark.parametrize("options", [{}, {"rules": ["G160", "G161", "G162"]}, {"radii": [1, 6, 11]}, {"discs": True}])
 @pytest.mark.parametrize("program", [PLATE, KEYHOLE, SAMPLES / "window.mnc"], ids=lambda path: path.stem)
 def test_no_text_covers_another(program, options):
-    picture = run(program).plot_compensation(**options)
+    picture = with_radius(program).plot_compensation(**options)
     picture.draw_without_rendering()
     shown = [text for ax in picture.axes for text in [*ax.texts, ax.xaxis.label, ax._left_title]]
     shown += [*picture.texts, *picture.legends[0].get_texts()]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import mnclab
-from mnclab import Limits
+from mnclab import Alarm, Limits
 from mnclab.show.plot import colours
 from mnclab.show.plot.profile import curve, holds, plot_profile
 
@@ -21,11 +21,6 @@ G4 P0.2
 G0 Z5
 """
 LIMITS = Limits(acceleration=500, corner_tolerance=0.02)
-
-
-@pytest.fixture(scope="module")
-def run():
-    return mnclab.run(PROGRAM, "mnc")
 
 
 @pytest.mark.parametrize("over", ["time", "path"])
@@ -89,7 +84,7 @@ def test_lost_time_stands_beside_the_lines(run):
 
 
 def test_wrong_options_and_empty_programs(run):
-    with pytest.raises(ValueError, match="time or path"):
+    with pytest.raises(Alarm, match="time or path"):
         run.profile().plot(over="lines")
     nothing = mnclab.run("G90\n", "mnc").profile()
     assert nothing.plot().png() and nothing.plot_lost().png()

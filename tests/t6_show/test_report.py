@@ -10,11 +10,7 @@ from mnclab.show.plot import report as pages
 from mnclab.show.report import report
 
 PROGRAM = "G90 G54 T1 S1000 M3\nG0 X10 Y0 Z5\nG1 Z-2 F100 // down <here>\nX30\nT2\nG4 P30\nG1 X4,5\n"
-
-
-@pytest.fixture(scope="module")
-def run():
-    return mnclab.run(PROGRAM, "mnc", mnclab.Setup(limits=mnclab.Limits(acceleration=1e9, rapid=1e7)))
+SETUP = mnclab.Setup(limits=mnclab.Limits(acceleration=1e9, rapid=1e7))
 
 
 class Page(HTMLParser):

@@ -13,11 +13,7 @@ from mnclab.workpiece.blank import cylinder
 pytest.importorskip("pyvista")
 
 PROGRAM = "G90 G54 T1\nG0 X0 Y0 Z5\nG1 Z-2 F100\nG2 X30 Y0 R20 F200\nT2\nG0 Z20\n"
-
-
-@pytest.fixture(scope="module")
-def run():
-    return mnclab.run(PROGRAM, "mnc", mnclab.Setup(stock=((-5, -5, -10), (35, 30, 0))))
+SETUP = mnclab.Setup(stock=((-5, -5, -10), (35, 30, 0)))
 
 
 def bounds(scene, name):

@@ -13,9 +13,10 @@ from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.functions import ARCS, SPINDLE, functions
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
+from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
@@ -24,14 +25,15 @@ DATUMS = {f"G{n}": n - 53 for n in range(54, 60)}
 LENGTHS = ("G43", "G44", "G49")
 
 
-def together(m: Machine, keyword: str, words: list[Word]) -> None:
+def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
     """The length compensation needs a straight motion."""
     codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
     axes = any(word.address in AXES for word in words)
-    arcs = [code for code in ARCS if code in codes] or [code for code in ARCS if m.modal["motion"] == code and axes]
+    arcs = [code for code in ARCS if code in codes] or [code for code in ARCS if modal.motion == code and axes]
     for code in LENGTHS:
         if code in codes and arcs and not {"G0", "G1"} & codes.keys():
-            m.alarm(f"{code} needs a straight motion, got {arcs[0]} in its block", codes[code], "write two blocks")
+            message = f"{code} needs a straight motion, got {arcs[0]} in its block"
+            raise Alarm(message, codes[code].span, hint="write two blocks")
 
 
 def undescribed(m: Machine, words: Words) -> None:

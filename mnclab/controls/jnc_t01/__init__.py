@@ -9,10 +9,11 @@ from __future__ import annotations
 from mnclab.controls.jnc_t01 import cycles, feeds, motion
 from mnclab.controls.jnc_t01.reader import looks_like, read
 from mnclab.controls.jnc_t01.state import Memory
-from mnclab.machine.control import Control
+from mnclab.machine.control import Control, Modal
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
 from mnclab.running.bulk import PlainWords
+from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
 
 #: Order inside a block; the manual gives none.
@@ -61,13 +62,14 @@ def start(m: Machine) -> None:
     m.change("plane", "ZX")
 
 
-def together(m: Machine, keyword: str, words: list[Word]) -> None:
+def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
     """One function that acts once in a block."""
     codes = [(f"G{digits(w.value)}", w) for w in words if w.address == "G" and isinstance(w.value, float)]
     once = [(code, word) for code, word in codes if code in ONCE]
     if len(once) > 1:
         (first, _), (second, word) = once[:2]
-        m.alarm(f"{second} and {first} are of one group: only one of it may stand in a block", word, "write two blocks")
+        message = f"{second} and {first} are of one group: only one of it may stand in a block"
+        raise Alarm(message, word.span, hint="write two blocks")
 
 
 FUNCTIONS = feeds.FUNCTIONS | motion.FUNCTIONS

@@ -9,23 +9,25 @@ from mnclab.controls.word_address.functions import ARCS
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.controls.word_address.state import memory
 from mnclab.geometry import frames
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.machine import Machine
 from mnclab.path.compensation import ACUTE, ROUND, STRAIGHT
+from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
 
 
-def together(m: Machine, keyword: str, words: list[Word]) -> None:
+def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
     """Alarms for G functions that may not stand in one block (1.6, 2.6, 2.8.5)."""
     codes = {f"G{digits(word.value)}": word for word in words if word.address == "G" and type(word.value) is float}
-    if m.pole is not None and len(codes) > 1:
+    if modal.polar and len(codes) > 1:
         message = "more than one G function stands in a block while polar coordinates are active"
-        m.alarm(message, [*codes.values()][1], hint="write two blocks, or G15 first")
+        raise Alarm(message, [*codes.values()][1].span, hint="write two blocks, or G15 first")
     for code, word in codes.items():
-        if "G53" in codes and code in m.control.functions and m.control.functions[code].still:
-            m.alarm(f"{code} stands in a block without motion, G53 in one with motion", word, hint="write two blocks")
+        if "G53" in codes and code in control.functions and control.functions[code].still:
+            message = f"{code} stands in a block without motion, G53 in one with motion"
+            raise Alarm(message, word.span, hint="write two blocks")
 
 
 def power_on(m: Machine) -> None:

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from mnclab.machine.control import Control, Modal, Remark
 from mnclab.machine.cycle import Cycle
-from mnclab.machine.machine import Machine
+from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
 #: Numbers of Q parameters by the cycles that take them.
@@ -73,18 +74,18 @@ PARAMETERS = {
 _BELONGS = "a line Q… without a block number belongs to the definition above it: number it to assign a variable"
 
 
-def strange_parameters(built: Mapping[str, type[Cycle]]) -> Callable[[Machine, str, list[Word]], None]:
+def strange_parameters(built: Mapping[str, type[Cycle]]) -> Callable[[Control, Modal, str, list[Word]], list[Remark]]:
     """Refuses parameters that a cycle does not have; of a cycle that is not built they are only named."""
 
-    def check(m: Machine, code: str, words: list[Word]) -> None:
-        for word in words if code in PARAMETERS else ():
-            if word.address not in PARAMETERS[code]:
-                m.warn(f"{code} has no parameter {word.address}", word)
+    def check(control: Control, modal: Modal, code: str, words: list[Word]) -> list[Remark]:
         if code not in built:
-            return
+            strange = enumerate(words if code in PARAMETERS else ())
+            return [(k, f"{code} has no parameter {w.address}", "") for k, w in strange if w.address not in PARAMETERS[code]]
         taken = {address for p in built[code].parameters() for address in (p.address, *p.aliases)}
         for word in words:
             if word.address[0] == "Q" and word.address not in taken:
-                m.alarm(f"{word} has no meaning in this block ({code} does not take {word.address})", word, _BELONGS)
+                message = f"{word} has no meaning in this block ({code} does not take {word.address})"
+                raise Alarm(message, word.span, hint=_BELONGS)
+        return []
 
     return check

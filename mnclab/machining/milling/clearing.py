@@ -15,6 +15,7 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
+from mnclab.text.alarm import several
 
 SLACK = 1e-6  # mm
 
@@ -32,6 +33,9 @@ class Piece:
     linked: tuple[bool, ...]
     labels: tuple[str, ...]
     place: Floats | None = None
+
+    def __repr__(self) -> str:
+        return f"<Piece: {', '.join(self.labels)}>"
 
     @property
     def entry(self) -> Floats:
@@ -60,6 +64,9 @@ class Clearing:
     centres: Region
     pieces: tuple[Piece, ...]
     radius: float
+
+    def __repr__(self) -> str:
+        return f"<Clearing: {several(len(self.pieces), 'piece')}, {several(len(self.passes), 'contour')}, {self.length:.3f} mm>"
 
     @property
     def passes(self) -> tuple[Contour, ...]:

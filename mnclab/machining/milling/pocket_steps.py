@@ -77,13 +77,13 @@ def rough(
 
 
 def rough_slot(
-    line: Contour, passes: Callable[[Contour], Clearing], levels: Sequence[float], *, surface: float, above: float,
+    line: Contour, passes: Callable[[bool], Clearing], levels: Sequence[float], *, surface: float, above: float,
     clearance: float, down: Down, feeds: Feeds, side: int,
 ) -> Iterator[Step]:  # fmt: skip
     """Every layer of a slot about its centre line, which begins at (0, 0); after each the tool leaves the slot.
 
-    `passes` clear it from the line outwards, which is followed from the end where the way down has led; `above` is the
-    height outside.
+    `passes` clear it from the line outwards, which is followed from the end where the way down has led: backwards or not;
+    `above` is the height outside.
     """
     top = surface
     for name, level in zip(numbered("layer", len(levels)), levels, strict=True):
@@ -91,7 +91,7 @@ def rough_slot(
         here = way.contour.points[-1]
         back = math.dist(here, line.points[-1]) < math.dist(here, line.points[0])
         yield Go(f"{name}, to the clearance level", top + clearance)
-        yield from clear(name, passes(line.reversed() if back else line), way, feeds, 0.0, side, middle=False)
+        yield from clear(name, passes(back), way, feeds, 0.0, side, middle=False)
         yield from _back(name, above)
         top = level
 

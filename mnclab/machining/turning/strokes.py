@@ -71,7 +71,7 @@ class Plan:
         moved = (Stroke(*place(s.z, s.r), s.role, turned * s.bulge, s.number, s.tool) for s in self.strokes)
         return Plan(self.name, place(*self.start), tuple(moved))
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         lines = [f"start R{self.start[1]:g} Z{self.start[0]:g}"]
         lines += [f"{'rapid' if s.role == RAPID else 'feed'} R{s.r:.6g} Z{s.z:.6g}  {s.role}" for s in self.strokes]
         return "\n".join(lines)

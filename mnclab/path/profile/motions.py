@@ -21,6 +21,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import corner_speeds
 from mnclab.path.profile.bends import Bends
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.records import shapes
 
 PIECE = 1 << 15  # rows worked on at a time
 FULL = 0.9  # of an arc's acceleration may be centripetal; the rest is left for speeding up and braking
@@ -43,6 +44,9 @@ class Rows:
     a: Array
     j: Array
     corner: Array
+
+    def __repr__(self) -> str:
+        return shapes(self)
 
 
 def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, override: float) -> Array:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.timing import Plan
+from mnclab.text.records import shapes
 
 Array = NDArray[np.float64]
 
@@ -22,6 +23,9 @@ class Pieces(NamedTuple):
     a: Array
     j: Array
     row: NDArray[np.int64]
+
+    def __repr__(self) -> str:
+        return shapes(self)
 
 
 def pieces(plan: Plan) -> Pieces:

@@ -10,12 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
+from mnclab.path.listing import point
 from mnclab.path.profile.bends import Bends
 from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.pieces import Pieces, pieces
 from mnclab.path.profile.timing import Plan, plan
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.columns import fixed
+from mnclab.text.given import choice
+from mnclab.text.records import shapes
 from mnclab.text.tables import html_table
 
 if TYPE_CHECKING:
@@ -46,6 +49,11 @@ class Instant(NamedTuple):
     acceleration: Array
     move: Any
     line: Any
+
+    def __repr__(self) -> str:
+        if np.ndim(self.t):
+            return shapes(self)
+        return f"<Instant at {self.t:.3f} s: {point(self.position)}, {self.v:.3f} mm/s, line {self.line}>"
 
 
 class Profile:
@@ -212,9 +220,9 @@ class Profile:
     def time_by(self, key: str) -> dict[Any, float]:
         """Seconds by "line", "tool", "kind" or "cause" (`CAUSES`); the values sum to `time`.
 
-        A line of a program that was called is a pair (program, line). A ValueError for another key.
+        A line of a program that was called is a pair (program, line). An Alarm for another key.
         """
-        path = self.path
+        path, key = self.path, choice(key, "key", ("line", "tool", "kind", "cause"))
         if key == "cause":
             return self._causes()
         if key == "kind":
@@ -223,8 +231,6 @@ class Profile:
         if key == "tool":
             tools, where = np.unique(path.tool, return_inverse=True)
             return dict(zip(tools.tolist(), np.bincount(where, self.seconds, len(tools)).tolist()))
-        if key != "line":
-            raise ValueError(f"key must be line, tool, kind or cause, got {key!r}")
         place = path.program.astype(np.int64) << 32 | path.line
         places, where = np.unique(place, return_inverse=True)
         total = np.bincount(where, self.seconds, len(places)).tolist()

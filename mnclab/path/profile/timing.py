@@ -24,6 +24,7 @@ from mnclab.path.profile.smooth import Groups, smooth
 from mnclab.path.profile.turns import FEWEST, PART, Turns
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.given import check_number
+from mnclab.text.records import shapes
 
 SURFACE = 64  # parts of a row at constant cutting speed, in each of which the feed is constant
 
@@ -50,6 +51,9 @@ class Plan:
     rapids: Rapids | None = None
     ramps: NDArray[np.int64] | None = None
     groups: Groups | None = None
+
+    def __repr__(self) -> str:
+        return shapes(self)
 
 
 def plan(

@@ -8,7 +8,6 @@ import re
 from functools import cached_property
 from html import escape
 from importlib.resources import files
-from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +16,7 @@ from mnclab.show.given_away import whole
 from mnclab.show.player.payload import payload
 from mnclab.text.alarm import several
 from mnclab.text.file import replaced
-from mnclab.text.given import check_number
+from mnclab.text.given import check_number, choice
 
 SCRIPTS = ("data", "shapes", "camera", "strokes", "picture", "curve", "listing", "state", "player")
 THEMES = ("auto", "light", "dark")
@@ -57,14 +56,10 @@ class Player:
     def __init__(
         self, run: Any, profile: Profile, *, height: int = 640, theme: str = "auto", speed: float = 1.0
     ) -> None:
-        if theme not in THEMES:
-            raise ValueError(f"theme must be auto, light or dark, got {theme!r}")
         for name, number in (("speed", speed), ("height", height)):
-            if isinstance(number, Real) and not number > 0:
-                raise ValueError(f"{name} must be greater than 0, got {number:g}")
-            check_number(number, name)
+            check_number(number, name, above=0)
         self.run, self.profile = run, profile
-        self.height, self.theme, self.speed = int(height), theme, speed
+        self.height, self.theme, self.speed = int(height), choice(theme, "theme", THEMES), speed
 
     @property
     def name(self) -> str:

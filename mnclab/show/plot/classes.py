@@ -21,6 +21,7 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.lathe import speed_at
 from mnclab.show.plot.strokes import Strokes, parted
+from mnclab.text.given import choice
 
 COLOURS = ("kind", "feed", "speed", "tool", "line", "z")
 FEW, TOOLS, BINS = 6, 10, 14  # classes that the legend names one by one, tools likewise; bins of a scale at most
@@ -55,9 +56,8 @@ def number(value: float) -> str:
 
 
 def classes(path: Toolpath, drawn: Strokes, colour: str) -> Classes:
-    """The classes of the strokes of a path; a ValueError for a colour that is not one of `COLOURS`."""
-    if colour not in COLOURS:
-        raise ValueError(f"colour must be one of {', '.join(COLOURS)}, got {colour!r}")
+    """The classes of the strokes of a path; an Alarm for a colour that is not one of `COLOURS`."""
+    colour = choice(colour, "colour", COLOURS)
     fixed = [colours.RAPID, colours.PROBING, colours.FEED]
     of_kind = np.full(max(Kind) + 2, -1, np.int16)  # the last one is for row -1
     of_kind[[Kind.RAPID, Kind.PROBE, Kind.LINE, Kind.ARC]] = 0, 1, 2, 2

@@ -39,7 +39,7 @@ from mnclab.show.plot.picture import (
 )
 from mnclab.show.plot.strokes import corners
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import check_number, choice, shown
 
 #: The kinds of places that do not fit, in few words.
 GOUGES = {
@@ -88,7 +88,7 @@ def compensation(
     panels = [_panel(again, title, view) for title, again in _runs(run, rules, radii)]
     if ax is not None:
         if len(panels) > 1:
-            raise ValueError("axes of one's own have room for one rule and one radius")
+            raise Alarm("axes of one's own have room for one rule and one radius")
         low, high = roomy(*_box(panels, discs))
         outlines = draw(ax, panels[0], discs, vectors)
         dress(ax, panels[0].view)
@@ -143,10 +143,9 @@ def _runs(run: Any, rules: Sequence[str] | None, radii: Sequence[float] | None) 
 
 def _panel(run: Any, title: str, view: str) -> Panel:
     made = construct(run.programmed, run.control.compensation, not run.ok)
+    view = choice(view, "view", ("auto", *VIEWS))
     if view != "auto":
-        if view.upper() not in VIEWS:
-            raise ValueError(f"view must be auto or one of {', '.join(VIEWS)}, got {view!r}")
-        return Panel(title, run, made, VIEWS[view.upper()])
+        return Panel(title, run, made, VIEWS[view])
     if run.toolpath.lathe:
         return Panel(title, run, made, VIEWS["ZX"])
     rows = np.flatnonzero(made.compensated)

@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, arrange, write_legend
 from mnclab.show.plot.strokes import corners, parted, strokes
+from mnclab.text.given import choice
 
 FIRST = Line("first", "#8c8c8c", "-", 3.2, 2.2)
 SECOND = Line("second", "#1259a8", "-", 1.1, 2.8)
@@ -27,10 +28,9 @@ def plot_deviation(found: Any, view: str = "auto", size: tuple[float, float] = S
     ]
     box = corners([xyz for _, xyz in lines], lathe)
     low, high = box if box is not None else (np.zeros(3), np.zeros(3))
-    if view != "auto" and view.upper() not in VIEWS:
-        raise ValueError(f"view must be auto or one of {', '.join(VIEWS)}, got {view!r}")
+    view = choice(view, "view", ("auto", *VIEWS))
     views = [VIEWS["ZX"]] if lathe else [VIEWS["XY"]] if high[2] <= low[2] else [VIEWS["XY"], VIEWS["XZ"]]
-    views = views if view == "auto" else [VIEWS[view.upper()]]
+    views = views if view == "auto" else [VIEWS[view]]
     where = found.where if found.largest > SHOWN else None
     names = [line.name for line, _ in lines] + ([APART.name] if where else [])
     picture, axes = arrange(views, low, high, names, Foot(found.sentence), f"two paths: {found.sentence}", size)

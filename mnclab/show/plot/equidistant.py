@@ -22,6 +22,7 @@ from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, write_names
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strokes import parted, strokes
+from mnclab.text.given import check_number
 
 #: How rows look by their rule; rows along the contour are called after the corner at their end and look alike.
 ROWS: dict[Rule, Line] = {
@@ -153,8 +154,7 @@ def disc_places(path: Toolpath, discs: bool | float | Sequence[int]) -> tuple[Ar
             rows = rows[np.isin(path.line[rows], list(discs))]
         at, of = path.end[rows], rows
     else:
-        if not discs > 0:
-            raise ValueError(f"discs stand every so many mm, more than 0, got {discs:g}")
+        check_number(discs, "the distance of discs (mm)", above=0)
         drawn = strokes(path[rows])
         way = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(drawn.xyz, axis=0), axis=1) * (drawn.row[1:] >= 0)))
         stations = np.arange(0.0, way[-1] + 1e-9, discs) if len(rows) else np.empty(0)

@@ -30,6 +30,7 @@ from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, Picture, View, ar
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Strokes, corners, parted, strokes
 from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.given import choice
 from mnclab.workpiece.blank import Blank
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
@@ -226,8 +227,7 @@ def _plunges(path: Toolpath, view: View) -> Array:
 
 def _box(path: Toolpath, pieces: Sequence[tuple[Line, Array]], frame: str) -> tuple[Array, Array, bool]:
     """The corners (3,) of the box that is shown, and whether rapids go beyond it; a lathe's holds the centre line."""
-    if frame not in ("auto", "all", "cuts"):
-        raise ValueError(f"frame must be auto, all or cuts, got {frame!r}")
+    frame = choice(frame, "frame", ("auto", "all", "cuts"))
     cuts = corners([points for line, points in pieces if line is not colours.RAPID], path.lathe)
     rest = [points for line, points in pieces if line is colours.RAPID] + [path.start[:1], path.end[-1:]]
     everything = corners([*rest, np.array(cuts).reshape(-1, 3)] if cuts else rest, path.lathe)
@@ -255,10 +255,9 @@ def _foot(stop: Alarm | None, beyond: bool) -> Foot | None:
 
 
 def _views(view: str, path: Toolpath, low: Array, high: Array, single: bool) -> list[View]:
+    view = choice(view, "view", ("auto", *VIEWS))
     if view != "auto":
-        if view.upper() not in VIEWS:
-            raise ValueError(f"view must be auto or one of {', '.join(VIEWS)}, got {view!r}")
-        return [VIEWS[view.upper()]]
+        return [VIEWS[view]]
     if path.lathe:
         return [VIEWS["ZX"]]
     span = high - low

@@ -19,6 +19,7 @@ from mnclab.path.profile.bends import divided
 from mnclab.show.plot import colours
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.picture import SMALL, Picture, columns
+from mnclab.text.given import choice
 
 SIZE = (7.0, 6.0)  # inches
 FINE, MANY = 9, 20_000  # points of a piece, as long as all of them are not more than so many
@@ -112,8 +113,7 @@ def plot_profile(
 
     Bars on the time axis are stops, triangles corners that slow the tool.
     """
-    if over not in ("time", "path"):
-        raise ValueError(f"over must be time or path, got {over!r}")
+    over = choice(over, "over", ("time", "path"))
     drawn = curve(profile, over)
     x = drawn.t if over == "time" else drawn.s
     if ax is not None:

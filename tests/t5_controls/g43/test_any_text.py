@@ -2,11 +2,14 @@
 
 from pathlib import Path
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from refusals import programs
 
 import mnclab
+
+pytestmark = pytest.mark.deep
 
 SAMPLES = Path(__file__).parents[3] / "data" / "programs" / "g43"
 PROGRAMS = programs("g43") + [file.read_text("utf-8") for file in sorted(SAMPLES.iterdir())]

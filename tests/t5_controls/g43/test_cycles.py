@@ -1,10 +1,12 @@
 """The drilling cycles of ISO controls, against LinuxCNC where both have them (tests/authorities/generate_g43.py)."""
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 
 import mnclab
 from mnclab import Kind, Setup, Tool
@@ -39,11 +41,7 @@ def test_against_linuxcnc(record):
     assert np.abs(np.array([row[2] for row in ours]) - [row[2] for row in theirs]).max() < 2e-9
     assert [row[3] for row in ours] == pytest.approx([row[3] for row in theirs])
 
-
-def run(text, **setup):
-    found = mnclab.run(text, "g43", Setup(settings=QUIET, **setup))
-    assert found.ok, found.alarms
-    return found
+run = partial(running.run, control="g43", undescribed="accept")
 
 
 def test_a_hole_under_length_compensation():

@@ -1,18 +1,15 @@
 """Datums, the reference point, radius compensation, and the bulk tier of the G43 control."""
 
+from functools import partial
+
 import numpy as np
 import pytest
+import running
 
 import mnclab
-from mnclab import Setup, Tool
+from mnclab import Tool
 
-QUIET = {"undescribed": "accept"}
-
-
-def run(text, **setup):
-    found = mnclab.run(text, "g43", Setup(settings=QUIET | setup.pop("settings", {}), **setup))
-    assert found.ok, found.alarms
-    return found
+run = partial(running.run, control="g43", undescribed="accept")
 
 
 def test_work_offsets_and_machine_coordinates():

@@ -9,19 +9,18 @@ import random
 
 import numpy as np
 import pytest
+from running import run
 from shapely import LineString, Polygon, box
 
-import mnclab
-from mnclab import Kind, Setup
+from mnclab import Kind
 
 CALLS = 70  # of each cycle; several thousand were run once
 PARTS = {"G77": (0, 2), "G78": (2, 0)}  # axis of the infeed, axis of the cut
 
 
-def run(program, x, z, **settings):
-    setup = Setup(start=(x / 100, 0, z / 100), settings=settings)
-    found = mnclab.run(f"F100 S500 M3\n{program}\n", "jnc-t01", setup)
-    assert found.ok and not found.alarms, (program, found.alarms)
+def motion_of(program, x, z, **settings):
+    found = run(f"F100 S500 M3\n{program}", "jnc-t01", start=(x / 100, 0, z / 100), **settings)
+    assert not found.alarms, (program, found.alarms)
     path = found.toolpath.motion
     assert path.end[-1] == pytest.approx((x / 100, 0, z / 100), abs=1e-12)  # every cycle returns
     assert (path.end[:, 1] == 0).all()
@@ -65,7 +64,7 @@ def stock_removal(code, seed):
     rng.shuffle(words)
     retract = rng.choice([0, 0.5, 2])
     wall = rng.choice(["rapid", "feed"])
-    path = run(f"{mode}{code} {' '.join(words)}", x1, z1, retract=retract, wall=wall)
+    path = motion_of(f"{mode}{code} {' '.join(words)}", x1, z1, retract=retract, wall=wall)
 
     def point(across, along):
         return (across / 100, along / 100) if a == 0 else (along / 100, across / 100)
@@ -126,7 +125,7 @@ def drilling(code, seed):
         "" if clear is None else f"R{clear / 100:.2f}",
     ]
     rng.shuffle(words)
-    path = run(f"{mode}G73 {' '.join(words)}", x1, z1)
+    path = motion_of(f"{mode}G73 {' '.join(words)}", x1, z1)
     assert (path.end[:, 0] == x1 / 100).all()
     depths = steps(total, peck or total)
     cut = (path[path.kind == Kind.LINE].end[:, 2] * 100 - z1) * sense
@@ -157,7 +156,7 @@ def grooving(code, seed):
     words = [word(rng, plunge, bottom, start[plunge]), f"D{step / 100:.2f}" if step else ""]
     words += [word(rng, side, last, start[side])] if width or rng.random() < 0.5 else []
     rng.shuffle(words)
-    path = run(f"{mode}{code} {' '.join(words)}", start["X"], start["Z"])
+    path = motion_of(f"{mode}{code} {' '.join(words)}", start["X"], start["Z"])
     cuts = path[path.kind == Kind.LINE]
     sense = 1 if last > start[side] else -1
     places = [start[side] + sense * k for k in [0, *steps(width, step or max(width, 1))]]

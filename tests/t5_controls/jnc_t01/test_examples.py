@@ -11,9 +11,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from running import run
 
 import mnclab
-from mnclab import Kind, Setup
+from mnclab import Kind
 
 CATALOGUE = Path(__file__).parents[2] / "authorities" / "catalogue"
 EXAMPLES = {e["title"]: e for e in json.loads((CATALOGUE / "jnc-t01.json").read_text(encoding="utf-8"))}
@@ -43,9 +44,9 @@ def program_of(title):
     return EXAMPLES[title]["program"]
 
 
-def run(program, start=(0, 0), before="F20 S500 M3", **setup):
+def obeyed(program, start=(0, 0), before="F20 S500 M3", **setup):
     """A program after one line that gives feed and speed; the tool stands at (X, Z)."""
-    return mnclab.run(f"{before}\n{program}\n", "jnc-t01", Setup(start=(start[0], 0, start[1]), **setup))
+    return run(program, "jnc-t01", ok=None, before=f"{before}\n", start=(start[0], 0, start[1]), **setup)
 
 
 def listed(expected):
@@ -59,7 +60,7 @@ def listed(expected):
 @pytest.mark.parametrize("title", LISTED)
 def test_example(title):
     start, moves = listed(EXAMPLES[title]["expected"])
-    found = run(program_of(title), start)
+    found = obeyed(program_of(title), start)
     assert found.ok and not found.alarms
     path = found.toolpath.motion
     assert path.lathe and len(path) == len(moves), str(path)
@@ -106,7 +107,7 @@ def test_words_and_comments():
 
 
 def test_parameter_ownership():
-    found = run(program_of("Parameter ownership"), (30, 5), before="S500")
+    found = obeyed(program_of("Parameter ownership"), (30, 5), before="S500")
     assert found.ok and not found.alarms
     path = found.toolpath
     assert [row.kind for row in path if row.line in (3, 5, 7)] == [Kind.LINE] * 3
@@ -116,7 +117,7 @@ def test_parameter_ownership():
 
 
 def test_example_1():
-    found = run(program_of("Example 1 of the manual"), (20, 0), before="")
+    found = obeyed(program_of("Example 1 of the manual"), (20, 0), before="")
     speeds = [(row.line - 1, row.spindle, row.surface) for row in found.toolpath]
     right, left, turned, stopped = speeds
     assert right[:2] == (2, 500) and left[:2] == (3, -500) and stopped[:2] == (5, 0)
@@ -126,44 +127,44 @@ def test_example_1():
 
 
 def test_example_10():
-    row = run(program_of("Example 10 of the manual")).toolpath[-1]
+    row = obeyed(program_of("Example 10 of the manual")).toolpath[-1]
     assert (row.kind, row.time) == (Kind.DWELL, 2.5)
 
 
 def test_a_fillet_that_is_too_large():
-    found = run(program_of("Too large (own example, start X20 Z0)"), (20, 0))
+    found = obeyed(program_of("Too large (own example, start X20 Z0)"), (20, 0))
     assert "G12 R (fillet radius) must be at most the way along Z, 8 mm, got 10" in str(found.alarms[0])
 
 
 def test_example_31():
-    found = run(program_of("Example 31 of the manual (tool at base X30 Z20, offset 0)"), (30, 20))
+    found = obeyed(program_of("Example 31 of the manual (tool at base X30 Z20, offset 0)"), (30, 20))
     assert not found.toolpath.is_motion.any()
     assert [found.at(line).position[::2] for line in (1, 2, 3, 4)] == [(30, 20), (25, 10), (25, 10), (30, 20)]
 
 
 def test_adding_twice():
-    found = run(program_of("Adding twice (own example, offset 0, then rapid)"), (30, 20))
+    found = obeyed(program_of("Adding twice (own example, offset 0, then rapid)"), (30, 20))
     assert found.toolpath.end[-1].tolist() == [10, 0, 10] and found.at(4).position[::2] == (0, 0)
 
 
 def test_examples_32_to_34():
     """A way of 10 mm: 120 mm/min in 5 s; 50 mm/min; 0.5 mm/rev at 500 rev/min are 250 mm/min."""
     for number, feed, per_rev, time in ((32, 120, None, 5), (33, 50, None, None), (34, 250, 0.5, None)):
-        row = run(program_of(f"Example {number} of the manual") + "G01 X10").toolpath[-1]
+        row = obeyed(program_of(f"Example {number} of the manual") + "G01 X10").toolpath[-1]
         assert row.feed == feed
         assert row.per_rev == per_rev or np.isnan(row.per_rev)
         assert row.time == time or np.isnan(row.time)
 
 
 def test_examples_35_and_36():
-    rows = run(program_of("Example 35 of the manual") + "X20\nX10\nX0", (30, 0)).toolpath.motion
+    rows = obeyed(program_of("Example 35 of the manual") + "X20\nX10\nX0", (30, 0)).toolpath.motion
     assert rows.spindle == pytest.approx([238.7324, 477.4648, 3000], abs=1e-4)
-    assert run(program_of("Example 36 of the manual"), before="M3").toolpath.spindle[-1] == 500
+    assert obeyed(program_of("Example 36 of the manual"), before="M3").toolpath.spindle[-1] == 500
 
 
 def test_correctors():
     """Slide positions are those of the path; what the program reads are the programmed points."""
-    found = run(program_of(list(ELSEWHERE)[-1]), (30, 10), correctors={3: (0.1, 0, -0.2)})
+    found = obeyed(program_of(list(ELSEWHERE)[-1]), (30, 10), correctors={3: (0.1, 0, -0.2)})
     assert found.ok and not found.alarms
     assert np.allclose(found.toolpath.motion.end, [(20.1, 0, 1.8), (20, 0, 5)], rtol=0, atol=1e-12)
     assert found.toolpath.motion.kind.tolist() == [Kind.RAPID] * 2

@@ -4,16 +4,17 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from running import run
 
 import mnclab
-from mnclab import Kind, Setup
+from mnclab import Kind
 from mnclab.controls.jnc_t01.reader import looks_like
 from mnclab.path.columns import COLUMNS
 from mnclab.running.bulk import SHORTEST
 
 
-def run(*lines, start=(50, 0), **setup):
-    return mnclab.run("\n".join(lines) + "\n", "jnc-t01", Setup(start=(start[0], 0, start[1]), **setup))
+def obeyed(*blocks, start=(50, 0), **setup):
+    return run("\n".join(blocks), "jnc-t01", ok=None, start=(start[0], 0, start[1]), **setup)
 
 
 def ends(found):
@@ -24,7 +25,7 @@ def test_what_is_active_at_the_start():
     """Table 2: G00, G90, G94; adopted: G97, spindle and coolant off."""
     control = mnclab.controls["jnc-t01"]
     assert set(control.power_on().values()) == {"G0", "G90", "G94", "G97", "M5", "M9"}
-    assert run("X10").toolpath[-1].kind == Kind.RAPID
+    assert obeyed("X10").toolpath[-1].kind == Kind.RAPID
 
 
 @pytest.mark.parametrize(
@@ -36,24 +37,24 @@ def test_a_function_that_acts_once_leaves_the_motion_function(once, motion):
     head = ["F100 S500 M3", "G1 X49 Z1"]
     after = "X30" if motion != "G3" else "X39 Z1 I-5"
     for lines in ([motion, once], [f"{motion} {once}"], [f"{once} {motion}"]):
-        found = run(*head, *lines, "G90", "X49 Z1" if motion != "G3" else "G1 X49 Z1", motion, after)
+        found = obeyed(*head, *lines, "G90", "X49 Z1" if motion != "G3" else "G1 X49 Z1", motion, after)
         assert found.ok, found.alarms
         assert found.history.value("motion", len(found.steps.block) - 1) == motion
         row = found.toolpath[-1]
         assert row.kind == {"G0": Kind.RAPID, "G1": Kind.LINE, "G3": Kind.ARC}[motion]
-    first, second = (run(*head, line) for line in (f"{motion} {once}", once))
+    first, second = (obeyed(*head, line) for line in (f"{motion} {once}", once))
     assert np.array_equal(first.toolpath.end, second.toolpath.end)
 
 
 def test_spelling():
     """Lower case, tabs, no blanks, leading zeros, comments, empty lines, any order of words."""
-    found = run("g01f100x10.z-5.\t' a comment with X99 and ' another", "", "' alone", "Z-9X.5G00")
+    found = obeyed("g01f100x10.z-5.\t' a comment with X99 and ' another", "", "' alone", "Z-9X.5G00")
     assert found.ok and ends(found) == [[10, -5], [0.5, -9]]
     assert found.program[0].comment == "a comment with X99 and ' another" and found.program[1].comment == "alone"
 
 
 def test_cyrillic_letters_are_read_and_reported():
-    found = run("G00 Х10 ' Х в комментарии", "М3 S500", "т1")
+    found = obeyed("G00 Х10 ' Х в комментарии", "М3 S500", "т1")
     assert found.ok and ends(found) == [[10, 0]]
     assert [(a.severity, a.span[:2], a.message) for a in found.alarms] == [
         ("warning", (1, 5), "'Х' is a Cyrillic letter, read as X"),
@@ -70,18 +71,18 @@ def test_the_text_says_which_control():
 
 def test_words_of_other_controls():
     lines = ("%", "N10 G0 X5", "N20 X6", "M30", "X7")
-    found = run(*lines, settings={"foreign": "accept"})
+    found = obeyed(*lines, settings={"foreign": "accept"})
     assert ends(found) == [[5, 0], [6, 0]]
     assert [(a.severity, a.span[:2]) for a in found.alarms] == [
         ("warning", (1, 1)),
         ("warning", (2, 1)),
         ("warning", (4, 1)),
     ]
-    assert not run(*lines).ok
+    assert not obeyed(*lines).ok
 
 
 def test_unknown_m_functions_have_no_effect():
-    found = run("M12 M40 X5", "M300")
+    found = obeyed("M12 M40 X5", "M300")
     assert found.ok and ends(found) == [[5, 0]]
     assert [a.message.split()[0] for a in found.alarms] == ["M12", "M40", "M300"]
     assert {a.severity for a in found.alarms} == {"warning"}
@@ -89,18 +90,18 @@ def test_unknown_m_functions_have_no_effect():
 
 def test_order_inside_a_block():
     """M3 and M7 before the motion, M5 and M9 after it, M0 last; before a dwell all but the stop."""
-    kinds = run("M7 X5 M3 S100").toolpath.kind.tolist()
+    kinds = obeyed("M7 X5 M3 S100").toolpath.kind.tolist()
     assert sorted(kinds[:2]) == [Kind.SPINDLE, Kind.COOLANT] and kinds[2] == Kind.RAPID
-    kinds = run("M3 S100", "M0 M9 X5 M5").toolpath.kind.tolist()[1:]
+    kinds = obeyed("M3 S100", "M0 M9 X5 M5").toolpath.kind.tolist()[1:]
     assert kinds[0] == Kind.RAPID and sorted(kinds[1:3]) == [Kind.SPINDLE, Kind.COOLANT] and kinds[3] == Kind.STOP
-    kinds = run("M3 S100", "G4 F1 M5 M0").toolpath.kind.tolist()[1:]
+    kinds = obeyed("M3 S100", "G4 F1 M5 M0").toolpath.kind.tolist()[1:]
     assert kinds == [Kind.SPINDLE, Kind.DWELL, Kind.STOP]
 
 
 def test_optional_stop_and_m8():
-    assert run("M1").toolpath.kind.tolist() == []
-    assert run("M1", settings={"optional_stop": True}).toolpath.kind.tolist() == [Kind.STOP]
-    found = run("M7", "M8")
+    assert obeyed("M1").toolpath.kind.tolist() == []
+    assert obeyed("M1", settings={"optional_stop": True}).toolpath.kind.tolist() == [Kind.STOP]
+    found = obeyed("M7", "M8")
     assert (
         found.history.value("coolant", 1) == "M8"
         and "the table of this control says coolant off" in found.alarms[0].message
@@ -120,20 +121,20 @@ def test_x_as_a_diameter():
         (("G92 X10 Z1", "X0 Z0", "M60"), ("G92 X20 Z1", "X0 Z0", "M60")),
         (("S99 M3", "G32 X45 Z-9 F2"), ("S99 M3", "G32 X90 Z-9 F2")),
     ):
-        one, other = run(*radius), run(*diameter, settings=on)
+        one, other = obeyed(*radius), obeyed(*diameter, settings=on)
         assert one.ok and other.ok, (one.alarms, other.alarms)
         for name in ("kind", "end", "centre", "feed", "per_rev", "spindle"):
             assert np.allclose(
                 getattr(one.toolpath, name), getattr(other.toolpath, name), rtol=0, atol=1e-12, equal_nan=True
             )
-    alarm = run("F9 G77 X40 Z-9 U120", settings=on).alarms[0]
+    alarm = obeyed("F9 G77 X40 Z-9 U120", settings=on).alarms[0]
     assert "must lie between X100 and X40, got 120" in alarm.message
 
 
 def test_homing():
     home = {"home_x": 80, "home_z": 120}
     for code, end in (("M60", [80, 120]), ("M61", [80, 5]), ("M63", [45, 120])):
-        found = run("L1", "G92 X10 Z3", "X35 Z2", code, settings=home, correctors={1: (0, 0, 0)})
+        found = obeyed("L1", "G92 X10 Z3", "X35 Z2", code, settings=home, correctors={1: (0, 0, 0)})
         assert ends(found)[-1] == end and found.toolpath[-1].kind == Kind.RAPID
         assert found.at(4).position[::2] == (end[0] - 10, end[1] - 3)
 
@@ -141,12 +142,12 @@ def test_homing():
 def test_a_corrector_acts_with_the_next_motion_of_any_kind():
     """And an arc cannot take it up: its centre and its start would not fit."""
     rows = {3: (0.1, 0, -0.2)}
-    assert ends(run("L3", "X40", correctors=rows)) == [[40.1, -0.2]]
-    assert ends(run("L3", "F9 G12 Z-9 R1", correctors=rows))[0] == [50.1, -8.2]
-    assert ends(run("L3", "F9 G73 Z-9", correctors=rows)) == [[50.1, -9.2], [50.1, -0.2]]
-    alarm = run("L3", "F9 G2 X40 Z0 R20", correctors=rows).alarms[0]
+    assert ends(obeyed("L3", "X40", correctors=rows)) == [[40.1, -0.2]]
+    assert ends(obeyed("L3", "F9 G12 Z-9 R1", correctors=rows))[0] == [50.1, -8.2]
+    assert ends(obeyed("L3", "F9 G73 Z-9", correctors=rows)) == [[50.1, -9.2], [50.1, -0.2]]
+    alarm = obeyed("L3", "F9 G2 X40 Z0 R20", correctors=rows).alarms[0]
     assert alarm.span[0] == 2 and "the arc begins 0.2236 mm away" in alarm.message
-    found = run("L7", "X40", "L7", "X41")
+    found = obeyed("L7", "X40", "L7", "X41")
     assert ends(found) == [[40, 0], [41, 0]] and [a.span[:2] for a in found.alarms] == [(1, 1)]
 
 
@@ -158,12 +159,12 @@ def test_a_corrector_acts_with_the_next_motion_of_any_kind():
     ],
 )  # fmt: skip
 def test_a_setting_changes_the_path(setting, value, lines):
-    before, after = run("F100", *lines), run("F100", *lines, settings={setting: value})
+    before, after = obeyed("F100", *lines), obeyed("F100", *lines, settings={setting: value})
     assert after.ok and str(before.toolpath) != str(after.toolpath)
 
 
 def test_a_hole_of_no_depth_is_said():
-    found = run("F9", "G73 Z0")
+    found = obeyed("F9", "G73 Z0")
     assert found.ok and not len(found.toolpath) and "nothing is drilled" in found.alarms[0].message
 
 
@@ -174,7 +175,7 @@ def test_every_code_of_the_manual_is_there():
     assert {*(f"G{n}" for n in g), *(f"M{n}" for n in m), *"FSTL"} <= set(control.functions)
     assert list(control.cycles) == ["G73", "G74", "G75", "G77", "G78"]
     assert all(f.title and f.doc and f.source for f in control.functions.values())
-    explained = run("F100", "G12 Z-9 R2").explain(line=2)
+    explained = obeyed("F100", "G12 Z-9 R2").explain(line=2)
     assert {"R2", "Z-9"} <= {m.word for m in explained.meanings} and "fillet radius" in str(explained)
 
 
@@ -209,11 +210,12 @@ odd = st.sampled_from(
 )
 
 
+@pytest.mark.deep
 @given(st.lists(st.one_of(*[plain] * 12, arc, odd), min_size=2 * SHORTEST, max_size=110))
 def test_runs_of_plain_blocks(blocks):
     """Obeyed at once or one by one: the same rows, alarms and history."""
     bulk, single = (
-        run("S500 M3 F100", *blocks, correctors={1: (1, 0, 2)}, settings={"bulk": bulk}) for bulk in (True, False)
+        obeyed("S500 M3 F100", *blocks, correctors={1: (1, 0, 2)}, settings={"bulk": bulk}) for bulk in (True, False)
     )
     assert [str(a) for a in bulk.alarms] == [str(a) for a in single.alarms]
     assert len(bulk.toolpath) == len(single.toolpath)

@@ -10,6 +10,8 @@ import mnclab
 from mnclab import Kind, Setup, Tool
 from mnclab.running import bulk
 
+pytestmark = pytest.mark.deep
+
 AUTHORITIES = Path(__file__).parents[2] / "authorities"
 KINDS = {"rapid": Kind.RAPID, "line": Kind.LINE, "arc": Kind.ARC}
 EXACT = 1e-9  # mm

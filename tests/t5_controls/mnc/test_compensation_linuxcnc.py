@@ -12,18 +12,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from running import run
 
-import mnclab
-from mnclab import Kind, Setup, Tool
+from mnclab import Kind, Tool
+
+pytestmark = pytest.mark.deep
 
 FILE = Path(__file__).parents[2] / "authorities" / "contours.json.gz"
 RECORDS = json.loads(gzip.decompress(FILE.read_bytes()))["records"]
 EXACT = 1e-9  # mm: LinuxCNC hands doubles over in inches
 
 
-def run(record, **settings):
-    tools = {1: Tool(radius=record["radius"])}
-    return mnclab.run(record["mnc"], "mnc", Setup(tools=tools, settings=settings))
+def obeyed(record, **settings):
+    return run(record["mnc"], ok=None, tools={1: Tool(radius=record["radius"])}, **settings)
 
 
 def same_path(path, rows):
@@ -48,13 +49,13 @@ def crosses_itself(path):
 @pytest.mark.parametrize("family", sorted({record["family"] for record in RECORDS}))
 def test_same_path_and_same_refused(family):
     for record in (r for r in RECORDS if r["family"] == family):
-        found = run(record)
+        found = obeyed(record)
         if found.ok != record.get("clear", False):
             assert found.ok and "refused" not in record and crosses_itself(found.programmed), record["mnc"]
         if "rows" not in record:
             continue
         if not found.ok:  # cut anyway, the path is the same; where an arc is used up LinuxCNC turns the other way round
-            found = run(record, gouge="mark")
+            found = obeyed(record, gouge="mark")
             assert found.ok and found.toolpath.gouge.any()
             if {gouge.kind for gouge in found.gouges} & {"arc", "element"}:
                 continue

@@ -1,11 +1,14 @@
 """G160 to G162, the change of side, and what compensation keeps under mirror images, turns, planes and helices."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
+import running
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from running import lines
 
 import mnclab
 from mnclab import Kind, Setup, Tool
@@ -13,15 +16,11 @@ from mnclab.path.kinds import Rule
 
 TOOLS = {1: Tool(radius=2), 2: Tool(radius=1.5, dr=0.5), 3: Tool(dr=-2)}
 
-
-def run(program, **more):
-    found = mnclab.run(program.replace("|", "\n") + "\n", "mnc", Setup(tools=TOOLS, **more))
-    assert found.ok, found.alarms
-    return found
+run = partial(running.run, tools=TOOLS)
 
 
 def ends(program):
-    moves = run(program).toolpath.motion
+    moves = run(lines(program)).toolpath.motion
     return np.round(moves.end[:, :2], 9).tolist(), [Kind(kind).name for kind in moves.kind]
 
 
@@ -30,7 +29,7 @@ def test_change_of_side_is_an_entry():
     points, kinds = ends("T1 G0 X-9|G41 G1 X0 F60|X5|G42 X9|Y5|G40 Y9")
     assert points == [[-9, 0], [0, 2], [5, 2], [9, -2], [11, 0], [11, 5], [9, 9]]
     assert kinds == ["RAPID", "LINE", "LINE", "LINE", "ARC", "LINE", "LINE"]
-    rule = run("T1 G0 X-9|G41 G1 X0 F60|X5|G42 X9|Y5|G40 Y9").toolpath.motion.rule.tolist()
+    rule = run(lines("T1 G0 X-9|G41 G1 X0 F60|X5|G42 X9|Y5|G40 Y9")).toolpath.motion.rule.tolist()
     assert rule == [Rule.NONE, Rule.ENTRY, Rule.SIDE, Rule.CHANGE, Rule.OUTSIDE_ARC, Rule.SIDE, Rule.EXIT]
 
 
@@ -50,11 +49,11 @@ def test_where_the_offsets_do_not_meet_the_corner_is_an_arc():
 def test_a_spike_is_worth_a_warning():
     """MNC-G161-SPIKE: atan(5 / 50) = 5.71 degrees, prolonged by 2 / tan(a / 2); G162 makes an arc."""
     program = "{} T1 G0 X-9|G41 G1 X0 F60|X50|X0 Y-5|G40 X-9 Y-9"
-    found, half = run(program.format("G161")), math.atan(0.1) / 2
+    found, half = run(lines(program.format("G161"))), math.atan(0.1) / 2
     assert found.toolpath.end[found.toolpath.line == 3][0, 0] == pytest.approx(50 + 2 / math.tan(half), abs=1e-9)
     assert [alarm.message for alarm in found.alarms] == ["the straight corner of 5.71 degrees reaches 40.15 mm out"]
-    assert not run(program.format("G162")).alarms
-    back = run("G161 T1 G0 X-9|G41 G1 X0 F60|X50|X0|G40 X-9").toolpath  # straight back: an arc of half a turn
+    assert not run(lines(program.format("G162"))).alarms
+    back = run(lines("G161 T1 G0 X-9|G41 G1 X0 F60|X50|X0|G40 X-9")).toolpath  # straight back: an arc of half a turn
     assert np.degrees(back.sweep[back.kind == Kind.ARC]).tolist() == [-180]
 
 
@@ -73,7 +72,7 @@ def test_radius_with_corrections_of_t_or_d_and_a_negative_one():
 
 def test_helix_and_full_circle():
     """Inside a circle of radius 10 about (0, 0): full turns of radius 8, the pitch stays."""
-    path = run("T1 G0 X2|G41 G1 X10 F60|G3 I-10 Z-3|G3 I-10|G40 G1 X2").toolpath
+    path = run(lines("T1 G0 X2|G41 G1 X10 F60|G3 I-10 Z-3|G3 I-10|G40 G1 X2")).toolpath
     arcs = path[path.kind == Kind.ARC]
     assert np.allclose(arcs.sweep, 2 * math.pi) and np.allclose(arcs.end, [[8, 0, -3], [8, 0, -3]])
     assert np.allclose(arcs.start, [[8, 0, 0], [8, 0, -3]])
@@ -106,6 +105,7 @@ def result(program):
     return found.toolpath.motion
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("code", ["G160", "G161", "G162"])
 @settings(max_examples=40)
 @given(points=CONTOUR, side=st.sampled_from([1, -1]), turn=st.sampled_from([30.0, 90.0, -77.5]))
@@ -137,5 +137,5 @@ def test_planes(plane, first, second):
     text = "\n".join(blocks([(0, 0), (20, 0), (25, 20), (-10, 15)], -1, "G161"))
     axes = {"X": 0, "Y": 1, "Z": 2}
     other = text.replace("X", "a").replace("Y", "b").replace("a", first).replace("b", second)
-    one, two = run(text).toolpath.motion, run(plane + "\n" + other).toolpath.motion
+    one, two = run(lines(text)).toolpath.motion, run(lines(plane + "\n" + other)).toolpath.motion
     assert np.allclose(one.end[:, :2], two.end[:, [axes[first], axes[second]]], atol=1e-12)

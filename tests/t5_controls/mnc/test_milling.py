@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from running import run
 
 import mnclab
 from mnclab import Kind, Setup, Tool
@@ -20,12 +21,8 @@ def number(least, greatest):
     return st.floats(least, greatest).map(lambda value: round(value, 3))
 
 
-def run(block, *, radius=5.0, plunge_angle=0.0, start=(0.0, 0.0, 40.0), head="T1\n"):
-    found = mnclab.run(
-        head + block, "mnc", Setup(tools={1: Tool(radius=radius, plunge_angle=plunge_angle)}, start=start)
-    )
-    assert found.ok, found.alarms
-    return found
+def milled(block, *, radius=5.0, plunge_angle=0.0, start=(0.0, 0.0, 40.0), head="T1\n"):
+    return run(block, before=head, tools={1: Tool(radius=radius, plunge_angle=plunge_angle)}, start=start)
 
 
 def cycle_rows(found):
@@ -169,7 +166,7 @@ def test_a_circular_pocket_is_the_sequence_of_the_manual(v, radius, start):
         return v["D"] / 2 - radius - allowance
 
     expected = mill_pocket(v, radius, rings, reach, reach, (1, 0), 0.0, start)
-    expected.same_as(cycle_rows(run(block("G344", v), radius=radius, start=start)))
+    expected.same_as(cycle_rows(milled(block("G344", v), radius=radius, start=start)))
 
 
 @settings(max_examples=60)
@@ -222,7 +219,7 @@ def test_a_rectangular_pocket_is_the_sequence_of_the_manual(v, radius, corner, s
         return max(v["A"], v["B"]) / 2 - radius - allowance
 
     expected = mill_pocket(v, radius, rings, wall, room, long, math.radians(v["E"]), start)
-    expected.same_as(cycle_rows(run(block("G343", v), radius=radius, start=start)))
+    expected.same_as(cycle_rows(milled(block("G343", v), radius=radius, start=start)))
 
 
 @pytest.mark.parametrize("code", ["G343 A60 B40", "G344 D40"])
@@ -230,7 +227,7 @@ def test_a_rectangular_pocket_is_the_sequence_of_the_manual(v, radius, corner, s
 def test_every_way_down_keeps_to_the_plunge_angle(code, plunge_angle):
     """Plunges begin at the level already cut, at V; no slope is steeper than the angle, no level move is at V."""
     for strategy in (1, 2) if "G343" in code else (1,):
-        found = run(f"{code} Z0 H-8 P3 Q2 U0.5 W0.2 K1 J{strategy} F500 V150\n", plunge_angle=plunge_angle)
+        found = milled(f"{code} Z0 H-8 P3 Q2 U0.5 W0.2 K1 J{strategy} F500 V150\n", plunge_angle=plunge_angle)
         rows = cycle_rows(found)
         rows = rows[rows.kind != Kind.RAPID]
         flat = np.where(rows.kind == Kind.ARC, np.abs(rows.sweep) * np.hypot(*(rows.start - rows.centre).T[:2]), 0)
@@ -249,7 +246,7 @@ def test_every_way_down_keeps_to_the_plunge_angle(code, plunge_angle):
 
 @pytest.mark.parametrize(("mode", "sense"), [(1, 1), (0, 1), (-1, -1)])
 def test_the_helix_turns_as_the_pocket_is_milled(mode, sense):
-    rows = cycle_rows(run(f"G344 D40 Z0 H-3 P3 Q2 K1 J1 L{mode} F500 V150\n", plunge_angle=3))
+    rows = cycle_rows(milled(f"G344 D40 Z0 H-3 P3 Q2 K1 J1 L{mode} F500 V150\n", plunge_angle=3))
     arcs = rows[rows.kind == Kind.ARC]
     assert (np.sign(arcs.sweep) == sense).all()
 
@@ -278,7 +275,7 @@ def test_line_milling_is_the_sequence_of_the_manual(v, radius, z0):
         m.to(y=y, f=v["T"])
         m.to(x=left if k % 2 else right, f=v["F"])
     m.to(z=above)
-    m.same_as(cycle_rows(run(block("G320", v), radius=radius, start=(1, 2, z0))))
+    m.same_as(cycle_rows(milled(block("G320", v), radius=radius, start=(1, 2, z0))))
 
 
 FACE = SURFACE | {
@@ -319,7 +316,7 @@ def test_face_milling_is_the_sequence_of_the_manual(v, radius, z0):
             m.to(x=turns[1 if right else 0], f=cut)
             right = not right
     m.to(z=max(z0, above))
-    m.same_as(cycle_rows(run(block("G321", v), radius=radius, start=(1, 2, z0))))
+    m.same_as(cycle_rows(milled(block("G321", v), radius=radius, start=(1, 2, z0))))
 
 
 # --- notices, and what a block may hold ---------------------------------------------------------------------------------
@@ -345,14 +342,14 @@ def test_face_milling_is_the_sequence_of_the_manual(v, radius, z0):
     ],
 )
 def test_what_a_program_is_told_about(text, notice):
-    found = run(text + "\n", plunge_angle=3)
+    found = milled(text + "\n", plunge_angle=3)
     assert [a.message.startswith(notice) for a in found.alarms] == [True] and found.alarms[0].span[:2] == (2, 1)
     if "nothing" in notice:
         assert not found.toolpath.is_motion.any()
 
 
 def test_a_tool_that_fills_its_pocket_only_plunges():
-    rows = cycle_rows(run("G344 D10 Z0 H-8 P3 Q2 K1 F400 V150\n"))
+    rows = cycle_rows(milled("G344 D10 Z0 H-8 P3 Q2 K1 F400 V150\n"))
     assert (rows.end[:, :2] == 0).all()
     assert rows.end[rows.kind == Kind.LINE][:, 2].tolist() == [-3, -6, -8]
 
@@ -368,13 +365,13 @@ def test_left_out_feeds(code):
         (" F500 T0", 500, 500),
         (" F500 T90", 500, 90),
     ):
-        rows = cycle_rows(found := run(code + words + "\n", head="T1 F320\n"))
+        rows = cycle_rows(found := milled(code + words + "\n", head="T1 F320\n"))
         cutting = rows[(rows.kind != Kind.RAPID) & (rows.start[:, 2] == rows.end[:, 2])]
         names = [cutting.labels[k] for k in cutting.label]
         assert {f for f, name in zip(cutting.feed, names) if "layer" in name} == {roughing}
         assert {f for f, name in zip(cutting.feed, names) if "finishing" in name} == {finishing}
         assert found.at(2).state["feed"] == 320
-    rows = cycle_rows(run(code + "\n", head="T1 S1000 M3 G95 F0.2\n"))
+    rows = cycle_rows(milled(code + "\n", head="T1 S1000 M3 G95 F0.2\n"))
     level = (rows.kind != Kind.RAPID) & (rows.start[:, 2] == rows.end[:, 2])
     assert set(rows.feed[level]) == {200} and set(rows.feed[(rows.kind == Kind.LINE) & ~level]) == {150}
 
@@ -383,14 +380,14 @@ def test_coordinates_are_absolute_under_g91():
     """MNC-MILL-ABS: X, Y, Z and W; A and B are distances in any case."""
     for text in ("G320 X5 Y6 Z-1 A50 B20 K3 V150 F400 Q2\n", "G321 X5 Y6 Z0 W-3 A50 B40 Q2 P2 K1 F400 V900 I2\n",
                  "G344 D40 Z-1 H-4 P4 Q2 K1 F400 V150\n"):  # fmt: skip
-        rows = [cycle_rows(run(text, head=f"{dimension} T1\n")) for dimension in ("G90", "G91")]
+        rows = [cycle_rows(milled(text, head=f"{dimension} T1\n")) for dimension in ("G90", "G91")]
         assert np.array_equal(rows[0].end, rows[1].end)
 
 
 @pytest.mark.parametrize("plane", ["G17", "G18", "G19"])
 def test_a_plane_does_not_turn_the_pocket(plane):
     text = "G343 A60 B40 R8 Z0 H-4 P4 Q2 U0.2 K1 J1 F400 V150\n"
-    rows, flat = (cycle_rows(run(text, plunge_angle=3, head=f"T1 {which}\n")) for which in (plane, "G17"))
+    rows, flat = (cycle_rows(milled(text, plunge_angle=3, head=f"T1 {which}\n")) for which in (plane, "G17"))
     assert np.array_equal(rows.end, flat.end) and np.array_equal(rows.sweep, flat.sweep)
     assert (rows.axis[rows.kind == Kind.ARC] == (0, 0, 1)).all()
 
@@ -398,12 +395,12 @@ def test_a_plane_does_not_turn_the_pocket(plane):
 def test_it_runs_once_and_leaves_the_prepared_cycle():
     """G320 to G344 are in no group: the next positions only move, M99 still runs what was prepared, G83 goes on."""
     pocket = "G344 D40 Z0 H-4 P4 Q2 K1 F400 V150\n"
-    found = run("G300 Q2 H-5 Z0 F90\n" + pocket + "G0 X30\nX40 M99\n", head="T1\n")
+    found = milled("G300 Q2 H-5 Z0 F90\n" + pocket + "G0 X30\nX40 M99\n", head="T1\n")
     labels = {
         n: {found.toolpath.labels[k][:4] for k in found.toolpath.label[found.toolpath.line == n]} for n in (3, 4, 5)
     }
     assert labels == {3: {"G344"}, 4: {""}, 5: {"", "G300"}}
-    found = run("G83 X5 Z-5 R2 F90\n" + pocket + "X30\n", head="T1\n")
+    found = milled("G83 X5 Z-5 R2 F90\n" + pocket + "X30\n", head="T1\n")
     assert "G83" in {found.toolpath.labels[k][:3] for k in found.toolpath.label[found.toolpath.line == 4]}
 
 
@@ -414,8 +411,8 @@ def test_a_frame_mirrors_turns_and_scales_a_pocket():
     """
     text, start = "G344 D40 Z0 H-4 P4 Q2 U0.2 K1 F400 V150\n", (10, 5, 40)
     for frame, (x, y), sense in (("G51 X0", (-1, 1), -1), ("G51 X0 Y0", (-1, -1), 1), ("G37 X2 Y2", (2, 2), 1)):
-        plain = cycle_rows(run(text, start=start, radius=5 / abs(x)))
-        rows = cycle_rows(run(f"{frame}\n{text}", start=start))
+        plain = cycle_rows(milled(text, start=start, radius=5 / abs(x)))
+        rows = cycle_rows(milled(f"{frame}\n{text}", start=start))
         assert np.allclose(rows.end, plain.end * (x, y, 1))
         assert np.allclose(rows.sweep, plain.sweep * sense)
     refused = mnclab.run("T1\nG37 X2 Y1\n" + text, "mnc", Setup(start=start))

@@ -7,20 +7,20 @@ is never left by more than a micrometre, and the allowances are what stays.
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from running import labelled, run
 from shapely import LineString, Point, affinity, box, union_all
 
 import mnclab
 from mnclab import Kind, Setup, Tool
 
+pytestmark = pytest.mark.deep
+
 MICRON = 1e-3
 
 
-def run(text, radius, start=(12.0, -7.0, 30.0)):
+def milled(text, radius, start=(12.0, -7.0, 30.0)):
     tool = Tool(radius=radius, plunge_angle=4)
-    found = mnclab.run("T1\n" + text + "\n", "mnc", Setup(tools={1: tool}, start=start))
-    assert found.ok, found.alarms
-    path = found.toolpath[found.toolpath.is_motion]
-    return [(row, path.labels[k]) for row, k in zip(path, path.label)]
+    return labelled(run(text, before="T1\n", tools={1: tool}, start=start).toolpath)
 
 
 def outline(code, v, radius, place):
@@ -56,7 +56,7 @@ COMMON = {
 def test_a_pocket_is_cleared_and_nothing_beyond_it(code, data, radius, sweeps):
     v = data.draw(st.fixed_dictionaries(SHAPES[code] | COMMON))
     text = " ".join([code, *(f"{address}{value:.9f}" for address, value in v.items())])
-    rows, place = run(text, radius), (12.0, -7.0)
+    rows, place = milled(text, radius), (12.0, -7.0)
     wall = outline(code, v, radius, place)
     floor, rest = v["H"], v["H"] + v["W"]
 
@@ -93,7 +93,7 @@ def test_a_pocket_is_cleared_and_nothing_beyond_it(code, data, radius, sweeps):
 def test_a_ramp_clears_its_slope(sweeps):
     """After a reciprocating plunge nothing of the slope stands at the level: level moves alone cover the pocket."""
     for block in ("G343 A60 B30", "G343 A30 B60 E20", "G343 A50 B50 R12"):
-        rows = run(f"{block} Z0 H-6 P3 Q2 K1.2 J2 F400 V90", 4.0)
+        rows = milled(f"{block} Z0 H-6 P3 Q2 K1.2 J2 F400 V90", 4.0)
         sweeps.no_rapid_cuts(rows, 4.0)
         sloping = [
             row for row, _ in rows if row.kind == Kind.LINE and row.start[2] > row.end[2] and row.end[0] != row.start[0]
@@ -112,7 +112,7 @@ def test_a_ramp_clears_its_slope(sweeps):
 )  # fmt: skip
 def test_face_milling_covers_the_surface(strategy, a, b, overlap, radius, allowance, sweeps):
     """All of it on every level; with L1 all between the places where it turns, beyond which it leaves scallops."""
-    rows = run(
+    rows = milled(
         f"G321 L{strategy} X3 Y4 Z0 W-3 A{a:.6f} B{b:.6f} Q2 P2 K{overlap:.6f} F400 V900 I1 U{allowance}", radius
     )
     surface = box(3, 4, 3 + a, 4 + b)

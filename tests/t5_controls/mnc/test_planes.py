@@ -1,6 +1,7 @@
 """The same contour in the three planes: X Y Z I J become Z X Y K I in G18, and Y Z X J K in G19 (2.4, 3.4)."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -24,6 +25,7 @@ entry = st.sampled_from(["", "G41 G1 {0}0 {1}0", "G42 G1 {0}0 {1}0"])
 dimensions = st.sampled_from(["G90", "G91"])
 
 
+@pytest.mark.deep
 @given(entry, dimensions, contour)
 def test_a_contour_turned_with_its_plane(entry, dimensions, contour):
     blocks = ["T1 F100", "G90 G0 {0}-30 {1}-25 {2}5", entry, dimensions, *contour, "G40 G1 {0}70 {1}-35"]

@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from running import lines, run
 
 import mnclab
-from mnclab import Kind, Setup, Tool
+from mnclab import Kind, Tool
 
 CONTROL = mnclab.controls["mnc"]
 DATUMS = {1: (3, 4, 0), 2: (30, 40, 50), 99: (1, 2, 3)}
@@ -159,13 +160,13 @@ CASES = [
 ]  # fmt: skip
 
 
-def run(program, **setup):
-    return mnclab.run(program.replace("|", "\n") + "\n", "mnc", Setup(datums=DATUMS, tools=TOOLS, **setup))
+def obeyed(program, **setup):
+    return run(lines(program), ok=None, datums=DATUMS, tools=TOOLS, **setup)
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.name} {case.program}")
 def test_the_default_is_the_adopted_reading(case):
-    found = run(case.program)
+    found = obeyed(case.program)
     if case.alarm:
         place, _, text = case.alarm.partition(" ")
         first = next(alarm for alarm in found.alarms if alarm.severity == "alarm")
@@ -191,14 +192,14 @@ def codes(found):
 
 def test_g18_turns_from_z_to_x():
     """MNC-G18-ORDER: a quarter from (Z5, X0) to (Z0, X5), counter-clockwise about +Y."""
-    row = run("G18 G0 Z5|G3 X5 Z0 K-5 F60").toolpath[-1]
+    row = obeyed("G18 G0 Z5|G3 X5 Z0 K-5 F60").toolpath[-1]
     assert row.axis.tolist() == [0, 1, 0] and math.degrees(row.sweep) == pytest.approx(90)
 
 
 def test_the_tool_starts_at_the_machine_zero_or_where_the_caller_says():
     """MNC-HOME"""
-    assert run("G0 X5").toolpath.start.tolist() == [[0, 0, 0]]
-    assert run("G0 X5", start=(1, 2, 3)).toolpath.end.tolist() == [[5, 2, 3]]
+    assert obeyed("G0 X5").toolpath.start.tolist() == [[0, 0, 0]]
+    assert obeyed("G0 X5", start=(1, 2, 3)).toolpath.end.tolist() == [[5, 2, 3]]
 
 
 def test_numbers_of_table_1_2_are_other_names():
@@ -216,7 +217,7 @@ def test_numbers_of_table_1_2_are_other_names():
         assert CONTROL.cycles.get(other) is CONTROL.cycles.get(code)
         assert (other in CONTROL.refused) == (code in CONTROL.refused)
     assert not {"G240", "G207"} & {*CONTROL.functions, *CONTROL.cycles, *CONTROL.refused}
-    notices = [alarm.message for alarm in run("F60|G200 Q1 H-5 Z0").alarms]
+    notices = [alarm.message for alarm in obeyed("F60|G200 Q1 H-5 Z0").alarms]
     assert notices == ["G200 is another name of G300 (Drilling)"]
 
 
@@ -225,7 +226,7 @@ def test_groups_that_the_table_leaves_out():
     group = {code: CONTROL.functions[code].group for code in ("G0", "G1", "G13", "G9", "G54", "G147", "G92")}
     assert group["G0"] == group["G1"] == group["G13"] != group["G9"]
     assert group["G147"] == group["G54"] and group["G92"] is None
-    assert "are of one group" in run("F60|G80 G83 Z-5 R1").alarms[0].message
+    assert "are of one group" in obeyed("F60|G80 G83 Z-5 R1").alarms[0].message
 
 
 def test_fields_of_the_tool_table():
@@ -235,33 +236,33 @@ def test_fields_of_the_tool_table():
 
 def test_the_corrector():
     """MNC-D: T1 is 0 long and has radius 2; row 2 corrects the length by -0.5 and has the radius 2.5."""
-    found = run("T1|D2|T1")
+    found = obeyed("T1|D2|T1")
     assert [found.at(line).position[2] for line in (1, 2, 3)] == [0, 0.5, 0]
     assert found.toolpath.radius.tolist() == [2, 2.5, 2]
 
 
 def test_the_feed_of_a_corner_is_that_of_the_next_block():
     """MNC-CRC-FEED"""
-    path = run("T1 G0 X-9|G41 G1 X0 F60|X5|Y-5 F80|G40 Y-9").toolpath
+    path = obeyed("T1 G0 X-9|G41 G1 X0 F60|X5|Y-5 F80|G40 Y-9").toolpath
     assert path.feed[path.kind == Kind.ARC].tolist() == [80]
 
 
 def test_the_kind_of_corner_of_the_exit_stays():
     """MNC-G40-CORNERMODE"""
-    assert run("T1 G0 X-9|G41 G1 X0 F60|X5|G40 G160 X9|Y5").at(5).state["corners"] == "G160"
+    assert obeyed("T1 G0 X-9|G41 G1 X0 F60|X5|G40 G160 X9|Y5").at(5).state["corners"] == "G160"
 
 
 def test_the_spindle_has_its_speed_at_once():
     """MNC-G26-TIME: no time passes."""
-    assert codes(run("G26 S500 M3|G0 X1")) == ["SPINDLE", "RAPID"]
+    assert codes(obeyed("G26 S500 M3|G0 X1")) == ["SPINDLE", "RAPID"]
 
 
 def test_spindle_and_coolant_act_before_the_motion_what_ends_after_it():
     """MNC-M-ORDER, MNC-M5, MNC-PROG-END: M3 M4 M7 M8 before; M5, M9 (ISO 6983), M0 and M99 after it."""
-    assert codes(run("G0 X1 S500 M3|X2 M5")) == ["SPINDLE", "RAPID", "RAPID", "SPINDLE"]
-    path = run("S500 M3|G0 X2 M5").toolpath
+    assert codes(obeyed("G0 X1 S500 M3|X2 M5")) == ["SPINDLE", "RAPID", "RAPID", "SPINDLE"]
+    path = obeyed("S500 M3|G0 X2 M5").toolpath
     assert path.spindle.tolist() == [500, 500, 0]
-    assert codes(run("G0 X1 M8|X2 M9|X3 M0")) == ["COOLANT", "RAPID", "RAPID", "COOLANT", "RAPID", "STOP"]
+    assert codes(obeyed("G0 X1 M8|X2 M9|X3 M0")) == ["COOLANT", "RAPID", "RAPID", "COOLANT", "RAPID", "STOP"]
 
 
 @pytest.mark.parametrize(
@@ -270,13 +271,13 @@ def test_spindle_and_coolant_act_before_the_motion_what_ends_after_it():
 )
 def test_a_prepared_cycle_runs_where_the_block_ends(motion, place):
     """MNC-M99-MOTION: clearance level 1, bottom -5, back to where Z stood."""
-    path = run(f"F60|G0 Z9|G300 Q1 H-5 Z0|{motion}").toolpath
+    path = obeyed(f"F60|G0 Z9|G300 Q1 H-5 Z0|{motion}").toolpath
     assert path.end[-3:].tolist() == [[*place, 1], [*place, -5], [*place, 9]]
 
 
 def test_a_prepared_cycle_runs_after_a_polar_motion():
     """MNC-M99-MOTION"""
-    path = run("F60|G300 Q1 H-5 Z0|G16|G10 R3 A90|G11 R4 M99").toolpath
+    path = obeyed("F60|G300 Q1 H-5 Z0|G16|G10 R3 A90|G11 R4 M99").toolpath
     assert path.end[-2].tolist() == pytest.approx([0, 4, -5])
-    alarm = run("F60|G300 Q1 H-5 Z0|T1|G41 G1 X5|X9 M99").alarms[0]
+    alarm = obeyed("F60|G300 Q1 H-5 Z0|T1|G41 G1 X5|X9 M99").alarms[0]
     assert alarm.message == "a cycle cannot run under radius compensation" and alarm.span[:2] == (5, 4)

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from running import lines, run
 
 import mnclab
-from mnclab import Alarm, Kind, Limits, Setup, Tool
+from mnclab import Alarm, Kind, Limits, Tool
 from mnclab.path.columns import COLUMNS
 from mnclab.path.kinds import Rule
 from mnclab.running import bulk as tiers
@@ -18,14 +19,13 @@ TOOLS = {0: Tool(), 1: Tool(radius=2, length=50), 2: Tool(radius=3, length=30, d
 DATUMS = {1: (3, 4, 0)}
 
 
-def run(program, settings, **setup):
-    setup = {"tools": TOOLS, "datums": DATUMS, **setup}
-    return mnclab.run(program.replace("|", "\n") + "\n", "mnc", Setup(settings=settings, **setup))
+def obeyed(program, settings, **setup):
+    return run(lines(program), ok=None, settings=settings, **({"tools": TOOLS, "datums": DATUMS} | setup))
 
 
 def ends(program, **settings):
     """Ends of the moves in machine coordinates; no alarms."""
-    found = run(program, settings)
+    found = obeyed(program, settings)
     assert found.ok, found.alarms
     moves = found.toolpath.motion
     return np.round(moves.end + moves.origin, 9).tolist()
@@ -82,7 +82,7 @@ ARCS = [  # setting, value, program, centre, degrees
 
 @pytest.mark.parametrize(("setting", "value", "program", "centre", "degrees"), ARCS)
 def test_arcs(setting, value, program, centre, degrees):
-    row = run(program, {setting: value}).toolpath[-1]
+    row = obeyed(program, {setting: value}).toolpath[-1]
     assert row.kind == Kind.ARC and row.centre[:2].tolist() == pytest.approx(centre, abs=1e-9)
     assert degrees is None or math.degrees(row.sweep) == pytest.approx(degrees)
 
@@ -91,20 +91,20 @@ def test_power_on():
     """Planes by the axis of an arc, G1 by the kind of a move, G95 by its feed, G61 by exact stops, G99 by where Z stays."""
     arcs = {"G17": "G3 X5 I5", "G18": "G3 Z5 K5", "G19": "G3 Y5 J5"}
     for k, (plane, arc) in zip((2, 1, 0), arcs.items(), strict=True):
-        row = run(f"F60|{arc.replace('5', '0', 1)}", {"power_on_plane": plane}).toolpath[-1]
+        row = obeyed(f"F60|{arc.replace('5', '0', 1)}", {"power_on_plane": plane}).toolpath[-1]
         assert row.axis.tolist() == [float(k == axis) for axis in range(3)] and row.sweep == math.tau
-    assert [run("F60|X5", {"power_on_motion": code}).toolpath[0].kind for code in ("G0", "G1")] == [
+    assert [obeyed("F60|X5", {"power_on_motion": code}).toolpath[0].kind for code in ("G0", "G1")] == [
         Kind.RAPID,
         Kind.LINE,
     ]
-    alarm = run("X5", {"power_on_motion": "G1"}).alarms[0]
+    alarm = obeyed("X5", {"power_on_motion": "G1"}).alarms[0]
     assert alarm.message.startswith("no feed rate was programmed") and alarm.span[:2] == (1, 1)
-    feeds = [run("S50 M3 F2|G1 X5", {"power_on_feed": code}).toolpath[-1].feed for code in ("G94", "G95")]
+    feeds = [obeyed("S50 M3 F2|G1 X5", {"power_on_feed": code}).toolpath[-1].feed for code in ("G94", "G95")]
     assert feeds == [2, 100]
-    assert [run("G0 X5", {"power_on_blending": code}).toolpath[-1].exact for code in ("G64", "G61")] == [False, True]
-    heights = [run("F60|G0 Z9|G83 Z-5 R1", {"power_on_return": code}).toolpath[-1].end[2] for code in ("G98", "G99")]
+    assert [obeyed("G0 X5", {"power_on_blending": code}).toolpath[-1].exact for code in ("G64", "G61")] == [False, True]
+    heights = [obeyed("F60|G0 Z9|G83 Z-5 R1", {"power_on_return": code}).toolpath[-1].end[2] for code in ("G98", "G99")]
     assert heights == [9, 1]
-    found = run("G0 X1", {"power_on_plane": "G19", "power_on_dimension": "G91"}).at(1).state
+    found = obeyed("G0 X1", {"power_on_plane": "G19", "power_on_dimension": "G91"}).at(1).state
     assert (found["plane"], found["dimension"], found["motion"]) == ("G19", "G91", "G0")
 
 
@@ -120,7 +120,7 @@ REMARKS = [
 
 @pytest.mark.parametrize(("setting", "program", "place", "text"), REMARKS)
 def test_what_the_manual_does_not_describe(setting, program, place, text):
-    said = {choice: run(program, {setting: choice}) for choice in ("warn", "accept", "refuse")}
+    said = {choice: obeyed(program, {setting: choice}) for choice in ("warn", "accept", "refuse")}
     assert [alarm.severity for alarm in said["warn"].alarms] == ["warning"] and not said["accept"].alarms
     assert np.array_equal(said["warn"].toolpath.end, said["accept"].toolpath.end)
     (alarm,) = said["refuse"].alarms
@@ -128,9 +128,9 @@ def test_what_the_manual_does_not_describe(setting, program, place, text):
 
 
 def test_r_beside_i_j_k_may_be_refused():
-    (alarm,) = run("G2 X10 R13 I5 J12 F60", {"arc_by_both": "refuse"}).alarms
+    (alarm,) = obeyed("G2 X10 R13 I5 J12 F60", {"arc_by_both": "refuse"}).alarms
     assert alarm.severity == "alarm" and alarm.span[:2] == (1, 8)
-    assert [a.message for a in run("G2 X10 R0 I5 F60", {"arc_by_both": "centre"}).alarms] == [
+    assert [a.message for a in obeyed("G2 X10 R0 I5 F60", {"arc_by_both": "centre"}).alarms] == [
         "R and I J K stand in one block: I J K count"
     ]
 
@@ -138,30 +138,30 @@ def test_r_beside_i_j_k_may_be_refused():
 def test_tolerance_of_arcs():
     """Radii 5 and 5.02; a chord of 10.02 for R5."""
     for program in ("G2 X10.02 I5 F60", "G2 X10.02 R5 F60"):
-        assert run(program, {"arc_tolerance": 0.021}).ok and not run(program, {"arc_tolerance": 0.009}).ok
+        assert obeyed(program, {"arc_tolerance": 0.021}).ok and not obeyed(program, {"arc_tolerance": 0.009}).ok
 
 
 def test_a_full_circle_by_the_sign_of_k_is_refused():
-    (alarm,) = run("G16|G10 R5 A0|G13 K5 F60", {"polar_arc": "sign"}).alarms
+    (alarm,) = obeyed("G16|G10 R5 A0|G13 K5 F60", {"polar_arc": "sign"}).alarms
     assert "a full circle needs G2 or G3" in alarm.message and alarm.span[:2] == (3, 5)
 
 
 def test_a_row_beyond_the_table():
-    (alarm,) = run("G147 Q21", {"datum_rows": 20}).alarms
+    (alarm,) = obeyed("G147 Q21", {"datum_rows": 20}).alarms
     assert alarm.message.startswith("G147 Q21 has no row")
 
 
 def test_g53_without_corrections_under_compensation():
     text = "T1 F60|G41 G1 X5|X9|G53 X20|G40 X30"
     for setting in ("g53_transformed", "g53_tool_length"):
-        alarm = run(text, {setting: False}).alarms[0]
+        alarm = obeyed(text, {setting: False}).alarms[0]
         assert alarm.message.startswith("G53 without the corrections") and alarm.span[:2] == (4, 1)
 
 
 def test_axes_of_g18():
     """A quarter from (X5, Z0) to (X0, Z5): for XZ counter-clockwise, G3; for ZX it is three quarters."""
     text = "G18 G0 X5|G3 X0 Z5 I-5 F60"
-    rows = [run(text, {"g18_axes": axes}).toolpath[-1] for axes in ("ZX", "XZ")]
+    rows = [obeyed(text, {"g18_axes": axes}).toolpath[-1] for axes in ("ZX", "XZ")]
     assert [row.axis.tolist() for row in rows] == [[0, 1, 0], [0, -1, 0]]
     assert np.degrees([row.sweep for row in rows]).tolist() == pytest.approx([270, 90])
     polar = [ends("G18 G16|G10 R5 A30", g18_axes=axes)[-1] for axes in ("ZX", "XZ")]
@@ -180,12 +180,13 @@ blocks = st.one_of(
 )
 
 
+@pytest.mark.deep
 @given(st.sampled_from(["G41", "G42", "G40"]), st.lists(blocks, min_size=1, max_size=6))
 def test_xz_is_xy_seen_from_the_other_side(side, contour):
     """With the axes X, Z a contour of G17 in X, Y turns into the same one in X, Z: arcs, sides and corners as well."""
     text = f"T1 F60|G0 X-90 {{v}}-70|{side} G1 X0 {{v}}0|" + "|".join(contour) + "|G40 G1 X90 {v}-75"
-    flat = run("G17|" + text.format(v="Y", c="J"), {}, tools={1: Tool(radius=5)})
-    upright = run("G18|" + text.format(v="Z", c="K"), {"g18_axes": "XZ"}, tools={1: Tool(radius=5)})
+    flat = obeyed("G17|" + text.format(v="Y", c="J"), {}, tools={1: Tool(radius=5)})
+    upright = obeyed("G18|" + text.format(v="Z", c="K"), {"g18_axes": "XZ"}, tools={1: Tool(radius=5)})
     assert [alarm.span[:2] for alarm in upright.alarms] == [alarm.span[:2] for alarm in flat.alarms]
     assert np.allclose(upright.toolpath.end[:, [0, 2]], flat.toolpath.end[:, [0, 1]], rtol=0, atol=1e-9)
     assert np.allclose(upright.toolpath.sweep, flat.toolpath.sweep, rtol=0, atol=1e-9)
@@ -198,67 +199,67 @@ def test_xz_is_xy_seen_from_the_other_side(side, contour):
 def test_the_feed_when_its_meaning_changes():
     """S500: 200 mm/min are 0.4 mm/rev; read anew they would be 100 000 mm/min."""
     text = "S500 M3 F200|G1 X1|G95 X2|G94 X3"
-    assert run(text, {}).toolpath.feed[1:].tolist() == [200, 100_000, 200]
-    assert run(text, {"feed_mode_switch": "converted"}).toolpath.feed[1:].tolist() == pytest.approx([200] * 3)
+    assert obeyed(text, {}).toolpath.feed[1:].tolist() == [200, 100_000, 200]
+    assert obeyed(text, {"feed_mode_switch": "converted"}).toolpath.feed[1:].tolist() == pytest.approx([200] * 3)
     for standing, place in ((text, (3, 5)), (text.replace("G95", "F0.1 G95"), (4, 5))):
-        alarm = run(standing, {"feed_mode_switch": "cleared"}).alarms[0]
+        alarm = obeyed(standing, {"feed_mode_switch": "cleared"}).alarms[0]
         assert alarm.message.startswith("no feed rate was programmed") and alarm.span[0] == place[0]
-    path = run("S500 M3 F200|G1 X1|G95 F0.1|X2|G94 F90 X3", {"feed_mode_switch": "cleared"}).toolpath
+    path = obeyed("S500 M3 F200|G1 X1|G95 F0.1|X2|G94 F90 X3", {"feed_mode_switch": "cleared"}).toolpath
     assert path.feed[1:].tolist() == [200, 50, 90]
-    assert not run("F200|G95|S500 M3|G1 X1", {"feed_mode_switch": "converted"}).ok  # the spindle stood
+    assert not obeyed("F200|G95|S500 M3|G1 X1", {"feed_mode_switch": "converted"}).ok  # the spindle stood
 
 
 def test_the_tool_waits_for_m6():
     text = "T1|X1|T2 X2|M6|X3|M6 X4"
-    numbers = {choice: run(text, {"tool_change": choice}).toolpath for choice in ("T", "M6")}
+    numbers = {choice: obeyed(text, {"tool_change": choice}).toolpath for choice in ("T", "M6")}
     assert [numbers["T"].tool[numbers["T"].line == k][-1] for k in (2, 3, 5, 6)] == [1, 2, 2, 2]
     assert [numbers["M6"].tool[numbers["M6"].line == k][-1] for k in (2, 3, 5, 6)] == [0, 0, 2, 2]
-    found = run("T1|T2 M6 D1|G0 Z0", {"tool_change": "M6"})
+    found = obeyed("T1|T2 M6 D1|G0 Z0", {"tool_change": "M6"})
     assert not found.alarms and found.toolpath[-1].radius == 2  # D counts for the new tool
     assert found.at(1).state["next tool"] == 1
-    (alarm,) = run("M6", {"tool_change": "M6"}).alarms
+    (alarm,) = obeyed("M6", {"tool_change": "M6"}).alarms
     assert alarm.message == "M6 has no tool to put into the spindle" and alarm.span[:2] == (1, 1)
-    (alarm,) = run("T1 M6|F60 T2|G41 G1 X5|X9|M6", {"tool_change": "M6"}).alarms
+    (alarm,) = obeyed("T1 M6|F60 T2|G41 G1 X5|X9|M6", {"tool_change": "M6"}).alarms
     assert alarm.message.startswith("the tool cannot change") and alarm.span[:2] == (5, 1)
-    assert run("T1 M6 F60|G41 G1 X5|X9 T2|G40 X20|M6", {"tool_change": "M6"}).ok
+    assert obeyed("T1 M6 F60|G41 G1 X5|X9 T2|G40 X20|M6", {"tool_change": "M6"}).ok
 
 
 def test_the_length_of_the_corrector():
     """T1 is 50 long, row 2 has 30 + 1; the reference stands at 0."""
     for setting, length in ((False, 51), (True, 31)):
-        found = run("T1|D2", {"corrector_length": setting})
+        found = obeyed("T1|D2", {"corrector_length": setting})
         assert found.at(2).position[2] == -length
 
 
 def test_waiting_for_the_spindle():
     """Once for each block that gives it another speed or sense, not under G25, not for M5."""
     text = "S500 M3|G1 X1 F60|S500|S800|M4|S900 M3|M5|S700|G25|M3|G26 S600"
-    path = run(text, {"spindle_run_up": 1.5}).toolpath
+    path = obeyed(text, {"spindle_run_up": 1.5}).toolpath
     waits = path.kind == Kind.DWELL
     assert path.line[waits].tolist() == [1, 4, 5, 6, 11] and (path.time[waits] == 1.5).all()
-    assert not (run(text, {}).toolpath.kind == Kind.DWELL).any()
+    assert not (obeyed(text, {}).toolpath.kind == Kind.DWELL).any()
 
 
 def test_m5_acts_after_the_motion_or_before_it():
     text = "S500 M3|G0 X1 M5|X2"
-    spindles = [run(text, {"spindle_stop": when}).toolpath for when in ("before", "after")]
+    spindles = [obeyed(text, {"spindle_stop": when}).toolpath for when in ("before", "after")]
     assert [path.spindle[path.kind == Kind.RAPID].tolist() for path in spindles] == [[0, 0], [500, 0]]
-    path = run("S500 M3 F2|G95 G1 X1 M5", {}).toolpath
+    path = obeyed("S500 M3 F2|G95 G1 X1 M5", {}).toolpath
     assert [Kind(kind).name for kind in path.kind] == ["SPINDLE", "LINE", "SPINDLE"]
-    assert not run("S500 M3 F2|G95 G1 X1 M5", {"spindle_stop": "before"}).ok
+    assert not obeyed("S500 M3 F2|G95 G1 X1 M5", {"spindle_stop": "before"}).ok
 
 
 def test_rapids_of_axes_that_do_not_wait():
     """X at 2000 and Y at 1000 mm/min, turned by 90 degrees: Y30 of the program is X-30. The cycle's rapids too."""
     limits = Limits(rapid=(2000, 1000, 500))
     settings = {"rapid_path": "broken"}
-    path = run("G39 A90|G0 X10 Y30|G1 X0 Y0 F60", settings, limits=limits).toolpath
+    path = obeyed("G39 A90|G0 X10 Y30|G1 X0 Y0 F60", settings, limits=limits).toolpath
     assert path.end == pytest.approx(np.array([[-20, 10, 0], [-30, 10, 0], [0, 0, 0]]))
     assert path.kind.tolist() == [Kind.RAPID, Kind.RAPID, Kind.LINE] and path.line.tolist() == [2, 2, 3]
-    path = run("F60 G0 Z1|G83 X10 Y10 Z-5 R1", settings, limits=limits).toolpath
+    path = obeyed("F60 G0 Z1|G83 X10 Y10 Z-5 R1", settings, limits=limits).toolpath
     assert path.end[1:3].tolist() == [[10, 5, 1], [10, 10, 1]]
-    assert len(run("G0 X10 Y30", {}, limits=limits).toolpath) == 1
-    assert len(run("G0 X10 Y30", settings, limits=limits).programmed) == 1
+    assert len(obeyed("G0 X10 Y30", {}, limits=limits).toolpath) == 1
+    assert len(obeyed("G0 X10 Y30", settings, limits=limits).programmed) == 1
 
 
 # --- one declaration ---------------------------------------------------------------------------------------------------
@@ -267,7 +268,7 @@ def test_rapids_of_axes_that_do_not_wait():
 def test_gouge():
     """A groove 3 mm wide for a tool of radius 2: its floor is lost, so the tool would turn back by 1 mm."""
     groove = "T1 G0 X-9|G41 G1 X0 F60|X10|Y-9|X13|Y0|X20|G40 X30"
-    refused, marked = (run(groove, {"gouge": value}) for value in ("refuse", "mark"))
+    refused, marked = (obeyed(groove, {"gouge": value}) for value in ("refuse", "mark"))
     assert [(alarm.span.line, alarm.severity) for alarm in refused.alarms] == [(4, "alarm")]
     assert [gouge.largest for gouge in refused.gouges] == [1.5] and refused.toolpath.line.max() == 2
     assert marked.ok and {alarm.severity for alarm in marked.alarms} == {"warning"}
@@ -288,7 +289,7 @@ def test_rapid_motion():
     length = math.hypot(100, 20)
     times["line"] = length / (v * length / 100) + (v * length / 100) / (100 * length / 20)
     for motion, seconds in times.items():
-        found = run("G90 G54|G0 X100 Y20", {"rapid_motion": motion}, datums={}).profile(limits)
+        found = obeyed("G90 G54|G0 X100 Y20", {"rapid_motion": motion}, datums={}).profile(limits)
         assert found.time == pytest.approx(seconds)
     assert times["axes"] < times["line"] == pytest.approx(times["proportional"])
 
@@ -298,7 +299,7 @@ def test_outside_corners_follow_the_setting_or_the_program(value, arcs):
     # turns of 90, 135 and 45 degrees, the second acute; the program says straight, then an arc at acute corners; an
     # inserted arc carries the line of the element after it
     text = "T1 F60|G0 X-20 Y0|G1 G161 G41 X0 Y0|Y20|X30|G162 X10 Y0|G40 X-20"
-    path = run(text, {"outside_corners": value}, tools={1: Tool(radius=2)}).toolpath
+    path = obeyed(text, {"outside_corners": value}, tools={1: Tool(radius=2)}).toolpath
     made = path.line[path.rule == Rule.OUTSIDE_ARC]
     assert set(made.tolist()) == arcs
 
@@ -328,7 +329,7 @@ def test_every_setting_is_tested_here_or_with_its_cycle():
 )  # fmt: skip
 def test_a_setup_that_is_not_understood(settings, message):
     with pytest.raises(Alarm) as caught:
-        run("G0 X1", settings)
+        obeyed("G0 X1", settings)
     assert message in str(caught.value)
 
 
@@ -378,7 +379,7 @@ def test_both_tiers_obey_a_setting_alike(settings, todo, fed):
     text = ("F100|" if fed else "") + "|".join(todo)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(tiers, "SHORTEST", 2)
-        bulk, single = (run(text, {**settings, "bulk": tier}) for tier in (True, False))
+        bulk, single = (obeyed(text, {**settings, "bulk": tier}) for tier in (True, False))
     assert [str(alarm) for alarm in bulk.alarms] == [str(alarm) for alarm in single.alarms]
     for name in COLUMNS:
         assert np.allclose(

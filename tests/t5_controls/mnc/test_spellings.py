@@ -2,10 +2,12 @@
 
 import re
 import string
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -135,9 +137,7 @@ SPELLINGS = {
     ).replace("\n", "// \r\n"),
 }  # fmt: skip
 
-
-def run(text):
-    return mnclab.run(text, "mnc")
+run = partial(running.run, ok=None)
 
 
 def same_path(one, other, exact=True):
@@ -198,6 +198,7 @@ def told(run):
     return rows, state, [str(alarm) for alarm in run.alarms]
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_every_word_counts_under_any_other_address(name):
     """Another letter in place of an address is noticed: the path, the state or the alarms are others.
@@ -274,6 +275,7 @@ def survives(source):
     return found
 
 
+@pytest.mark.deep
 @settings(max_examples=300)
 @given(st.sampled_from([*PROGRAMS.values()]), st.lists(mutation, max_size=5))
 def test_mutated_programs_raise_nothing_but_alarms(text, mutations):

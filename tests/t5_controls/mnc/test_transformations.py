@@ -6,11 +6,13 @@ machine kept with these matrices; nothing of mnclab.geometry takes part in it.
 
 import json
 import math
+from functools import partial
 from itertools import permutations
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -177,11 +179,7 @@ def along(row, t):
     spun = arm * math.cos(angle) + np.cross(axis, arm) * math.sin(angle) + axis * (axis @ arm) * (1 - math.cos(angle))
     return row.centre + spun + axis * t * rise
 
-
-def run(text, ok=True, **setup):
-    found = mnclab.run(text, "mnc", Setup(datums=DATUMS, start=START, **setup))
-    assert found.ok == ok, found.alarms
-    return found
+run = partial(running.run, datums=DATUMS, start=START)
 
 
 ORDERS = [

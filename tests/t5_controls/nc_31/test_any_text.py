@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 import mnclab
 from mnclab import Setup
 
+pytestmark = pytest.mark.deep
+
 HERE = Path(__file__).parent
 PROGRAMS = [
     "".join(line for line in file.read_text("utf-8").partition("---")[0].splitlines(keepends=True) if line[0] != "#")

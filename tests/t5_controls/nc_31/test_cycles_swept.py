@@ -17,6 +17,8 @@ from shapely import Polygon, box
 import mnclab
 from mnclab import Kind, Setup
 
+pytestmark = pytest.mark.deep
+
 EACH = 40
 CODES = ("G70", "G71", "G77", "G78", "G74", "G75", "G73", "G72", "G31")
 CLOSE = 1e-9

@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 import pytest
+from running import run
 
 import mnclab
 from mnclab import Kind, Setup
@@ -22,11 +23,8 @@ def beginning(code):
     return values | ({"taper": 10} if code == "G31" else {})
 
 
-def run(code, values, **settings):
-    found = mnclab.run(
-        trial.program("nc-31", CONTROL.cycles[code], values), "nc-31", Setup(start=(30, 0, 20), settings=settings)
-    )
-    assert found.ok, found.alarms
+def motion_of(code, values, **settings):
+    found = run(trial.program("nc-31", CONTROL.cycles[code], values), "nc-31", start=(30, 0, 20), **settings)
     return found.toolpath[2:].motion  # after the spindle and the move to the start
 
 
@@ -41,10 +39,10 @@ def kinds(path):
 @pytest.mark.parametrize(("code", "parameter"), CASES, ids=lambda case: getattr(case, "name", case))
 def test_a_parameter_acts(code, parameter):
     values = beginning(code)
-    before = run(code, values)
+    before = motion_of(code, values)
     other = {"feed": 1.5 * (parameter.example or 0), "depth_per_pass": 46, "taper": 40, "to_contour": 1}
     changed = other.get(parameter.name, 0 if parameter.mark else (parameter.example or 0) / 2)
-    after = run(code, values | {parameter.name: changed})
+    after = motion_of(code, values | {parameter.name: changed})
     if parameter.name == "feed":
         assert geometry(before) == geometry(after)
         own = np.isfinite(before.per_rev)
@@ -69,9 +67,9 @@ def test_left_out_it_is_its_default_or_missing(code, parameter):
         names = [p.name for p in CONTROL.cycles[code].parameters() if p.address == "P"]
         values = {n: v for n, v in values.items() if n not in names[names.index(parameter.name) :]}
     if not parameter.required:
-        assert len(run(code, values))
+        assert len(motion_of(code, values))
         if parameter.default is not None:
-            assert geometry(run(code, values)) == geometry(run(code, values | {parameter.name: parameter.default}))
+            assert geometry(motion_of(code, values)) == geometry(motion_of(code, values | {parameter.name: parameter.default}))
         return
     found = mnclab.run(trial.program("nc-31", CONTROL.cycles[code], values), "nc-31")
     assert f"{code} {parameter.address} ({parameter.meaning}) is missing" in found.alarms[0].message
@@ -80,20 +78,20 @@ def test_left_out_it_is_its_default_or_missing(code, parameter):
 
 def test_x_and_z_are_ends():
     """G70 to X30 Z-20 with a bevel of 5 and 5 from X40 Z2: (15, -15), (17.5, -20), out to 20, back to Z2."""
-    path = run("G70", beginning("G70"))
+    path = motion_of("G70", beginning("G70"))
     assert path.end[:, [0, 2]].tolist() == [[15, 2], [15, -15], [17.5, -20], [20, -20], [20, 2]]
 
 
 def test_the_infeed_angle():
     """Parameter 6: each pass begins depth * tan(angle) nearer to the end; 30 degrees and 0.92 mm are 0.5312 mm."""
-    path = run("G31", beginning("G31"), parameter_6=30)
+    path = motion_of("G31", beginning("G31"), parameter_6=30)
     begins = path.start[path.synchronous, 2]
     assert begins == pytest.approx([2 - d * math.tan(math.pi / 6) for d in (0.25, 0.5, 0.75, 0.92)], abs=1e-12)
 
 
 def test_the_run_out():
     """Parameter 7 in tenths: 8 of a pitch of 1.5 are 1.2 mm before the end; then out to the start radius at the end."""
-    path = run("G31", beginning("G31") | {"taper": 0}, parameter_7=8)
+    path = motion_of("G31", beginning("G31") | {"taper": 0}, parameter_7=8)
     ends = path.end[path.synchronous][:, [0, 2]]
     assert ends[0] == pytest.approx([17.75, -28.8]) and ends[1] == pytest.approx([20, -30])
 
@@ -101,7 +99,7 @@ def test_the_run_out():
 @pytest.mark.parametrize(("code", "axis", "wanted"), [("G73", 2, [2, -8 + 0.7, 2]), ("G72", 0, [20, 17.7, 20])])
 def test_the_gap_of_a_drill(code, axis, wanted):
     """Parameter 8: back to 0.7 mm before the depth of the first peck: 10 mm from Z2, or 6 on the diameter from X40."""
-    path = run(code, beginning(code), parameter_8=70)
+    path = motion_of(code, beginning(code), parameter_8=70)
     rapids = path.end[path.kind == Kind.RAPID][:3, axis]
     assert rapids == pytest.approx(wanted)
 
@@ -110,7 +108,7 @@ def test_the_gap_of_a_drill(code, axis, wanted):
 def test_chips(code, axis, wanted):
     """Parameters 10 and 11: a rapid of 0.4 mm back after 5 mm (G77, from Z2), after 2 mm on the radius (G78, from X40)."""
     length = 500 if code == "G77" else 200
-    path = run(code, beginning(code), parameter_10=length, parameter_11=40)
+    path = motion_of(code, beginning(code), parameter_10=length, parameter_11=40)
     first = path[np.array(["pass 1 of" in path.labels[k] for k in path.label])]
     assert first.end[1:4, axis] == pytest.approx(wanted)
     assert first.kind[1:4].tolist() == [Kind.LINE, Kind.RAPID, Kind.LINE]
@@ -121,14 +119,14 @@ def test_p1_on_radius():
     for code, twice in (("G77", True), ("G72", True), ("G78", False)):
         name = "peck" if code == "G72" else "stock_per_pass"
         values = beginning(code)
-        on_radius = run(code, values, p1_on_radius=True)
-        same = run(code, values | {name: values[name] * (2 if twice else 1)})
+        on_radius = motion_of(code, values, p1_on_radius=True)
+        same = motion_of(code, values | {name: values[name] * (2 if twice else 1)})
         assert geometry(on_radius) == geometry(same)
 
 
 def test_the_bevel_of_g78():
     """Along Z as the table says: (X40, Z-20) to (X30, Z-15). Along X, the mirror of G77: to X35 at Z-20, then to (X30, Z2)."""
-    along_z, along_x = (run("G78", beginning("G78"), g78_bevel=way) for way in ("along_z", "along_x"))
+    along_z, along_x = (motion_of("G78", beginning("G78"), g78_bevel=way) for way in ("along_z", "along_x"))
     ends = [path.end[path.kind == Kind.LINE][:, [0, 2]].round(9).tolist() for path in (along_z, along_x)]
     assert ends[0][-2:] == [[15, -15], [15, 2]] and ends[1][-2:] == [[17.5, -20], [15, 2]]
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab import Kind
+
+pytestmark = pytest.mark.deep
 
 BLOCKS = st.sampled_from([
     "L X+30", "L Y+30", "L X+0 Y+0", "L IX-12 IY+7", "L Z-3", "L Z+2 FMAX", "L X+50 RL", "L Y-20 RR", "L X-40 Y-40 R0",

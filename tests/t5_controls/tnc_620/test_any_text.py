@@ -13,6 +13,8 @@ from hypothesis import strategies as st
 import mnclab as mnc
 from mnclab.running import flow
 
+pytestmark = pytest.mark.deep
+
 PROGRAM = """\
 0 BEGIN PGM PART MM
 1 BLK FORM 0.1 Z X+0 Y+0 Z-20

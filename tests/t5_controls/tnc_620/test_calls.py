@@ -208,6 +208,7 @@ TAP = "CYCL DEF 207 T\nQ200=2\nQ201=-15\nQ239=+1\nQ203=0\nQ204=20\n"
 FRAMES = ["", "CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+33\n", "CYCL DEF 7.0 S\nCYCL DEF 7.1 X+12.5\nCYCL DEF 7.2 Z-3\n"]
 
 
+@pytest.mark.deep
 @given(
     st.sampled_from(FRAMES),
     st.integers(1, 40),

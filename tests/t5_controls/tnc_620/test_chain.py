@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -25,17 +27,13 @@ def checks(code: str, number: int = 0) -> dict:
 def text(code: str, number: int = 0) -> str:
     return [e for e in EXAMPLES if e["code"] == code][number]["program"]
 
-
-def run(blocks: str, setup: mnc.Setup | None = None) -> mnc.Run:
-    found = mnc.run(f"TOOL CALL 1 Z S1000 F1000\n{blocks}\n", "tnc-620", setup or mnc.Setup())
-    assert found.ok, found.alarms
-    return found
+run = partial(running.run, control="tnc-620", before="TOOL CALL 1 Z S1000 F1000\n")
 
 
-def where(definitions: str, points: list, setup: mnc.Setup | None = None) -> np.ndarray:
+def where(definitions: str, points: list, **setup: object) -> np.ndarray:
     """Machine positions (n, 3) of local points under some definitions; a far point before each, so that it is a move."""
     moves = "".join(f"L X-999 Y-999 Z-999\nL X{p[0]} Y{p[1]} Z{p[2] if len(p) > 2 else 0}\n" for p in points)
-    return run(f"{definitions}\n{moves}", setup).toolpath.motion.end[1::2]
+    return run(f"{definitions}\n{moves}", **setup).toolpath.motion.end[1::2]
 
 
 def flat(points: list) -> np.ndarray:
@@ -192,12 +190,12 @@ def test_unequal_scales_refuse_arcs_where_they_stand() -> None:
 
 
 def test_a_preset_replaces_all_but_the_tilt() -> None:
-    presets = mnc.Setup(presets={4: (100, 50, 10)})
+    presets = {4: (100, 50, 10)}
     before = shift(1, 2) + mirror("X") + turn(10) + scale(2)
-    found = run(before + text("CYCL DEF 247") + "\nL X+1 Y+2 Z+3", presets)
+    found = run(before + text("CYCL DEF 247") + "\nL X+1 Y+2 Z+3", presets=presets)
     assert found.toolpath.end[-1].tolist() == [101, 52, 13]  # counted from the preset that was active first
     assert [name for name, _ in found.frames] == ["preset"]
-    kept = run(tilt(0, 90, 0) + text("CYCL DEF 247") + "\nL X+1 Y+2 Z+3", presets)
+    kept = run(tilt(0, 90, 0) + text("CYCL DEF 247") + "\nL X+1 Y+2 Z+3", presets=presets)
     assert [name for name, _ in kept.frames] == ["preset", "tilt"]
 
 
@@ -216,7 +214,7 @@ ROWS = checks("datum table")["rows"]
 TABLE = "NULLTAB.D MM\nD X Y Z A B C DOC\n" + "".join(
     f"{row} {' '.join(f'{value:+g}' for value in ROWS.get(str(row), [0] * 6))} clamp {row}\n" for row in range(20)
 ) + "[END]\n"  # fmt: skip
-FILES = mnc.Setup(files={"NULLTAB.D": TABLE})
+FILES = {"NULLTAB.D": TABLE}
 
 
 def test_the_printed_table() -> None:
@@ -224,21 +222,21 @@ def test_the_printed_table() -> None:
     for number in (0, 1):
         check = checks("CYCL DEF 7 (datum table)", number)
         expected = [check["shift"][axis] for axis in "XYZ"]
-        assert where(select + text("CYCL DEF 7 (datum table)", number), [(0, 0)], FILES)[0].tolist() == expected
+        assert where(select + text("CYCL DEF 7 (datum table)", number), [(0, 0)], files=FILES)[0].tolist() == expected
     by_parameter = select + "Q5 = 3\nCYCL DEF 7.0 S\nCYCL DEF 7.1 #Q5\nCYCL DEF 7.0 S\nCYCL DEF 7.1 IX+1"
-    assert where(by_parameter, [(0, 0)], FILES)[0].tolist() == [401.994, 50.001, 0]
+    assert where(by_parameter, [(0, 0)], files=FILES)[0].tolist() == [401.994, 50.001, 0]
 
 
 def test_empty_fields_leave_an_axis_alone() -> None:
     table = "T.D INCH\nD   X    Y    Z   DOC\n0   1         -\n7        2        second\n[END]\n"
-    setup = mnc.Setup(files={"T.D": table})
+    files = {"T.D": table}
     blocks = shift(5, 6, 7) + "SEL TABLE T\nCYCL DEF 7.0 S\nCYCL DEF 7.1 #0\n"
-    assert where(blocks, [(0, 0)], setup)[0].tolist() == pytest.approx([25.4, 6, 7])
-    assert where(blocks.replace("#0", "#7"), [(0, 0)], setup)[0].tolist() == pytest.approx([5, 50.8, 7])
+    assert where(blocks, [(0, 0)], files=files)[0].tolist() == pytest.approx([25.4, 6, 7])
+    assert where(blocks.replace("#0", "#7"), [(0, 0)], files=files)[0].tolist() == pytest.approx([5, 50.8, 7])
 
 
 def test_the_datums_of_the_setup_are_a_table() -> None:
-    assert where("CYCL DEF 7.0 S\nCYCL DEF 7.1 #3", [(0, 0)], mnc.Setup(datums={3: (1, 2, 3)}))[0].tolist() == [1, 2, 3]
+    assert where("CYCL DEF 7.0 S\nCYCL DEF 7.1 #3", [(0, 0)], datums={3: (1, 2, 3)})[0].tolist() == [1, 2, 3]
 
 
 @pytest.mark.parametrize(
@@ -262,5 +260,5 @@ def test_faults_of_a_table(table: str, message: str) -> None:
 
 
 def test_a_row_that_is_not_there() -> None:
-    alarm = mnc.run("SEL TABLE NULLTAB\nCYCL DEF 7.0 S\nCYCL DEF 7.1 #20\n", "tnc-620", FILES).alarms[0]
+    alarm = mnc.run("SEL TABLE NULLTAB\nCYCL DEF 7.0 S\nCYCL DEF 7.1 #20\n", "tnc-620", mnc.Setup(files=FILES)).alarms[0]
     assert "names row 20, which the datum table" in alarm.message and alarm.span[:2] == (3, 14)

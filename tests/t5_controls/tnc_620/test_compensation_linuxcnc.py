@@ -15,6 +15,8 @@ import pytest
 import mnclab
 from mnclab import Kind, Setup, Tool
 
+pytestmark = pytest.mark.deep
+
 FILE = Path(__file__).parents[2] / "authorities" / "contours.json.gz"
 RECORDS = json.loads(gzip.decompress(FILE.read_bytes()))["records"]
 EXACT = 1e-9  # mm: LinuxCNC hands doubles over in inches

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from running import run
 
 import mnclab as mnc
 from mnclab import Kind
@@ -30,9 +31,9 @@ def example(code, begins=""):
     return next(e for e in EXAMPLES if e["code"] == code and e["title"].startswith(begins))
 
 
-def run(text, tool=DRILL, call=""):
-    """Run a program behind a TOOL CALL, with a call after it."""
-    found = mnc.run(f"TOOL CALL 2 Z S1000\n{text}\n{call}\n", "tnc-620", mnc.Setup(tools={2: tool}))
+def drilled(text, tool=DRILL, call=""):
+    """A program behind a TOOL CALL, with a call after it."""
+    found = run(f"{text}\n{call}", "tnc-620", before="TOOL CALL 2 Z S1000\n", tools={2: tool})
     assert found.alarms == ()
     return found
 
@@ -80,7 +81,7 @@ def same(words, expected):
 @pytest.mark.parametrize(("angle", "bottom"), [(90, 15.5), (120, 17.4019)])
 def test_240_centres_to_a_diameter(angle, bottom):
     data = example("CYCL DEF 240")
-    parts = holes(run(data["program"], mnc.Tool(radius=6, angle=angle)), "CYCL DEF 240")
+    parts = holes(drilled(data["program"], mnc.Tool(radius=6, angle=angle)), "CYCL DEF 240")
     assert places(parts) == data["check"]["holes"]
     for part in parts:
         same(words(part), data["check"][f"moves_T_ANGLE_{angle}"])
@@ -90,7 +91,7 @@ def test_240_centres_to_a_diameter(angle, bottom):
 
 def test_200_as_printed_but_for_q210():
     data = example("CYCL DEF 200", "4.3")
-    parts = holes(run(data["program"]), "CYCL DEF 200")
+    parts = holes(drilled(data["program"]), "CYCL DEF 200")
     assert places(parts) == data["check"]["holes"]
     for part in parts:
         same(words(part), data["check"]["moves_per_hole"])
@@ -106,14 +107,14 @@ def test_the_misprint_of_4_3_is_refused():
 
 def test_200_to_the_cylindrical_part():
     data = example("CYCL DEF 200", "Q395=1")
-    (part,) = holes(run(data["program"], call="L X+5 Y+5 R0 FMAX M3 M99"), "CYCL DEF 200")
+    (part,) = holes(drilled(data["program"], call="L X+5 Y+5 R0 FMAX M3 M99"), "CYCL DEF 200")
     same(words(part), data["check"]["moves_per_hole"])
     assert -25 - part.end[:, 2].min() == pytest.approx(data["check"]["t"], abs=1e-4)
 
 
 def test_201_reams_twice_where_the_print_has_m9():
     data = example("CYCL DEF 201")
-    parts, printed = (holes(run(data[which]), "CYCL DEF 201") for which in ("program", "printed"))
+    parts, printed = (holes(drilled(data[which]), "CYCL DEF 201") for which in ("program", "printed"))
     assert places(parts) == data["check"]["holes_intended"] and places(printed) == data["check"]["holes_as_printed"]
     for part in parts + printed:
         same(words(part), data["check"]["moves_per_hole"])
@@ -121,7 +122,7 @@ def test_201_reams_twice_where_the_print_has_m9():
 
 def test_202_leaves_the_wall_and_turns_again():
     data = example("CYCL DEF 202")
-    parts = holes(run(data["program"]), "CYCL DEF 202")
+    parts = holes(drilled(data["program"]), "CYCL DEF 202")
     assert places(parts) == data["check"]["holes"]
     same(words(parts[0]), [*data["check"]["moves_hole_1"], "M3 S1000"])
     assert parts[1][parts[1].kind == Kind.RAPID].end[:, 0].tolist() == pytest.approx([80, 79.8, 79.8, 80])
@@ -130,7 +131,7 @@ def test_202_leaves_the_wall_and_turns_again():
 @pytest.mark.parametrize("begins", ["4.6", "decrement"])
 def test_203_breaks_chips_and_shrinks(begins):
     data = example("CYCL DEF 203", begins)
-    (part,) = holes(run(data["program"], call="L X+5 Y+5 R0 FMAX M3 M99"), "CYCL DEF 203")
+    (part,) = holes(drilled(data["program"], call="L X+5 Y+5 R0 FMAX M3 M99"), "CYCL DEF 203")
     same(words(part), data["check"]["moves_per_hole"])
     surface = 20 if begins == "4.6" else 0
     pecks = [surface - row.end[2] for row in part if "peck" in row.label]
@@ -141,7 +142,7 @@ def test_203_breaks_chips_and_shrinks(begins):
 
 def test_204_counterbores_from_below():
     data = example("CYCL DEF 204")
-    (part,) = holes(run(data["program"], call="L X+0 Y+0 R0 FMAX M3\nCYCL CALL"), "CYCL DEF 204")
+    (part,) = holes(drilled(data["program"], call="L X+0 Y+0 R0 FMAX M3\nCYCL CALL"), "CYCL DEF 204")
     expected = data["check"]["moves_at_X0"]
     both = expected.index("spindle and coolant on")
     second = expected.index("spindle stop at 0 deg", both)
@@ -154,7 +155,7 @@ def test_204_counterbores_from_below():
 
 
 def test_204_leaves_the_coolant_on_that_was_on():
-    found = run(example("CYCL DEF 204")["program"], call="L X+0 Y+0 R0 FMAX M13\nCYCL CALL")
+    found = drilled(example("CYCL DEF 204")["program"], call="L X+0 Y+0 R0 FMAX M13\nCYCL CALL")
     (part,) = holes(found, "CYCL DEF 204")
     assert not (part.kind == Kind.COOLANT).any() and found.history["coolant"][-1] == "M8"
 
@@ -162,7 +163,7 @@ def test_204_leaves_the_coolant_on_that_was_on():
 def test_205_in_a_hole_that_is_there_already():
     data = example("CYCL DEF 205")
     check = data["check"]
-    (part,) = holes(run(data["program"], call="L X+5 Y+5 R0 FMAX M3 M99"), "CYCL DEF 205")
+    (part,) = holes(drilled(data["program"], call="L X+5 Y+5 R0 FMAX M3 M99"), "CYCL DEF 205")
     same(words(part), check["moves_per_hole"])
     levels = [100 - row.start[2] for row in part if row.label.endswith("clear the chips")]
     assert [*levels, 80] == pytest.approx(check["depths"])
@@ -177,7 +178,7 @@ def test_205_in_a_hole_that_is_there_already():
 def test_208_mills_a_bore():
     data = example("CYCL DEF 208")
     check, wanted = data["check"], data["check"]["tool_diameter_16"]
-    (part,) = holes(run(data["program"], mnc.Tool(radius=8), "L X+40 Y+30 R0 FMAX M3\nCYCL CALL"), "CYCL DEF 208")
+    (part,) = holes(drilled(data["program"], mnc.Tool(radius=8), "L X+40 Y+30 R0 FMAX M3\nCYCL CALL"), "CYCL DEF 208")
     helix = next(row for row in part if row.label.endswith("helix"))
     assert part[0].end[2] == check["set_up_plane_z"] == helix.start[2] and helix.end[2] == check["bottom_z"]
     assert part[-1].end.tolist() == [40, 30, check["end_z"]]
@@ -190,7 +191,7 @@ def test_208_needs_half_the_diameter():
     data = example("CYCL DEF 208")
     smallest = data["check"]["smallest_tool_diameter"]
     call = "L X+40 Y+30 R0 FMAX M3\nCYCL CALL"
-    assert run(data["program"], mnc.Tool(radius=smallest / 2), call).ok
+    assert drilled(data["program"], mnc.Tool(radius=smallest / 2), call).ok
     small = mnc.Setup(tools={2: mnc.Tool(radius=smallest / 2 - 0.01)})
     (alarm,) = mnc.run(f"TOOL CALL 2 Z S1000\n{data['program']}\n{call}\n", "tnc-620", small).alarms
     assert "Q335 (diameter of the bore) must be at most twice the tool diameter 12.48" in alarm.message
@@ -198,14 +199,14 @@ def test_208_needs_half_the_diameter():
 
 def test_208_as_wide_as_the_tool_drills():
     data = example("CYCL DEF 208")
-    (part,) = holes(run(data["program"], mnc.Tool(radius=12.5), "L X+4 Y+3 R0 FMAX M3\nCYCL CALL"), "CYCL DEF 208")
+    (part,) = holes(drilled(data["program"], mnc.Tool(radius=12.5), "L X+4 Y+3 R0 FMAX M3\nCYCL CALL"), "CYCL DEF 208")
     assert words(part) == ["Z102 FMAX", "Z20 F150", "Z150 FMAX"]
 
 
 def test_241_turns_slowly_in_and_out():
     data = example("CYCL DEF 241")
     check = data["check"]
-    (part,) = holes(run(data["program"], call="L X+5 Y+5 R0 FMAX M99"), "CYCL DEF 241")
+    (part,) = holes(drilled(data["program"], call="L X+5 Y+5 R0 FMAX M99"), "CYCL DEF 241")
     same(words(part), check["moves_per_hole"])
     levels = [row.end[2] for row in part if row.kind in (Kind.LINE, Kind.RAPID)]
     wanted = [check[key] for key in ("start_of_drilling_z", "bottom_z", "retraction_position_z", "end_z")]
@@ -237,7 +238,7 @@ def test_the_holes_of_pgm_1(code, key):
     definition = re.search(rf"^\d+ CYCL DEF {code}.*\n(?:Q.*\n)+", text, re.M)[0]
     points = re.findall(r"POS\d\(X\+(\d+) Y\+(\d+) Z\+0\)", text)
     calls = "\n".join(f"L X+{x} Y+{y} R0 FMAX M13 M99" for x, y in points)
-    parts = holes(run(f"L Z+50 R0 FMAX\n{definition}{calls}"), f"CYCL DEF {code}")
+    parts = holes(drilled(f"L Z+50 R0 FMAX\n{definition}{calls}"), f"CYCL DEF {code}")
     assert places(parts) == data["check"]["points"]
     for part in parts:
         same(words(part), data["check"][f"{key}_moves_per_hole"])
@@ -261,7 +262,7 @@ def test_positioning_with_q379(which):
 def test_202_disengages_in_turned_coordinates():
     """Q214=1 is -X of the program; turned by 90 degrees that is -Y of the machine."""
     text = "8 CYCL DEF 10.0 R\n9 CYCL DEF 10.1 ROT+90\n" + example("CYCL DEF 202")["program"]
-    first, _ = holes(run(text), "CYCL DEF 202")
+    first, _ = holes(drilled(text), "CYCL DEF 202")
     off = next(row for row in first if row.label.endswith("leave the wall"))
     assert off.end - off.start == pytest.approx([0, -0.2, 0])
 

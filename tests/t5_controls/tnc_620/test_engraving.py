@@ -29,7 +29,7 @@ NOW = datetime(2018, 3, 5, 7, 8, 9)
 VALUES = dict(re.findall(r"(Q\d+)=(\S+)", PRINTED["program"]))
 
 
-def run(
+def engraved(
     text: str | None = None, at: tuple[float, float] = (0, 0), settings: dict | None = None, **changed: object
 ) -> mnc.Run:
     values = VALUES | {key: str(value) for key, value in changed.items()}
@@ -58,7 +58,7 @@ def test_the_letter_a_move_by_move() -> None:
         ({w[0]: float(w[1:]) for w in words.split() if w[0] in "XYZ"}, words.split()[-1])
         for words in PRINTED["check"]["moves_hershey"]
     ]
-    path = rows(run())
+    path = rows(engraved())
     assert len(path) == len(expected)
     for row, (to, feed) in zip(path, expected, strict=True):
         assert ("FMAX" if row.kind == mnc.Kind.RAPID else f"F{row.feed:g}") == feed
@@ -105,7 +105,7 @@ def test_layout_on_an_arc(key: str) -> None:
 def test_the_cycle_lays_out_as_the_layout(key: str) -> None:
     """The middle of A's feet, its first two lower ends, lies on its baseline."""
     layout, angle, reference = map(int, re.findall(r"_(\d+)", key))
-    path = milled(run("ABC", Q516=layout, Q374=angle, Q367=reference, Q517=50))
+    path = milled(engraved("ABC", Q516=layout, Q374=angle, Q367=reference, Q517=50))
     feet = (path.end[0, :2] + path.end[1, :2]) / 2
     assert feet == pytest.approx(ARC[key]["chars"][0]["baseline_mid"], abs=6e-4)
 
@@ -155,46 +155,46 @@ def test_lines_tabs_and_the_arcs_of_lines() -> None:
 
 
 def test_arcs_are_arcs() -> None:
-    path = milled(run("O8"))
+    path = milled(engraved("O8"))
     arcs = path[path.kind == mnc.Kind.ARC]
     assert np.abs(arcs.sweep) == pytest.approx([math.pi] * 6)
 
 
 def test_every_parameter_acts() -> None:
-    plain = milled(run("Ab"))
-    assert milled(run("Ab", Q513=20)).end[:, :2] == pytest.approx(2 * plain.end[:, :2])
-    assert milled(run("Ab", Q574=30)).end.tolist() == plain.end.tolist()
-    assert milled(run("Ab", Q513=0, Q574=50)).end[:, 0].max() > plain.end[:, 0].max()
-    assert milled(run("Ab", Q514=1)).end[-1, 0] == pytest.approx(plain.end[-1, 0] + letters.width("A") * 10)
-    turned = milled(run("Ab", Q374=90)).end
+    plain = milled(engraved("Ab"))
+    assert milled(engraved("Ab", Q513=20)).end[:, :2] == pytest.approx(2 * plain.end[:, :2])
+    assert milled(engraved("Ab", Q574=30)).end.tolist() == plain.end.tolist()
+    assert milled(engraved("Ab", Q513=0, Q574=50)).end[:, 0].max() > plain.end[:, 0].max()
+    assert milled(engraved("Ab", Q514=1)).end[-1, 0] == pytest.approx(plain.end[-1, 0] + letters.width("A") * 10)
+    turned = milled(engraved("Ab", Q374=90)).end
     assert turned[:, 0] == pytest.approx(-plain.end[:, 1]) and turned[:, 1] == pytest.approx(plain.end[:, 0])
-    assert set(milled(run("Ab", Q201=-1.25)).end[:, 2]) == {18.75}
-    assert set(milled(run("Ab", Q203=5)).end[:, 2]) == {4.5}
-    high = rows(run("Ab", Q200=3, Q204=80))
+    assert set(milled(engraved("Ab", Q201=-1.25)).end[:, 2]) == {18.75}
+    assert set(milled(engraved("Ab", Q203=5)).end[:, 2]) == {4.5}
+    high = rows(engraved("Ab", Q200=3, Q204=80))
     assert high.end[-1, 2] == 100 and 23 in high.end[:, 2]
-    assert 99 in rows(run("Ab", Q206=99)).feed and 321 in rows(run("Ab", Q207=321)).feed
+    assert 99 in rows(engraved("Ab", Q206=99)).feed and 321 in rows(engraved("Ab", Q207=321)).feed
     for reference, (x, y) in {2: (-0.5, 0), 3: (-1, 0), 4: (-1, -10), 5: (-0.5, -10), 6: (0, -10)}.items():
         long = engraving.length(engraving.cells("Ab")) * 10
-        moved = milled(run("Ab", Q367=reference)).end[:, :2] - plain.end[:, :2]
+        moved = milled(engraved("Ab", Q367=reference)).end[:, :2] - plain.end[:, :2]
         assert moved == pytest.approx(np.broadcast_to([x * long, y], moved.shape))
-    assert milled(run("Ab", at=(7, 8))).end[:, :2] == pytest.approx(plain.end[:, :2] + (7, 8))
+    assert milled(engraved("Ab", at=(7, 8))).end[:, :2] == pytest.approx(plain.end[:, :2] + (7, 8))
 
 
 def test_upwards_and_not_at_all() -> None:
     """A positive depth works upwards, with the clearance below; a depth of 0 is not executed."""
-    path = rows(run("I", Q201=0.5))
+    path = rows(engraved("I", Q201=0.5))
     assert 18 in path.end[:, 2] and set(path.end[path.feed == 750, 2]) == {20.5}
-    assert len(rows(run("A", Q201=0))) == 0
+    assert len(rows(engraved("A", Q201=0))) == 0
 
 
 def test_the_text_may_be_a_string_parameter_and_the_time_a_setting() -> None:
-    blocks = run().program.text.replace('Q500="A"', "QS500=QS1").replace("CYCL DEF", 'QS1 = "A"\nCYCL DEF')
+    blocks = engraved().program.text.replace('Q500="A"', "QS500=QS1").replace("CYCL DEF", 'QS1 = "A"\nCYCL DEF')
     found = mnc.run(blocks, "tnc-620", mnc.Setup(tools={1: mnc.Tool(radius=0.2)}))
-    assert milled(found).end.tolist() == milled(run()).end.tolist()
+    assert milled(found).end.tolist() == milled(engraved()).end.tolist()
     seconds = datetime.fromisoformat("2018-03-05T07:08:09+00:00").timestamp()
-    clock = milled(run("%time08", settings={"clock": seconds}))
-    assert clock.end.tolist() == milled(run("05.03.2018")).end.tolist()
-    assert milled(run("%count3", settings={"counter": 42})).end.tolist() == milled(run("042")).end.tolist()
+    clock = milled(engraved("%time08", settings={"clock": seconds}))
+    assert clock.end.tolist() == milled(engraved("05.03.2018")).end.tolist()
+    assert milled(engraved("%count3", settings={"counter": 42})).end.tolist() == milled(engraved("042")).end.tolist()
 
 
 REFUSED = [
@@ -222,7 +222,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("text", "changed", "address", "message"), REFUSED, ids=[r[3][:30] for r in REFUSED])
 def test_refused(text: str, changed: dict, address: str, message: str) -> None:
-    alarm = next(a for a in run(text, **changed).alarms if a.severity == "alarm")
+    alarm = next(a for a in engraved(text, **changed).alarms if a.severity == "alarm")
     assert message in alarm.message and alarm.span[:2] == (4 + list(VALUES).index(address), 1), (
         alarm.message,
         alarm.span,
@@ -230,5 +230,5 @@ def test_refused(text: str, changed: dict, address: str, message: str) -> None:
 
 
 def test_a_counter_too_large_for_its_digits() -> None:
-    alarm = run("%count1", settings={"counter": 12}).alarms[0]
+    alarm = engraved("%count1", settings={"counter": 12}).alarms[0]
     assert "has %count1, and the counter stands at 12" in alarm.message

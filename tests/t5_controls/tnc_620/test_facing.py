@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from running import changed, of_cycles, run
 
 import mnclab
 from mnclab import Kind, Setup, Tool
@@ -24,18 +25,11 @@ def near(value):
     return pytest.approx(value, abs=1e-6)
 
 
-def run(radius=10.0, edges=0.0, settings=None, **change):
+def milled(radius=10.0, edges=0.0, settings=None, **change):
     """The motion of the cycle in the example; Q parameters may be changed."""
-    program = PROGRAM
-    for address, value in change.items():
-        line = next(line for line in program.splitlines(True) if line.strip().startswith(address + "="))
-        program = program.replace(line, f"{address}={value}\n")
     tools = {1: Tool(radius=radius, cutting_length=edges)}
-    setup = Setup(tools=tools, start=(0, 0, 100), settings=settings or {})
-    found = mnclab.run(f"0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n{program}\n99 END PGM A MM\n", "tnc-620", setup)
-    assert found.ok, found.alarms
-    path = found.toolpath
-    return path[path.is_motion & np.array([path.labels[k].startswith("CYCL DEF") for k in path.label])]
+    program = f"1 TOOL CALL 1 Z S1000\n{changed(PROGRAM, **change)}"
+    return of_cycles(run(program, "tnc-620", tools=tools, start=(0, 0, 100), settings=settings or {}).toolpath)
 
 
 def said(rows, *parts):
@@ -54,7 +48,7 @@ def lines(rows, level="level 1 of 2"):
 )
 def test_example_6_9(radius, factor, places):
     """Lines along X from R + 2 outside to R + 2 outside, from Y0 to the far edge; equal infeeds of 2.9, then -6."""
-    rows = run(radius, Q370=factor)
+    rows = milled(radius, Q370=factor)
     out = radius + 2
     assert lines(rows) == [near((-out, y, 120 + out, y)) for y in places]
     assert sorted(set(said(rows, ", line").end[:, 2].round(6)), reverse=True) == [-2.9, -5.8, -6]
@@ -78,7 +72,7 @@ def test_example_6_9(radius, factor, places):
 )  # fmt: skip
 def test_strategies(strategy, first, second):
     """R = 10, Q357 = 2: where the first two lines begin and end; the step of a meander outside at Q253, at the edge at Q207."""
-    rows = run(Q389=strategy)
+    rows = milled(Q389=strategy)
     assert lines(rows)[:2] == [near(first), near(second)]
     links = said(rows, "level 1 of 2, link")
     assert (links.feed == (750 if strategy == 0 else 500)).all() and len(links) == (7 if strategy < 2 else 0)
@@ -88,7 +82,7 @@ def test_strategies(strategy, first, second):
 @pytest.mark.parametrize("change", [{}, {"Q350": 2}, {"Q347": -1, "Q348": 1}, {"Q218": -120, "Q219": -80}], ids=str)
 def test_the_way_back_is_one_straight_rapid_to_the_next_line(strategy, change):
     """Up, one rapid to where the next line begins, down: nothing else lies between two lines of a level."""
-    rows = run(Q389=strategy, Q200=3, **change)
+    rows = milled(Q389=strategy, Q200=3, **change)
     each = lines(rows)
     backs = said(rows, "level 1 of 2, back")[:-1]  # the last one leads to the start of the level
     assert len(backs) == len(each) - 1 > 3
@@ -109,14 +103,14 @@ def test_a_way_back_below_what_still_stands_is_named(clearance, scraped):
 
 def test_the_spiral():
     """From 12 mm beside the corner on an arc onto the left edge, upwards: clockwise, and each round 10 mm farther in."""
-    rows = run(Q389=4)
+    rows = milled(Q389=4)
     approach, way = said(rows, "level 1 of 2, approach")[0], said(rows, "level 1 of 2, spiral")
     assert approach.start[:2].tolist() == near([-12, 0]) and approach.kind == Kind.ARC and approach.feed == 500
     corners = [(0, 80), (120, 80), (120, 0), (10, 0), (10, 70), (110, 70), (110, 10), (20, 10)]
     assert way.end[: len(corners), :2].tolist() == [near(list(corner)) for corner in corners]
-    up = said(run(Q389=4, Q350=2), "over the start")
+    up = said(milled(Q389=4, Q350=2), "over the start")
     assert up.end[0, :2].tolist() == near([0, -12])
-    back = run(Q389=4, Q218=-120, Q219=-80)
+    back = milled(Q389=4, Q218=-120, Q219=-80)
     assert said(back, "level 1 of 2, spiral").end[0, :2].tolist() == near([0, -80])  # clockwise too
 
 
@@ -126,7 +120,7 @@ def test_the_spiral():
 @pytest.mark.parametrize("signs", [(1, 1), (-1, 1), (1, -1), (-1, -1)])
 def test_positions_and_signs(position, low, signs):
     """Where the surface lies about the tool at X0 Y0; the signs say from which corner it is milled."""
-    rows = run(Q367=position, Q218=120 * signs[0], Q219=80 * signs[1])
+    rows = milled(Q367=position, Q218=120 * signs[0], Q219=80 * signs[1])
     if position < 0:
         low = min(0, 120 * signs[0]), min(0, 80 * signs[1])
     found = np.array(lines(rows))
@@ -138,7 +132,7 @@ def test_positions_and_signs(position, low, signs):
 
 def test_lines_along_the_minor_axis():
     """Q350 = 2: along Y, the step along X out of 120 - 10 mm: 11 of 10."""
-    rows = run(Q350=2)
+    rows = milled(Q350=2)
     assert lines(rows) == [near((x, -12, x, 92)) for x in range(0, 111, 10)]
 
 
@@ -147,7 +141,7 @@ def test_lines_along_the_minor_axis():
 
 def test_a_wall_at_the_end_of_the_lines():
     """R = 10, Q368 = 1: lines end at X109; what they leave before the wall goes along it, with the wall on the right."""
-    rows = run(Q347=1, Q368=1)
+    rows = milled(Q347=1, Q368=1)
     assert lines(rows)[0] == near((-12, 0, 109, 0))
     along = said(rows, "level 1 of 2, along the walls")
     assert along.start[0, :2].tolist() == near([109, -10]) and along.end[-1, :2].tolist() == near([109, 90])
@@ -158,25 +152,25 @@ def test_a_wall_at_the_end_of_the_lines():
 
 def test_lines_begin_on_the_open_side():
     """A wall in -X: lines run in -X from the open end, X132, to X11."""
-    assert lines(run(Q347=-1, Q368=1))[0] == near((132, 0, 11, 0))
+    assert lines(milled(Q347=-1, Q368=1))[0] == near((132, 0, 11, 0))
 
 
 def test_lines_between_two_walls():
     """Walls in -X and +X: the tool goes down inside at the milling feed, and lifts above all that stands."""
-    rows = run(Q347=-1, Q348=1)
+    rows = milled(Q347=-1, Q348=1)
     assert lines(rows)[0] == near((10, 0, 110, 0))
     assert said(rows, "level 2 of 2, lift").end[0, 2] == near(-0.9) and (said(rows, "level", "down").feed == 500).all()
 
 
 def test_walls_beside_the_lines():
     """Walls in -Y and +Y: from Y11 to Y69 in steps of at most 10."""
-    found = np.array(lines(run(Q347=-2, Q348=2, Q368=1)))
+    found = np.array(lines(milled(Q347=-2, Q348=2, Q368=1)))
     assert found[:, 1] == near(np.linspace(11, 69, 7))
 
 
 def test_corners_between_walls():
     """Q220 = 15: the centre goes round on 15 - 10 - 1 in roughing, on 5 in finishing; three walls are one way."""
-    rows = run(Q347=-2, Q348=2, Q349=1, Q220=15, Q368=1)
+    rows = milled(Q347=-2, Q348=2, Q349=1, Q220=15, Q368=1)
     for part, radius in (("level 1 of 2, along", 4), ("side finishing", 5)):
         arcs = said(rows, part)
         arcs = arcs[arcs.kind == Kind.ARC]
@@ -205,7 +199,7 @@ def test_a_corner_narrower_than_the_tool_gets_its_radius_and_a_warning():
     ],
 )  # fmt: skip
 def test_what_is_done(operation, side, floor, wall, parts):
-    rows = run(Q215=operation, Q368=side, Q369=floor, Q347=wall)
+    rows = milled(Q215=operation, Q368=side, Q369=floor, Q347=wall)
     found = [part for k in rows.label for part in ("level", "floor finishing", "side finishing")
              if f"{part}" in rows.labels[k].replace("clearance level", "")]  # fmt: skip
     assert list(dict.fromkeys(found)) == parts
@@ -221,19 +215,19 @@ def test_finishing_nothing_says_so():
 
 def test_infeeds_are_never_deeper_than_the_edges():
     """LCUTS = 1.5: four infeeds of 1.45; walls and the last allowance of 2 are divided too."""
-    assert set(said(run(edges=1.5), "level", ", line").end[:, 2].round(6)) == {-1.45, -2.9, -4.35, -5.8}
-    rows = run(edges=1.5, Q369=2, Q368=0.5, Q347=1, Q338=4)
+    assert set(said(milled(edges=1.5), "level", ", line").end[:, 2].round(6)) == {-1.45, -2.9, -4.35, -5.8}
+    rows = milled(edges=1.5, Q369=2, Q368=0.5, Q347=1, Q338=4)
     assert set(said(rows, "floor finishing", ", line").end[:, 2].round(6)) == {-5, -6}
     side = said(rows, "side finishing")
     assert set(side.end[:, 2].round(6)) & {-1.5, -3, -4.5, -6} == {-1.5, -3, -4.5, -6}
 
 
 def test_equal_coordinates_are_not_executed():
-    assert len(run(Q386=0, Q202=0)) == 0
+    assert len(milled(Q386=0, Q202=0)) == 0
 
 
 def test_an_end_above_the_surface_works_upwards_where_that_is_allowed():
-    rows = run(Q386=6, settings={"depth_error": False})
+    rows = milled(Q386=6, settings={"depth_error": False})
     assert sorted(set(said(rows, ", line").end[:, 2].round(6))) == [2.9, 5.8, 6]
     assert said(rows, "to the set-up clearance").end[0, 2] == -2 and rows[-1].end[2] == 50
 

@@ -197,6 +197,7 @@ SCRAPS = st.sampled_from([
 ])  # fmt: skip
 
 
+@pytest.mark.deep
 @settings(max_examples=60, deadline=None)
 @given(edits=st.lists(st.tuples(st.integers(0, len(MUTATED)), st.integers(0, 25), SCRAPS), min_size=1, max_size=6))
 def test_mutated_programs_raise_only_alarms(edits):

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import pytest
+import running
 
 import mnclab as mnc
 
@@ -22,9 +25,7 @@ FIGURES = {
     254: {"Q219": 12, "Q375": 80, "Q367": 0, "Q216": 50, "Q217": 50, "Q376": 45, "Q248": 60, "Q378": 0, "Q377": 1},
 }
 
-
-def run(blocks: str) -> mnc.Run:
-    return mnc.run(f"{START}{blocks}\n99 END PGM A MM\n", "tnc-620", mnc.Setup(tools={1: TOOL}))
+run = partial(running.run, control="tnc-620", ok=None, before=START, after="\n99 END PGM A MM", tools={1: TOOL})
 
 
 def defined(code: str, values: dict[str, object]) -> str:

@@ -5,7 +5,8 @@ import pytest
 
 import mnclab as mnc
 
-TEXT = """BEGIN PGM A MM
+CONTROL = "tnc-620"
+PROGRAM = """BEGIN PGM A MM
 TOOL CALL 2 Z S1000
 L X+1 Y+2 Z+30 R0 FMAX M3
 CYCL DEF 200 DRILLING ~
@@ -23,13 +24,6 @@ L X+50 FMAX
 END PGM A MM
 """
 FIRST, LAST = 4, 12
-
-
-@pytest.fixture(scope="module")
-def run():
-    found = mnc.run(TEXT, "tnc-620")
-    assert found.ok
-    return found
 
 
 @pytest.mark.parametrize("line", range(FIRST, LAST + 1))
@@ -53,19 +47,19 @@ def test_lines_in_order(run):
 
 
 def test_first_and_last_lines():
-    program = mnc.read(TEXT, "tnc-620")
+    program = mnc.read(PROGRAM, "tnc-620")
     first, last = program.lines()
     assert np.array_equal(first, [1, 2, 3, 4, 13, 15, 16]) and np.array_equal(last, [1, 2, 3, 12, 13, 15, 16])
 
 
 def test_an_alarm_within_a_block_is_told_with_it():
-    run = mnc.run(TEXT.replace("Q202=5", "Q202=-5"), "tnc-620")
+    run = mnc.run(PROGRAM.replace("Q202=5", "Q202=-5"), "tnc-620")
     assert not run.ok and run.alarms[-1].span.line == 8
     assert run.alarms[-1].message in str(run.explain(line=FIRST)) and run.alarms[-1].message in str(run.explain(line=10))
 
 
 def test_a_block_that_is_repeated():
-    repeated = TEXT.replace("CYCL DEF", "LBL 1\nCYCL DEF", 1).replace("CYCL CALL\n", "CYCL CALL\nCALL LBL 1 REP 2\n")
+    repeated = PROGRAM.replace("CYCL DEF", "LBL 1\nCYCL DEF", 1).replace("CYCL CALL\n", "CYCL CALL\nCALL LBL 1 REP 2\n")
     run = mnc.run(repeated, "tnc-620")
     assert [run.at(line=9, pass_=k).step for k in (1, 2, 3)] == [run.at(line=5, pass_=k).step for k in (1, 2, 3)]
     assert len(run.when("line = 9")) == 3

@@ -40,6 +40,7 @@ def test_every_m_function_of_the_manual_acts_or_is_refused(number: int) -> None:
         assert [a.message for a in run.alarms] == [f"{code} is refused: {CONTROL.refused[code]}"]
 
 
+@pytest.mark.deep
 def test_every_number_is_obeyed_or_named() -> None:
     """M0 to M250: obeyed, refused by name, or no function of this control."""
     for number in range(251):

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from running import run
 
 import mnclab as mnc
 from mnclab import Kind
@@ -22,21 +23,17 @@ EXAMPLES = [example for example in json.loads(FILE.read_text("utf-8")) if exampl
 VARIABLES = {"PGM CIRCLE31XY": "Q1 = 35\nQ2 = 50\nQ3 = 25\n"}
 
 
-def run(example: dict, radius: float = 0.0) -> mnc.Run:
+def obeyed(example: dict, radius: float = 0.0) -> mnc.Run:
     text = example["program"].replace("LBL 0", "M2")
     given = next((v for name, v in VARIABLES.items() if example["title"].startswith(name)), "")
     first = text.startswith("0 BEGIN")
     head, rest = text.split("\n", 1) if first else ("", text)
-    found = mnc.run(
-        f"{head}\nTOOL CALL 1 Z S1000 F250\n{given}{rest}\n", "tnc-620", mnc.Setup(tools={1: mnc.Tool(radius=radius)})
-    )
-    assert found.ok, found.alarms
-    return found
+    return run(f"{head}\nTOOL CALL 1 Z S1000 F250\n{given}{rest}", "tnc-620", tools={1: mnc.Tool(radius=radius)})
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda example: example["title"][:30])
 def test_example(example: dict) -> None:
-    check, found = dict(example["check"]), run(example)
+    check, found = dict(example["check"]), obeyed(example)
     path, labels = found.toolpath.motion, found.toolpath.labels
     arcs = path[path.kind == Kind.ARC]
     plain = arcs[[labels[k] != "rounding" for k in arcs.label]]
@@ -70,7 +67,7 @@ def test_all_examples_are_there() -> None:
 @pytest.mark.parametrize("example", [e for e in EXAMPLES if " RL" in e["program"]], ids=lambda e: e["title"][:30])
 def test_beside_the_contour(example: dict) -> None:
     """RL: beside the contour from the end of the entry on, a tool of radius 3 keeps 3 mm from it, and touches it."""
-    contour, tool = run(example).toolpath, run(example, 3.0).toolpath
+    contour, tool = obeyed(example).toolpath, obeyed(example, 3.0).toolpath
     contour, tool = (path[np.flatnonzero((path.side != 0) & path.is_motion)[1:]] for path in (contour, tool))
     line = shapely.LineString(contour.points(1e-4)[0][:, :2])
     far = shapely.distance(line, shapely.points(tool.points(1e-4)[0][:, :2]))

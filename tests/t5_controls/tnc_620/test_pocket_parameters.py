@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from running import run
 
 import mnclab
 from mnclab import Kind
@@ -19,10 +20,8 @@ OTHER = {
 FEEDS = {"milling_feed", "plunging_feed", "finishing_feed", "feed_reference"}
 
 
-def run(code, values):
-    found = mnclab.run(trial.program("tnc-620", CYCLES[code], values), "tnc-620")
-    assert found.ok, found.alarms
-    path = found.toolpath
+def shape_and_feeds(code, values):
+    path = run(trial.program("tnc-620", CYCLES[code], values), "tnc-620").toolpath
     cut = path.is_motion & (path.kind != Kind.RAPID)
     shape = path.end[path.is_motion].round(9).tolist(), path.sweep[path.is_motion].round(9).tolist()
     return shape, path.feed[cut].round(9).tolist()
@@ -45,8 +44,8 @@ def another(code, parameter):
 @pytest.mark.parametrize(("code", "parameter"), ACTING, ids=lambda case: getattr(case, "name", case))
 def test_a_parameter_acts(code, parameter):
     values, name = examples(code), parameter.name
-    shape, feeds = run(code, values)
-    other, other_feeds = run(code, values | {name: another(code, parameter)})
+    shape, feeds = shape_and_feeds(code, values)
+    other, other_feeds = shape_and_feeds(code, values | {name: another(code, parameter)})
     if name in FEEDS:
         assert other == shape and other_feeds != feeds
     else:

@@ -157,6 +157,7 @@ ODD = {
 }  # fmt: skip
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("number", ALL)
 @settings(max_examples=60)
 @given(data=st.data(), angle=st.sampled_from([0, 0.1, 3, 89.9, 90]), errors=st.booleans())

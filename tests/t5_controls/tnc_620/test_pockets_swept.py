@@ -10,10 +10,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from running import labelled, run
 from shapely import LineString, Point, affinity, box, union_all
 
 import mnclab
 from mnclab import Kind, Setup, Tool
+
+pytestmark = pytest.mark.deep
 
 MICRON = 1e-3
 PLACE = (12.0, -7.0)
@@ -74,16 +77,12 @@ COMMON = {
 }  # fmt: skip
 
 
-def run(number, v, radius, edges):
-    """Pairs of a motion of the cycle and its label."""
-    order = sorted(v)
-    definition = "\n".join([f"CYCL DEF {number} A", *(f"{address}={v[address]:.9f}" for address in order)])
-    tool = Tool(radius=radius, plunge_angle=4, cutting_length=edges)
-    setup = Setup(tools={1: tool}, start=(*PLACE, 40.0))
-    found = mnclab.run(f"TOOL CALL 1 Z S1000\n{definition}\nCYCL CALL M3\n", "tnc-620", setup)
-    assert found.ok, found.alarms
-    path = found.toolpath[found.toolpath.is_motion]
-    return [(row, path.labels[k]) for row, k in zip(path, path.label)]
+def milled(number, v, radius, edges):
+    """Pairs of a motion and its label."""
+    definition = "\n".join([f"CYCL DEF {number} A", *(f"{address}={v[address]:.9f}" for address in sorted(v))])
+    tools = {1: Tool(radius=radius, plunge_angle=4, cutting_length=edges)}
+    program = f"TOOL CALL 1 Z S1000\n{definition}\nCYCL CALL M3"
+    return labelled(run(program, "tnc-620", tools=tools, start=(*PLACE, 40.0)).toolpath)
 
 
 def reach(area, radius):
@@ -97,7 +96,7 @@ def reach(area, radius):
 def test_a_figure_is_cleared_and_nothing_beyond_it(number, data, radius, edges, sweeps):
     figure, shape = FIGURES[number]
     v = data.draw(st.fixed_dictionaries(shape | COMMON))
-    rows, wall = run(number, v, radius, edges), figure(v, radius)
+    rows, wall = milled(number, v, radius, edges), figure(v, radius)
     floor, rest = v["Q201"], v["Q201"] + v["Q369"]
 
     def part(name):
@@ -160,7 +159,7 @@ def test_a_ring_slot_is_cleared(mode, sweeps):
     words = {"Q215": 0, "Q219": 12, "Q368": 0.2, "Q375": 80, "Q367": 0, "Q216": 0, "Q217": 0, "Q376": 30, "Q248": 360,
              "Q378": 0, "Q377": 1, "Q207": 400, "Q351": mode, "Q201": -4, "Q202": 4, "Q369": 0.1, "Q206": 90, "Q338": 0,
              "Q200": 2, "Q203": 0, "Q204": 9, "Q385": 300, "Q366": 1, "Q439": 0}  # fmt: skip
-    rows = run(254, words, 5, 0)
+    rows = milled(254, words, 5, 0)
     ring = Point(0, 0).buffer(46, quad_segs=2000).difference(Point(0, 0).buffer(34, quad_segs=2000))
     area = sweeps.by_level([(row, label) for row, label in rows if "floor" in label], 5)[-4]
     assert area.symmetric_difference(ring).area < 0.001 * ring.area

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -23,11 +25,7 @@ HEAD = "TOOL CALL 1 Z S200 F100\n"
 def example(code: str, number: int = 0) -> dict:
     return [e for e in EXAMPLES if e["code"] == f"CYCL DEF {code}"][number]
 
-
-def run(blocks: str, setup: mnc.Setup | None = None) -> mnc.Run:
-    found = mnc.run(f"{HEAD}{blocks}\n", "tnc-620", setup or mnc.Setup())
-    assert found.ok, found.alarms
-    return found
+run = partial(running.run, control="tnc-620", before=HEAD)
 
 
 def test_a_dwell() -> None:
@@ -77,7 +75,7 @@ def test_a_tolerance_makes_corners_faster() -> None:
     """32.1 T0.05 counts as the corner tolerance of the limits does, until it is reset; the path stays as it is."""
     limits = mnc.Limits(acceleration=1000, corner_tolerance=0.05)
     program = example("32")["program"]
-    with_cycle, with_limits, without = run(program + "\n" + CORNER), run(CORNER, mnc.Setup(limits=limits)), run(CORNER)
+    with_cycle, with_limits, without = run(program + "\n" + CORNER), run(CORNER, limits=limits), run(CORNER)
     assert np.array_equal(with_cycle.toolpath.end, without.toolpath.end)
     assert (
         with_cycle.profile().time == pytest.approx(with_limits.profile().time)
@@ -98,7 +96,7 @@ def test_the_tolerance_of_a_part_of_the_path() -> None:
     none = CORNER + "L X+0\nL Y+0\n"
     fast, some, slow = (run(blocks).profile().time for blocks in (both, part, none))
     assert fast < some < slow
-    jerky = [run(blocks, mnc.Setup(limits=mnc.Limits(jerk=20000))).profile().time for blocks in (both, part, none)]
+    jerky = [run(blocks, limits=mnc.Limits(jerk=20000)).profile().time for blocks in (both, part, none)]
     assert jerky[0] < jerky[1] < jerky[2]
 
 

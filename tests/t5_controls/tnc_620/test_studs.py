@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from running import changed, of_cycles, run
 
 import mnclab
-from mnclab import Kind, Setup, Tool
+from mnclab import Kind, Tool
 from mnclab.show import trial
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-pockets.json"
@@ -24,17 +25,11 @@ def near(value):
     return pytest.approx(value, abs=1e-4)
 
 
-def run(number, radius, settings=None, height=100.0, edges=0.0, **change):
+def milled(number, radius, settings=None, height=100.0, edges=0.0, **change):
     """The motion of the example of a cycle; Q parameters may be changed, or left out with None."""
-    program = PROGRAMS[number]
-    for address, value in change.items():
-        line = next(line for line in program.splitlines(True) if line.strip().startswith(address + "="))
-        program = program.replace(line, "" if value is None else f"{address}={value}\n")
-    setup = Setup(tools={1: Tool(radius=radius, cutting_length=edges)}, start=(0, 0, height), settings=settings or {})
-    found = mnclab.run(f"0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n{program}\n99 END PGM A MM\n", "tnc-620", setup)
-    assert found.ok, found.alarms
-    path = found.toolpath
-    return path[path.is_motion & np.array([name.startswith("CYCL DEF") for name in names(path)])]
+    tools = {1: Tool(radius=radius, cutting_length=edges)}
+    program = f"1 TOOL CALL 1 Z S1000\n{changed(PROGRAMS[number], **change)}"
+    return of_cycles(run(program, "tnc-620", tools=tools, start=(0, 0, height), settings=settings or {}).toolpath)
 
 
 def names(rows):
@@ -65,7 +60,7 @@ def flats(rows):
 
 def test_example_6_6():
     """R = 10: one round with half sides 40.2 and 30.2 and corners of 15.2, clockwise, from (99, 50); back to there."""
-    rows = run("256", 10)
+    rows = milled("256", 10)
     assert levels(rows) == [-5, -10, -15, -20]
     round_it = said(rows, "layer 1 of 4, ring")
     assert np.abs(round_it.end[:, :2] - 50).max(axis=0).tolist() == near([40.2, 30.2])
@@ -81,14 +76,14 @@ def test_example_6_6():
 
 def test_two_rounds_with_a_smaller_tool():
     """R = 6: rounds of 39.6 x 31.1 and 36.2 x 26.2."""
-    rows = run("256", 6)
+    rows = milled("256", 6)
     for k, sides in ((1, [39.6, 31.1]), (2, [36.2, 26.2])):
         assert np.abs(said(rows, f"layer 1 of 4, ring {k} of 2").end[:, :2] - 50).max(axis=0).tolist() == near(sides)
 
 
 def test_example_6_7():
     """R = 10: nothing of the blank to take; a circle of 40.2 about (50, 50) from (92, 50), back over the centre."""
-    rows = run("257", 10)
+    rows = milled("257", 10)
     assert levels(rows) == [-5, -10, -15, -20]
     circles = said(rows, "last circle")
     assert circles.sweep.tolist() == near([-math.tau] * 4) and circles.end[:, 0] == near(90.2)
@@ -98,20 +93,20 @@ def test_example_6_7():
 
 def test_a_spiral_from_a_larger_blank():
     """Q222 = 80: one turn from a radius of 50 to 40.2 and the circle, from (102, 50); off the stud by 2 mm."""
-    rows = run("257", 10, Q222=80)
+    rows = milled("257", 10, Q222=80)
     spiral = said(rows, "layer 1 of 4, spiral")
     assert spiral.start[0, :2].tolist() == near([100, 50]) and spiral.sweep.sum() == near(-math.tau)
     assert spiral.end[-1, :2].tolist() == near([90.2, 50])
     assert said(rows, "over the start").end[0, :2].tolist() == near([102, 50])
     assert said(rows, "layer 1 of 4, departure").end[0, :2].tolist() == near([92.2, 50])
-    turned = run("257", 10, Q222=80, Q376=90)
+    turned = milled("257", 10, Q222=80, Q376=90)
     assert said(turned, "over the start").end[0, :2].tolist() == near([50, 102])
-    assert said(run("257", 10, Q376=-1), "over the start").end[0, :2].tolist() == near([92, 50])
+    assert said(milled("257", 10, Q376=-1), "over the start").end[0, :2].tolist() == near([92, 50])
 
 
 def test_example_6_8():
     """R = 10: a decagon; four turns of 9.0559 from 70 to 33.7764, from (105.1552, 96.2807), -10 and -18."""
-    rows = run("258", 10)
+    rows = milled("258", 10)
     assert levels(rows) == [-10, -18] and not len(said(rows, "finishing"))
     assert said(rows, "over the start").end[0, :2].tolist() == near([105.1552, 96.2807])
     ring = said(rows, "layer 1 of 2, last ring")
@@ -128,7 +123,7 @@ def test_example_6_8():
 
 
 def test_a_polygon_by_its_inscribed_circle():
-    rows = run("258", 10, Q573=0, Q572=4, Q224=45, Q220=0)
+    rows = milled("258", 10, Q573=0, Q572=4, Q224=45, Q220=0)
     ring = said(rows, "layer 1 of 2, last ring")
     assert np.abs(ring.end[:, :2] - 50).max() == near(35)
 
@@ -141,9 +136,9 @@ def test_a_polygon_by_its_inscribed_circle():
 )
 def test_positions_of_a_rectangular_stud(position, centre):
     """The tool at the centre or at a corner of the finished stud; all turns about the tool."""
-    rows = said(run("256", 10, Q367=position), "layer 1 of 4, ring").end
+    rows = said(milled("256", 10, Q367=position), "layer 1 of 4, ring").end
     assert ((rows.max(axis=0) + rows.min(axis=0)) / 2)[:2].tolist() == near(centre)
-    turned = said(run("256", 10, Q367=position, Q224=90), "layer 1 of 4, ring").end
+    turned = said(milled("256", 10, Q367=position, Q224=90), "layer 1 of 4, ring").end
     x, y = centre[0] - 50, centre[1] - 50
     assert ((turned.max(axis=0) + turned.min(axis=0)) / 2)[:2].tolist() == near([50 - y, 50 + x])
 
@@ -152,7 +147,7 @@ def test_positions_of_a_rectangular_stud(position, centre):
 @pytest.mark.parametrize("mode", [1, -1])
 def test_approach_positions(place, start, mode):
     """R = 10: 37 + 2 + 10 and 30 + 2 + 10 from the centre; each arc touches the pass that it leads to."""
-    rows = run("256", 10, Q437=place, Q351=mode)
+    rows = milled("256", 10, Q437=place, Q351=mode)
     assert said(rows, "over the start").end[0, :2].tolist() == near(start)
     assert [row.end[:2].tolist() for row in rows[[n.endswith("down") for n in names(rows)]]] == [near(start)] * 4
     spiral = said(rows, "layer 1 of 4, spiral" if place else "layer 1 of 4, ring")
@@ -180,7 +175,7 @@ def test_approach_positions(place, start, mode):
 )  # fmt: skip
 def test_what_is_done(number, operation, side, floor, parts):
     """Side and floor are finished where an allowance was left for it; always in this order."""
-    rows = run(number, 5, Q215=operation, Q368=side, Q369=floor)
+    rows = milled(number, 5, Q215=operation, Q368=side, Q369=floor)
     found = [part for name in names(rows) for part in ("layer", "side finishing", "floor finishing") if part in name]
     assert list(dict.fromkeys(found)) == parts
     depth = 18 if number == "258" else 20
@@ -199,35 +194,35 @@ def test_only_finishing_without_allowances_does_nothing_and_says_so(number):
 
 @pytest.mark.parametrize("number", NUMBERS)
 def test_depth_zero_is_not_executed_whatever_else_is_wrong(number):
-    assert len(run(number, 5, Q201=0, Q202=0, Q207=0)) == 0
+    assert len(milled(number, 5, Q201=0, Q202=0, Q207=0)) == 0
 
 
 @pytest.mark.parametrize("number", ["256", "257"])
 def test_what_may_be_left_out(number):
     """Roughing alone, and no allowance below; a finishing feed that is missing or 0 is the milling feed."""
-    rows = run(number, 5, Q215=None, Q369=None, Q338=None, Q385=None)
+    rows = milled(number, 5, Q215=None, Q369=None, Q338=None, Q385=None)
     assert levels(rows) == [-5, -10, -15, -20] and not len(said(rows, "finishing"))
     assert (
-        said(run(number, 5, Q215=0, Q385=0), "side finishing", "last" if number == "257" else "ring").feed == 500
+        said(milled(number, 5, Q215=0, Q385=0), "side finishing", "last" if number == "257" else "ring").feed == 500
     ).all()
 
 
 def test_infeeds_and_feeds_of_finishing():
     """Q338 = 6 down to -19.5, at 700; the floor once at -20; LCUTS = 2 makes ten infeeds of roughing."""
-    rows = run("256", 5, Q215=0, Q338=6, Q369=0.5, Q385=700)
+    rows = milled("256", 5, Q215=0, Q338=6, Q369=0.5, Q385=700)
     assert levels(rows, "side finishing") == near([-6, -12, -18, -19.5]) and levels(rows, "floor") == [-20]
     wall = said(rows, "side finishing", "ring")
     assert np.abs(wall.end[:, :2] - 50).max(axis=0).tolist() == near([35, 25]) and (wall.feed == 700).all()
-    assert levels(run("256", 5, edges=2.0)) == near([*np.arange(-2, -21, -2.0)])
+    assert levels(milled("256", 5, edges=2.0)) == near([*np.arange(-2, -21, -2.0)])
 
 
 def test_plunging_at_rapid():
-    down = said(run("257", 5, Q206="FMAX"), "layer 1 of 4, down")
+    down = said(milled("257", 5, Q206="FMAX"), "layer 1 of 4, down")
     assert (down.kind == Kind.RAPID).all() and len(down) == 1
 
 
 def test_a_polygon_is_left_in_the_second_set_up_plane_after_every_level():
-    rows = run("258", 10)
+    rows = milled("258", 10)
     up = rows[(rows.kind == Kind.RAPID) & (rows.end[:, 2] > rows.start[:, 2])]
     assert up.end[:, 2].tolist() == [50, 50]
     assert said(rows, "layer 2 of 2, to the clearance level").end[0].tolist() == near([105.1552, 96.2807, 2])
@@ -235,7 +230,7 @@ def test_a_polygon_is_left_in_the_second_set_up_plane_after_every_level():
 
 def test_a_negative_allowance_makes_the_polygon_smaller():
     """Q368 = -1: the last round 1 mm closer; no side finishing; the tool ends outside the blank."""
-    rows, less = run("258", 10), run("258", 10, Q368=-1, Q369=0.5)
+    rows, less = milled("258", 10), milled("258", 10, Q368=-1, Q369=0.5)
     for found, away in ((rows, 33.7764), (less, 32.7764)):
         last = said(found, "layer 2 of 2, last ring")
         assert flats(last) == near(away)
@@ -246,7 +241,7 @@ def test_a_negative_allowance_makes_the_polygon_smaller():
 @pytest.mark.parametrize("number", NUMBERS)
 @pytest.mark.parametrize(("height", "ways"), [(100.0, [(100, 2)]), (10.0, [(10, 50), (50, 2)])])
 def test_the_way_to_the_stud(number, height, ways):
-    rows = run(number, 5, height=height)
+    rows = milled(number, 5, height=height)
     rapid = [row for row in rows[:4] if row.kind == Kind.RAPID and row.start[2] != row.end[2]]
     assert [(row.start[2], row.end[2]) for row in rapid] == ways
 
@@ -254,7 +249,7 @@ def test_the_way_to_the_stud(number, height, ways):
 @pytest.mark.parametrize("number", NUMBERS)
 def test_a_positive_depth_works_upwards_where_that_is_allowed(number):
     """displayDepthErr off: rapid to 2 mm below the surface, up in infeeds, out downwards."""
-    rows = run(number, 5, {"depth_error": False}, Q201=12, Q202=5)
+    rows = milled(number, 5, {"depth_error": False}, Q201=12, Q202=5)
     assert levels(rows) == [5, 10, 12]
     assert said(rows, "to the set-up clearance").end[0, 2] == -2
     assert rows[-1].end[2] == 50

@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from running import labelled, run
 from shapely import Point, Polygon, affinity, box, union_all
 
-import mnclab
-from mnclab import Kind, Setup, Tool
+from mnclab import Kind, Tool
+
+pytestmark = pytest.mark.deep
 
 MICRON = 1e-3
 PLACE = (12.0, -7.0)
@@ -76,14 +78,12 @@ COMMON = {
 }  # fmt: skip
 
 
-def run(number, v, radius, edges):
+def milled(number, v, radius, edges):
     """Pairs of a motion and its label."""
     definition = "\n".join([f"CYCL DEF {number} A", *(f"{address}={v[address]:.9f}" for address in sorted(v))])
-    setup = Setup(tools={1: Tool(radius=radius, cutting_length=edges)}, start=(*PLACE, 40.0))
-    found = mnclab.run(f"TOOL CALL 1 Z S1000\n{definition}\nCYCL CALL M3\n", "tnc-620", setup)
-    assert found.ok, found.alarms
-    path = found.toolpath[found.toolpath.is_motion]
-    return [(row, path.labels[k]) for row, k in zip(path, path.label)]
+    tools = {1: Tool(radius=radius, cutting_length=edges)}
+    program = f"TOOL CALL 1 Z S1000\n{definition}\nCYCL CALL M3"
+    return labelled(run(program, "tnc-620", tools=tools, start=(*PLACE, 40.0)).toolpath)
 
 
 def part(rows, name):
@@ -114,7 +114,7 @@ def test_a_stud_stands_and_its_blank_is_cleared(number, data, radius, edges, swe
     draw, shape = FIGURES[number]
     v = data.draw(st.fixed_dictionaries(shape | COMMON))
     stud, blank = draw(v)
-    rows = run(number, v, radius, edges)
+    rows = milled(number, v, radius, edges)
     floor, rest, join = v["Q201"], v["Q201"] + v["Q369"], "mitre" if v.get("Q220", 0) < 0 else "round"
 
     def around(allowance):
@@ -168,7 +168,7 @@ def test_a_surface_is_cleared_and_its_walls_are_kept(v, limits, signs, radius, p
     a, b = v["Q218"], v["Q219"]
     words = v | dict(zip(("Q347", "Q348", "Q349"), limits, strict=True))
     words |= {"Q218": signs[0] * a, "Q219": signs[1] * b, "Q367": place}
-    rows = [(row, label) for row, label in run(233, words, radius, edges) if "CYCL DEF" in label]
+    rows = [(row, label) for row, label in milled(233, words, radius, edges) if "CYCL DEF" in label]
     x, y = [(0, 0), (1, 1), (-1, 1), (-1, -1), (1, -1), signs][place]
     centre = PLACE[0] + x * a / 2, PLACE[1] + y * b / 2
     walls = set(limits) - {0}
@@ -202,7 +202,7 @@ def test_a_surface_is_cleared_and_its_walls_are_kept(v, limits, signs, radius, p
 def test_a_spiral_clears_the_surface(v, signs, radius, sweeps):
     a, b = signs[0] * v["Q218"], signs[1] * v["Q219"]
     words = v | {"Q389": 4, "Q218": a, "Q219": b, "Q347": 0, "Q348": 0, "Q349": 0}
-    rows = [(row, label) for row, label in run(233, words, radius, 0) if "CYCL DEF" in label]
+    rows = [(row, label) for row, label in milled(233, words, radius, 0) if "CYCL DEF" in label]
     (x, x1), (y, y1) = sorted((PLACE[0], PLACE[0] + a)), sorted((PLACE[1], PLACE[1] + b))
     surface = box(x, y, x1, y1)
     for area in sweeps.by_level(rows, radius).values():

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
 from mnclab.path.columns import COLUMNS
+
+pytestmark = pytest.mark.deep
 
 NUMBERS = st.sampled_from(["+0", "-1", "2.5", "+10.125", "-.5", "7.", "+3.1415926535"])
 WORDS = st.tuples(

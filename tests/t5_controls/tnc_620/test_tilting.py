@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -24,11 +26,7 @@ EXAMPLES = [
 MANUAL, AUTOMATIC, MATRIX, CANCEL = EXAMPLES
 NOW = dict.fromkeys("ABC", 0.0)
 
-
-def run(blocks: str, **settings: object) -> mnc.Run:
-    found = mnc.run(f"TOOL CALL 1 Z S1000 F1000\n{blocks}\n", "tnc-620", mnc.Setup(settings=settings))
-    assert found.ok, found.alarms
-    return found
+run = partial(running.run, control="tnc-620", before="TOOL CALL 1 Z S1000 F1000\n")
 
 
 def test_positioning_by_the_program() -> None:

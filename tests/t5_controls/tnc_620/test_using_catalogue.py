@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+import running
 
 import mnclab as mnc
 
@@ -23,11 +25,7 @@ HEAD = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n"
 CYCLE = "CYCL DEF 200 D\nQ200={Q200}\nQ201=-15\nQ206=250\nQ202=0\nQ210=0\nQ203={Q203}\nQ204={Q204}\nQ211=0\n"
 SIMPLE = CYCLE.format(Q200=2, Q203=0, Q204=20)
 
-
-def run(text: str, files: dict[str, str] | None = None) -> mnc.Run:
-    found = mnc.run(HEAD + text, "tnc-620", mnc.Setup(files=files or {}))
-    assert found.ok, found.alarms
-    return found
+run = partial(running.run, control="tnc-620", before=HEAD)
 
 
 def bottoms(found: mnc.Run) -> np.ndarray:
@@ -61,7 +59,7 @@ def test_the_corners_of_a_grid(example: dict) -> None:
 @pytest.mark.parametrize("example", of("points", "unit"))
 def test_a_point_table(example: dict) -> None:
     assert example["check"]["unit"] == "MM"
-    table = run(f'20 {SIMPLE}21 SEL PATTERN "TAB1"\n22 CYCL CALL PAT FMAX M3\n', {"TAB1.PNT": example["program"]})
+    table = run(f'20 {SIMPLE}21 SEL PATTERN "TAB1"\n22 CYCL CALL PAT FMAX M3\n', files={"TAB1.PNT": example["program"]})
     assert bottoms(table)[:, :2] == pytest.approx(np.array(example["check"]["points"]))
 
 
@@ -69,7 +67,7 @@ def test_a_point_table(example: dict) -> None:
 def test_a_table_by_its_whole_name(example: dict) -> None:
     """Selecting moves nothing; the file is found by its whole name, and by its last part."""
     for name in (example["check"]["file"], "nust35.pnt"):
-        selected = run(example["program"], {name: "N MM\nNR X Y\n0 1 2\n[END]"})
+        selected = run(example["program"], files={name: "N MM\nNR X Y\n0 1 2\n[END]"})
         assert not selected.toolpath.is_motion.any() and selected.history["pattern"][-1] == 1
 
 

@@ -15,6 +15,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Call, Go, Step, Write
 from mnclab.running.binding import as_it_stands, instance, refuse_frame
 from mnclab.running.performing import perform, run_cycle
+from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
@@ -53,12 +54,12 @@ def end_modal_call(m: Machine) -> None:
         m.set_modal("call", "")
 
 
-def calls_again(m: Machine, keyword: str, words: Sequence[Word]) -> bool:
+def calls_again(keyword: str, words: Sequence[Word]) -> bool:
     """Whether M89 of a block before calls its cycle in a block of this kind; it does not go with free contours."""
     if keyword in FREE:
-        m.alarm(f"M89 and {keyword}: a modal cycle call does not go with free contours", None, hint="end it with M99")
+        raise Alarm(f"M89 and {keyword}: a modal cycle call does not go with free contours", hint="end it with M99")
     if keyword.startswith(("APPR", "DEP")):
-        m.alarm(f"M89 and {keyword}: a cycle is called without radius compensation", None, hint="end it with M99")
+        raise Alarm(f"M89 and {keyword}: a cycle is called without radius compensation", hint="end it with M99")
     return keyword in POSITIONING and (keyword[0] == "C" or any(word.address in PLACES for word in words))
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mnclab
-from mnclab.runs.explanation import _meaning
+from mnclab.runs.meanings import _meaning
 from mnclab.text.program import Word, place_of
 
 SETUP = mnclab.Setup(datums={1: (100, 200, -50)}, tools={1: mnclab.Tool(radius=5, length=80)}, start=(100, 200, 200))
@@ -23,11 +23,6 @@ G40 X40 Y0
 G83 X20 Y10 Z-30 R2 K5 F120
 X30
 """
-
-
-@pytest.fixture(scope="module")
-def run():
-    return mnclab.run(PROGRAM, "mnc", SETUP)
 
 
 def test_each_word_has_its_function_its_section_and_what_it_changed(run):

@@ -41,7 +41,7 @@ def folder(tmp_path):
     return here
 
 
-def run(folder, name, call=CALL, **setup):
+def run_main(folder, name, call=CALL, **setup):
     (folder / "main.h").write_text(call.format(name))
     begin = time.perf_counter()
     found = mnclab.run(folder / "main.h", "tnc-620", Setup(**setup))
@@ -52,7 +52,7 @@ def run(folder, name, call=CALL, **setup):
 @pytest.mark.parametrize("call", CALLS)
 @pytest.mark.parametrize("name", ["out.h", "round.h", "chain.h", "OUT.H"])
 def test_a_link_that_leads_out_is_refused(folder, name, call):
-    found = run(folder, name, call)
+    found = run_main(folder, name, call)
     alarm = found.alarms[0]
     assert (
         alarm.span
@@ -64,32 +64,32 @@ def test_a_link_that_leads_out_is_refused(folder, name, call):
 
 def test_a_table_that_leads_out_is_refused(folder):
     (folder / "out.d").symlink_to(folder.parent / "secret.h")
-    found = run(folder, "out.d", "0 BEGIN PGM A MM\n1 SEL TABLE {}\n2 END PGM A MM\n")
+    found = run_main(folder, "out.d", "0 BEGIN PGM A MM\n1 SEL TABLE {}\n2 END PGM A MM\n")
     assert "symbolic link to another folder" in found.alarms[0].message
 
 
 def test_a_link_inside_the_folder_is_a_file(folder):
-    assert run(folder, "link.h").variables == {"Q1": 5} and run(folder, "down.h").variables == {"Q1": 7}
+    assert run_main(folder, "link.h").variables == {"Q1": 5} and run_main(folder, "down.h").variables == {"Q1": 7}
 
 
 @pytest.mark.parametrize("to", ["loop", "own.h/under", "x" * 255])
 def test_a_link_that_leads_nowhere_hides_no_other_file(folder, to):
     (folder / "loop").symlink_to(to)
     (folder / "loop.h").symlink_to("loop")
-    assert run(folder, "own").variables == {"Q1": 5}
-    assert not run(folder, "loop").ok
+    assert run_main(folder, "own").variables == {"Q1": 5}
+    assert not run_main(folder, "loop").ok
 
 
 @pytest.mark.parametrize("name", ["gone.h", "../secret.h", *PIPE, "a\0b.h", "/dev/zero"])
 def test_what_is_no_file_of_the_folder_is_not_there(folder, name):
-    found = run(folder, name)
+    found = run_main(folder, name)
     assert not found.ok and "Q1" not in found.variables
 
 
 @pytest.mark.parametrize("name", NO_FILES)
 def test_no_device_and_no_pipe_is_waited_for(folder, name):
     path = folder / name
-    assert "cannot be read: it is no file" in run(folder, "SUB", files={"SUB.H": path}).alarms[0].message
+    assert "cannot be read: it is no file" in run_main(folder, "SUB", files={"SUB.H": path}).alarms[0].message
     for door in (
         lambda: mnclab.run(path, "mnc"),
         lambda: mnclab.read(path, "mnc"),
@@ -107,7 +107,7 @@ def test_no_device_and_no_pipe_is_waited_for(folder, name):
 
 
 def test_a_name_with_a_nul_is_no_file(folder):
-    assert "no file has such a name" in run(folder, "SUB", files={"SUB.H": Path("a\0b")}).alarms[0].message
+    assert "no file has such a name" in run_main(folder, "SUB", files={"SUB.H": Path("a\0b")}).alarms[0].message
     for door in (lambda: mnclab.run(Path("a\0b"), "mnc"), lambda: load("a\0b"), lambda: svg.contours(Path("a\0b"))):
         with pytest.raises(Alarm, match="no file has such a name"):
             door()
@@ -115,10 +115,10 @@ def test_a_name_with_a_nul_is_no_file(folder):
 
 def test_every_file_has_a_bound(folder, monkeypatch):
     monkeypatch.setattr(file.read, "__defaults__", (20,))
-    for found in (run, lambda *_: run(folder, "SUB", files={"SUB.H": folder / "own.h"})):
+    for found in (run_main, lambda *_: run_main(folder, "SUB", files={"SUB.H": folder / "own.h"})):
         with pytest.raises(Alarm, match="more than"):
             found(folder, "own.h")
     monkeypatch.setattr(file.read, "__defaults__", (70,))
     (folder / "own.h").write_text("; " + "x" * 99)
-    found = run(folder, "own.h")
+    found = run_main(folder, "own.h")
     assert "more than" in found.alarms[0].message and found.alarms[0].span.line == 2

@@ -27,12 +27,14 @@ tail = st.sampled_from(["", "", " K2.5", " Z-8", " Z-8 R2", " F100", " R2.5 K3"]
 holes = st.tuples(tail, st.lists(place, min_size=SHORTEST + 4, max_size=60)).map(lambda t: [p + t[0] for p in t[1]])
 
 
+@pytest.mark.deep
 @settings(max_examples=15)
 @given(st.sampled_from(CYCLES), st.sampled_from(["", "G39 A33", "G51 Y0", "G37 X2 Y0.5 Z3", "G91"]), holes)
 def test_rows_of_holes(both, assert_equal, cycle, switch, places):
     assert_equal(*both(f"{HEAD}{switch}\n{cycle}\n" + "\n".join(places) + "\nG80 G0 X1\n"))
 
 
+@pytest.mark.deep
 @given(
     st.sampled_from(CYCLES), st.lists(st.one_of(holes, st.lists(odd, min_size=1, max_size=2)), min_size=2, max_size=5)
 )
@@ -44,6 +46,7 @@ def rows_of_holes(n, tail=""):
     return [f"X{k % 300 * 2} Y{k // 300 * 2}{tail}" for k in range(1, n + 1)]
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("cycle", CYCLES)
 @pytest.mark.parametrize("tail", ["", " K3", " Z-8 R3"])
 def test_a_thousand_holes_are_few_blocks_one_by_one(both, assert_equal, executed, cycle, tail):

@@ -32,6 +32,7 @@ def test_runs_of_plain_blocks(both, assert_equal, blocks, incremental):
     assert_equal(*both(text))
 
 
+@pytest.mark.deep
 @given(st.lists(st.one_of(*[plain] * 12, arc, odd), min_size=2 * SHORTEST, max_size=120))
 def test_runs_with_other_blocks_between(both, assert_equal, blocks):
     assert_equal(*both(HEAD + "\n".join(blocks) + "\n"))
@@ -47,6 +48,7 @@ near = st.tuples(
 ).flatmap(lambda t: st.integers(1, 20).map(lambda n: f"{t[0]} {t[1].format(n)}"))
 
 
+@pytest.mark.deep
 @given(
     st.sampled_from([*TURNED, "G37 X2 Y3"]), st.booleans(),
     st.lists(st.one_of(plain, plain, near, arc, full), min_size=2 * SHORTEST, max_size=90),
@@ -56,6 +58,7 @@ def test_runs_under_a_transformation(both, assert_equal, head, incremental, bloc
     assert_equal(*both(HEAD + head + ("\nG91\n" if incremental else "\n") + "\n".join(blocks) + "\n"))
 
 
+@pytest.mark.deep
 @given(st.lists(st.one_of(*[plain] * 15, near, switch), min_size=2 * SHORTEST, max_size=120))
 def test_runs_with_switches_between(both, assert_equal, blocks):
     assert_equal(*both(HEAD + "\n".join(blocks) + "\n"))
@@ -103,6 +106,7 @@ def round_blocks(first, second, third):
     return st.one_of(arc, arc, arc, back, back, odd)
 
 
+@pytest.mark.deep
 @given(
     st.sampled_from([("mnc", "XYZ"), ("g43", "XYZ"), ("jnc-t01", "XZ")]).flatmap(
         lambda t: st.tuples(st.just(t[0]), st.lists(round_blocks(*t[1], *[""] * (3 - len(t[1]))), min_size=30, max_size=45))

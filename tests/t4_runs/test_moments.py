@@ -19,11 +19,6 @@ LEAST = math.atan(2) - math.acos(44 / (20 * math.sqrt(5)))
 ON_ARC = (0.3 - math.sqrt(0.09 + 4 * 1.0001 * 175)) / 2 / 1.0001
 
 
-@pytest.fixture(scope="module")
-def run():
-    return mnclab.run(PROGRAM, "mnc")
-
-
 @pytest.mark.parametrize(
     ("question", "line", "point"),
     [

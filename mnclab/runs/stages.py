@@ -1,0 +1,73 @@
+"""The way from the programmed point through datum, transformations and compensation to the tool tip."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.geometry import frames
+from mnclab.path.listing import figure, point
+from mnclab.runs.values import Matrix, described
+
+if TYPE_CHECKING:
+    from mnclab.runs.moment import Moment
+    from mnclab.runs.run import Run
+
+
+class Stage(NamedTuple):
+    """A step on the way from the programmed point to the tool: its name and the point (3,) mm there."""
+
+    name: str
+    point: tuple[float, float, float]
+    note: str = ""
+
+
+def stages(run: Run, moment: Moment) -> list[Stage]:
+    """The programmed point, after every frame from the innermost to the outermost, after compensation."""
+    found = [Stage("programmed point", moment.position)]
+    chain = [(name, matrix) for name, matrix in _frames(run, moment) if not np.array_equal(matrix, frames.IDENTITY)]
+    here = np.array(moment.position)
+    for name, matrix in reversed(chain):
+        here = frames.apply(matrix, here)
+        found.append(Stage(f"after {name}", _tuple(here), described(matrix)))
+    origin = run.toolpath.origin
+    machine = here
+    if not chain:
+        found.append(Stage("machine coordinates", _tuple(machine), "no frame is active"))
+    if origin.any():
+        found.append(Stage("from the first work offset", _tuple(machine - origin), f"at machine {point(origin)}"))
+    tip = np.array(moment.point)
+    path, last = run.toolpath, moment.rows.stop - 1
+    note = ""
+    away = float(np.linalg.norm(tip - (machine - origin)))
+    if last >= 0 and path.side[last] and away > 1e-9:
+        side = "left" if path.side[last] > 0 else "right"
+        note = f"tool radius {figure(float(path.radius[last]))} to the {side}: {figure(away)} mm away"
+    elif away > 1e-6:
+        note = f"{figure(away)} mm away: a frame was changed since, or corners were rounded"
+    found.append(Stage("tool tip", _tuple(tip), note))
+    tool = run.tables.tools.get(int(path.tool[last])) if last >= 0 else None
+    if tool is not None and not path.lathe:
+        length = np.array([0.0, 0.0, tool.effective_length])
+        found.append(
+            Stage(
+                "spindle, machine coordinates",
+                _tuple(tip + origin + length),
+                f"tool length {figure(tool.effective_length)}",
+            )
+        )
+    return found
+
+
+def _frames(run: Run, moment: Moment) -> list[tuple[str, Matrix]]:
+    """The frames after the block, the outermost first."""
+    names = list(dict.fromkeys([*run.control.frames, *(name for name, _ in run.frames)]))
+    values = ((name, run.history.value(f"frame {name}", moment.step)) for name in names)
+    return [(name, np.array(value)) for name, value in values if value is not None]
+
+
+def _tuple(xyz: NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = np.asarray(xyz, dtype=np.float64).tolist()
+    return x, y, z
