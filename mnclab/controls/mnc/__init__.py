@@ -13,6 +13,7 @@ from mnclab.controls.mnc import auxiliary, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared, tapping
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.state import Memory
+from mnclab.controls.mnc.trial import trial_program
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control
@@ -85,4 +86,5 @@ CONTROL = Control(
         helices=more_helices,
         straight_arcs=True,
     ),
+    trial=trial_program,
 )

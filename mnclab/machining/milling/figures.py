@@ -17,34 +17,10 @@ from mnclab.machining.milling import concentric
 from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.entries import vertical
 from mnclab.machining.milling.finishing import half_circles, quarter_circles
-from mnclab.machining.milling.pocket_steps import Down, Feeds, Room, finish_floor, finish_walls, rough, rough_slot
+from mnclab.machining.milling.pocket_steps import Down, Room, Work, finish_floor, finish_walls, rough, rough_slot
 from mnclab.machining.steps import Step
 
 straight = partial(vertical, (0.0, 0.0))
-
-
-class Work(NamedTuple):
-    """What is done to a figure: levels and feeds of each part, none where it is left out; `side` 1 is climb milling.
-
-    Roughing leaves the `allowance` at the side and ends, as the walls do, at `left_over`. The tool clears what it has cut
-    by `lift` (negative where it works upwards), and the figure at the height `above`.
-    """
-
-    surface: float
-    left_over: float
-    above: float
-    lift: float
-    allowance: float
-    layers: tuple[float, ...]
-    walls: tuple[float, ...]
-    floor: tuple[float, ...]
-    feeds: tuple[Feeds, Feeds, Feeds]
-    side: int
-
-    @property
-    def is_nothing(self) -> bool:
-        """Whether no part is done."""
-        return not (self.layers or self.walls or self.floor)
 
 
 class Pocket(NamedTuple):
@@ -89,31 +65,24 @@ def circular(diameter: float, radius: float, stepover: float, *, climb: bool = T
     return Pocket(clearing, room, half_circles)
 
 
-def mill_pocket(pocket: Pocket, work: Work, down: Down, to_floor: Down, end: float | None = None) -> Iterator[Step]:
+def mill_pocket(
+    pocket: Pocket, work: Work, down: Down, to_floor: Down, *, over_walls: float, off_floor: float, end: float | None = None
+) -> Iterator[Step]:  # fmt: skip
     """From the middle and back to it; `down` leads from layer to layer, `to_floor` onto the floor.
 
-    The tool lifts to the height `end` after the last layer, if that is given.
+    The tool lifts to the height `end` after the last layer, if that is given, and comes to the walls at the height
+    `over_walls`; it leaves the floor on a quarter circle of the radius `off_floor`.
     """
-    roughing, finishing, last = work.feeds
-    room, whole, clearing = pocket.room(work.allowance), pocket.room(0.0), pocket.clearing(0.0)
-    clear = abs(work.lift)
+    room, whole, clear = pocket.room(work.allowance), pocket.clearing(0.0), abs(work.lift)
     if work.layers:
         yield from rough(
             pocket.clearing(work.allowance), work.layers, surface=work.surface, clearance=work.lift, down=down,
-            feeds=roughing, departure=min(clear, room.half_width), side=work.side, end=end,
+            feeds=work.feeds[0], departure=min(clear, room.half_width), side=work.side, end=end,
         )  # fmt: skip
-    if work.walls and clearing.passes and clearing.passes[-1].closed:  # there is a way round
-        wall = clearing.passes[-1]
-        arcs = pocket.arcs(wall, min(work.allowance + clear, whole.half_width), work.side)
-        yield from finish_walls(
-            wall, work.walls, above=work.walls[0] + work.lift, clearance=work.lift, feeds=finishing, arcs=arcs,
-            side=work.side,
-        )  # fmt: skip
-    for level in work.floor:
-        yield from finish_floor(
-            clearing, level, top=work.left_over, clearance=work.lift, down=to_floor, feeds=last,
-            departure=min(clear, whole.half_width), side=work.side,
-        )  # fmt: skip
+    if work.walls and whole.passes and whole.passes[-1].closed:  # there is a way round
+        away = min(work.allowance + clear, pocket.room(0.0).half_width)
+        yield from finish_walls(whole.passes[-1], pocket.arcs(whole.passes[-1], away, work.side), work, over_walls)
+    yield from finish_floor(whole, work, to_floor, off_floor)
 
 
 class Slot(NamedTuple):
@@ -142,21 +111,10 @@ class Slot(NamedTuple):
 
 def mill_slot(slot: Slot, work: Work, down: Down) -> Iterator[Step]:
     """From the begin of its line and back to it."""
-    roughing, finishing, last = work.feeds
     if work.layers:
-        yield from rough_slot(
-            slot.line, lambda back: slot.clearing(work.allowance, back), work.layers, surface=work.surface,
-            above=work.above, clearance=work.lift, down=down, feeds=roughing, side=work.side,
-        )  # fmt: skip
+        yield from rough_slot(slot.line, lambda back: slot.clearing(work.allowance, back), work, down)
     if work.walls:
         wall = slot.clearing(0.0, backwards=True).passes[-1]  # begun beyond the first arc
         arcs = half_circles(wall, slot.width / 2 - slot.radius, work.side)
-        yield from finish_walls(
-            wall, work.walls, above=work.walls[0] + work.lift, clearance=work.lift, feeds=finishing, arcs=arcs,
-            side=work.side,
-        )  # fmt: skip
-    for level in work.floor:
-        yield from finish_floor(
-            slot.clearing(0.0), level, top=work.left_over, clearance=work.lift, down=straight, feeds=last, departure=0.0,
-            side=work.side, end=work.above,
-        )  # fmt: skip
+        yield from finish_walls(wall, arcs, work, work.walls[0] + work.lift)
+    yield from finish_floor(slot.clearing(0.0), work, straight, 0.0, work.above)

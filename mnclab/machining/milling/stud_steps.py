@@ -10,9 +10,8 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from mnclab.machining.milling.clearing import Clearing, begin, end, numbered
-from mnclab.machining.milling.figures import Work
 from mnclab.machining.milling.finishing import LEAST, onto, outwards
-from mnclab.machining.milling.pocket_steps import Feeds
+from mnclab.machining.milling.pocket_steps import Feeds, Work
 from mnclab.machining.steps import Along, Go, Step
 
 

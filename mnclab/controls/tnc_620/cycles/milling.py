@@ -17,8 +17,7 @@ from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import tool
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling.figures import Work
-from mnclab.machining.milling.pocket_steps import Feeds
+from mnclab.machining.milling.pocket_steps import Feeds, Work
 from mnclab.machining.steps import Go, Say, Step, moved
 from mnclab.path.tool import Tool
 

@@ -212,6 +212,10 @@ def mill(c: Any, m: Machine, pocket: Pocket, centre: Place, end: float | None = 
 
     def figures() -> Iterator[Figure]:  # only where the depth is not 0, and all that the tool needs is known
         down = way_in(c, m, pocket.room(c.side_allowance))
-        yield Figure(centre, centre, mill_pocket(pocket, work, down, to_floor, end))
+        steps = mill_pocket(
+            pocket, work, down, to_floor, over_walls=milling.wall_levels(c)[0] + work.lift,
+            off_floor=min(c.clearance, whole.half_width), end=end,
+        )  # fmt: skip
+        yield Figure(centre, centre, steps)
 
     return milling.mill(c, m, work, figures(), [milling.back(m.programmed[:2])])
