@@ -78,7 +78,7 @@ class ThreadDrillingMilling(AtSurface):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Hole, countersink at front at the milling feed, thread."""
-        remark_on_the_end(self, m, "total_hole_depth")
+        yield from remark_on_the_end(self, m, "total_hole_depth")
         yield Go("to the set-up clearance", self.above)
         if self.total_hole_depth:
             every = self.chip_breaking_depth

@@ -18,7 +18,7 @@ from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS_THREADS
 from mnclab.machining.holes.thread_milling import Path, centre_feed, chamfer, countersink, helices, mill_thread, path_of
-from mnclab.machining.steps import Go, Step
+from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()
 
@@ -119,7 +119,7 @@ class ThreadMillingCountersinking(AtSurface):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Countersink, countersink at front, thread."""
-        remark_on_the_end(self, m, "countersinking_depth")
+        yield from remark_on_the_end(self, m, "countersinking_depth")
         yield Go("to the set-up clearance", self.above)
         feed, position = self.countersinking_feed, rate(self.prepositioning_feed)
         if self.countersinking_depth:
@@ -239,13 +239,13 @@ def address(c: Any, name: str) -> str:
     return next(p.address for p in c.parameters() if p.name == name)
 
 
-def remark_on_the_end(c: Any, m: Machine, name: str) -> None:
+def remark_on_the_end(c: Any, m: Machine, name: str) -> Iterator[Say]:
     """The thread ends a third of a pitch above the end of the hole or of the countersink, or there is a warning."""
     depth = abs(getattr(c, name))
     if c.thread_depth and depth and abs(c.thread_depth) > depth - abs(c.pitch) / 3 + 1e-9:
         least = f"at least a third of the pitch less deep than {address(c, name)} = {getattr(c, name):g}"
         word = m.cycle.words.get("thread_depth") if m.cycle else None
-        m.warn(f"{c.code} Q201 (thread depth) should be {least}, got {c.thread_depth:g}", word)
+        yield Say(f"Q201 (thread depth) should be {least}, got {c.thread_depth:g}", word=word)
 
 
 def thread(c: Any, m: Machine) -> Iterator[Step]:
