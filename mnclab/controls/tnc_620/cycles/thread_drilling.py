@@ -58,7 +58,7 @@ class ThreadDrillingMilling(AtSurface):
 
     @property
     def way(self) -> Way:
-        return Way(inside(self))
+        return Way(inside(self.milling_type))
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """As all thread milling, the feed of milling also countersinks; and an infeed to drill with."""
