@@ -9,9 +9,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / ".setup"))
 
-from environment import run
+from environment import ROOT, run
 
-ROOT = Path(__file__).resolve().parent.parent
 FAST = "not deep and not browser and not benchmark"
 
 typed = sys.argv[1:]

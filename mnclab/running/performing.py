@@ -52,7 +52,9 @@ def run_cycle(m: Machine, definition: Definition, through: Through | None = None
     """
     definition = as_it_stands(m, definition)
     label, m.label = m.label, f"{definition.cycle.code} {definition.cycle.title}"
-    plane = {"plane": "XY"} if definition.cycle.does == MILLS and m.plane != "XY" else {}  # m.radius and m.scale count there
+    plane = (
+        {"plane": "XY"} if definition.cycle.does == MILLS and m.plane != "XY" else {}
+    )  # m.radius and m.scale count there
     try:
         with m.within(**plane):
             bound = bind(definition, m)
@@ -92,7 +94,7 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
                 m.line(*to, f=step.feed)
             case Along():
                 with m.within(plane="XY"):
-                    follow(m, step.contour, step.feed, step.heights, about=(x, y))
+                    follow(m, step.contour, step.feed, step.heights, about=(x + step.at[0], y + step.at[1]))
             case Wait():
                 m.dwell(step.seconds)
             case Thread():

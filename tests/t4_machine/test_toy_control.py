@@ -15,6 +15,7 @@ import mnclab
 from mnclab import Kind
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machining.steps import Go
 from mnclab.text.program_builder import ProgramBuilder
 from mnclab.text.words import characters, line_starts
 
@@ -67,8 +68,8 @@ class Hole(Cycle):
 
     def moves(self, m):
         z = m.programmed[2]
-        m.line(z=-self.depth, f=50)
-        m.rapid(z=z)
+        yield Go("down", -self.depth, 50)
+        yield Go("up", z)
 
 
 TURTLE = Control("turtle", "Turtle", read, FUNCTIONS, CYCLES, phases=("motion",), memory=Memory, suffixes=(".turtle",))

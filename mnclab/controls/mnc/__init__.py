@@ -1,16 +1,15 @@
 """The MNC milling control (Mechatronics, 2015): the namesake.
 
-`language` holds motion, offsets and feed, `auxiliary` tool, spindle and M functions, `polar` polar motion,
-`transforms` scaling, mirror image, rotation and datums, `compensation` the radius functions, `cycles` those of
-drilling and milling (chapters 9 and 10), `settings` what a machine may need otherwise. The codes of
-probing are refused by name.
+`language` holds motion, offsets, feed and corners, `auxiliary` tool, spindle and what ISO controls have alike, `polar`
+polar motion, `transforms` scaling, mirror image, rotation and datums, `cycles` those of drilling and milling (chapters 9
+and 10), `settings` what a machine may need otherwise. Codes of probing are refused by name.
 """
 
 from __future__ import annotations
 
 import re
 
-from mnclab.controls.mnc import auxiliary, compensation, language, polar, transforms
+from mnclab.controls.mnc import auxiliary, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared, tapping
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.state import Memory
@@ -57,8 +56,7 @@ MEANINGS = {
 }  # fmt: skip
 
 FUNCTIONS = (
-    language.FUNCTIONS | auxiliary.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | compensation.FUNCTIONS
-    | fixed.FUNCTIONS | prepared.FUNCTIONS
+    language.FUNCTIONS | auxiliary.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | fixed.FUNCTIONS | prepared.FUNCTIONS
 )  # fmt: skip
 
 CONTROL = Control(
