@@ -41,6 +41,7 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.comparison.diff import diff as diff
     from mnclab.comparison.strategies import compare as compare
     from mnclab.comparison.turning_schemes import compare as compare_turning
+    from mnclab.controls.cycle_steps import steps as steps
     from mnclab.show.editor import editor as editor
     from mnclab.show.forms import compensation_panel as compensation_panel
     from mnclab.show.forms import form as form
@@ -52,6 +53,7 @@ __version__ = "0.1.0"
 
 #: What is opened when it is first asked for.
 OPENED = Shelf("mnclab", "the names that need more than numpy", {
+    "mnclab.controls.cycle_steps": "steps",
     "mnclab.comparison.diff": "diff",
     "mnclab.comparison.strategies": "compare",
     "mnclab.comparison.turning_schemes": "compare as compare_turning",
@@ -128,6 +130,7 @@ __all__ = [
     "read",
     "run",
     "schemes",
+    "steps",
     "strategies",
 ]  # without help, which would shadow the one of Python
 

@@ -1,5 +1,5 @@
-"""Who obeys: the machine with its verbs, and the interpreter that hands it the words of a program.
+"""What stands before a program runs: the machine with its verbs, its setup, what controls and cycles declare.
 
 May import `text`, `geometry`, `path`, `workpiece` and `machining`; it knows no control by name. A new verb is a
-method of `Machine`; a new way of running blocks (a jump, a call) goes to `calls`.
+method of `Machine`; a new way of running blocks (a jump, a call) goes to `running`.
 """

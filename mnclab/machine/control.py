@@ -135,6 +135,9 @@ class FunctionTable(dict[str, Function]):
 
         return register
 
+    def __repr__(self) -> str:
+        return "\n".join(f"{code:8s} {function.title}" for code, function in self.items())
+
     def __or__(self, other: Mapping[str, Function]) -> FunctionTable:  # type: ignore[override]
         return FunctionTable({**self, **other})
 
@@ -162,7 +165,8 @@ class Control:
     function of the group "call") calls it in a block with a keyword and words.
     `memory` makes what the control keeps beside the common state of a machine, a dataclass.
     `preassigned` are variables that the control keeps itself; names that begin with `local_variables` belong to one
-    program. `modern` writes a program in the notation of today, where the control's own is another.
+    program. `modern` writes a program in the notation of today, where the control's own is another. `trial` writes a
+    short program around a cycle and its words (address and value), for its form; None where it cannot.
     """
 
     name: str
@@ -201,6 +205,7 @@ class Control:
     to_turn: str = "write S and M3 before the move"
     preassigned: Mapping[str, Callable[[Machine], float | None]] = field(default_factory=dict)
     local_variables: str = ""
+    trial: Callable[[type[Cycle], list[tuple[str, Any]]], str | None] | None = None
     modern: Callable[[Program], Notation] | None = None
 
     def __post_init__(self) -> None:

@@ -231,6 +231,9 @@ class CycleTable(dict[str, type[Cycle]]):
 
         return register
 
+    def __repr__(self) -> str:
+        return "\n".join(f"{code:15s} {cycle.title}" for code, cycle in self.items())
+
     def __or__(self, other: Mapping[str, type[Cycle]]) -> CycleTable:  # type: ignore[override]
         return CycleTable({**self, **other})
 

@@ -19,7 +19,7 @@ from mnclab.machine.flow import Flow, Recording
 from mnclab.machine.settings import chosen
 from mnclab.machine.settling import end_of_settled, settle
 from mnclab.machine.setup import Setup
-from mnclab.machine.state import HISTORY
+from mnclab.machine.state import HISTORY, ROWS
 from mnclab.machine.touching import Contact, touch
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
@@ -43,6 +43,10 @@ class Machine(Placed):
         self.settings = chosen(control.settings, setup.settings, control.name, setup.source)
         self.begin()
         self.log("position", self.programmed)
+
+    def __repr__(self) -> str:
+        x, y, z = self.programmed
+        return f"<Machine {self.control.name}: T{self.tool.number} at X{x:.10g} Y{y:.10g} Z{z:.10g}>"
 
     # --- saying what is wrong ----------------------------------------------------------------------------------------
 
@@ -89,7 +93,9 @@ class Machine(Placed):
         Where a modal group has the same name (plane), the history holds its codes.
         """
         if getattr(self, name) != value:
-            self.put(**{name: value})
+            setattr(self, name, value)
+            if name in ROWS:
+                self.row_state = None
             if name in HISTORY and name not in self.modal:
                 self.log(name, value)
 

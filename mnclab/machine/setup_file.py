@@ -218,8 +218,8 @@ def _stock(table: Mapping[str, Any], file: File) -> Blank:
         at = _point(table.get("at", [0.0, 0.0, 0.0]), "stock.at")
     try:
         return cylinder(**numbers, axis=table.get("axis", "Z"), at=at)
-    except ValueError as fault:
-        raise Alarm(f"stock: {fault}") from None
+    except Alarm as fault:
+        raise Alarm(f"stock: {fault.message}") from None
 
 
 def record(kind: Any, value: Any, file: File, *keys: str) -> Any:

@@ -16,7 +16,8 @@ import numpy as np
 
 from mnclab.path.toolpath import Toolpath
 
-FIXED = (str, int, float, type(None), Toolpath, MappingProxyType)
+PLAIN = frozenset((str, int, float, bool, type(None)))
+FIXED = (*PLAIN, Toolpath, MappingProxyType)
 HOLDERS = (list, set, frozenset)
 
 
@@ -48,16 +49,16 @@ class Snapshot:
 def copied(value: Any) -> Any:
     """The same value, in objects of its own where it could change."""
     kind = type(value)
-    if isinstance(value, FIXED) or callable(value):
+    if kind in PLAIN or isinstance(value, FIXED) or callable(value):
         return value
     if kind is dict:
         return {key: copied(one) for key, one in value.items()}
     if kind in HOLDERS:
         return kind(map(copied, value))
     if isinstance(value, tuple):
-        inner = [copied(one) for one in value]
-        if all(one is other for one, other in zip(inner, value, strict=True)):
+        if PLAIN.issuperset(map(type, value)):
             return value
+        inner = map(copied, value)
         return kind(inner) if kind is tuple else kind(*inner)
     if hasattr(kind, "copy"):
         return value.copy()

@@ -11,7 +11,7 @@ active. `label` says what is happening, for listings and pictures.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from mnclab.geometry.contours import Contour, Floats
@@ -40,12 +40,16 @@ class Turn(NamedTuple):
 
 
 class Along(NamedTuple):
-    """Along a contour of the plane from its start, where the tool stands; level, or at the `heights` of its points."""
+    """Along a contour of the plane from its start, where the tool stands; level, or at the `heights` of its points.
+
+    The contour's own coordinates count from `at`.
+    """
 
     label: str
     contour: Contour
     feed: float | None = None
     heights: Sequence[float] | None = None
+    at: tuple[float, float] = (0.0, 0.0)
 
 
 class Thread(NamedTuple):
@@ -172,3 +176,17 @@ class Write(NamedTuple):
 Step = (
     Go | Turn | Along | Thread | Wait | Spin | Orient | Coolant | Touch | Swivel | Each | Call | Blocks | Record | Say | Write
 )
+
+
+def moved(steps: Iterable[Step], x: float, y: float) -> Iterator[Step]:
+    """The same straight moves, arcs and contours elsewhere in the plane, and all else as it is."""
+    for step in steps:
+        match step:
+            case Go():
+                yield step._replace(x=None if step.x is None else x + step.x, y=None if step.y is None else y + step.y)
+            case Turn():
+                yield step._replace(centre=(x + step.centre[0], y + step.centre[1]))
+            case Along():
+                yield step._replace(at=(x + step.at[0], y + step.at[1]))
+            case _:
+                yield step

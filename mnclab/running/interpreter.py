@@ -122,7 +122,8 @@ class Interpreter:
             raise Stop if index in self.loaded[machine.program].told else Alarm(UNTOLD, self.flow.span_of_block(index))
         before = machine.programmed
         plan = self.plan_for(keyword, kinds, words)
-        self.remark(plan.remarks, words)
+        if plan.remarks:
+            self.remark(plan.remarks, words)
         for (_, what, code, head, _), pick in plan.actions:
             if machine.pending and not (isinstance(what, Function) and what.collects):
                 determine(machine)

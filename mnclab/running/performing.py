@@ -5,8 +5,9 @@ Rows are labelled with the code of the cycle and the label of the step. The hole
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from types import GeneratorType
 from typing import Any
 
 import numpy as np
@@ -40,16 +41,20 @@ from mnclab.running.binding import as_it_stands, bind, fault
 from mnclab.running.repeating import at_each
 
 Place = tuple[float, float]
+Through = Callable[[Iterable[Step], Place], Iterable[Step]]
 
 
-def run_cycle(m: Machine, definition: Definition, **instead: float) -> None:
+def run_cycle(m: Machine, definition: Definition, through: Through | None = None, /, **instead: float) -> None:
     """Bind a definition with the values as they stand now, check it, and carry its steps out.
 
     `instead` are values by name that count for this call in place of its own, where the cycle has such parameters.
+    `through` is what the steps go through on their way, with the place that they count from.
     """
     definition = as_it_stands(m, definition)
     label, m.label = m.label, f"{definition.cycle.code} {definition.cycle.title}"
-    plane = {"plane": "XY"} if definition.cycle.does == MILLS and m.plane != "XY" else {}  # m.radius and m.scale count there
+    plane = (
+        {"plane": "XY"} if definition.cycle.does == MILLS and m.plane != "XY" else {}
+    )  # m.radius and m.scale count there
     try:
         with m.within(**plane):
             bound = bind(definition, m)
@@ -60,7 +65,7 @@ def run_cycle(m: Machine, definition: Definition, **instead: float) -> None:
             if steps is not None:
                 feed = bound.modal_feed(m)
                 with m.within(**({} if feed is None else {"feed": feed})):
-                    perform(m, bound.code, steps, about)
+                    perform(m, bound.code, through(steps, about) if through else steps, about)
     except TooMany as error:
         raise fault(definition, None, str(error)) from None
     m.label = label
@@ -72,62 +77,56 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
     x and y count from `about`, which is where the tool stands if nothing else is said. A generator is sent the answer of
     a step that has one: the contact of a Touch, the contour of a Record. What it returns is returned.
     """
-    place, label = m.programmed[:2] if about is None else about, m.label
-    asking = steps if isinstance(steps, Generator) else (step for step in steps)
-    answer = None
+    x, y = m.programmed[:2] if about is None else about
+    label = m.label
+    answer: Any = None
+    asking = steps if isinstance(steps, GeneratorType) else (step for step in steps)
     while True:
         try:
             step = asking.send(answer)
         except StopIteration as end:
             m.label = label
             return end.value
-        m.label = f"{name} {step.label}"
-        answer = carry_out(m, name, step, place)
-
-
-def carry_out(m: Machine, name: str, step: Step, place: Place) -> Any:
-    """One step, whose x and y count from a place; its answer, if it has one."""
-    x, y = place
-    match step:
-        case Go():
-            to = None if step.x is None else x + step.x, None if step.y is None else y + step.y, step.z
-            m.line(*to, f=step.feed)
-        case Along():
-            with m.within(plane="XY"):
-                follow(m, step.contour, step.feed, step.heights, about=place)
-        case Wait():
-            m.dwell(step.seconds)
-        case Thread():
-            with m.within(feed=step.pitch, per_rev=True, synchronous=True):
-                m.line(x=None if step.x is None else x + step.x, z=step.z)
-        case Turn():
-            with m.within(plane="XY"):
-                m.turn((x + step.centre[0], y + step.centre[1]), step.angle, step.z, step.feed)
-        case Spin():
-            m.spindle(step.speed, step.turning)
-        case Orient():
-            m.orient(step.angle)
-        case Coolant():
-            m.coolant()
-        case Touch():
-            return m.touch(x + step.x, y + step.y, step.z, f=step.feed, ball=step.ball, miss=step.miss)
-        case Swivel():
-            turn_axes(m, step.angles, step.feed)
-        case Each():
-            at_each(m, step.points, lambda *point: perform(m, name, step.visit(*point), place))
-        case Call():
-            assert m.cycle is not None
-            run_cycle(m, m.cycle, **step.instead)
-        case Blocks():
-            step.run()
-        case Record():
-            with m.flow.inside(m, step.program), m.within(variable_unit=step.unit):
-                return m.record(step.name, after=step.after)
-        case Say():
-            m.warn(f"{name} {step.text}", step.word, step.hint)
-        case Write():
-            write(m, step)
-    return None
+        m.label, answer = f"{name} {step.label}", None
+        match step:
+            case Go():
+                to = None if step.x is None else x + step.x, None if step.y is None else y + step.y, step.z
+                m.line(*to, f=step.feed)
+            case Along():
+                with m.within(plane="XY"):
+                    follow(m, step.contour, step.feed, step.heights, about=(x + step.at[0], y + step.at[1]))
+            case Wait():
+                m.dwell(step.seconds)
+            case Thread():
+                with m.within(feed=step.pitch, per_rev=True, synchronous=True):
+                    m.line(x=None if step.x is None else x + step.x, z=step.z)
+            case Turn():
+                with m.within(plane="XY"):
+                    m.turn((x + step.centre[0], y + step.centre[1]), step.angle, step.z, step.feed)
+            case Spin():
+                m.spindle(step.speed, step.turning)
+            case Orient():
+                m.orient(step.angle)
+            case Coolant():
+                m.coolant()
+            case Touch():
+                answer = m.touch(x + step.x, y + step.y, step.z, f=step.feed, ball=step.ball, miss=step.miss)
+            case Swivel():
+                turn_axes(m, step.angles, step.feed)
+            case Each():
+                at_each(m, step.points, lambda *point, visit=step.visit: perform(m, name, visit(*point), (x, y)))
+            case Call():
+                assert m.cycle is not None
+                run_cycle(m, m.cycle, **step.instead)
+            case Blocks():
+                step.run()
+            case Record():
+                with m.flow.inside(m, step.program), m.within(variable_unit=step.unit):
+                    answer = m.record(step.name, after=step.after)
+            case Say():
+                m.warn(f"{name} {step.text}", step.word, step.hint)
+            case Write():
+                write(m, step)
 
 
 def write(m: Machine, step: Write) -> None:

@@ -10,13 +10,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.nearest import hint
+from mnclab.text.precedence import Climber, split
 
 SAME = 1e-9  # a millionth of a micrometre, where lengths are compared
 DEEPEST = 50
@@ -47,6 +48,11 @@ ARITHMETIC: dict[str, Callable[[Array, Array], Array]] = {
     "/": lambda a, b: np.where(b == 0, np.nan, np.divide(a, b)),
     "^": np.power,
 }
+OR, AND, NOT, COMPARISON, SUM, PRODUCT, POWER = range(7)
+LEVELS = {
+    "or": OR, "and": AND, "=": COMPARISON, **dict.fromkeys(COMPARISONS, COMPARISON),
+    "+": SUM, "-": SUM, "*": PRODUCT, "/": PRODUCT, "^": POWER,
+}  # fmt: skip
 
 
 class Truth(NamedTuple):
@@ -154,27 +160,19 @@ class _Question:
         return self.text if line == 1 else ""
 
 
-class _Reader:
-    """Recursive descent: or, and, not, comparison, sum, product, power, part."""
+class _Reader(Climber[Node]):
+    """Makes the tree of a condition; what is joined must be numbers or comparisons, as its operator asks."""
+
+    levels, deepest = LEVELS, DEEPEST
 
     def __init__(self, text: str, known: Collection[str]) -> None:
+        super().__init__(split(text, _TOKEN, ("number", "name", "mark"), Span(1, 1), "a condition"))
         self.known = {name.lower(): name for name in known}
-        self.tokens: list[tuple[str, str, Span]] = []
-        self.at = self.depth = self.operators = 0
-        at, end = 0, len(text.rstrip())
-        while at < end:
-            match = _TOKEN.match(text, at)
-            if match is None:
-                blank = len(text[at:]) - len(text[at:].lstrip())
-                raise Alarm(f"{text[at:].strip()[0]!r} is no part of a condition", Span(1, at + blank + 1))
-            kind = ("number", "name", "mark")[(match.lastindex or 1) - 1]
-            part = match[match.lastindex or 1]
-            self.tokens.append((kind, part, Span(1, match.end() - len(part) + 1, len(part))))
-            at = match.end()
-        self.end = Span(1, max(1, end))
+        self.operators = 0
+        self.end = Span(1, max(1, len(text.rstrip())))
 
     def whole(self) -> Node:
-        tree = self.either()
+        tree = self.climb()
         if self.at < len(self.tokens):
             self.refuse("an operator was expected before")
         if not tree.logical:
@@ -182,130 +180,97 @@ class _Reader:
         return tree
 
     def peek(self) -> str:
-        return self.tokens[self.at][1].lower() if self.at < len(self.tokens) else ""
+        return super().peek().lower()
 
-    def refuse(self, what: str) -> None:
+    def refuse(self, what: str) -> NoReturn:
         if self.at >= len(self.tokens):
             raise Alarm(f"{what} the end of the condition", self.end)
-        _, text, span = self.tokens[self.at]
-        raise Alarm(f"{what} {text!r}", span)
+        raise Alarm(f"{what} {self.tokens[self.at].text!r}", self.tokens[self.at].span)
 
-    def either(self) -> Node:
-        return self.joined("or", self.both)
+    def too_deep(self) -> None:
+        self.refuse(f"the condition is nested deeper than {DEEPEST} at")
 
-    def both(self) -> Node:
-        return self.joined("and", self.negated)
-
-    def joined(self, word: str, inner: Callable[[], Node]) -> Node:
-        place, parts = self.at, [inner()]
-        while self.peek() == word:
-            self.at += 1
-            parts.append(inner())
-        if len(parts) == 1:
-            return parts[0]
-        return Node(word, tuple(self.logical(part, place) for part in parts), logical=True)
-
-    def negated(self) -> Node:
-        if self.peek() != "not":
-            return self.comparison()
-        self.at += 1
-        self.deeper()
+    def join(self, mark: str, left: Node, first: int) -> Node:
         place = self.at
-        inner = self.logical(self.negated(), place)
-        self.depth -= 1
-        return Node("not", (inner,), logical=True)
-
-    def comparison(self) -> Node:
-        place, sides, found = self.at, [self.sum()], []
-        while self.peek() in (*COMPARISONS, "="):
-            operator = self.peek().replace("=", "==") if self.peek() == "=" else self.peek()
-            self.at += 1
-            left = self.numeric(sides[-1], place)
-            place = self.at
-            sides.append(self.numeric(self.sum(), place))
-            found.append(Node("comparison", (left, sides[-1]), logical=True, name=operator))
-        if not found:
-            return sides[0]
-        return found[0] if len(found) == 1 else Node("and", tuple(found), logical=True)
-
-    def sum(self) -> Node:
-        return self.arithmetic(("+", "-"), self.product)
-
-    def product(self) -> Node:
-        return self.arithmetic(("*", "/"), self.power)
-
-    def arithmetic(self, marks: tuple[str, ...], inner: Callable[[], Node]) -> Node:
-        place, left = self.at, inner()
-        while self.peek() in marks:
-            name = self.peek()
+        if mark in ("and", "or"):
+            parts = [left, self.right(mark)]
+            while self.peek() == mark:
+                self.at += 1
+                parts.append(self.right(mark))
+            return Node(mark, tuple(self.logical(part, first) for part in parts), logical=True)
+        if mark == "^":
+            right = self.numeric(self.right(mark), first)
+            return Node("arithmetic", (self.numeric(left, first), right), name=mark)
+        if mark in ARITHMETIC:
             self.operators += 1
             if self.operators > MOST:
+                self.at -= 1
                 self.refuse(f"the condition has more than {MOST} operators at")
-            self.at += 1
-            left, place = self.numeric(left, place), self.at
-            left = Node("arithmetic", (left, self.numeric(inner(), place)), name=name)
-        return left
+            left = self.numeric(left, first)
+            return Node("arithmetic", (left, self.numeric(self.right(mark), place)), name=mark)
+        return self.compared(mark, self.numeric(left, first))
 
-    def power(self) -> Node:
-        place = self.at
-        if self.peek() in ("+", "-"):
-            sign = self.peek()
+    def compared(self, mark: str, left: Node) -> Node:
+        """A comparison, or a chain of them: all must be true."""
+        found: list[Node] = []
+        while True:
+            place = self.at
+            right = self.numeric(self.right(mark), place)
+            found.append(Node("comparison", (left, right), logical=True, name="==" if mark == "=" else mark))
+            mark, left = self.peek(), right
+            if self.levels.get(mark) != COMPARISON:
+                return found[0] if len(found) == 1 else Node("and", tuple(found), logical=True)
             self.at += 1
-            self.deeper()
-            inner = self.numeric(self.power(), place + 1)
-            self.depth -= 1
-            return Node("arithmetic", (Node("number"), inner), name=sign)
-        left = self.part()
-        if self.peek() != "^":
-            return left
+
+    def operand(self, level: int) -> Node:
+        word, place = self.peek(), self.at + 1
+        if word not in ("+", "-") and (word != "not" or level > NOT):
+            return self.part()
         self.at += 1
         self.deeper()
-        right = self.numeric(self.power(), place)
+        inner = self.climb(NOT if word == "not" else POWER)
         self.depth -= 1
-        return Node("arithmetic", (self.numeric(left, place), right), name="^")
+        if word == "not":
+            return Node("not", (self.logical(inner, place),), logical=True)
+        return Node("arithmetic", (Node("number"), self.numeric(inner, place)), name=word)
 
     def part(self) -> Node:
         if self.at >= len(self.tokens):
             self.refuse("a number or a name was expected at")
         kind, text, span = self.tokens[self.at]
+        word = text.lower()
         if kind == "number":
             self.at += 1
             return Node("number", number=float(text))
-        if text == "(" or (kind == "name" and text.lower() in FUNCTIONS):
-            function = text.lower() if kind == "name" else ""
+        if text == "(" or word in FUNCTIONS:
             self.at += 1
-            if function and self.peek() != "(":
-                self.refuse(f"{function} needs a bracket, found")
-            self.at += bool(function)
-            self.deeper()
-            place, inner = self.at, self.either()
-            self.depth -= 1
-            if self.peek() != ")":
-                self.refuse("')' was expected before")
-            self.at += 1
-            return Node("function", (self.numeric(inner, place),), name=function) if function else inner
-        if kind == "name" and text.lower() not in ("and", "or", "not"):
-            if text.lower() not in self.known:
-                near = hint(text, tuple(self.known.values()), 3)
-                raise Alarm(f"there is nothing of the name {text!r} in this run", span, hint=near)
-            self.at += 1
-            return Node("name", name=self.known[text.lower()])
-        self.refuse("a number or a name was expected, found")
-        raise AssertionError
+            return self.bracket(word if kind == "name" else "")
+        if kind == "mark" or word in ("and", "or", "not"):
+            self.refuse("a number or a name was expected, found")
+        if word not in self.known:
+            near = hint(text, tuple(self.known.values()), 3)
+            raise Alarm(f"there is nothing of the name {text!r} in this run", span, hint=near)
+        self.at += 1
+        return Node("name", name=self.known[word])
 
-    def deeper(self) -> None:
-        self.depth += 1
-        if self.depth > DEEPEST:
-            self.refuse(f"the condition is nested deeper than {DEEPEST} at")
+    def bracket(self, function: str) -> Node:
+        if function and self.peek() != "(":
+            self.refuse(f"{function} needs a bracket, found")
+        self.at += bool(function)
+        self.deeper()
+        place, inner = self.at, self.climb()
+        self.depth -= 1
+        if self.peek() != ")":
+            self.refuse("')' was expected before")
+        self.at += 1
+        return Node("function", (self.numeric(inner, place),), name=function) if function else inner
 
     def logical(self, node: Node, place: int) -> Node:
         if not node.logical:
-            raise Alarm("a comparison was expected here", self.tokens[place][2])
+            raise Alarm("a comparison was expected here", self.tokens[place].span)
         return node
 
     def numeric(self, node: Node, place: int) -> Node:
         if node.logical:
-            raise Alarm(
-                "a number was expected here, not a comparison", self.tokens[min(place, len(self.tokens) - 1)][2]
-            )
+            raise Alarm("a number was expected here, not a comparison", self.tokens[place].span)
         return node

@@ -20,12 +20,12 @@ import numpy as np
 
 from mnclab.controls.choice import help as help_on
 from mnclab.controls.choice import run as run_text
+from mnclab.machine import trial
 from mnclab.machine.cycle import Cycle, Parameter
 from mnclab.machine.parameter_table import left_out
 from mnclab.machine.setup import Setup
 from mnclab.path.profile import Profile
 from mnclab.runs.run import Run
-from mnclab.show import trial
 from mnclab.text.alarm import Alarm, card_html
 from mnclab.text.extras import require
 from mnclab.text.given import check_number, shown
@@ -126,7 +126,7 @@ def form(code: str, control: str) -> Any:
     def text() -> str | None:
         values = {name: box.value for name, box in boxes.items() if name not in ticks or ticks[name].value}
         defaults = {p.name: p.default for p in chosen.parameters() if not p.required}
-        return trial.program(help_page.control.name, chosen, {n: v for n, v in values.items() if v != defaults.get(n)})
+        return trial.program(help_page.control, chosen, {n: v for n, v in values.items() if v != defaults.get(n)})
 
     title = _html(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>")
     setup = Setup(start=(30, 0, 20)) if help_page.control.lathe else None  # clear of the chuck's axis

@@ -11,9 +11,10 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NoReturn
 
 from mnclab.text.alarm import Alarm, Span
+from mnclab.text.precedence import Climber, Token, split
 
 _TOKEN = re.compile(r"\s*(?:(\d+(?:[.,]\d*)?|[.,]\d+)|(Q[LR]?\d+)|(DIV|[A-Z]+)|([-+*/^()%]))", re.IGNORECASE | re.ASCII)
 
@@ -38,12 +39,9 @@ FUNCTIONS: dict[str, Callable[[float], float]] = {
 }
 
 
-class Token(NamedTuple):
-    """One part of an expression and where it stands."""
-
-    kind: str  # "number", "variable", "name", "mark"
-    text: str
-    span: Span
+KINDS = ("number", "variable", "name", "mark")  # of the groups of `_TOKEN`
+SUM, PRODUCT, POWER = range(3)
+LEVELS = {"+": SUM, "-": SUM, "*": PRODUCT, "/": PRODUCT, "DIV": PRODUCT, "%": PRODUCT, "^": POWER}
 
 
 @dataclass(frozen=True)
@@ -53,56 +51,53 @@ class Expression:
     tokens: tuple[Token, ...]
     text: str
     scale: float = 1.0  # turns the result into the unit of its word: 25.4 in a program in inches
+    steps: tuple[Token, ...] = ()
+    """The tokens in the order in which they are worked out: an operator comes after what it joins."""
 
     def __repr__(self) -> str:
         return f"Expression({self.text})"
 
     def evaluate(self, variables: Mapping[str, Any]) -> float:
         """The value with these variables; an Alarm at the part that has none."""
-        return self.scale * _Evaluation(self.tokens, variables).whole()
+        values: list[float] = []
+        for token in self.steps:
+            if token.kind == "number":
+                values.append(_finite(float(token.text), token))
+            elif token.kind == "variable":
+                try:
+                    values.append(float(variables[token.text]))
+                except KeyError:
+                    _refuse("no value was given to", token)
+            elif token.kind == "sign":
+                values[-1] = -values[-1]
+            elif token.text in LEVELS:
+                right = values.pop()
+                values[-1] = _finite(_joined(values[-1], token, right), token)
+            elif token.text == "PI":
+                values.append(math.pi)
+            else:
+                values[-1] = _finite(_function(token, values[-1]), token)
+        return self.scale * values[0]
 
 
 def parse(text: str, span: Span) -> Expression:
     """Read an expression that starts at `span`; an Alarm at the first character that is no part of one."""
-    tokens, at, end = [], 0, len(text.rstrip())
-    while at < end:
-        match = _TOKEN.match(text, at)
-        if match is None:
-            blank = len(text[at:]) - len(text[at:].lstrip())
-            place = span._replace(column=span.column + at + blank, length=1)
-            raise Alarm(f"{text[at:].strip()[:1]!r} is no part of an expression", place)
-        kind = ("number", "variable", "name", "mark")[(match.lastindex or 1) - 1]
-        part = match.group(match.lastindex or 1)
-        place = span._replace(column=span.column + match.end() - len(part), length=len(part))
-        tokens.append(Token(kind, part.upper().replace(",", "."), place))
-        at = match.end()
-    expression = Expression(tuple(tokens), text.strip())
-    _Evaluation(expression.tokens, _Anything()).whole(reading=True)  # the grammar; values come when it runs
-    return expression
+    tokens = split(text, _TOKEN, KINDS, span, "an expression", lambda part: part.upper().replace(",", "."))
+    reader = _Reader(tokens)
+    reader.climb()
+    if reader.at < len(tokens):
+        _refuse("an operator was expected before", tokens[reader.at])
+    return Expression(tuple(tokens), text.strip(), steps=tuple(reader.steps))
 
 
-class _Anything(dict[str, float]):
-    """Every variable is 1: enough to walk through the grammar."""
+class _Reader(Climber[None]):
+    """Puts the tokens into the order in which they are worked out."""
 
-    def __missing__(self, key: str) -> float:
-        return 1.0
+    levels, deepest = LEVELS, 100
 
-
-class _Evaluation:
-    """Recursive descent: sum of products of powers of signed parts."""
-
-    def __init__(self, tokens: tuple[Token, ...], variables: Mapping[str, Any]) -> None:
-        self.tokens, self.variables, self.at, self.reading, self.depth = tokens, variables, 0, False, 0
-
-    def whole(self, reading: bool = False) -> float:
-        self.reading = reading
-        value = self.sum()
-        if self.at < len(self.tokens):
-            self.refuse("an operator was expected before", self.tokens[self.at])
-        return value
-
-    def peek(self) -> str:
-        return self.tokens[self.at].text if self.at < len(self.tokens) else ""
+    def __init__(self, tokens: list[Token]) -> None:
+        super().__init__(tokens)
+        self.steps: list[Token] = []
 
     def take(self) -> Token:
         if self.at >= len(self.tokens):
@@ -111,91 +106,67 @@ class _Evaluation:
         self.at += 1
         return self.tokens[self.at - 1]
 
-    def refuse(self, what: str, token: Token) -> None:
-        raise Alarm(f"{what} {token.text}", token.span)
-
-    def sum(self) -> float:
-        value = self.product()
-        while self.peek() in ("+", "-"):
-            sign = self.take()
-            value = self.finite(value + self.product() if sign.text == "+" else value - self.product(), sign)
-        return value
-
-    def product(self) -> float:
-        value = self.power()
-        while self.peek() in ("*", "/", "DIV", "%"):
-            operator = self.take()
-            other = self.power()
-            if operator.text == "*":
-                value = self.finite(value * other, operator)
-            elif other == 0 and not self.reading:
-                self.refuse("division by zero at", operator)
-            elif operator.text == "%":
-                value = math.fmod(value, other or 1.0)
-            else:
-                value = self.finite(value / (other or 1.0), operator)
-        return value
-
-    def power(self) -> float:
-        value = self.part()
-        if self.peek() == "^":
-            operator = self.take()
-            self.deeper(operator)
-            exponent = self.power()
-            self.depth -= 1
-            if self.reading:
-                return 1.0
-            try:
-                value = self.finite(float(value**exponent), operator)
-            except (ZeroDivisionError, OverflowError, TypeError):
-                self.refuse("no real power at", operator)
-        return value
-
-    def deeper(self, token: Token) -> None:
-        self.depth += 1
-        if self.depth > 100:
-            self.refuse("the expression is nested deeper than 100 at", token)
-
-    def part(self) -> float:
+    def operand(self, level: int) -> None:
         token = self.take()
-        self.deeper(token)
-        value = self.value_of(token)
-        self.depth -= 1
-        return value
-
-    def value_of(self, token: Token) -> float:
-        if token.kind == "number":
-            return self.finite(float(token.text), token)
-        if token.kind == "variable":
-            try:
-                return float(self.variables[token.text])
-            except KeyError:
-                self.refuse("no value was given to", token)
-        if token.text in ("+", "-"):
-            return self.power() if token.text == "+" else -self.power()  # -2^2 is -(2^2)
+        self.deeper()
         if token.text == "(":
-            value = self.sum()
+            self.climb()
             closing = self.take()
             if closing.text != ")":
-                self.refuse("')' was expected before", closing)
-            return value
-        if token.text == "PI":
-            return math.pi
-        if token.text in FUNCTIONS:
-            return self.function(token)
-        self.refuse("a number or a variable was expected, found", token)
-        raise AssertionError
+                _refuse("')' was expected before", closing)
+        elif token.text in ("+", "-"):
+            self.climb(POWER)  # -2^2 is -(2^2)
+            if token.text == "-":
+                self.steps.append(token._replace(kind="sign"))
+        elif token.kind in ("number", "variable") or token.text == "PI":
+            self.steps.append(token)
+        elif token.text in FUNCTIONS:
+            self.operand(POWER)  # the next part only
+            self.steps.append(token)
+        else:
+            _refuse("a number or a variable was expected, found", token)
+        self.depth -= 1
 
-    def function(self, token: Token) -> float:
-        argument = self.part()
-        if self.reading:
-            return 1.0
-        try:
-            return self.finite(FUNCTIONS[token.text](argument), token)
-        except (ValueError, OverflowError):
-            raise Alarm(f"{token.text} of {argument:g} has no real value", token.span) from None
+    def join(self, mark: str, left: None, first: int) -> None:
+        operator = self.tokens[self.at - 1]
+        self.right(mark)
+        self.steps.append(operator)
 
-    def finite(self, value: float, token: Token) -> float:
-        if not math.isfinite(value) and not self.reading:
-            self.refuse("the result is out of range at", token)
-        return value
+    def too_deep(self) -> None:
+        _refuse(f"the expression is nested deeper than {self.deepest} at", self.tokens[self.at - 1])
+
+
+def _joined(left: float, operator: Token, right: float) -> float:
+    """The value of two operands."""
+    match operator.text:
+        case "+":
+            return left + right
+        case "-":
+            return left - right
+        case "*":
+            return left * right
+        case "^":
+            try:
+                return float(left**right)
+            except (ZeroDivisionError, OverflowError, TypeError):
+                _refuse("no real power at", operator)
+    if right == 0:
+        _refuse("division by zero at", operator)
+    return math.fmod(left, right) if operator.text == "%" else left / right
+
+
+def _function(name: Token, argument: float) -> float:
+    try:
+        return FUNCTIONS[name.text](argument)
+    except (ValueError, OverflowError):
+        raise Alarm(f"{name.text} of {argument:g} has no real value", name.span) from None
+
+
+def _finite(value: float, token: Token) -> float:
+    if not math.isfinite(value):
+        _refuse("the result is out of range at", token)
+    return value
+
+
+def _refuse(what: str, token: Token) -> NoReturn:
+    raise Alarm(f"{what} {token.text}", token.span)

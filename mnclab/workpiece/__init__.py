@@ -1,5 +1,5 @@
-"""What the tool meets: the stock that is left, and the part that a probe touches.
+"""What the tool meets: the blank, and the part that a probe touches.
 
-Imports `mnclab.geometry` and `mnclab.path`; knows neither strategies nor machines. A new way to describe
-material is a new file here.
+May import `text`, `geometry` and `path`; knows neither strategies nor machines. A new way to describe material is a new
+file here.
 """

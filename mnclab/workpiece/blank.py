@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number
 from mnclab.text.records import written
 
 CORNERS = 96  # of a circle in a picture
@@ -132,10 +134,12 @@ def cylinder(
 ) -> Revolved:
     """A cylinder from `low` to `high` along an axis through `at`, mm; a tube with a `bore` radius.
 
-    ValueError where that is no body.
+    An Alarm where that is no body.
     """
+    for name, number in (("radius", radius), ("bore", bore), ("low", low), ("high", high)):
+        check_number(number, f"{name} of a cylinder", endless=True)
     if not radius > bore >= 0 or not high > low or axis not in ("X", "Y", "Z"):
-        raise ValueError(
+        raise Alarm(
             f"a cylinder needs radius > bore >= 0, high > low and axis X, Y or Z; "
             f"got radius {radius:g}, bore {bore:g}, {low:g} to {high:g}, axis {axis!r}"
         )

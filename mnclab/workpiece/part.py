@@ -19,6 +19,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, check_point
+
 Floats = NDArray[np.float64]
 
 TOUCHING = 1e-10  # mm, a gap that counts as closed
@@ -54,7 +57,7 @@ class Part:
         matrix = np.asarray(frame, dtype=float)
         turn, shift = matrix[:3, :3], matrix[:3, 3]
         if not np.allclose(turn @ turn.T, np.eye(3), rtol=0, atol=1e-9):
-            raise ValueError("a part is placed by turning and shifting alone, not by scaling")
+            raise Alarm("a part is placed by turning and shifting alone, not by scaling")
         return Part(partial(_placed, self, turn, shift), f"{self.name} placed elsewhere")
 
 
@@ -97,25 +100,27 @@ def _cylinder(along: Floats, middle: Floats, half: float, radius: float, p: Floa
 
 def plane(point: ArrayLike, normal: ArrayLike) -> Part:
     """Half of space, bounded by the plane through `point`; the normal points away from the material."""
-    through, out = np.asarray(point, dtype=float), _unit(normal, "the normal of a plane")
+    through, out = _place(point, "a point of a plane"), _unit(normal, "the normal of a plane")
     return Part(partial(_plane, through, out), "plane")
 
 
 def box(corner: ArrayLike, opposite: ArrayLike) -> Part:
     """A cuboid along the axes, from one corner to the opposite one."""
-    a, b = np.asarray(corner, dtype=float), np.asarray(opposite, dtype=float)
+    a, b = _place(corner, "the corner of a box"), _place(opposite, "the opposite corner of a box")
     return Part(partial(_box, (a + b) / 2, np.abs(b - a) / 2), "box")
 
 
 def ball(centre: ArrayLike, radius: float) -> Part:
-    """A ball."""
-    middle = np.asarray(centre, dtype=float)
+    """A ball about a point; the radius in mm."""
+    middle = _place(centre, "the centre of a ball")
+    check_number(radius, "the radius of a ball", above=0)
     return Part(partial(_ball, middle, radius), "ball")
 
 
 def cylinder(bottom: ArrayLike, top: ArrayLike, radius: float) -> Part:
     """A round bar between the centres of its two faces."""
-    a, b = np.asarray(bottom, dtype=float), np.asarray(top, dtype=float)
+    a, b = _place(bottom, "the bottom of a cylinder"), _place(top, "the top of a cylinder")
+    check_number(radius, "the radius of a cylinder", above=0)
     along, middle, half = _unit(b - a, "the axis of a cylinder"), (a + b) / 2, float(np.linalg.norm(b - a)) / 2
     return Part(partial(_cylinder, along, middle, half, radius), "cylinder")
 
@@ -171,9 +176,14 @@ def _from_faces(beyond: Floats) -> Floats:
     return np.asarray(outside + np.minimum(beyond.max(axis=1), 0.0))
 
 
+def _place(point: ArrayLike, what: str) -> Floats:
+    check_point(point, what)
+    return np.asarray(point, dtype=float)
+
+
 def _unit(vector: ArrayLike, name: str) -> Floats:
     v = np.asarray(vector, dtype=float)
     size = float(np.linalg.norm(v))
     if not size > 0:
-        raise ValueError(f"{name} must have a length greater than 0")
+        raise Alarm(f"{name} must have a length greater than 0")
     return np.asarray(v / size)

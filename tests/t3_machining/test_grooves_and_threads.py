@@ -11,7 +11,7 @@ from mnclab.comparison.turning_schemes import compare
 from mnclab.machining.turning import groove_schemes as grooves
 from mnclab.machining.turning import thread_schemes as threads
 from mnclab.machining.turning.groove_schemes import CONTOUR_TOOL, SHOULDER_TOOL, Groove
-from mnclab.machining.turning.strokes import FINISH, RAPID, THREAD
+from mnclab.machining.turning.strokes import RAPID, THREAD
 
 RING = Groove(right=0, width=5, bottom=25, rim=30)
 
@@ -152,4 +152,7 @@ def test_a_thread_in_passes():
     assert plan.length(THREAD) == pytest.approx(3 * 22) and plan.passes == 3
     cone = threads.thread(0, -16, 10, (0.4, 1.0), taper=1.0)
     assert [s.r for s in cone.strokes if s.role == THREAD] == pytest.approx([9.6, 9.0])
-    assert not cone.contours(FINISH)
+    flank = threads.thread(0, -16, 10, (0.4, 1.0), "flank", taper=1.0)  # shifted by 0.3 against the feed, along the cone
+    assert [way.points[0].tolist() for s, way in flank.ways if s.role == THREAD] == [
+        pytest.approx((0.3, 8.6 - 0.3 / 16)), pytest.approx((0, 8))
+    ]  # fmt: skip

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab
+from mnclab import Alarm
 from mnclab.show.solids import body_of
 from mnclab.workpiece.blank import CORNERS, Box, Revolved, blank, cylinder
 
@@ -22,7 +23,7 @@ def test_two_corners_are_a_box_and_other_things_are_none():
 
 @pytest.mark.parametrize("wrong", [(0, 0, 1), (5, 1, 1), (-5, 0, 1)])
 def test_a_cylinder_without_size_is_refused(wrong):
-    with pytest.raises(ValueError, match="a cylinder needs"):
+    with pytest.raises(Alarm, match="a cylinder needs"):
         cylinder(*wrong)
 
 

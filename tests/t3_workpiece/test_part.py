@@ -5,6 +5,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from mnclab.text.alarm import Alarm
 from mnclab.workpiece.part import ball, box, contact, cylinder, plane
 
 BLOCK = box((0, 0, 0), (100, 60, 20))
@@ -78,16 +79,16 @@ def test_a_part_is_placed_by_a_frame():
         normal = np.array([-c, -s, 0])
         gap = (start - corner) @ normal - 2
         assert contact(turned, start, (1, 0, 0), 2, reach=100) == pytest.approx(gap / c, abs=1e-10)
-    with pytest.raises(ValueError, match="scaling"):
+    with pytest.raises(Alarm, match="scaling"):
         BLOCK.placed(np.diag([2.0, 2.0, 2.0, 1.0]))
 
 
 def test_a_direction_needs_a_length():
-    with pytest.raises(ValueError, match="direction"):
+    with pytest.raises(Alarm, match="direction"):
         contact(BLOCK, (-10, 30, 10), (0, 0, 0), 2, reach=10)
-    with pytest.raises(ValueError, match="normal"):
+    with pytest.raises(Alarm, match="normal"):
         plane((0, 0, 0), (0, 0, 0))
-    with pytest.raises(ValueError, match="axis"):
+    with pytest.raises(Alarm, match="axis"):
         cylinder((0, 0, 0), (0, 0, 0), 3)
 
 

@@ -4,7 +4,7 @@ import pytest
 
 import mnclab as mnc
 from mnclab import Setup, Tool
-from mnclab.show import trial
+from mnclab.machine import trial
 
 EXTREMES = (0.001, -0.001, 99999.0, -99999.0, 99999.9999)
 SHARE, MOST = 5, 1_000_000  # one case in so many; rows that a single cycle may make
@@ -26,7 +26,7 @@ def cases():
 def tried(control, cycle, name, value):
     """The trial program of a cycle with one number changed."""
     numbers = {p.name: trial.first_value(p) for p in cycle.parameters() if p.required or trial.written_first(p)}
-    text = trial.program(control, cycle, numbers | {name: value})
+    text = trial.program(mnc.controls[control], cycle, numbers | {name: value})
     return None if text is None else mnc.run(text, control)
 
 
@@ -42,7 +42,7 @@ def test_absurd_numbers_are_bounded_or_refused(which):
 )
 def test_a_tool_that_is_hardly_there(code):
     cycle = mnc.controls["tnc-620"].cycles[code]
-    text = trial.program("tnc-620", cycle, {p.name: trial.first_value(p) for p in cycle.parameters()})
+    text = trial.program(mnc.controls["tnc-620"], cycle, {p.name: trial.first_value(p) for p in cycle.parameters()})
     tiny = Tool(radius=0.001, plunge_angle=3)
     run = mnc.run(text, "tnc-620", Setup(tools={1: tiny, 2: tiny}))
     assert not run.ok and ("more than" in run.alarms[-1].message or len(run.toolpath) <= MOST)

@@ -10,7 +10,7 @@ from running import run
 
 import mnclab
 from mnclab import Kind
-from mnclab.show import trial
+from mnclab.machine import trial
 
 #: Cycles of the TNC 620 that are varied too, by the numbers of CYCL DEF.
 TNC = (200, 201, 202, 203, 204, 205, 208, 240, 241)
@@ -62,7 +62,7 @@ def control_of(code):
 
 
 def path_of(code, values):
-    return run(trial.program(control_of(code), CYCLES[code], values), control_of(code)).toolpath
+    return run(trial.program(mnclab.controls[control_of(code)], CYCLES[code], values), control_of(code)).toolpath
 
 
 def beginning(code, name):
@@ -126,7 +126,7 @@ def test_a_parameter_changes_what_it_means(code, parameter):
 def test_left_out_it_is_its_default_or_missing(code, parameter):
     values = beginning(code, parameter.name)
     given = {k: v for k, v in values.items() if k != parameter.name}
-    found = mnclab.run(trial.program(control_of(code), CYCLES[code], given), control_of(code))
+    found = mnclab.run(trial.program(mnclab.controls[control_of(code)], CYCLES[code], given), control_of(code))
     if parameter.required:
         assert f"{code} {parameter.address} ({parameter.meaning}) is missing" in found.alarms[0].message
         assert found.alarms[0].span[:2] == (4, 1)

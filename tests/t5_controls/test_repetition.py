@@ -221,10 +221,10 @@ DRILLING = st.sampled_from([200, 201, 203, 204, 205, 207, 208, 209, 240, 251, 25
 
 
 def parameters(number):
-    from mnclab.show import trial
+    from mnclab.machine import trial
 
     cycle = mnc.controls["tnc-620"].cycles[f"CYCL DEF {number}"]
-    text = trial.program("tnc-620", cycle, {p.name: trial.first_value(p) for p in cycle.parameters()})
+    text = trial.program(mnc.controls["tnc-620"], cycle, {p.name: trial.first_value(p) for p in cycle.parameters()})
     return text[text.index("CYCL DEF") : text.index("L X+20")]
 
 

@@ -8,7 +8,7 @@ import shapely
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from mnclab.show import trial
+from mnclab.machine import trial
 
 TNC = mnclab.controls["tnc-620"].cycles
 
@@ -91,7 +91,7 @@ def centred(diameter):
         "mode": 1,
         "diameter": diameter,
     }
-    text = trial.program("tnc-620", TNC["CYCL DEF 240"], values)
+    text = trial.program(mnclab.controls["tnc-620"], TNC["CYCL DEF 240"], values)
     return mnclab.run(text, "tnc-620", Setup(tools={2: Tool(radius=4, angle=90)}))
 
 
@@ -127,7 +127,7 @@ def test_a_depth_of_0_is_said(code):
     cycle, (depth,) = TNC[code], DEEP[code]
     values = {p.name: trial.first_value(p) for p in cycle.parameters()}
     values[depth.name] = values.get("start_3rd_axis", 0)
-    text = trial.program("tnc-620", cycle, values)
+    text = trial.program(mnclab.controls["tnc-620"], cycle, values)
     many = "PATTERN DEF ROW1 (X+0 Y+0 D+30 NUM12 ROT+0 Z+0)\nCYCL CALL PAT FMAX"
     for called in (text, text.replace("L X+20 Y+10 R0 FMAX M99", many)):
         found = mnclab.run(called, "tnc-620")

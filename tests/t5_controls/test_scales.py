@@ -14,7 +14,8 @@ import pytest
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from mnclab.show import trial
+from mnclab.controls.tnc_620.trial import klartext as signed
+from mnclab.machine import trial
 
 MNC, TNC = (
     {code: cycle for code, cycle in mnclab.controls[name].cycles.items() if code == cycle.code}
@@ -85,7 +86,7 @@ def words(code, values):
 
 
 def klartext(code, values):
-    return " ~\n".join([f"{code} X", *(f"  {a}={trial.klartext(v)}" for a, v in words(code, values))]) + "\n"
+    return " ~\n".join([f"{code} X", *(f"  {a}={signed(v)}" for a, v in words(code, values))]) + "\n"
 
 
 def program(code, values, frame, s=1.0):

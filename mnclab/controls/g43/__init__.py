@@ -10,6 +10,7 @@ import re
 
 from mnclab.controls.g43 import cycles, language, lengths
 from mnclab.controls.g43.state import Memory, memory
+from mnclab.controls.g43.trial import trial_program
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control
@@ -101,4 +102,5 @@ CONTROL = Control(
         tolerance=lambda m: float(m.settings["arc_tolerance"]),
         helices=more_helices,
     ),
+    trial=trial_program,
 )

@@ -10,18 +10,17 @@ from __future__ import annotations
 from mnclab.controls.g43.lengths import activate
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import motion
+from mnclab.controls.word_address.functions import ARCS, SPINDLE, functions
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
-from mnclab.machine.control import Control, FunctionTable, Modal, Words
+from mnclab.machine.control import Control, Modal, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
 
-FUNCTIONS = FunctionTable()
 ISO = "ISO 6983, not described"
 DATUMS = {f"G{n}": n - 53 for n in range(54, 60)}
-ARCS = {"G2": "Circular interpolation clockwise", "G3": "Circular interpolation counter-clockwise"}
 LENGTHS = ("G43", "G44", "G49")
 
 
@@ -43,6 +42,15 @@ def undescribed(m: Machine, words: Words) -> None:
         told.add(words.code)
         sentence = f"{words.code}: not described in the manual; it is taken in its ISO meaning"
         motion.remark(m, "undescribed", sentence, words)
+
+
+def remark(m: Machine, words: Words) -> None:
+    """What stands in the example, or changes nothing, needs no remark; nor do M functions."""
+    if words.code[0] == "G" and words.code not in ("G17", "G40", "G90"):
+        undescribed(m, words)
+
+
+FUNCTIONS = functions(remark, ISO, plane="7.1, example")
 
 
 def targets(m: Machine, words: Words) -> dict[str, float]:
@@ -75,27 +83,6 @@ def arc(m: Machine, words: Words) -> None:
     motion.arc(m, words, -1 if words.code == "G2" else 1, m.modal["dimension"] == "G90")
 
 
-@FUNCTIONS(
-    "G17 G18 G19", {"G17": "Plane XY", "G18": "Plane ZX", "G19": "Plane YZ"},
-    group="plane", phase="plane", power_on="G17", source="7.1, example",
-)  # fmt: skip
-def plane(m: Machine, words: Words) -> None:
-    """The plane of arcs and radius compensation; lengths and holes lie along Z in all of them."""
-    if words.code != "G17":
-        undescribed(m, words)
-    motion.set_plane(m, {"G17": "XY", "G18": "ZX", "G19": "YZ"}[words.code], first_word(words))
-
-
-@FUNCTIONS(
-    "G90 G91", {"G90": "Absolute dimensions", "G91": "Incremental dimensions"},
-    group="dimension", phase="plane", power_on="G90", source=ISO,
-)  # fmt: skip
-def dimension(m: Machine, words: Words) -> None:
-    """Coordinates, or distances from the last programmed point."""
-    if words.code == "G91":
-        undescribed(m, words)
-
-
 # --- datums --------------------------------------------------------------------------------------------------------------
 
 
@@ -113,20 +100,9 @@ def work_offset(m: Machine, words: Words) -> None:
 def machine_coordinates(m: Machine, words: Words) -> None:
     """In this block, coordinates are those of the spindle reference: no offset counts."""
     undescribed(m, words)
-    if m.side:
-        m.alarm("G53 cannot stand under radius compensation", first_word(words), hint="write G40 first")
-    kept = [(name, frame) for name, frame in m.frames]
-
-    def restore() -> None:
-        for name, frame in kept:
-            m.set_frame(name, frame)
-        memory(m).machine_coordinates = False
-
-    memory(m).machine_coordinates = True
-    for name, _ in kept:
-        m.set_frame(name, None)
+    motion.uncompensated(m, words)
+    motion.leave_frames(m, [name for name, _ in m.frames])
     m.set_frame("length", frames.shift(z=-m.tool.effective_length))
-    m.at_block_end(restore)
 
 
 @FUNCTIONS(
@@ -136,8 +112,7 @@ def machine_coordinates(m: Machine, words: Words) -> None:
 def shift(m: Machine, words: Words) -> None:
     """G52 moves the origin from that of the work offset; G92 gives the present point new coordinates. No motion."""
     undescribed(m, words)
-    if m.side:
-        m.alarm(f"{words.code} cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    motion.uncompensated(m, words)
     place = m.frames["local"][:3, 3].copy()
     for k, axis in enumerate(AXES):
         if axis in words:
@@ -150,8 +125,7 @@ def shift(m: Machine, words: Words) -> None:
 def reference(m: Machine, words: Words) -> None:
     """The axes written go to their points at rapid, then to machine zero; without axes all go at once."""
     undescribed(m, words)
-    if m.side:
-        m.alarm("G28 cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    motion.uncompensated(m, words)
     if to := targets(m, words):
         m.rapid(**to)
     home = m.to_program((0.0, 0.0, -m.tool.effective_length))
@@ -163,26 +137,6 @@ def reference(m: Machine, words: Words) -> None:
 
 FUNCTIONS("F", "Feed", phase="feed", source="7.1, example")(motion.feed)
 FUNCTIONS("S", "Spindle speed", phase="spindle", source=ISO)(motion.spindle_speed)
-
-FEED = {"G94": "Feed per minute", "G95": "Feed per revolution"}
-SPINDLE = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise", "M5": "Spindle stop"}
-STOPS = {"G61": "Exact stop between blocks", "G64": "Block blending"}
-
-
-@FUNCTIONS("G94 G95", FEED, group="feed mode", phase="plane", power_on="G94", source=ISO)
-def feed_mode(m: Machine, words: Words) -> None:
-    """What F means: mm/min or mm/rev; a new F must follow."""
-    undescribed(m, words)
-    if m.per_rev != (words.code == "G95"):
-        m.change("feed", None)
-    m.change("per_rev", words.code == "G95")
-
-
-@FUNCTIONS("G61 G64", STOPS, group="blending", phase="plane", power_on="G64", source=ISO)
-def exact_stop(m: Machine, words: Words) -> None:
-    """Whether every motion ends with exact positioning; the path is the same."""
-    undescribed(m, words)
-    m.change("exact", words.code == "G61")
 
 
 @FUNCTIONS("G4", "Dwell", phase="dwell", takes="P X", still=True, modal=False, source=ISO)
@@ -205,38 +159,3 @@ def spindle(m: Machine, words: Words) -> None:
         m.at_block_end(lambda: m.spindle(turning=0))
     else:
         m.spindle(turning=1 if words.code == "M3" else -1)
-
-
-@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source=ISO)
-def program_stop(m: Machine, words: Words) -> None:
-    """Wait for the operator after the motion of the block."""
-    m.stop()
-
-
-@FUNCTIONS("M2 M30", "Program end", phase="end", modal=False, source=ISO)
-def program_end(m: Machine, words: Words) -> None:
-    """The program ends here, after the motion of the block."""
-    m.ended = True
-
-
-COOLANT = {"M7": "Mist on", "M8": "Coolant on", "M9": "Coolant off"}
-
-
-def coolant(m: Machine, words: Words) -> None:
-    """On before the motion of the block, off after it."""
-    m.coolant()
-
-
-FUNCTIONS("M7 M8", COOLANT, group="coolant", phase="auxiliary", source=ISO)(coolant)
-FUNCTIONS("M9", COOLANT, group="coolant", phase="end", power_on="M9", source=ISO)(coolant)
-
-SIDES = {"G40": 0, "G41": 1, "G42": -1}
-COMPENSATION = {"G40": "Radius compensation off", "G41": "Radius compensation left", "G42": "Radius compensation right"}
-
-
-@FUNCTIONS("G40 G41 G42", COMPENSATION, group="compensation", phase="compensation", power_on="G40", source=ISO)
-def compensation(m: Machine, words: Words) -> None:
-    """Takes effect with the next straight line in the plane; the radius is that of corrector D."""
-    if words.code != "G40":
-        undescribed(m, words)
-    m.change("side", SIDES[words.code])

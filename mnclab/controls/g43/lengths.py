@@ -27,8 +27,7 @@ TITLES = {
 @FUNCTIONS("G43 G44 G49", TITLES, group="length compensation", phase="length", power_on="G49", source="7.1")
 def compensation(m: Machine, words: Words) -> None:
     """The offsets of corrector D count from the next motion along each axis on; without D the corrector stays."""
-    if m.side:
-        m.alarm(f"{words.code} cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    motion.uncompensated(m, words)
     memory(m).sign = SIGNS[words.code]
     want(m, first_word(words))
 
@@ -96,20 +95,12 @@ def place(m: Machine, keep: str) -> None:
     m.set_frame("length", frames.shift(*shift) if any(shift) else None, keep)
 
 
-@FUNCTIONS("T", "Tool", phase="tool", source="7.1")
-def tool(m: Machine, words: Words) -> None:
-    """Chooses the tool that M6 puts into the spindle."""
-    memory(m).next_tool = tool = motion.tool_row(m, words["T"], "tool")
-    m.log("next tool", tool.number)
+FUNCTIONS("T", "Tool", phase="tool", source="7.1")(motion.choose_tool)
 
 
 @FUNCTIONS("M6", "Tool change", phase="change", modal=False, source="7.1")
 def tool_change(m: Machine, words: Words) -> None:
     """The tool of T comes into the spindle and D becomes its number; no axis moves."""
-    tool = memory(m).next_tool
-    if tool is None:
-        m.alarm("M6 has no tool to put into the spindle", first_word(words), hint="write T before it")
-    motion.refuse_change(m, "tool", first_word(words))
-    m.change_tool(tool)
+    motion.change_tool(m, words)
     place(m, "tip")
     choose(m, m.tool.number, first_word(words))

@@ -9,6 +9,7 @@ from __future__ import annotations
 from mnclab.controls.jnc_t01 import cycles, feeds, motion
 from mnclab.controls.jnc_t01.reader import looks_like, read
 from mnclab.controls.jnc_t01.state import Memory
+from mnclab.controls.jnc_t01.trial import trial_program
 from mnclab.machine.control import Control, Modal
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
@@ -101,4 +102,5 @@ CONTROL = Control(
         letters="GXZIKRF",
         whole_circles=False,
     ),
+    trial=trial_program,
 )

@@ -16,7 +16,7 @@ from mnclab.machining.depths import MOST, infeeds
 from mnclab.machining.holes.drilling import drill
 from mnclab.machining.steps import RAPID, Go, Say, Step
 from mnclab.machining.turning.grooving import grooves, places
-from mnclab.machining.turning.roughing import Shoulder, exchanged, remove_stock
+from mnclab.machining.turning.roughing import Crosswise, Shoulder, remove_stock
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
@@ -28,13 +28,8 @@ def optional(address: str, meaning: str, left_out: str, **options: Any) -> Any:
     return param(address, meaning, default=None, default_means=left_out, **options)
 
 
-class LatheCycle(Cycle):
-    """What all share: X, Z, U and W become coordinates of the tool, X and U on the radius.
-
-    A cycle is written down as (across, along): (X, Z), in a `transverse` one (Z, X).
-    """
-
-    transverse = False
+class LatheCycle(Crosswise, Cycle):
+    """What all share: X, Z, U and W become coordinates of the tool, X and U on the radius."""
 
     @classmethod
     def prepare(
@@ -51,18 +46,6 @@ class LatheCycle(Cycle):
         """A feed, and a spindle for it."""
         cutting_feed(m, None)
         yield from ()
-
-    def about(self, m: Machine) -> tuple[float, float]:
-        """Steps are in coordinates of the program."""
-        return 0.0, 0.0
-
-    def across_along(self, x: float, z: float) -> tuple[float, float]:
-        """Coordinates in the order of the cut."""
-        return (z, x) if self.transverse else (x, z)
-
-    def in_axes(self, steps: Iterable[Step]) -> Iterable[Step]:
-        """Steps of x across and z along with their true axes."""
-        return exchanged(steps) if self.transverse else steps
 
 
 @CYCLES("G73", "Deep-hole drilling", runs="definition", source="JNC-T01 8.9")

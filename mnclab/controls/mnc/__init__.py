@@ -1,19 +1,19 @@
 """The MNC milling control (Mechatronics, 2015): the namesake.
 
-`language` holds motion, offsets and feed, `auxiliary` tool, spindle and M functions, `polar` polar motion,
-`transforms` scaling, mirror image, rotation and datums, `compensation` the radius functions, `cycles` those of
-drilling and milling (chapters 9 and 10), `settings` what a machine may need otherwise. Still to come is probing; its codes
-are refused by name.
+`language` holds motion, offsets, feed and corners, `auxiliary` tool, spindle and what ISO controls have alike, `polar`
+polar motion, `transforms` scaling, mirror image, rotation and datums, `cycles` those of drilling and milling (chapters 9
+and 10), `settings` what a machine may need otherwise. Codes of probing are refused by name.
 """
 
 from __future__ import annotations
 
 import re
 
-from mnclab.controls.mnc import auxiliary, compensation, language, polar, transforms
+from mnclab.controls.mnc import auxiliary, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared, tapping
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.state import Memory
+from mnclab.controls.mnc.trial import trial_program
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control
@@ -56,8 +56,7 @@ MEANINGS = {
 }  # fmt: skip
 
 FUNCTIONS = (
-    language.FUNCTIONS | auxiliary.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | compensation.FUNCTIONS
-    | fixed.FUNCTIONS | prepared.FUNCTIONS
+    language.FUNCTIONS | auxiliary.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | fixed.FUNCTIONS | prepared.FUNCTIONS
 )  # fmt: skip
 
 CONTROL = Control(
@@ -87,4 +86,5 @@ CONTROL = Control(
         helices=more_helices,
         straight_arcs=True,
     ),
+    trial=trial_program,
 )

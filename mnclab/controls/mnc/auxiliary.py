@@ -1,19 +1,29 @@
-"""Tool, spindle and auxiliary functions (MNC 1.2, 5, 7, 9), and those M functions that only ISO 6983 explains."""
+"""Tool and spindle (MNC 1.2, 5, 7, 9), and what is as on other controls; some M functions only ISO 6983 explains."""
 
 from __future__ import annotations
 
 from mnclab.controls.mnc.state import memory
 from mnclab.controls.word_address import motion
-from mnclab.controls.word_address.motion import first_word, remark
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.controls.word_address.functions import SPINDLE, functions
+from mnclab.controls.word_address.motion import remark
+from mnclab.machine.control import Words
 from mnclab.machine.machine import Machine
 
-FUNCTIONS = FunctionTable()
+ISO = "ISO 6983"
 
 
 def unlisted(m: Machine, words: Words, more: str = "") -> None:
     """Say that the manual knows nothing of this M function."""
     remark(m, "unlisted_m", f"{words.code}: the manual does not list it; it is taken in its ISO meaning{more}", words)
+
+
+def remark_m(m: Machine, words: Words) -> None:
+    """The manual lists all G functions."""
+    if words.code[0] == "M":
+        unlisted(m, words)
+
+
+FUNCTIONS = functions(remark_m, ISO, plane="2.4", dimension="2.3", feed_mode="4.2", blending="3.5", compensation="6")
 
 
 # --- tool ----------------------------------------------------------------------------------------------------------------
@@ -25,29 +35,23 @@ def tool(m: Machine, words: Words) -> None:
     if m.settings["tool_change"] == "T":
         motion.tool(m, words)
     else:
-        memory(m).next_tool = tool = motion.tool_row(m, words["T"], "tool")
-        m.log("next tool", tool.number)
+        motion.choose_tool(m, words)
 
 
 FUNCTIONS("D", "Tool corrector", phase="corrector", source="1.2")(motion.corrector)
 
 
-@FUNCTIONS("M6", "Tool change", phase="change", modal=False, source="ISO 6983")
+@FUNCTIONS("M6", "Tool change", phase="change", modal=False, source=ISO)
 def tool_change(m: Machine, words: Words) -> None:
     """Nothing: T itself changes the tool (5.1); by the setting tool_change it puts the tool of T into the spindle."""
     if m.settings["tool_change"] == "T":
         unlisted(m, words, "; T itself changes the tool")
-        return
-    tool = memory(m).next_tool
-    if tool is None:
-        m.alarm("M6 has no tool to put into the spindle", first_word(words), hint="write T before it")
-    motion.refuse_change(m, "tool", first_word(words))
-    m.change_tool(tool)
+    else:
+        motion.change_tool(m, words)
 
 
 # --- spindle -------------------------------------------------------------------------------------------------------------
 
-SPINDLE = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise", "M5": "Spindle stop"}
 SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
 
 
@@ -81,32 +85,3 @@ def run_up(m: Machine, before: float) -> None:
     if m.spindle_speed not in (0, before) and m.modal["supervision"] == "G26" and memory(m).run_up != m.step:
         memory(m).run_up = m.step
         m.dwell(m.settings["spindle_run_up"])
-
-
-# --- stops and coolant ---------------------------------------------------------------------------------------------------
-
-COOLANT = {"M7": "Coolant 2 on", "M8": "Coolant on", "M9": "Coolant off"}
-
-
-@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="ISO 6983")
-def program_stop(m: Machine, words: Words) -> None:
-    """Wait for the operator, after the motion of the block."""
-    unlisted(m, words)
-    m.stop()
-
-
-@FUNCTIONS("M2 M30", "Program end", phase="end", modal=False, source="ISO 6983")
-def program_end(m: Machine, words: Words) -> None:
-    """The program ends here, after the motion of the block; without it, at the end of the text."""
-    unlisted(m, words)
-    m.ended = True
-
-
-def coolant(m: Machine, words: Words) -> None:
-    """On before the motion of the block, off after it."""
-    unlisted(m, words)
-    m.coolant()
-
-
-FUNCTIONS("M7 M8", COOLANT, group="coolant", phase="auxiliary", source="ISO 6983")(coolant)
-FUNCTIONS("M9", COOLANT, group="coolant", phase="end", power_on="M9", source="ISO 6983")(coolant)

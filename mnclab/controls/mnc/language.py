@@ -1,20 +1,21 @@
-"""Motion, planes, dimensions, G53 and G92, feed, dwell and exact stop (MNC, chapters 1 to 4, 8)."""
+"""Motion, G53 and G92, feed, dwell, exact stop and outside corners (MNC, chapters 1 to 4, 6 and 8)."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from mnclab.controls.word_address import motion
+from mnclab.controls.word_address.functions import ARCS
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.controls.word_address.state import memory
 from mnclab.geometry import frames
 from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.machine import Machine
+from mnclab.path.compensation import ACUTE, ROUND, STRAIGHT
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
-PLANES = {"G17": "XY", "G19": "YZ"}  # G18: setting g18_axes
 
 
 def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
@@ -59,9 +60,6 @@ def line(m: Machine, words: Words) -> None:
         m.line(**to, word=first_word(words))
 
 
-ARCS = {"G2": "Circular interpolation clockwise", "G3": "Circular interpolation counter-clockwise"}
-
-
 @FUNCTIONS("G2 G3", ARCS, group="motion", takes="X Y Z I J K R", moves=True, source="3.4")
 def arc(m: Machine, words: Words) -> None:
     """An arc by R (negative: above 180 degrees) or I J K from the start; without either a straight line."""
@@ -69,47 +67,16 @@ def arc(m: Machine, words: Words) -> None:
     motion.arc(m, words, sense, absolute(m), line_without_centre=True)
 
 
-@FUNCTIONS(
-    "G17 G18 G19", {"G17": "Plane XY", "G18": "Plane ZX", "G19": "Plane YZ"},
-    group="plane", phase="plane", power_on="G17", source="2.4",
-)  # fmt: skip
-def plane(m: Machine, words: Words) -> None:
-    """The plane of arcs, radius compensation, polar coordinates and rotation."""
-    plane = PLANES.get(words.code) or m.settings["g18_axes"]
-    if m.pole is not None and plane != m.plane:
-        m.alarm("the plane cannot change while polar coordinates are on", first_word(words), hint="write G15 first")
-    motion.set_plane(m, plane, first_word(words))
-
-
-@FUNCTIONS(
-    "G90 G91", {"G90": "Absolute dimensions", "G91": "Incremental dimensions"},
-    group="dimension", phase="plane", power_on="G90", source="2.3",
-)  # fmt: skip
-def dimension(m: Machine, words: Words) -> None:
-    """Coordinates of the selected system, or distances from the last programmed point."""
-
-
 @FUNCTIONS("G53", "Machine coordinates", group="datum", phase="frames", power_on="G53", modal=False, source="2.6")
 def machine_coordinates(m: Machine, words: Words) -> None:
     """In this block only, work offset and G92 count as zero; active at power-on until a work offset is selected."""
     transformed = m.settings["g53_transformed"]
-    kept = [(name, frame) for name, frame in m.frames if name in ("datum", "local") or not transformed]
     if m.side and not (transformed and m.settings["g53_tool_length"]):
-        m.alarm(
-            "G53 without the corrections cannot stand under radius compensation", first_word(words), "write G40 first"
-        )
-
-    def restore() -> None:
-        for name, frame in kept:
-            m.set_frame(name, frame)
-        memory(m).machine_coordinates = False
-
-    memory(m).machine_coordinates = True
-    for name, _ in kept:
-        m.set_frame(name, None)
+        fault = "G53 without the corrections cannot stand under radius compensation"
+        m.alarm(fault, first_word(words), hint="write G40 first")
+    motion.leave_frames(m, [name for name, _ in m.frames if name in ("datum", "local") or not transformed])
     if not m.settings["g53_tool_length"]:  # Z is the spindle reference, above the tip by the length
         m.set_frame("local", frames.shift(z=-m.tool.effective_length))
-    m.at_block_end(restore)
 
 
 def transformation(m: Machine) -> frames.Matrix:
@@ -123,8 +90,7 @@ def transformation(m: Machine) -> frames.Matrix:
 @FUNCTIONS("G92", "Set position", phase="local", takes="X Y Z U V W", still=True, modal=False, source="2.5")
 def set_position(m: Machine, words: Words) -> None:
     """The present point gets the coordinates X Y Z; U V W move the origin by that much. No motion."""
-    if m.side:
-        m.alarm("G92 cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    motion.uncompensated(m, words)
     point, local = list(m.programmed), m.frames["local"][:3, 3].copy()
     inner = transformation(m)
     if not np.array_equal(inner, frames.IDENTITY):
@@ -165,23 +131,19 @@ def exact_stop_here(m: Machine, words: Words) -> None:
     m.exact_here = True
 
 
-STOPS = {"G61": "Exact stop between blocks", "G64": "Block blending"}
+CORNERS = {"G160": ROUND, "G161": STRAIGHT, "G162": ACUTE}
+CORNER_TITLES = {
+    "G160": "Outside corners: arc",
+    "G161": "Outside corners: straight",
+    "G162": "Outside corners: arc at acute corners only",
+}
 
 
-@FUNCTIONS("G61 G64", STOPS, group="blending", phase="plane", power_on="G64", source="3.5")
-def exact_stop(m: Machine, words: Words) -> None:
-    """Whether every motion ends with exact positioning; the path is the same."""
-    m.change("exact", words.code == "G61")
+@FUNCTIONS("G160 G161 G162", CORNER_TITLES, group="corners", phase="plane", power_on="G160", source="6.4")
+def outside_corners(m: Machine, words: Words) -> None:
+    """Round outside corners the tool centre runs on an arc of its radius, or to where both offsets meet.
 
-
-FEED = {"G94": "Feed per minute", "G95": "Feed per revolution"}
-
-
-@FUNCTIONS("G94 G95", FEED, group="feed mode", phase="plane", power_on="G94", source="4.2")
-def feed_mode(m: Machine, words: Words) -> None:
-    """The number of F is kept and read anew; the setting feed_mode_switch knows other habits."""
-    per_rev, speed, switch = words.code == "G95", abs(m.spindle_speed), m.settings["feed_mode_switch"]
-    if per_rev != m.per_rev and m.feed is not None and switch != "kept":
-        converted = switch == "converted" and speed > 0
-        m.change("feed", (m.feed / speed if per_rev else m.feed * speed) if converted else None)
-    m.change("per_rev", per_rev)
+    The corner before the block follows its rule, so that one in the block of G40 holds for the exit.
+    """
+    forced = str(m.settings["outside_corners"])
+    m.change("corner_rule", CORNERS.get(forced, CORNERS[words.code]))

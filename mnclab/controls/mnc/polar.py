@@ -12,7 +12,7 @@ from typing import Any
 
 from mnclab.controls.mnc.language import absolute
 from mnclab.controls.mnc.state import Polar, memory
-from mnclab.controls.word_address.motion import AXES, first_word, helix
+from mnclab.controls.word_address.motion import AXES, first_word, helix, uncompensated
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import Machine
@@ -35,8 +35,7 @@ def polar_on(m: Machine, words: Words) -> None:
 
     By the setting g16_pole under G91 the pole counts from the last programmed point.
     """
-    if m.side:
-        m.alarm("G16 cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    uncompensated(m, words)
     first, second, normal = PLANES[m.plane]
     if AXES[normal] in words:
         m.alarm(f"{AXES[normal]} is no coordinate of the plane {m.plane}", words[AXES[normal]])

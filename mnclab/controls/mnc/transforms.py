@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from mnclab.controls.word_address.motion import AXES, first_word
+from mnclab.controls.word_address.motion import AXES, first_word, uncompensated
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
@@ -31,8 +31,7 @@ def axis_values(m: Machine, words: Words) -> dict[int, float]:
 
 def switch(m: Machine, name: str, frame: frames.Matrix | None, words: Words) -> None:
     """Replace a transformation; the radius must not be compensated meanwhile."""
-    if m.side:
-        m.alarm(f"{words.code} cannot stand under radius compensation", first_word(words), hint="write G40 first")
+    uncompensated(m, words)
     if m.settings["transformation_order"] == "nested":
         m.frames.innermost(name)
     m.set_frame(name, frame, keep=m.settings["switch_keeps"])

@@ -1,15 +1,16 @@
 """The lathe control Elektronika NC-31: frames of one word, integers in discretes, marks.
 
 `reader` makes frames into blocks, `discretes` is the scale of the integers, `functions` holds moves, repetition
-and words; `turning`, `grooving`, `drilling` and `threads` are the cycles. X is a diameter in programs and a
+and words; `stock_removal`, `grooving`, `drilling` and `threads` are the cycles. X is a diameter in programs and a
 radius everywhere else.
 """
 
 from __future__ import annotations
 
-from mnclab.controls.nc_31 import drilling, functions, grooving, notation, threads, turning
+from mnclab.controls.nc_31 import drilling, functions, grooving, notation, stock_removal, threads
 from mnclab.controls.nc_31.reader import looks_like, read
 from mnclab.controls.nc_31.state import Memory
+from mnclab.controls.nc_31.trial import trial_program
 from mnclab.machine.control import Control
 from mnclab.machine.settings import Setting
 
@@ -44,7 +45,7 @@ MEANINGS = {
     **{f"G{n} M": "auxiliary function at the end of the move" for n in range(61, 68)},
 }  # fmt: skip
 
-CYCLES = turning.CYCLES | grooving.CYCLES | drilling.CYCLES | threads.CYCLES
+CYCLES = stock_removal.CYCLES | grooving.CYCLES | drilling.CYCLES | threads.CYCLES
 
 CONTROL = Control(
     name="nc-31",
@@ -68,4 +69,5 @@ CONTROL = Control(
     lathe=True,
     to_turn="write S before the move, and M3 or M4 where M5 was written",
     modern=lambda program: notation.modern(program, CYCLES),
+    trial=trial_program,
 )

@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.functions import refuse_rapid
 from mnclab.machine.cycle import Cycle, param
 from mnclab.machine.machine import Machine
-from mnclab.machining.steps import Step
-from mnclab.machining.turning.roughing import exchanged
+from mnclab.machining.turning.roughing import Crosswise
 from mnclab.text.program import RAPID_MARK, Word
 
 SWITCH = {0.0: "no", 1.0: "yes"}
 FROM_START = "@: from the start point"
 
 
-class FromStart(Cycle):
-    """A cycle whose X and Z count from the start point where they have the mark @, with a feed of its own.
-
-    It is written down as (across, along): for cuts along Z this is (X, Z), in a `transverse` cycle (Z, X).
-    """
+class FromStart(Crosswise, Cycle):
+    """A cycle whose X and Z count from the start point where they have the mark @, with a feed of its own."""
 
     feed: float | None
-    transverse = False
 
     @classmethod
     def prepare(
@@ -38,10 +33,6 @@ class FromStart(Cycle):
                 values[name] += round(m.programmed[axis] * scale, 6)
         return values
 
-    def about(self, m: Machine) -> tuple[float, float]:
-        """Steps are in coordinates of the program."""
-        return 0.0, 0.0
-
     def modal_feed(self, m: Machine) -> float | None:
         """F of the cycle, mm/rev or mm."""
         return None if self.feed is None else self.feed / discretes.CYCLE_FEED
@@ -50,14 +41,6 @@ class FromStart(Cycle):
         """The fault of a cycle without F where none was set before."""
         if self.feed is None and m.feed is None:
             yield "", "needs a feed: F here, or before it"
-
-    def across_along(self, x: Any, z: Any) -> tuple[Any, Any]:
-        """What belongs to X and what to Z in the order of the cut."""
-        return (z, x) if self.transverse else (x, z)
-
-    def in_axes(self, steps: Iterable[Step]) -> Iterable[Step]:
-        """Steps of x across and z along with their true axes."""
-        return exchanged(steps) if self.transverse else steps
 
 
 def start(m: Machine) -> tuple[float, float]:

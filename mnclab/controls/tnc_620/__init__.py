@@ -57,6 +57,7 @@ from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
 from mnclab.controls.tnc_620.state import Memory
 from mnclab.controls.tnc_620.tables import datum_tables
+from mnclab.controls.tnc_620.trial import trial_program
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.settings import Setting
@@ -172,4 +173,5 @@ CONTROL = Control(
     local_variables="QL",
     predefined=defaults.predefined,
     calls_again=calls.calls_again,
+    trial=trial_program,
 )

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
+from mnclab.controls.word_address.state import memory
 from mnclab.machine.control import Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import Machine
@@ -110,13 +112,6 @@ def remark_at(m: Machine, setting: str, sentence: str, word: Word | None) -> Non
         m.warn(sentence, word)
 
 
-def set_plane(m: Machine, plane: str, head: Word | None) -> None:
-    """Choose the plane of arcs and compensation."""
-    if m.side and plane != m.plane:
-        m.alarm("the plane cannot change while radius compensation is active", head, hint="write G40 first")
-    m.change("plane", plane)
-
-
 def feed(m: Machine, words: Words) -> None:
     """F: the feed along the path, kept until a new one."""
     value = m.value(words["F"])
@@ -137,6 +132,21 @@ def tool(m: Machine, words: Words) -> None:
     """T: the tool from the table is active at once; no axis moves."""
     row = tool_row(m, words["T"], "tool")
     refuse_change(m, "tool", words["T"])
+    m.change_tool(row)
+
+
+def choose_tool(m: Machine, words: Words) -> None:
+    """T: the tool that M6 puts into the spindle."""
+    memory(m).next_tool = row = tool_row(m, words["T"], "tool")
+    m.log("next tool", row.number)
+
+
+def change_tool(m: Machine, words: Words) -> None:
+    """M6: the tool of T comes into the spindle."""
+    row = memory(m).next_tool
+    if row is None:
+        m.alarm("M6 has no tool to put into the spindle", first_word(words), hint="write T before it")
+    refuse_change(m, "tool", first_word(words))
     m.change_tool(row)
 
 
@@ -171,6 +181,27 @@ def tool_row(m: Machine, word: Word, name: str) -> Tool:
         known = ", ".join(f"{letter}{n}" for n in sorted(m.tables.tools))
         m.alarm(f"{letter}{int(number)} has no row in the tool table", word, hint=f"tools: {known}")
     return m.tables.tools[int(number)]
+
+
+def uncompensated(m: Machine, words: Words) -> None:
+    """An Alarm under radius compensation."""
+    if m.side:
+        m.alarm(f"{words.code} cannot stand under radius compensation", first_word(words), hint="write G40 first")
+
+
+def leave_frames(m: Machine, names: Iterable[str]) -> None:
+    """Coordinates are those of the machine in this block: these frames count for nothing, and are back after it."""
+    kept = {name: m.frames[name] for name in names}
+
+    def restore() -> None:
+        for name, frame in kept.items():
+            m.set_frame(name, frame)
+        memory(m).machine_coordinates = False
+
+    memory(m).machine_coordinates = True
+    for name in kept:
+        m.set_frame(name, None)
+    m.at_block_end(restore)
 
 
 def refuse_change(m: Machine, name: str, word: Word | None) -> None:

@@ -1,15 +1,13 @@
-"""Facing a rectangle some sides of which are walls: where lines lie and end, the way along the walls, and the steps.
+"""Facing a rectangle some sides of which are walls: where lines lie and end, and the way along the walls.
 
     open side: lines end as far outside as they may        wall: the tool centre stays c = R + allowance in front of it
 
-Two walls that meet have a round corner; lines end on it. Places count from the middle of the rectangle. Lengths in mm,
-feeds in mm/min.
+Two walls that meet have a round corner; lines end on it. Places count from the middle of the rectangle. Lengths in mm.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -17,9 +15,7 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.shapes import QUARTER
-from mnclab.machining.milling.clearing import begin, numbered
 from mnclab.machining.milling.face_lines import rows
-from mnclab.machining.steps import RAPID, Along, Go, Step
 
 Place = tuple[float, float]
 SIDES = (-2, 1, 2, -1)  # below, right, above, left: -2 is the side where Y is least, 1 that where X is greatest
@@ -42,6 +38,11 @@ class Walled:
     width: float
     walls: frozenset[int] = frozenset()
     corner: float = 0.0
+
+    @property
+    def has_corners(self) -> bool:
+        """Whether two walls meet."""
+        return bool(self.walls & {1, -1}) and bool(self.walls & {2, -2})
 
     def lines(
         self, radius: float, stepover: float, *, axis: int, ahead: int, across: int, outside: float, over: float,
@@ -120,60 +121,3 @@ class Walled:
 
 AHEAD = {-2: np.array([1, 0]), 1: np.array([0, 1]), 2: np.array([-1, 0]), -1: np.array([0, -1])}
 OUTWARDS = {-2: np.array([0, -1]), 1: np.array([1, 0]), 2: np.array([0, 1]), -1: np.array([-1, 0])}
-
-
-class Feeds(NamedTuple):
-    """Along lines and wherever material may be, and through the air at depth."""
-
-    mill: float
-    position: float
-
-
-class Heights(NamedTuple):
-    """Of one level: where it is, what stood above it, and the way up from either."""
-
-    level: float
-    top: float
-    lift: float
-
-
-def over_lines(name: str, lines: Sequence[Line], at: Heights, feeds: Feeds, *, one_way: bool) -> Iterator[Step]:
-    """From the first line, at its level, over all of them.
-
-    One way, the tool lifts after a line and goes straight back to the start of the next one; where that begins at a wall
-    it lifts higher than all that stands.
-    """
-    before = None
-    for label, line in zip(numbered("line", len(lines)), lines, strict=True):
-        if before and one_way:
-            high = at.level + at.lift if line.begins_outside else at.top + at.lift
-            yield Go(f"{name}, lift", high)
-            yield Go(f"{name}, back", None, RAPID, *line.begin)
-            yield Go(f"{name}, down", at.level, feeds.position if line.begins_outside else feeds.mill)
-        elif before:
-            clear = before.ends_outside and line.begins_outside
-            yield Go(f"{name}, link", None, feeds.position if clear else feeds.mill, *line.begin)
-        yield Along(f"{name}, {label}", Contour([line.begin, line.end], closed=False), feeds.mill)
-        before = line
-
-
-def past_walls(name: str, ways: Sequence[Contour], feed: float) -> Iterator[Step]:
-    """Along the walls at the level where the tool is, to take away what lines leave in front of them."""
-    for label, way in zip(numbered("along the walls", len(ways)), ways, strict=True):
-        yield Go(f"{name}, link", None, feed, *begin(way).tolist())
-        yield Along(f"{name}, {label}", way, feed)
-
-
-def finish_along(
-    ways: Sequence[Contour], levels: Sequence[float], above: float, feeds: Feeds
-) -> Iterator[Step]:  # fmt: skip
-    """Each way on every level, from outside to outside; between them the tool goes at the clearance level."""
-    for which, way in zip(numbered("side finishing", len(ways)), ways, strict=True):
-        for label, level in zip(numbered("infeed", len(levels)), levels, strict=True):
-            name = f"{which}, {label}"
-            yield Go(f"{name}, to the clearance level", above)
-            yield Go(f"{name}, over the start", None, RAPID, *begin(way).tolist())
-            yield Go(f"{name}, down", level, feeds.position)
-            yield Along(name, way, feeds.mill)
-    if ways:
-        yield Go("side finishing, lift", above)

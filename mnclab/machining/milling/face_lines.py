@@ -81,3 +81,20 @@ def spiral(
     some = np.append(True, np.hypot(*np.diff(corners, axis=0).T) > 1e-9)
     way = Contour(placed(corners[some], centre, angle), closed=False)
     return Clearing(Region(), (Piece(Region(), (way,), (), ("spiral",)),), radius)
+
+
+def spiral_from(
+    sides: tuple[float, float], radius: float, stepover: float, first: float, axis: int, outside: float
+) -> tuple[tuple[float, float], Contour]:
+    """A clockwise spiral about (0, 0) from the corner from which `sides` point into the rectangle, and its start.
+
+    That lies `outside` of the corner along X (`axis` 0) or Y (1).
+    """
+    right, above = sides[0] < 0, sides[1] < 0
+    turn = {(0, 0): 0, (0, 1): -1, (1, 1): 2, (1, 0): 1}[right, above]
+    x, y = abs(sides[0]), abs(sides[1])
+    size = (y, x) if turn % 2 else (x, y)
+    (way,) = spiral(*size, radius, stepover, first=first, angle=turn * np.pi / 2).passes
+    start = np.array([x if right else -x, y if above else -y]) / 2
+    start[axis] += np.copysign(outside, start[axis])
+    return (float(start[0]), float(start[1])), way

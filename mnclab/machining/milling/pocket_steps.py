@@ -45,6 +45,30 @@ class Feeds(NamedTuple):
     edge: float = 0.0
 
 
+class Work(NamedTuple):
+    """What is done to a figure: levels and feeds of each part, none where it is left out; `side` 1 is climb milling.
+
+    Roughing leaves the `allowance` at the side and ends, as the walls do, at `left_over`. The tool clears what it has cut
+    by `lift` (negative where it works upwards), and the figure at the height `above`.
+    """
+
+    surface: float
+    left_over: float
+    above: float
+    lift: float
+    allowance: float
+    layers: tuple[float, ...]
+    walls: tuple[float, ...]
+    floor: tuple[float, ...]
+    feeds: tuple[Feeds, Feeds, Feeds]
+    side: int
+
+    @property
+    def is_nothing(self) -> bool:
+        """Whether no part is done."""
+        return not (self.layers or self.walls or self.floor)
+
+
 def way_down(entry: Entry, room: Room, radius: float, climb: bool, top: float, bottom: float) -> Descent:
     """Down in the middle of a pocket with a tool of a `radius`.
 
@@ -76,34 +100,28 @@ def rough(
         top = level
 
 
-def rough_slot(
-    line: Contour, passes: Callable[[Contour], Clearing], levels: Sequence[float], *, surface: float, above: float,
-    clearance: float, down: Down, feeds: Feeds, side: int,
-) -> Iterator[Step]:  # fmt: skip
+def rough_slot(line: Contour, passes: Callable[[bool], Clearing], work: Work, down: Down) -> Iterator[Step]:
     """Every layer of a slot about its centre line, which begins at (0, 0); after each the tool leaves the slot.
 
-    `passes` clear it from the line outwards, which is followed from the end where the way down has led; `above` is the
-    height outside.
+    `passes` clear it from the line outwards, which is followed from the end where the way down has led: backwards or not.
     """
-    top = surface
-    for name, level in zip(numbered("layer", len(levels)), levels, strict=True):
+    top = work.surface
+    for name, level in zip(numbered("layer", len(work.layers)), work.layers, strict=True):
         way = down(top, level)
         here = way.contour.points[-1]
         back = math.dist(here, line.points[-1]) < math.dist(here, line.points[0])
-        yield Go(f"{name}, to the clearance level", top + clearance)
-        yield from clear(name, passes(line.reversed() if back else line), way, feeds, 0.0, side, middle=False)
-        yield from _back(name, above)
+        yield Go(f"{name}, to the clearance level", top + work.lift)
+        yield from clear(name, passes(back), way, work.feeds[0], 0.0, work.side, middle=False)
+        yield from _back(name, work.above)
         top = level
 
 
-def finish_walls(
-    wall: Contour, levels: Sequence[float], *, above: float, clearance: float, feeds: Feeds, arcs: Sequence[Contour],
-    side: int,
-) -> Iterator[Step]:  # fmt: skip
-    """Round the wall, which is on the right for `side` 1, on every level: up to it and off it on two arcs, if there are any."""
+def finish_walls(wall: Contour, arcs: Sequence[Contour], work: Work, above: float) -> Iterator[Step]:
+    """Round the wall on every level: up to it and off it on two arcs, if there are any; at first to the height `above`."""
+    (_, feeds, _), side = work.feeds, work.side
     x, y = begin(arcs[0] if arcs else wall).tolist()
     yield Go("side finishing, to the clearance level", above)
-    for name, level in zip(numbered("side finishing", len(levels)), levels, strict=True):
+    for name, level in zip(numbered("side finishing", len(work.walls)), work.walls, strict=True):
         yield Go(f"{name}, over the start", x=x, y=y)
         yield Go(f"{name}, down", level, feeds.plunge)
         if arcs:
@@ -111,21 +129,21 @@ def finish_walls(
         yield from along(name, wall, feeds.level, feeds.edge, side)
         if arcs:
             yield from along(f"{name}, off the wall", arcs[1], feeds.level, feeds.edge, side)
-        yield from _back(name, level + clearance)
+        yield from _back(name, level + work.lift)
 
 
 def finish_floor(
-    clearing: Clearing, level: float, *, top: float, clearance: float, down: Down, feeds: Feeds, departure: float,
-    side: int, end: float | None = None,
-) -> Iterator[Step]:  # fmt: skip
-    """From `top`, what roughing has left, to the floor; then outwards, the last round along the finished wall.
+    clearing: Clearing, work: Work, down: Down, departure: float, end: float | None = None
+) -> Iterator[Step]:
+    """From what roughing has left to the floor; then outwards, the last round along the finished wall.
 
     At the end the tool lifts by the clearance, or to the height `end`.
     """
     name = "floor finishing"
-    yield Go(f"{name}, to the clearance level", top + clearance)
-    yield from clear(name, clearing, down(top, level), feeds, departure, side)
-    yield from _back(name, level + clearance if end is None else end)
+    for level in work.floor:
+        yield Go(f"{name}, to the clearance level", work.left_over + work.lift)
+        yield from clear(name, clearing, down(work.left_over, level), work.feeds[2], departure, work.side)
+        yield from _back(name, level + work.lift if end is None else end)
 
 
 def clear(

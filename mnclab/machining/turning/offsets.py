@@ -12,10 +12,11 @@ small element covers is covered in the envelope too, so that loops need no searc
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
 from mnclab.geometry.vectors import left
 from mnclab.geometry.whole_curves import Curve
 from mnclab.machining.turning.profiles import SAME, Stretch, checked, stretches, uppermost
@@ -34,7 +35,7 @@ def offset(profile: Contour, distance: float, front: float) -> Contour:
     if distance <= SAME:
         body = stretches(Contour(ways[:-1], [0.0, *contour.bulge], closed=False))
         return uppermost(body, (front, float(first[1])), last)
-    pieces = [piece for curve in _moved(whole, distance) for piece in curve]
+    pieces = [piece for part in _moved(whole, distance) for piece in stretches(part)]
     end = float(last[0])
     right, stop = (front, _over(pieces, front)), (end, _over(pieces, end))
     return uppermost(pieces, right, stop)
@@ -44,43 +45,21 @@ def _over(pieces: list[Stretch], z: float) -> float:
     return max(piece.at(z) for piece in pieces if piece.left - SAME <= z <= piece.right + SAME)
 
 
-def _moved(whole: Contour, distance: float) -> list[list[Stretch]]:
+def _moved(whole: Contour, distance: float) -> Iterator[Contour]:
     """The offset of every element, and what joins them at outside corners; to the right of the way is outside."""
-    found = []
     begins, ends = whole.tangents()
-    for i, (start, end) in enumerate(zip(whole.starts, whole.ends, strict=True)):
-        out_start, out_end = start - distance * left(begins[i]), end - distance * left(ends[i])
-        radius = float(whole.radii[i]) + (distance if whole.bulge[i] > 0 else -distance)
-        if not whole.bulge[i]:
-            found.append(_line(out_start, out_end))
-        elif radius > SAME:
-            found.append(_arc(out_start, out_end, whole.centres[i], math.copysign(radius, whole.bulge[i])))
+    starts, stops = whole.starts - distance * left(begins), whole.ends - distance * left(ends)
+    for i, bulge in enumerate(whole.bulge[:-1]):
+        if not bulge or whole.radii[i] + math.copysign(distance, bulge) > SAME:  # an arc may shrink to nothing
+            yield Contour([starts[i], stops[i]], [bulge, 0.0], closed=False)
     for i, turn in enumerate(whole.turns()):
         if i and turn > 1e-9:
-            found += _corner(whole, i, distance, begins[i], ends[i - 1])
-    return found
+            yield _corner(whole, i, Curve(stops[i - 1], ends[i - 1], np.inf), Curve(starts[i], begins[i], np.inf))
 
 
-def _corner(whole: Contour, i: int, distance: float, begin: Floats, end: Floats) -> list[list[Stretch]]:
-    """What joins two offsets at an outside corner."""
-    corner = whole.starts[i]
-    before, after = corner - distance * left(end), corner - distance * left(begin)
+def _corner(whole: Contour, i: int, before: Curve, after: Curve) -> Contour:
+    """What joins two offsets at an outside corner: both prolonged if they are lines, else an arc about it."""
     if not whole.bulge[i - 1] and not whole.bulge[i]:
-        meeting = Curve(before, end, np.inf).meeting(Curve(after, begin, np.inf), before)
-        return [_line(before, meeting), _line(meeting, after)]
-    return [_arc(before, after, corner, distance)]
-
-
-def _line(start: Floats, end: Floats) -> list[Stretch]:
-    right, to_left = (start, end) if start[0] > end[0] else (end, start)
-    if right[0] - to_left[0] <= SAME:
-        return []
-    return [Stretch(float(right[0]), float(to_left[0]), (float(right[1]), float(to_left[1])))]
-
-
-def _arc(start: Floats, end: Floats, centre: Floats, radius: float) -> list[Stretch]:
-    """An arc that runs to smaller z; about a corner beside a shoulder it may begin or end on the side of the circle."""
-    if start[0] - end[0] <= SAME:
-        return []
-    ends = float(start[1]), float(end[1])
-    return [Stretch(float(start[0]), float(end[0]), ends, (float(centre[0]), float(centre[1])), radius)]
+        meeting = before.meeting(after, before.point)
+        return Contour([before.point, meeting, after.point], closed=False)
+    return Contour([before.point, after.point], [math.tan(whole.turns()[i] / 4), 0.0], closed=False)

@@ -22,9 +22,11 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.whole_curves import Curve
 from mnclab.path.tool import Tool
 
 SAME = 1e-9  # mm
+FAR = 1e6  # mm
 
 
 class Stretch(NamedTuple):
@@ -38,6 +40,14 @@ class Stretch(NamedTuple):
     ends: tuple[float, float]
     centre: tuple[float, float] = (0.0, 0.0)
     radius: float = 0.0
+
+    @property
+    def curve(self) -> Curve:
+        """The whole line or circle that it lies on."""
+        if self.radius:
+            return Curve(np.array(self.centre), np.zeros(2), abs(self.radius))
+        way = np.array([self.left - self.right, self.ends[1] - self.ends[0]])
+        return Curve(np.array([self.right, self.ends[0]]), way / np.hypot(*way), np.inf)
 
     def at(self, z: float) -> float:
         """The r over a z."""
@@ -177,9 +187,10 @@ def uppermost(pieces: Sequence[Stretch], first: Sequence[float], last: Sequence[
     places = {first[0], last[0]}
     for piece in pieces:
         places |= {piece.right, piece.left}
-    for one, other in combinations(pieces, 2):
-        if min(one.right, other.right) > max(one.left, other.left):
-            places |= {z for z in _crossings(one, other) if z < one.right and z < other.right}
+    for (one, curve), (other, beside) in combinations([(piece, piece.curve) for piece in pieces], 2):
+        right = min(one.right, other.right)
+        if right > max(one.left, other.left):
+            places |= {z for z in _crossings(curve, beside) if z < right}
     falling = sorted((z for z in places if last[0] <= z <= first[0]), reverse=True)
     kept = [z for k, z in enumerate(falling) if k == 0 or falling[k - 1] - z > 1e-10]
     points, bulges, owner = [np.array(first, dtype=float)], [], -1
@@ -214,34 +225,10 @@ def _arc(piece: Stretch, start: Floats, end: Floats) -> float:
     return math.copysign(math.tan(half / 2), piece.radius)
 
 
-def _crossings(one: Stretch, other: Stretch) -> list[float]:
-    """The z where two whole lines or circles cross."""
-    if not one.radius and not other.radius:
-        z = one.right
-        gap = one.ends[0] - other.ends[0] + _slope(other) * (other.right - z)
-        lean = _slope(other) - _slope(one)
-        return [z + gap / lean] if abs(lean) > 1e-12 else []
-    ring, line = (one, other) if one.radius else (other, one)
-    centre = np.array(ring.centre)
-    if line.radius:
-        apart = np.array(line.centre) - centre
-        size = float(np.hypot(*apart))
-        if size < 1e-12:
-            return []
-        along = (size**2 + ring.radius**2 - line.radius**2) / (2 * size)
-        foot, way = centre + along * apart / size, np.array([-apart[1], apart[0]]) / size
-    else:
-        way = np.array([1.0, _slope(line)]) / math.hypot(1.0, _slope(line))
-        start = np.array([line.right, line.ends[0]])
-        foot = start + ((centre - start) @ way) * way
-    reach = ring.radius**2 - float(((foot - centre) ** 2).sum())
-    if reach < -1e-9:
-        return []
-    return [float((foot + s * math.sqrt(max(reach, 0.0)) * way)[0]) for s in (1, -1)]
-
-
-def _slope(line: Stretch) -> float:
-    return (line.ends[0] - line.ends[1]) / (line.right - line.left)
+def _crossings(one: Curve, other: Curve) -> list[float]:
+    """The z where two lines or circles cross, or are nearest; far off for two lines that never do."""
+    sides = (FAR,) if math.isinf(one.radius) and math.isinf(other.radius) else (-FAR, FAR)
+    return [float(one.meeting(other, np.array([side, 0.0]))[0]) for side in sides]
 
 
 # ---- what a tool can reach ----

@@ -154,6 +154,27 @@ def towards(place: float, goal: float, distance: float) -> float:
     return goal if abs(goal - place) <= distance else place + math.copysign(distance, goal - place)
 
 
+# --- along X instead of Z --------------------------------------------------------------------------------------------
+
+
+class Crosswise:
+    """A cycle written down as (across, along): for cuts along Z this is (X, Z), in a `transverse` cycle (Z, X)."""
+
+    transverse = False
+
+    def about(self, m: object) -> tuple[float, float]:
+        """Steps are in coordinates of the program."""
+        return 0.0, 0.0
+
+    def across_along(self, x: float, z: float) -> tuple[float, float]:
+        """What belongs to X and what to Z in the order of the cut."""
+        return (z, x) if self.transverse else (x, z)
+
+    def in_axes(self, steps: Iterable[Step]) -> Iterable[Step]:
+        """Steps of x across and z along with their true axes."""
+        return exchanged(steps) if self.transverse else steps
+
+
 def exchanged(steps: Iterable[Step]) -> Iterator[Step]:
     """The same steps for a cut along X, or a hole along it: across and along change places."""
     return (s._replace(x=s.z, z=s.x) if isinstance(s, Go | Thread) else s for s in steps)

@@ -95,8 +95,7 @@ def _poured(contour: Contour) -> tuple[Contour, list[Contour]]:
         first, last, level = int(run[0]) - 1, int(run[-1]) + 1, float(water[run[0]])
         around = between(contour, float(upto[first]), float(upto[last]))
         assert around is not None
-        head = max(0.0, _last_above(around, level))
-        tail = _first_above(around, level)
+        head, tail = entry_way(around, level) or 0.0, exit_way(around, level)
         pool = between(around, head, tail)
         assert pool is not None
         dry.append(between(contour, at, float(upto[first]) + head))
@@ -105,18 +104,6 @@ def _poured(contour: Contour) -> tuple[Contour, list[Contour]]:
         at = float(upto[first]) + tail
     dry.append(between(contour, at, contour.length))
     return joined(dry), pools
-
-
-def _last_above(around: Contour, level: float) -> float:
-    """The way to where a pool begins: the first wall comes down to the level."""
-    found = entry_way(around, level)
-    return 0.0 if found is None else found
-
-
-def _first_above(around: Contour, level: float) -> float:
-    """The way to where a pool ends: the last wall comes up to the level."""
-    r = around.points[:, 1]
-    return around.length if r[-1] <= level + SAME else exit_way(around, level)
 
 
 def _simple(pool: Contour) -> list[Contour]:

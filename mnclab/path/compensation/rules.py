@@ -58,6 +58,9 @@ class Gouge(NamedTuple):
     message: str
     hint: str = ""
 
+    def __repr__(self) -> str:
+        return f"<Gouge line {self.line}: {self.message}>"
+
 
 @dataclass
 class Report:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from mnclab.show import trial
+from mnclab.machine import trial
 
 HEAD = "G54 G90 G0 X0 Y0 Z50 F120\n"
 
@@ -108,7 +108,7 @@ def test_the_old_names_of_table_1_2(old, new):
     """MNC-G2xx-NUMBERS: the same cycle, with a notice."""
     cycle = mnclab.controls["mnc"].cycles[new]
     assert mnclab.controls["mnc"].cycles[old] is cycle
-    text = trial.program("mnc", cycle, {p.name: p.example for p in cycle.parameters() if p.required})
+    text = trial.program(mnclab.controls["mnc"], cycle, {p.name: p.example for p in cycle.parameters() if p.required})
     runs = [mnclab.run(text.replace(new, code), "mnc") for code in (old, new)]
     assert runs[0].ok and [a.message for a in runs[0].alarms] == [f"{old} is another name of {new} ({cycle.title})"]
     assert str(runs[0].toolpath) == str(runs[1].toolpath)

@@ -12,7 +12,7 @@ from running import run
 
 import mnclab
 from mnclab import Kind, Setup
-from mnclab.show import trial
+from mnclab.machine import trial
 
 CONTROL = mnclab.controls["nc-31"]
 CASES = [(code, parameter) for code, cycle in CONTROL.cycles.items() for parameter in cycle.parameters()]
@@ -24,7 +24,7 @@ def beginning(code):
 
 
 def motion_of(code, values, **settings):
-    found = run(trial.program("nc-31", CONTROL.cycles[code], values), "nc-31", start=(30, 0, 20), **settings)
+    found = run(trial.program(mnclab.controls["nc-31"], CONTROL.cycles[code], values), "nc-31", start=(30, 0, 20), **settings)
     return found.toolpath[2:].motion  # after the spindle and the move to the start
 
 
@@ -71,7 +71,7 @@ def test_left_out_it_is_its_default_or_missing(code, parameter):
         if parameter.default is not None:
             assert geometry(motion_of(code, values)) == geometry(motion_of(code, values | {parameter.name: parameter.default}))
         return
-    found = mnclab.run(trial.program("nc-31", CONTROL.cycles[code], values), "nc-31")
+    found = mnclab.run(trial.program(CONTROL, CONTROL.cycles[code], values), "nc-31")
     assert f"{code} {parameter.address} ({parameter.meaning}) is missing" in found.alarms[0].message
     assert found.alarms[0].span[:2] == (6, 1)
 
@@ -164,6 +164,6 @@ def test_tapping_turns_the_spindle_back():
 )
 def test_machine_parameters_that_leave_no_thread(settings, sentence):
     """0.92 tan 89 degrees is 52.707; 21.4 pitches of 1.5 mm are 32.1; the thread goes from Z2 to Z-30."""
-    program = trial.program("nc-31", CONTROL.cycles["G31"], beginning("G31"))
+    program = trial.program(CONTROL, CONTROL.cycles["G31"], beginning("G31"))
     found = mnclab.run(program, "nc-31", Setup(start=(30, 0, 20), settings=settings))
     assert sentence in found.alarms[0].message and found.alarms[0].span[:2] == (6, 1)

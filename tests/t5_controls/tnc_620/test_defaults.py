@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 
 import mnclab as mnc
-from mnclab.show import trial
+from mnclab.controls.tnc_620.trial import klartext
+from mnclab.machine import trial
 
 GLOBAL_100 = "GLOBAL DEF 100 GENERAL\nQ200=3 ;A\nQ204=40 ;B\nQ253=750 ;C\nQ208=1000 ;D\n"
 GLOBAL_105 = "GLOBAL DEF 105 DRILLING\nQ256=0.2\nQ210=0.3\nQ211=0.4\n"
@@ -88,7 +89,7 @@ def test_every_value_is_kept(tnc) -> None:
 @pytest.mark.parametrize(("code", "parameter"), LINKS, ids=lambda case: getattr(case, "address", case))
 def test_every_cycle_takes_the_values_made_for_it(code: str, parameter: Any, tnc) -> None:
     """Drilling the clearances and dwells, milling the overlap, …: the Q parameter has the value of GLOBAL DEF."""
-    values = {p.address: trial.klartext(trial.first_value(p)) for p in CYCLES[code].parameters()}
+    values = {p.address: klartext(trial.first_value(p)) for p in CYCLES[code].parameters()}
     values[parameter.address] = "PREDEF"
     run = tnc(f"{EVERYTHING}{code} X\n" + "".join(f"{q}={v}\n" for q, v in values.items()))
     assert run.ok, run.alarms

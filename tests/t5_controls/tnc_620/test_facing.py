@@ -13,7 +13,7 @@ from running import changed, of_cycles, run
 
 import mnclab
 from mnclab import Kind, Setup, Tool
-from mnclab.show import trial
+from mnclab.machine import trial
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-pockets.json"
 EXAMPLES = {example["code"]: example["program"] for example in json.loads(FILE.read_text(encoding="utf-8"))}
@@ -239,7 +239,7 @@ OTHER = {"corner_radius": 15, "limit_3": -2, "limit_1": -2, "limit_2": -1, "surf
 @pytest.mark.parametrize("parameter", CYCLE.parameters(), ids=lambda parameter: parameter.name)
 def test_a_parameter_acts(parameter):
     def tried(values):
-        found = mnclab.run(trial.program("tnc-620", CYCLE, values), "tnc-620")
+        found = mnclab.run(trial.program(mnclab.controls["tnc-620"], CYCLE, values), "tnc-620")
         assert found.ok, found.alarms
         path = found.toolpath[found.toolpath.is_motion]
         return (path.end.round(9).tolist(), path.sweep.round(9).tolist()), path.feed.tolist()

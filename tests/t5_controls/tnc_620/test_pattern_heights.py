@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import mnclab as mnc
-from mnclab.show import trial
+from mnclab.machine import trial
 
 CYCLES = {
     cycle.code: cycle
@@ -36,7 +36,7 @@ def program(code: str, calls: str, **changed: float) -> str:
     for address in ("Q203",) if "Q203" in names else ("Q227", "Q386"):
         values[names[address]] += surface
     values |= {names[address]: value for address, value in changed.items()}
-    text = trial.program("tnc-620", cycle, values)
+    text = trial.program(mnc.controls["tnc-620"], cycle, values)
     assert text is not None and CALL in text
     return text.replace(CALL, calls)
 

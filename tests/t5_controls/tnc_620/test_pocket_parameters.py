@@ -6,7 +6,7 @@ from running import run
 
 import mnclab
 from mnclab import Kind
-from mnclab.show import trial
+from mnclab.machine import trial
 
 CYCLES = {code: mnclab.controls["tnc-620"].cycles[code] for code in (f"CYCL DEF {n}" for n in (251, 252, 253, 254))}
 CASES = [(code, parameter) for code, cycle in CYCLES.items() for parameter in cycle.parameters()]
@@ -21,7 +21,7 @@ FEEDS = {"milling_feed", "plunging_feed", "finishing_feed", "feed_reference"}
 
 
 def shape_and_feeds(code, values):
-    path = run(trial.program("tnc-620", CYCLES[code], values), "tnc-620").toolpath
+    path = run(trial.program(mnclab.controls["tnc-620"], CYCLES[code], values), "tnc-620").toolpath
     cut = path.is_motion & (path.kind != Kind.RAPID)
     shape = path.end[path.is_motion].round(9).tolist(), path.sweep[path.is_motion].round(9).tolist()
     return shape, path.feed[cut].round(9).tolist()
@@ -59,7 +59,7 @@ def test_every_parameter_has_an_example(code, parameter):
 
 @pytest.mark.parametrize("code", CYCLES)
 def test_every_row_of_a_cycle_says_what_happens(code):
-    found = mnclab.run(trial.program("tnc-620", CYCLES[code], examples(code)), "tnc-620")
+    found = mnclab.run(trial.program(mnclab.controls["tnc-620"], CYCLES[code], examples(code)), "tnc-620")
     path = found.toolpath
     call = path[(path.line == path.line[path.is_motion].max()) & path.is_motion]
     said = [call.labels[k] for k in call.label][1:]  # the block positions first

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.show import trial
+from mnclab.machine import trial
 
 HEAD = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n"
 D = "2 CYCL DEF 200 D\nQ200=2\nQ201=-15\nQ206=250\nQ202=0\nQ210=0\nQ203=0\nQ204=20\nQ211=0\n"  # lines 3 to 11
@@ -161,7 +161,7 @@ def test_a_form_of_each_pattern_begins_with_a_path() -> None:
     for code, count in (("CYCL DEF 220", 8), ("CYCL DEF 221", 24)):
         cycle = mnc.controls["tnc-620"].cycles[code]
         values = {p.name: trial.first_value(p) for p in cycle.parameters()}
-        run = mnc.run(trial.program("tnc-620", cycle, values), "tnc-620")
+        run = mnc.run(trial.program(mnc.controls["tnc-620"], cycle, values), "tnc-620")
         assert run.alarms == () and len({tuple(hole) for hole in drilled(run)[:, :2].round(6).tolist()}) == count
 
 

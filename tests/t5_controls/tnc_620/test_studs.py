@@ -13,7 +13,7 @@ from running import changed, of_cycles, run
 
 import mnclab
 from mnclab import Kind, Tool
-from mnclab.show import trial
+from mnclab.machine import trial
 
 FILE = Path(__file__).parents[2] / "authorities" / "catalogue" / "tnc620-pockets.json"
 PROGRAMS = {example["code"][-3:]: example["program"] for example in json.loads(FILE.read_text(encoding="utf-8"))}
@@ -270,7 +270,7 @@ def examples(code):
 
 
 def tried(code, values):
-    found = mnclab.run(trial.program("tnc-620", CYCLES[code], values), "tnc-620")
+    found = mnclab.run(trial.program(mnclab.controls["tnc-620"], CYCLES[code], values), "tnc-620")
     assert found.ok, found.alarms
     path = found.toolpath[found.toolpath.is_motion]
     return (path.end.round(9).tolist(), path.sweep.round(9).tolist()), path.feed.tolist()
@@ -293,7 +293,7 @@ def test_a_parameter_acts(code, parameter):
 
 @pytest.mark.parametrize("code", CYCLES)
 def test_every_row_of_a_cycle_says_what_happens(code):
-    found = mnclab.run(trial.program("tnc-620", CYCLES[code], examples(code)), "tnc-620")
+    found = mnclab.run(trial.program(mnclab.controls["tnc-620"], CYCLES[code], examples(code)), "tnc-620")
     path = found.toolpath
     call = path[(path.line == path.line[path.is_motion].max()) & path.is_motion]
     said_ = names(call)[1:]

@@ -85,12 +85,12 @@ def test_left_out_it_is_its_default_or_missing(called, rows, number, address) ->
 @pytest.mark.parametrize("number", NUMBERS)
 def test_the_examples_make_a_program_that_runs(number) -> None:
     """A form begins with them."""
-    from mnclab.show import trial
+    from mnclab.machine import trial
 
     cycle = CYCLES[f"CYCL DEF {number}"]
     values = {p.name: p.example for p in cycle.parameters()}
     assert None not in values.values()
-    text = trial.program("tnc-620", cycle, values)
+    text = trial.program(mnc.controls["tnc-620"], cycle, values)
     run = mnc.run(text, "tnc-620")
     assert run.ok, run.alarms
     cut = run.toolpath[(run.toolpath.kind == mnc.Kind.LINE) | (run.toolpath.kind == mnc.Kind.ARC)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import mnclab as mnc
-from mnclab.show import trial
+from mnclab.machine import trial
 
 CYCLES = mnc.controls["tnc-620"].cycles
 CALLS = {
@@ -24,7 +24,7 @@ def program(code: str, spindle: str, call: str, speed: int = 500) -> tuple[str, 
         text += "CYCL DEF 18.2 PITCH +1\nL X+20 Y+10 R0 FMAX M99\nEND PGM A MM\n"
     else:
         cycle = CYCLES[code]
-        text = trial.program("tnc-620", cycle, {p.name: trial.first_value(p) for p in cycle.parameters()}) or ""
+        text = trial.program(mnc.controls["tnc-620"], cycle, {p.name: trial.first_value(p) for p in cycle.parameters()}) or ""
     before, after = text.replace("R0 FMAX M3", f"R0 FMAX {spindle}").replace("S1000", f"S{speed}").split("L X+20 Y+10")
     lines, more = CALLS[call]
     return before + lines + after.partition("\n")[2], before.count("\n") + more

@@ -60,6 +60,7 @@ class UniversalDrilling(PreparedCycle):
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
     infeed: float | None = addresses.distance("P", "depth of the first infeed", 6, **ONE_PASS)
+    surface: float = addresses.surface()
     min_infeed: float | None = addresses.distance(
         "M", "least infeed", 2, default=None, default_means="no limit", note="needed where K is greater than 0"
     )
@@ -75,7 +76,6 @@ class UniversalDrilling(PreparedCycle):
     break_retract: float = param(
         "I", "distance back to break the chip", default=0.1, at_least=0.1, incremental=True, example=0.5
     )
-    surface: float = addresses.surface()
 
     @classmethod
     def prepare(

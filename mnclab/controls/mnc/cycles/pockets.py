@@ -1,15 +1,14 @@
 """Pockets (MNC, 10.3 and 10.4): G343 rectangular and G344 circular, about the place where the tool stands.
 
 R_t is the effective tool radius, z0 the level of the tool when the block is reached. The parts are the same for both:
-roughing in layers, the walls if U is given, the floor if W is given; each cycle says only its `Shape`.
+roughing in layers, the walls if U is given, the floor if W is given; each cycle says only its shape.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
-from typing import NamedTuple
 
 from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.mnc.cycles.milling import MillingCycle
@@ -17,11 +16,10 @@ from mnclab.machine.cycle import CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import remark, tool
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling import concentric
-from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.entries import Entry
+from mnclab.machining.milling.figures import Pocket, circular, mill_pocket, rectangular
 from mnclab.machining.milling.finishing import quarter_circles
-from mnclab.machining.milling.pocket_steps import Down, Feeds, Room, finish_floor, finish_walls, rough, way_down
+from mnclab.machining.milling.pocket_steps import Down, Feeds, Work, way_down
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()
@@ -48,14 +46,6 @@ milling_mode = partial(addresses.choice, "L", "kind of milling with M3", MODE, 1
 finish_feed = partial(addresses.other_feed, "T", "finishing feed", 300)
 
 # --- cycles --------------------------------------------------------------------------------------------------------------
-
-
-class Shape(NamedTuple):
-    """A pocket for one tool, about (0, 0): the `passes` that clear it but for an `allowance` at its walls, and the `room`
-    for the tool centre there."""
-
-    passes: Callable[..., Clearing]
-    room: Callable[[float], Room]
 
 
 @CYCLES("G343", "Rectangular pocket", runs="definition", source="MNC 10.3")
@@ -99,15 +89,12 @@ class RectangularPocket(MillingCycle):
                 yield name, f"must be greater than the tool diameter and twice U, {least:g}, got {length:g}"
         yield from faults(self, m)
 
-    def shape(self, radius: float) -> Shape:
+    def shape(self, radius: float) -> Pocket:
         """Rectangles from the centre outwards, each begun where the longer axis leaves it; that is X where both are the same."""
-        a, b, turned = self.length_x / 2 - radius, self.length_y / 2 - radius, math.radians(self.rotation)
-        passes = partial(
-            concentric.rectangle, self.length_x, self.length_y, radius, self.overlap * radius,
-            corner=self.corner_radius, climb=climb(self), angle=turned,
+        return rectangular(
+            self.length_x, self.length_y, radius, self.overlap * radius, corner=self.corner_radius, climb=climb(self),
+            angle=math.radians(self.rotation),
         )  # fmt: skip
-        along = turned + (math.pi / 2 if a < b else 0.0)
-        return Shape(passes, lambda allowance: Room(min(a, b) - allowance, max(a, b) - allowance, along))
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 8 of the manual."""
@@ -145,36 +132,35 @@ class CircularPocket(MillingCycle):
             yield "diameter", f"must be at least the tool diameter and twice U, {least:g}, got {self.diameter:g}"
         yield from faults(self, m)
 
-    def shape(self, radius: float) -> Shape:
+    def shape(self, radius: float) -> Pocket:
         """Circles from the centre outwards; none where the tool fills the pocket."""
-        reach = self.diameter / 2 - radius
-        passes = partial(concentric.circle, self.diameter, radius, self.overlap * radius, climb=climb(self))
-        return Shape(passes, lambda allowance: Room(reach - allowance, reach - allowance))
+        shape = circular(self.diameter, radius, self.overlap * radius, climb=climb(self))
+        return shape._replace(arcs=quarter_circles)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 8 of the manual."""
         return mill(self, m)
 
 
-Pocket = RectangularPocket | CircularPocket
+AnyPocket = RectangularPocket | CircularPocket
 
 
-def climb(pocket: Pocket) -> bool:
+def climb(pocket: AnyPocket) -> bool:
     """Whether the tool goes round counter-clockwise."""
     return pocket.milling_mode >= 0
 
 
-def left_over(pocket: Pocket) -> float:
+def left_over(pocket: AnyPocket) -> float:
     """Where roughing and the finishing of the walls end."""
     return pocket.surface + pocket.depth + pocket.floor_allowance
 
 
-def levels(pocket: Pocket, infeed: float) -> tuple[float, ...]:
+def levels(pocket: AnyPocket, infeed: float) -> tuple[float, ...]:
     """Of roughing or of finishing the walls; the last infeed may be smaller."""
     return infeeds(pocket.surface, left_over(pocket), infeed)
 
 
-def too_deep(pocket: Pocket) -> Iterator[tuple[str, str]]:
+def too_deep(pocket: AnyPocket) -> Iterator[tuple[str, str]]:
     """Faults where all of the depth is allowance, and where there are more levels than a pocket can have."""
     if pocket.floor_allowance >= -pocket.depth:
         yield "floor_allowance", f"must be less than the depth {-pocket.depth:g}, got {pocket.floor_allowance:g}"
@@ -182,11 +168,11 @@ def too_deep(pocket: Pocket) -> Iterator[tuple[str, str]]:
     yield from too_many("finish_infeed", lambda: levels(pocket, pocket.finish_infeed))
 
 
-def faults(pocket: Pocket, m: Machine) -> Iterator[tuple[str, str]]:
+def faults(pocket: AnyPocket, m: Machine) -> Iterator[tuple[str, str]]:
     """Where somebody would wait too long, or the tool cannot get down."""
     shape, angle = pocket.shape(m.radius), m.tool.plunge_angle
-    yield from too_many("overlap", lambda: shape.passes(allowance=0.0))
-    passes = shape.passes(allowance=pocket.side_allowance).passes
+    yield from too_many("overlap", lambda: shape.clearing(0.0))
+    passes = shape.clearing(pocket.side_allowance).passes
     yield from few_passes("infeed", len(levels(pocket, pocket.infeed)), len(passes))
     if pocket.plunge and not 0 < angle <= 90:
         needed = f"the plunge angle of tool {m.tool.number}, greater than 0 and at most 90"
@@ -201,46 +187,41 @@ def faults(pocket: Pocket, m: Machine) -> Iterator[tuple[str, str]]:
     yield from too_many("plunge", lambda: way_in(pocket, m)(0.0, -deepest))
 
 
-def way_in(pocket: Pocket, m: Machine) -> Down:
+def way_in(pocket: AnyPocket, m: Machine) -> Down:
     """The way from one level to another, as J says."""
     entry = Entry(ENTRIES[int(pocket.plunge)], tool(m).plunge_angle) if pocket.plunge else Entry()
     return partial(way_down, entry, pocket.shape(m.radius).room(pocket.side_allowance), m.radius, climb(pocket))
 
 
-def mill(pocket: Pocket, m: Machine) -> Iterator[Step]:
+def work(pocket: AnyPocket) -> Work:
+    """What M asks for, as far as there are allowances."""
+    roughs, finishes, finish_feed = pocket.scope != 2, pocket.scope != 1, pocket.finish_feed or pocket.feed
+    finishing = Feeds(finish_feed, pocket.plunge_feed)
+    return Work(
+        surface=pocket.surface,
+        left_over=left_over(pocket),
+        above=pocket.surface + pocket.clearance,
+        lift=pocket.clearance,
+        allowance=pocket.side_allowance,
+        layers=levels(pocket, pocket.infeed) if roughs else (),
+        walls=levels(pocket, pocket.finish_infeed) if finishes and pocket.side_allowance else (),
+        floor=(pocket.surface + pocket.depth,) if finishes and pocket.floor_allowance else (),
+        feeds=(Feeds(pocket.feed, pocket.plunge_feed), finishing, finishing),
+        side=1 if climb(pocket) else -1,
+    )
+
+
+def mill(pocket: AnyPocket, m: Machine) -> Iterator[Step]:
     """Down to the clearance level, what M asks for, and up to the level of the start point."""
-    shape, above, side = pocket.shape(m.radius), pocket.surface + pocket.clearance, 1 if climb(pocket) else -1
-    room, end = shape.room(pocket.side_allowance), max(m.programmed[2], above)
-    if pocket.scope == 2 and not (pocket.side_allowance or pocket.floor_allowance):
+    shape, todo = pocket.shape(m.radius), work(pocket)
+    room, end = shape.room(pocket.side_allowance), max(m.programmed[2], todo.above)
+    if todo.is_nothing:
         yield Say("M2 finishes nothing: neither U nor W is given")
         return
     if pocket.plunge == 1 and m.tool.plunge_angle < 90 and room.half_width < m.radius:
         narrow = f"its radius is {room.half_width:g}, that of the tool {m.radius:g}"
         yield Say(f"J1 has a narrow helix: {narrow}{remark(m)}")
-    yield Go("to the clearance level", above)
-    if pocket.scope != 2:
-        yield from rough(
-            shape.passes(allowance=pocket.side_allowance), levels(pocket, pocket.infeed), surface=pocket.surface,
-            clearance=pocket.clearance, down=way_in(pocket, m), feeds=Feeds(pocket.feed, pocket.plunge_feed),
-            departure=min(pocket.clearance, room.half_width), side=side,
-        )  # fmt: skip
-    if pocket.scope != 1:
-        yield from finish(pocket, m, above, side)
+    yield Go("to the clearance level", todo.above)
+    down, off = way_in(pocket, m), min(pocket.side_allowance + pocket.clearance, shape.room(0.0).half_width)
+    yield from mill_pocket(shape, todo, down, down, over_walls=todo.above, off_floor=off)
     yield Go("to the start point", end)
-
-
-def finish(pocket: Pocket, m: Machine, above: float, side: int) -> Iterator[Step]:
-    """The walls, and then the floor, each if it has an allowance."""
-    shape, feeds = pocket.shape(m.radius), Feeds(pocket.finish_feed or pocket.feed, pocket.plunge_feed)
-    whole, clearance = shape.passes(allowance=0.0), pocket.clearance
-    arc = min(pocket.side_allowance + clearance, shape.room(0.0).half_width)
-    if pocket.side_allowance and whole.passes and whole.passes[-1].closed:  # there is a way round
-        yield from finish_walls(
-            whole.passes[-1], levels(pocket, pocket.finish_infeed), above=above, clearance=clearance, feeds=feeds,
-            arcs=quarter_circles(whole.passes[-1], arc, side), side=side,
-        )  # fmt: skip
-    if pocket.floor_allowance:
-        yield from finish_floor(
-            whole, pocket.surface + pocket.depth, top=left_over(pocket), clearance=clearance, down=way_in(pocket, m),
-            feeds=feeds, departure=arc, side=side,
-        )  # fmt: skip

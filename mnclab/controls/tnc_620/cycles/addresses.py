@@ -1,14 +1,17 @@
-"""Q parameters that many cycles share, each declared once; a cycle that differs says in what.
+"""Q parameters that many cycles share, each declared once; a cycle that differs says in what: `depth(example=-3)`.
 
 Every Q parameter is modal: it holds its value until a program writes it again, whatever cycle reads it.
 """
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from mnclab.machine.cycle import param
 
+PLANE = ("FAUTO", "FU", "FZ")  # words in place of a feed rate of milling
+POSITIONING = ("FMAX", "FAUTO")
 FAR = 99999.9999  # mm, the largest length that a cycle takes
 FAST = 99999.999  # mm/min
 LONG = 3600.0  # s
@@ -69,85 +72,34 @@ def count(address: str, meaning: str, most: float, unit: str = "count", **more: 
     return _declare(address, meaning, unit, {"at_least": 0, "at_most": most, "type": "integer"}, more)
 
 
-def clearance(**more: Any) -> Any:
-    """Q200: from the tool tip to the surface before the tool goes in at its feed."""
-    return length("Q200", "set-up clearance", **{"incremental": True, "example": 2} | more)
+# --- surface and planes ----------------------------------------------------------------------------------------------
 
+surface = partial(coordinate, "Q203", "coordinate of the workpiece surface", example=0)
+clearance = partial(length, "Q200", "set-up clearance", incremental=True, example=2)
+second_clearance = partial(
+    length, "Q204", "second set-up clearance", incremental=True, note="if greater than Q200", example=20
+)
+side_clearance = partial(length, "Q357", "clearance to the side", incremental=True, example=2)
 
-def depth(**more: Any) -> Any:
-    """Q201: from the surface, negative downwards."""
-    note = "from the surface; negative is down"
-    return coordinate("Q201", "depth", **{"incremental": True, "note": note, "example": -20} | more)
+# --- depths ----------------------------------------------------------------------------------------------------------
 
+DOWN = "from the surface; negative is down"
+depth = partial(coordinate, "Q201", "depth", incremental=True, note=DOWN, example=-20)
+start_depth = partial(
+    length, "Q379", "depth of the starting point", incremental=True, note="the tool moves at Q253 to a level above it",
+    example=5,
+)  # fmt: skip
+reference = partial(choice, "Q395", "depth reference", TIP, default=0, example=0)
 
-def infeed(**more: Any) -> Any:
-    """Q202: how deep the tool goes at once."""
-    return length("Q202", "infeed depth", **{"incremental": True, "note": "0: in one pass", "example": 5} | more)
+# --- infeeds of a hole -----------------------------------------------------------------------------------------------
 
-
-def decrement(**more: Any) -> Any:
-    """Q212: how much smaller each infeed is than the one before."""
-    return length("Q212", "decrement of the infeed", **{"incremental": True, "example": 1} | more)
-
-
-def min_infeed(**more: Any) -> Any:
-    """Q205: what the decrement leaves of an infeed."""
-    return length("Q205", "least infeed", **{"incremental": True, "note": "where Q212 is not 0", "example": 3} | more)
-
-
-def break_retract(**more: Any) -> Any:
-    """Q256: how far the tool goes back to break the chip."""
-    return length(
-        "Q256", "distance back to break the chip", **{"incremental": True, "at_most": FAST, "example": 0.2} | more
-    )
-
-
-def start_depth(**more: Any) -> Any:
-    """Q379: how deep the hole is already."""
-    note = "the tool moves at Q253 to a level above it"
-    return length("Q379", "depth of the starting point", **{"incremental": True, "note": note, "example": 5} | more)
-
-
-def surface(**more: Any) -> Any:
-    """Q203: where the workpiece begins."""
-    return coordinate("Q203", "coordinate of the workpiece surface", **{"example": 0} | more)
-
-
-def second_clearance(**more: Any) -> Any:
-    """Q204: how high above the surface nothing is in the way."""
-    return length(
-        "Q204", "second set-up clearance", **{"incremental": True, "note": "if greater than Q200", "example": 20} | more
-    )
-
-
-def plunge_feed(also: tuple[str, ...] = ("FAUTO", "FU"), **more: Any) -> Any:
-    """Q206: along the tool axis."""
-    return feed("Q206", "feed rate for plunging", also, **{"example": 150} | more)
-
-
-def milling_feed(also: tuple[str, ...] = ("FAUTO", "FU", "FZ"), **more: Any) -> Any:
-    """Q207: in the plane."""
-    return feed("Q207", "feed rate for milling", also, **more)
-
-
-def retract_feed(also: tuple[str, ...] = ("FMAX", "FAUTO"), **more: Any) -> Any:
-    """Q208: out of the hole."""
-    return feed("Q208", "retraction feed rate", also, **{"note": "0: as Q206", "example": 500} | more)
-
-
-def positioning_feed(also: tuple[str, ...] = ("FMAX", "FAUTO"), **more: Any) -> Any:
-    """Q253: where the tool moves inside the hole without cutting."""
-    return feed("Q253", "feed rate for pre-positioning", also, **{"at_most": FAR, "example": 750} | more)
-
-
-def dwell_top(**more: Any) -> Any:
-    """Q210: over the hole, for the chips."""
-    return seconds("Q210", "dwell at the set-up clearance", **{"example": 0.1} | more)
-
-
-def dwell_bottom(**more: Any) -> Any:
-    """Q211: at the bottom."""
-    return seconds("Q211", "dwell at the bottom", **{"example": 0.25} | more)
+infeed = partial(length, "Q202", "infeed depth", incremental=True, note="0: in one pass", example=5)
+decrement = partial(length, "Q212", "decrement of the infeed", incremental=True, example=1)
+min_infeed = partial(length, "Q205", "least infeed", incremental=True, note="where Q212 is not 0", example=3)
+break_retract = partial(length, "Q256", "distance back to break the chip", incremental=True, at_most=FAST, example=0.2)
+dwell_top = partial(seconds, "Q210", "dwell at the set-up clearance", example=0.1)
+dwell_bottom = partial(seconds, "Q211", "dwell at the bottom", example=0.25)
+spindle_angle = partial(angle, "Q336", "angle of the spindle stop", example=30)
 
 
 def disengage(shift: bool = False, **more: Any) -> Any:
@@ -156,56 +108,54 @@ def disengage(shift: bool = False, **more: Any) -> Any:
     return choice("Q214", "direction in which the tool leaves the wall", choices, **{"example": 1} | more)
 
 
-def spindle_angle(**more: Any) -> Any:
-    """Q336: where the spindle stops before that."""
-    return angle("Q336", "angle of the spindle stop", **{"example": 30} | more)
+# --- feeds -----------------------------------------------------------------------------------------------------------
+
+plunge_feed = partial(feed, "Q206", "feed rate for plunging", also=("FAUTO", "FU"), example=150)
+milling_feed = partial(feed, "Q207", "feed rate for milling", also=PLANE, example=500)
+finishing_feed = partial(feed, "Q385", "finishing feed rate", also=PLANE)
+retract_feed = partial(feed, "Q208", "retraction feed rate", also=POSITIONING, note="0: as Q206", example=500)
+positioning_feed = partial(feed, "Q253", "feed rate for pre-positioning", also=POSITIONING, at_most=FAR, example=750)
+feed_reference = partial(choice, "Q439", "feed rate reference", EDGE, default=0, example=0)
+
+# --- pockets, slots, studs and faces ---------------------------------------------------------------------------------
+
+operation = partial(choice, "Q215", "machining operation", OPERATION, example=0)
+climb = partial(choice, "Q351", "climb or conventional milling", CLIMB, example=1)
+layer = partial(
+    infeed, note="greater than 0; at most the length of the edges, LCUTS"
+)  # one of roughing, unlike a peck never 0
+finishing_infeed = partial(length, "Q338", "infeed for finishing", incremental=True, note="0: in one infeed", example=5)
+side_allowance = partial(length, "Q368", "finishing allowance for side", incremental=True, example=0.2)
+floor_allowance = partial(length, "Q369", "finishing allowance for floor", incremental=True, example=0.1)
+side = partial(coordinate, incremental=True)  # of a surface: its sign points into it
+corner = partial(coordinate, "Q220", "rounding (+) or bevel (-) of the corners", note="a bevel counts on each side")
+slot_width = partial(length, "Q219", "slot width", note="equal to the tool: only roughing", example=12)
+rotation = partial(angle, meaning="angle of rotation", note="about the tool position", example=15)
+overlap = partial(
+    param, "Q370", meaning="path overlap factor", unit="ratio", at_most=1.9999, modal=True, predef=True, example=1,
+    note="stepover at most Q370 times R",
+)  # fmt: skip
 
 
-def climb(**more: Any) -> Any:
-    """Q351: which way the tool goes round with the spindle at M3."""
-    return choice("Q351", "climb or conventional milling", CLIMB, **more)
+def plunging(choices: dict[float, str]) -> Any:
+    """Q366: how the tool goes down."""
+    return choice("Q366", "plunging strategy", choices, predef=True, example=1)
 
 
-def operation(**more: Any) -> Any:
-    """Q215: what of a cycle is done."""
-    return choice("Q215", "machining operation", OPERATION, **more)
+# --- threads ---------------------------------------------------------------------------------------------------------
 
-
-def finishing_infeed(**more: Any) -> Any:
-    """Q338: how deep the tool goes at once along a wall."""
-    return length("Q338", "infeed for finishing", **{"incremental": True, "note": "0: in one infeed"} | more)
-
-
-def side_allowance(**more: Any) -> Any:
-    """Q368: what roughing leaves at the walls."""
-    return length("Q368", "finishing allowance for side", **{"incremental": True} | more)
-
-
-def floor_allowance(**more: Any) -> Any:
-    """Q369: what roughing leaves on the floor."""
-    return length("Q369", "finishing allowance for floor", **{"incremental": True} | more)
-
-
-def overlap(least: float, **more: Any) -> Any:
-    """Q370: the stepover as a share of the tool radius."""
-    return param(
-        "Q370",
-        "path overlap factor",
-        "ratio",
-        **{"at_least": least, "at_most": 1.9999, "modal": True, "predef": True} | more,
-    )
-
-
-def finishing_feed(also: tuple[str, ...] = ("FAUTO", "FU", "FZ"), **more: Any) -> Any:
-    """Q385: along walls and floor."""
-    return feed("Q385", "finishing feed rate", also, **more)
-
-
-def feed_reference(**more: Any) -> Any:
-    """Q439: what a feed refers to."""
-    return choice("Q439", "feed rate reference", EDGE, **{"default": 0} | more)
-
-
-def reference(**more: Any) -> Any:
-    """Q395: what of the drill reaches the depth."""
-    return choice("Q395", "depth reference", TIP, **{"default": 0, "example": 0} | more)
+pitch = partial(
+    param, "Q239", "thread pitch", "mm/rev", at_least=-99.9999, at_most=99.9999, modal=True,
+    note="+ right-hand, - left-hand", example=1.5,
+)  # fmt: skip
+thread_depth = partial(coordinate, "Q201", "thread depth", incremental=True, note=DOWN)
+nominal_diameter = partial(length, "Q335", "nominal diameter", example=10)
+threads_per_step = partial(
+    param, "Q355", "threads per step", "count", type="integer", at_least=0, at_most=99999, modal=True, example=1,
+    note="0: one turn; 1: a continuous helix; more: single turns, so many pitches apart",
+)  # fmt: skip
+edge_feed = partial(milling_feed, also=("FAUTO",), note="of the cutting edge")
+approach_feed = partial(feed, "Q512", "feed rate for approaching", ("FAUTO",), default=0, note="0: as Q207", example=0)
+countersinking_feed = partial(feed, "Q254", "feed rate for countersinking", ("FAUTO", "FU"), at_most=FAR, example=150)
+front_depth = partial(coordinate, "Q358", "depth at front", incremental=True, note="0: no countersink", example=0)
+front_offset = partial(length, "Q359", meaning="offset at front", incremental=True, example=0)

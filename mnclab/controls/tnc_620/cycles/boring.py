@@ -132,7 +132,7 @@ class BoreMilling(Hole):
 
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
-    feed: float = addresses.plunge_feed(("FAUTO", "FU", "FZ"))
+    feed: float = addresses.plunge_feed(also=("FAUTO", "FU", "FZ"))
     pitch: float = addresses.length("Q334", "infeed per turn of the helix", incremental=True, example=1.5)
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()

@@ -44,7 +44,7 @@ class ContourGeometry(Cycle):
 
     labels: tuple[float, ...] = param(
         "LBL", "label numbers of the contour", "count", type="integer", several=True, at_least=1, at_most=65535, modal=True,
-        note="1/2/3, up to 12",
+        note="1/2/3, up to 12", example=1,
     )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
@@ -65,14 +65,14 @@ class ContourGeometry(Cycle):
 class ContourData(Cycle):
     """Depths, allowances and the sense of milling for the cycles that follow; no motion."""
 
-    depth: float = param("Q1", "milling depth from the surface to the floor", modal=True, incremental=True, **WIDE)
-    overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True)
-    side_allowance: float = param("Q3", "finishing allowance for side", modal=True, incremental=True, **WIDE)
-    floor_allowance: float = param("Q4", "finishing allowance for floor", modal=True, incremental=True, **WIDE)
-    surface: float = param("Q5", "coordinate of the workpiece surface", modal=True, **WIDE)
-    clearance: float = param("Q6", "set-up clearance", at_least=0, at_most=99999.9999, modal=True, incremental=True)
-    height: float = param("Q7", "clearance height", modal=True, **WIDE)
-    corner: float = param("Q8", "radius at inside corners", at_least=0, at_most=99999.9999, modal=True)
+    depth: float = param("Q1", "milling depth from the surface to the floor", modal=True, incremental=True, example=-20, **WIDE)
+    overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True, example=1)
+    side_allowance: float = param("Q3", "finishing allowance for side", modal=True, incremental=True, example=0.2, **WIDE)
+    floor_allowance: float = param("Q4", "finishing allowance for floor", modal=True, incremental=True, example=0.1, **WIDE)
+    surface: float = param("Q5", "coordinate of the workpiece surface", modal=True, example=0, **WIDE)
+    clearance: float = param("Q6", "set-up clearance", at_least=0, at_most=99999.9999, modal=True, incremental=True, example=2)
+    height: float = param("Q7", "clearance height", modal=True, example=50, **WIDE)
+    corner: float = param("Q8", "radius at inside corners", at_least=0, at_most=99999.9999, modal=True, example=0.5)
     sense: float = param(
         "Q9", "direction of machining", "choice", choices={-1: "up-cut milling", 1: "climb milling"}, modal=True
     )
@@ -150,18 +150,18 @@ class RoughOut(Cycle):
 
     does: ClassVar[str] = MILLS
 
-    infeed: float = param("Q10", "infeed per cut", modal=True, incremental=True, **WIDE)
+    infeed: float = param("Q10", "infeed per cut", modal=True, incremental=True, example=5, **WIDE)
     plunge_feed: float = param(
-        "Q11", "feed rate for plunging", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True
+        "Q11", "feed rate for plunging", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True, example=150
     )
     feed: float = param(
-        "Q12", "feed rate for roughing", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True
+        "Q12", "feed rate for roughing", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True, example=500
     )
     coarse_tool: float = param(
         ("Q18", "QS18"), "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
     )
     swing_feed: float = param(
-        "Q19", "feed rate for reciprocation", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True
+        "Q19", "feed rate for reciprocation", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True, example=0
     )
     retract_feed: float | str = param(
         "Q208",

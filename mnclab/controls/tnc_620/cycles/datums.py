@@ -87,7 +87,7 @@ class Presetting(Cycle):
 
     preset_number: float = param(
         "Q339", "number of the preset", "count", at_least=0, at_most=65535, modal=True, type="integer",
-        note="0: the one set by hand",
+        example=0, note="0: the one set by hand",
     )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:

@@ -48,8 +48,8 @@ class General(Defaults):
 
     clearance: float = addresses.clearance()
     second_clearance: float = addresses.second_clearance()
-    positioning_feed: float | str = addresses.feed("Q253", "feed rate for positioning", ("FMAX", "FAUTO"))
-    retraction_feed: float | str = addresses.feed("Q208", "feed rate for retraction", ("FMAX", "FAUTO"))
+    positioning_feed: float | str = addresses.feed("Q253", "feed rate for positioning", ("FMAX", "FAUTO"), example=750)
+    retraction_feed: float | str = addresses.feed("Q208", "feed rate for retraction", ("FMAX", "FAUTO"), example=500)
 
 
 @CYCLES("GLOBAL DEF 105", "Defaults of drilling cycles", runs="definition", source="3.2")
@@ -58,8 +58,8 @@ class Drilling(Defaults):
 
     serves = DRILLING
 
-    break_retract: float = addresses.length("Q256", "retraction for chip breaking", incremental=True)
-    dwell_top: float = addresses.seconds("Q210", "dwell at the set-up clearance")
+    break_retract: float = addresses.length("Q256", "retraction for chip breaking", incremental=True, example=0.2)
+    dwell_top: float = addresses.seconds("Q210", "dwell at the set-up clearance", example=0)
     dwell_bottom: float = addresses.dwell_bottom()
 
 
@@ -69,7 +69,7 @@ class PocketMilling(Defaults):
 
     serves = MILLING
 
-    overlap: float = param("Q370", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True)
+    overlap: float = param("Q370", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True, example=1)
     climb: float = addresses.choice("Q351", "sense of milling", CLIMB)
     plunging_type: float = addresses.choice(
         "Q366", "plunging strategy", {0: "vertical", 1: "helical", 2: "reciprocating"}
@@ -82,9 +82,9 @@ class ContourMilling(Defaults):
 
     serves = CONTOURS
 
-    overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True)
-    clearance: float = addresses.length("Q6", "set-up clearance", incremental=True)
-    height: float = addresses.coordinate("Q7", "clearance height")
+    overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True, example=1)
+    clearance: float = addresses.length("Q6", "set-up clearance", incremental=True, example=2)
+    height: float = addresses.coordinate("Q7", "clearance height", example=50)
     climb: float = addresses.choice("Q9", "sense of milling", CLIMB)
 
 
@@ -94,8 +94,8 @@ class Probing(Defaults):
 
     serves = PROBING
 
-    clearance: float = addresses.length("Q320", "set-up clearance", incremental=True)
-    height: float = addresses.coordinate("Q260", "clearance height")
+    clearance: float = addresses.length("Q320", "set-up clearance", incremental=True, example=2)
+    height: float = addresses.coordinate("Q260", "clearance height", example=20)
     move_to_clearance_height: float = addresses.choice(
         "Q301", "height between measuring points", {0: "at the measuring height", 1: "at the clearance height"}
     )

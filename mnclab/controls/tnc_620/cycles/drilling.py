@@ -107,7 +107,7 @@ class Reaming(Hole):
     depth: float = addresses.depth()
     feed: float = addresses.plunge_feed()
     dwell_bottom: float = addresses.dwell_bottom()
-    retract_feed: float = addresses.retract_feed(())
+    retract_feed: float = addresses.retract_feed(also=())
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
 

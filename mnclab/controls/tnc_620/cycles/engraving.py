@@ -15,8 +15,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.milling.engraving import Glyph, cells, engrave, length, on_arc, on_line
-from mnclab.machining.steps import Go
-from mnclab.running.performing import perform
+from mnclab.machining.steps import Go, Step
 from mnclab.text.strings import TextFormula
 
 CYCLES = CycleTable()
@@ -47,33 +46,21 @@ class Engraving(AtSurface):
         "Q513", "character height", note="0: as the length Q574 asks", example=10
     )
     spacing_factor: float = param(
-        "Q514",
-        "spacing factor",
-        "ratio",
-        at_least=0,
-        at_most=9.9999,
-        modal=True,
-        note="0: as the letters have it",
+        "Q514", "spacing factor", "ratio", at_least=0, at_most=9.9999, modal=True, note="0: as the letters have it",
         example=0,
-    )
+    )  # fmt: skip
     font: float = addresses.choice("Q515", "font", FONTS, default=0, note="its widths; the strokes are our own")
     text_layout: float = addresses.choice("Q516", "text layout", LAYOUTS, example=0)
     angle: float = addresses.angle("Q374", "angle of rotation", note="on an arc that of the reference point", example=0)
     arc_radius: float = addresses.length("Q517", "radius of the arc", example=50)
     feed: float = addresses.milling_feed(example=750)
     depth: float = addresses.depth(example=-0.5)
-    plunge_feed: float = addresses.plunge_feed(example=150)
-    clearance: float = addresses.clearance(predef=True, example=2)
-    surface: float = addresses.surface(example=0)
+    plunge_feed: float = addresses.plunge_feed()
+    clearance: float = addresses.clearance(predef=True)
+    surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
     text_position: float = addresses.choice("Q367", "text position", REFERENCES, default=0, example=1)
-    maximum_text_length: float = param(
-        "Q574", "greatest text length", default=0, at_least=0, at_most=addresses.FAR, modal=True, note="0: no limit"
-    )
-
-    def depths(self) -> dict[str, float]:
-        """One."""
-        return {"depth": self.depth}
+    maximum_text_length: float = addresses.length("Q574", "greatest text length", default=0, note="0: no limit")
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """A radius for an arc, and a height."""
@@ -127,17 +114,17 @@ class Engraving(AtSurface):
         sense = 1 if self.text_layout == 1 and self.angle % 360 > 180 else -1
         return on_arc(row, height, reference, angle, self.arc_radius, sense)
 
-    def moves(self, m: Machine) -> None:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Stroke by stroke; nothing where the depth is 0."""
-        if not self.executed(m):
+        if not self.down:
+            yield self.left_out
             return
         found = self.tokens(m)
         height = self.height(found)
         if m.programmed[2] < self.above and self.down > 0:
-            perform(m, self.code, [Go("to the clearance level", self.above)])
-        way = engrave(
+            yield Go("to the clearance level", self.above)
+        yield from engrave(
             self.glyphs(found, height), height, above=self.above, floor=self.surface + self.depth,
             plunge=self.plunge_feed, feed=self.feed,
         )  # fmt: skip
-        perform(m, self.code, way)
-        perform(m, self.code, self.leave())
+        yield from self.leave()

@@ -7,15 +7,14 @@ from collections.abc import Iterator
 from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import DRIFT
 from mnclab.machining.milling.clearing import Clearing, numbered
 from mnclab.machining.milling.face_lines import lines, rows
 from mnclab.machining.milling.face_steps import Layer, face
-from mnclab.machining.steps import Go
-from mnclab.running.performing import perform
+from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()
 MOST = 20_000  # lines of one cycle, all its levels together
@@ -37,33 +36,24 @@ class FaceMilling(Cycle):
     start_2nd_axis: float = addresses.coordinate("Q226", "starting point, second axis", example=12)
     start_3rd_axis: float = addresses.coordinate("Q227", "coordinate of the surface", example=2.5)
     end_3rd_axis: float = addresses.coordinate("Q386", "coordinate to mill down to", example=-3)
-    first_side_length: float = addresses.coordinate(
-        "Q218", "first side length", incremental=True, note="the sign is the direction of the first line", example=150
+    first_side_length: float = addresses.side(
+        "Q218", "first side length", note="the sign is the direction of the first line", example=150
     )
-    second_side_length: float = addresses.coordinate(
-        "Q219",
-        "second side length",
-        incremental=True,
-        note="the sign is the direction of the first stepover",
-        example=75,
+    second_side_length: float = addresses.side(
+        "Q219", "second side length", note="the sign is the direction of the first stepover", example=75
     )
     maximum_plunging_depth: float = addresses.length("Q202", "greatest infeed", incremental=True, example=2)
     floor_allowance: float = addresses.length(
         "Q369", "finishing allowance for the floor", incremental=True, note="the last infeed", example=0.5
     )
-    maximum_overlap: float = param(
-        "Q370", "greatest path overlap factor", "ratio", at_least=0.1, at_most=1.9999, modal=True, example=1,
-        note="times the tool radius is the stepover",
-    )  # fmt: skip
-    feed: float = addresses.milling_feed(example=500)
-    finishing_feed: float = addresses.feed(
-        "Q385", "finishing feed rate", ("FAUTO", "FU", "FZ"), at_most=addresses.FAR, example=800
+    maximum_overlap: float = addresses.overlap(
+        meaning="greatest path overlap factor", at_least=0.1, predef=False, note="times the tool radius is the stepover"
     )
-    prepositioning_feed: float = addresses.feed(
-        "Q253", "feed rate for pre-positioning", ("FMAX", "FAUTO"), at_most=addresses.FAR, example=2000
-    )
-    clearance: float = addresses.clearance(example=2)
-    side_clearance: float = addresses.length("Q357", "clearance to the side", incremental=True, example=2)
+    feed: float = addresses.milling_feed()
+    finishing_feed: float = addresses.finishing_feed(at_most=addresses.FAR, example=800)
+    prepositioning_feed: float = addresses.positioning_feed(example=2000)
+    clearance: float = addresses.clearance()
+    side_clearance: float = addresses.side_clearance()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
@@ -138,14 +128,17 @@ class FaceMilling(Cycle):
             way = passes.reversed() if k % 2 else passes
             yield Layer("finishing" if finishing else name, level, way, feed, link, self.prepositioning_feed)
 
-    def moves(self, m: Machine) -> None:
+    def about(self, m: Machine) -> tuple[float, float]:
+        """Places are coordinates of the program."""
+        return 0.0, 0.0
+
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 9 of the manual."""
         if self.height == 0:
-            m.warn(f"{self.code} Q386 makes a depth of 0: the cycle is not executed")
+            yield Say("Q386 makes a depth of 0: the cycle is not executed")
             return
-        above = self.start_3rd_axis + self.clearance
         high = self.start_3rd_axis + max(self.second_clearance, self.clearance)
         if m.programmed[2] <= high:
-            perform(m, self.code, [Go("to the second set-up clearance", high)])
-        perform(m, self.code, face(list(self.layers(m)), above, self.clearance), (0.0, 0.0))
-        perform(m, self.code, [Go("retract", high)])
+            yield Go("to the second set-up clearance", high)
+        yield from face(list(self.layers(m)), self.start_3rd_axis + self.clearance, self.clearance)
+        yield Go("retract", high)

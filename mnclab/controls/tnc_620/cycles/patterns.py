@@ -119,7 +119,7 @@ class PolarPattern(PointPattern):
     starting_angle: float = addresses.angle("Q245", "starting angle", example=0)
     stopping_angle: float = addresses.angle("Q246", "stopping angle", example=360, note="where Q247 is 0")
     stepping_angle: float = addresses.angle(
-        "Q247", "stepping angle", incremental=True, note="0: from the other angles and the number"
+        "Q247", "stepping angle", incremental=True, example=0, note="0: from the other angles and the number"
     )
     nr_of_repetitions: float = addresses.number("Q241", "number of operations", example=8)
     clearance: float = addresses.clearance()

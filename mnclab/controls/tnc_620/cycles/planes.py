@@ -6,7 +6,6 @@ depth works upwards from A = S - Q200, where the setting "depth_error" allows it
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterator
 
 from mnclab.machine.cycle import Cycle
@@ -14,16 +13,17 @@ from mnclab.machine.machine import Machine
 from mnclab.machining.steps import RAPID, Go, Say
 
 
-class AtSurface(Cycle, ABC):
+class AtSurface(Cycle):
     """What a cycle at a surface shares; who inherits declares the parameters."""
 
     clearance: float
     surface: float
     second_clearance: float
+    depth: float
 
-    @abstractmethod
     def depths(self) -> dict[str, float]:
         """The depths by name, in the order in which their signs are evaluated; 0 leaves a step out."""
+        return {"depth": self.depth}
 
     @property
     def down(self) -> float:
@@ -32,12 +32,6 @@ class AtSurface(Cycle, ABC):
             if depth:
                 return -1.0 if depth > 0 else 1.0
         return 0.0
-
-    def executed(self, m: Machine) -> bool:
-        """Whether there is a depth; the manual leaves a cycle with a depth of 0 out, which a warning says."""
-        if not self.down:
-            m.warn(f"{self.code} {self.left_out.text}")
-        return bool(self.down)
 
     @property
     def left_out(self) -> Say:

@@ -8,26 +8,25 @@ line alone, whatever Q368, down to Q369, and not finished.
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
-from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import Any, ClassVar
 
 import numpy as np
 
-from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.pockets import InsideMilling
+from mnclab.controls.tnc_620.cycles import addresses, milling
+from mnclab.controls.tnc_620.cycles.milling import Fault, Figure, Place
+from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds, slopes
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import tool
-from mnclab.machining.milling import concentric
-from mnclab.machining.milling.clearing import Clearing
-from mnclab.machining.milling.entries import Descent, swing, vertical
-from mnclab.machining.milling.finishing import half_circles
-from mnclab.machining.milling.pocket_steps import Down, finish_floor, finish_walls, rough_slot
-from mnclab.running.performing import perform
+from mnclab.machine.true_size import MILLS, tool
+from mnclab.machining.milling.concentric import NOTHING
+from mnclab.machining.milling.entries import swing
+from mnclab.machining.milling.figures import Slot, mill_slot, straight
+from mnclab.machining.milling.pocket_steps import Down
+from mnclab.machining.steps import Step
 
 CYCLES = CycleTable()
 
@@ -48,167 +47,77 @@ ON_CIRCLE: dict[float, str] = {
 SAME = 1e-9
 
 
-class Place(NamedTuple):
-    """Where a slot lies: the centre of its first arc, in program coordinates, and its centre line counted from there."""
-
-    start: tuple[float, float]
-    line: Contour
-
-
-@dataclass(frozen=True)
-class Slot(InsideMilling):
-    """What both slots share."""
-
-    slot_width: float = addresses.length("Q219", "slot width", note="equal to the tool: only roughing", example=12)
-    plunging_strategy: float = addresses.choice("Q366", "plunging strategy", PLUNGE, predef=True, example=1)
-
-    # --- what a shape says -------------------------------------------------------------------------------------------
-
-    @abstractmethod
-    def places(self, m: Machine) -> Iterator[Place]:
-        """Each slot that is milled."""
-
-    @property
-    @abstractmethod
-    def line_length(self) -> float:
-        """The length of the centre line."""
-
-    @abstractmethod
-    def last(self, m: Machine) -> tuple[float, float] | None:
-        """Where the tool goes at the end, in the second set-up plane; None: it stays."""
-
-    # --- what follows from it ----------------------------------------------------------------------------------------
-
-    def is_as_wide_as(self, radius: float) -> bool:
-        """Whether the tool just fits."""
-        return abs(self.slot_width / 2 - radius) <= concentric.NOTHING
-
-    def check_figure(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The tool fits, and gets down."""
-        least = 2 * m.radius
-        if self.slot_width < least and not self.is_as_wide_as(m.radius):
-            yield "slot_width", f"must be at least the tool diameter, {least:g}, got {self.slot_width:g}"
-        least += 2 * self.side_allowance
-        if self.slot_width < least - SAME and not self.is_as_wide_as(m.radius):
-            yield "slot_width", f"must be at least the tool diameter and twice Q368, {least:g}, got {self.slot_width:g}"
-        yield from self.check_angle(m)
-        line = next(self.places(m)).line
-        if self.plunging_strategy and self.slopes(m) and self.roughs:
-            if self.line_length <= concentric.NOTHING:
-                yield "plunging_strategy", f"{self.plunging_strategy:g} has no room for a ramp: the slot is round"
-            step = self.levels(tool(m))[0] - self.surface
-            yield from too_many("plunging_strategy", lambda: self.way_in(m, line)(0.0, step))
-        yield from too_many("slot_width", lambda: self.clearing(line, m.radius, 0.0))
-        passes = self.slots * len(self.clearing(line, m.radius, self.side_allowance).passes)
-        yield from few_passes("infeed", len(self.levels(tool(m))), passes)
-
-    @property
-    def slots(self) -> int:
-        """How many there are."""
-        return 1
-
-    def clearing(self, line: Contour, radius: float, allowance: float) -> Clearing:
-        """Along the line and round it; on circles where the slot has no length."""
-        width = self.slot_width
-        if self.is_as_wide_as(radius):
-            width, allowance = 2 * radius, 0.0
-        if line.length <= concentric.NOTHING:
-            return concentric.circle(width, radius, radius, allowance=allowance, climb=self.climb, angle=math.pi)
-        return concentric.slot(line, width, radius, allowance=allowance, climb=self.climb)
-
-    def way_in(self, m: Machine, line: Contour) -> Down:
-        """To and fro along the line, or straight down at its beginning."""
-        if self.slopes(m):
-            return lambda top, bottom: swing(line, top, bottom, tool(m).plunge_angle)
-        return straight
-
-    def moves(self, m: Machine) -> None:
-        """Each slot from the second set-up plane: roughing, side, floor."""
-        if not self.executed(m) or self.finishes_nothing(m):
-            return
-        fits = self.is_as_wide_as(m.radius)
-        if fits and not self.roughs:
-            m.warn(f"{self.code} Q215=2 finishes nothing: the slot is as wide as the tool")
-            return
-        last = self.last(m)
-        for place in self.places(m):
-            self.to_start(m, place.start)
-            if self.roughs:
-                self.rough(m, place)
-            if not fits:
-                self.finish(m, place)
-            self.to_end(m)
-        if last is not None:
-            self.to_end(m, last)
-
-    def rough(self, m: Machine, place: Place) -> None:
-        """Layer by layer, out of the slot after each."""
-        feeds, side = self.roughing_feeds(m.radius), 1 if self.climb else -1
-        layers = rough_slot(
-            place.line, lambda line: self.clearing(line, m.radius, self.side_allowance), self.levels(tool(m)),
-            surface=self.surface, above=self.above, clearance=self.lift, down=self.way_in(m, place.line), feeds=feeds,
-            side=side,
-        )  # fmt: skip
-        perform(m, self.code, layers, place.start)
-
-    def finish(self, m: Machine, place: Place) -> None:
-        """The side from the centre of the first arc on half circles, then the floor."""
-        radius, side, levels = m.radius, 1 if self.climb else -1, self.wall_levels()
-        if self.finishes_side:
-            wall = self.clearing(place.line.reversed(), radius, 0.0).passes[-1]  # begun beyond the first arc
-            around = finish_walls(
-                wall, levels, above=levels[0] + self.lift, clearance=self.lift, feeds=self.side_feeds(radius),
-                arcs=half_circles(wall, self.slot_width / 2 - radius, side), side=side,
-            )  # fmt: skip
-            perform(m, self.code, around, place.start)
-        if self.finishes_floor:
-            bottom = finish_floor(
-                self.clearing(place.line, radius, 0.0), self.floor, top=self.left_over, clearance=self.lift,
-                down=straight, feeds=self.floor_feeds(radius), departure=0.0, side=side,
-                end=self.above,
-            )  # fmt: skip
-            perform(m, self.code, bottom, place.start)
-
-
 @CYCLES("CYCL DEF 253", "Slot milling", runs="call", source="6.4")
-class StraightSlot(Slot):
+class StraightSlot(AtSurface):
     """Mills a straight slot: roughing in layers, to and fro on a ramp, then its side, then its floor."""
 
-    slot_length: float = addresses.length("Q218", "slot length", note="over all", example=80)
-    rotation_angle: float = addresses.angle("Q374", "angle of rotation", note="about the tool position", example=15)
-    slot_position: float = addresses.choice("Q367", "slot position", LENGTHWISE, example=0)
+    does: ClassVar[str] = MILLS
+    about = milling.in_program_coordinates
 
-    def check_figure(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As all slots; longer than wide."""
+    machining_operation: float = addresses.operation()
+    slot_length: float = addresses.length("Q218", "slot length", note="over all", example=80)
+    slot_width: float = addresses.slot_width()
+    side_allowance: float = addresses.side_allowance()
+    rotation_angle: float = addresses.rotation("Q374")
+    slot_position: float = addresses.choice("Q367", "slot position", LENGTHWISE, example=0)
+    milling_feed: float = addresses.milling_feed()
+    milling_type: float = addresses.climb(predef=True)
+    depth: float = addresses.depth()
+    infeed: float = addresses.layer()
+    floor_allowance: float = addresses.floor_allowance()
+    plunging_feed: float = addresses.plunge_feed(also=addresses.PLANE)
+    finishing_infeed: float = addresses.finishing_infeed()
+    clearance: float = addresses.clearance(predef=True)
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(predef=True, example=50)
+    plunging_strategy: float = addresses.plunging(PLUNGE)
+    finishing_feed: float = addresses.finishing_feed(example=500)
+    feed_reference: float = addresses.feed_reference()
+
+    def contradictions(self) -> Iterator[Fault]:
+        return milling.contradictions(self)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        """Longer than wide."""
+        if self.depth == 0:
+            return
+        yield from milling.check(self, m, self.finishing_feed)
         if self.slot_length < self.slot_width - SAME:
             yield "slot_length", f"must be at least the width Q219, {self.slot_width:g}, got {self.slot_length:g}"
-        yield from super().check_figure(m)
+        yield from check_slot(self, m, self.line(), self.line_length)
 
     @property
     def line_length(self) -> float:
         """From arc centre to arc centre."""
         return max(self.slot_length - self.slot_width, 0.0)
 
-    def places(self, m: Machine) -> Iterator[Place]:
-        """From the left arc to the right one, turned about the tool."""
+    @property
+    def ahead(self) -> np.ndarray:
+        """From the left to the right."""
+        return np.array([math.cos(math.radians(self.rotation_angle)), math.sin(math.radians(self.rotation_angle))])
+
+    def line(self) -> Contour:
+        """From the left arc to the right one."""
+        return Contour(np.outer([0.0, self.line_length], self.ahead), closed=False)
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """Turned about the tool, which goes back to the centre if it was there; else it stays above the left arc."""
         half, reach = self.slot_length / 2, self.line_length / 2
         to_centre = (0.0, half, reach, -reach, -half)[int(self.slot_position)]
-        angle = math.radians(self.rotation_angle)
-        ahead = np.array([math.cos(angle), math.sin(angle)])
-        x, y = (np.array(m.programmed[:2]) + (to_centre - reach) * ahead).tolist()
-        yield Place((x, y), Contour(np.outer([0.0, self.line_length], ahead), closed=False))
-
-    def last(self, m: Machine) -> tuple[float, float] | None:
-        """Back to the centre if the tool was there; else it stays above the left arc."""
-        return None if self.slot_position else m.programmed[:2]
+        x, y = (np.array(m.programmed[:2]) + (to_centre - reach) * self.ahead).tolist()
+        return mill(self, m, [((x, y), self.line())], None if self.slot_position else m.programmed[:2])
 
 
 @CYCLES("CYCL DEF 254", "Circular slot", runs="call", source="6.5")
-class CircularSlot(Slot):
+class CircularSlot(AtSurface):
     """Mills slots on a pitch circle: each roughed in layers, to and fro on a ramp, then its side, then its floor."""
 
-    clearance: float = addresses.clearance(example=2)
-    second_clearance: float = addresses.second_clearance(example=50)
+    does: ClassVar[str] = MILLS
+    about = milling.in_program_coordinates
+
+    machining_operation: float = addresses.operation()
+    slot_width: float = addresses.slot_width()
+    side_allowance: float = addresses.side_allowance()
     pitch_circle_diameter: float = addresses.length("Q375", "pitch circle diameter", example=80)
     slot_position: float = addresses.choice("Q367", "reference of the slot position", ON_CIRCLE, example=0)
     centre_x: float = addresses.coordinate("Q216", "centre in the first axis", note="only with Q367 = 0", example=50)
@@ -219,51 +128,91 @@ class CircularSlot(Slot):
     )
     stepping_angle: float = addresses.angle("Q378", "stepping angle", incremental=True, example=180)
     repetitions: float = addresses.count("Q377", "number of slots", 99999, at_least=1, example=2)
+    milling_feed: float = addresses.milling_feed()
+    milling_type: float = addresses.climb(predef=True)
+    depth: float = addresses.depth()
+    infeed: float = addresses.layer()
+    floor_allowance: float = addresses.floor_allowance()
+    plunging_feed: float = addresses.plunge_feed(also=addresses.PLANE)
+    finishing_infeed: float = addresses.finishing_infeed()
+    clearance: float = addresses.clearance()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(example=50)
+    plunging_strategy: float = addresses.plunging(PLUNGE)
+    finishing_feed: float = addresses.finishing_feed(example=500)
+    feed_reference: float = addresses.feed_reference()
 
-    def check_figure(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As all slots; the centre of the pitch circle lies outside of them."""
-        if self.pitch_circle_diameter <= self.slot_width + concentric.NOTHING:
+    def contradictions(self) -> Iterator[Fault]:
+        return milling.contradictions(self)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        """The centre of the pitch circle lies outside of the slots."""
+        if self.depth == 0:
+            return
+        yield from milling.check(self, m, self.finishing_feed)
+        if self.pitch_circle_diameter <= self.slot_width + NOTHING:
             found = f"{self.slot_width:g}, got {self.pitch_circle_diameter:g}"
             yield "pitch_circle_diameter", f"must be greater than the slot width Q219, {found}"
-        yield from super().check_figure(m)
+        _, line = next(self.places(m))
+        length = self.pitch_circle_diameter / 2 * math.radians(self.angular_length)
+        yield from check_slot(self, m, line, length, int(self.repetitions))
 
-    @property
-    def slots(self) -> int:
-        """Q377."""
-        return int(self.repetitions)
-
-    @property
-    def line_length(self) -> float:
-        """Along the pitch circle."""
-        return self.pitch_circle_diameter / 2 * math.radians(self.angular_length)
-
-    @property
-    def first_angle(self) -> float:
-        """Where the centre line of the first slot begins, rad: Q376 is where the tool stands on it."""
-        before = (0.0, 0.0, self.angular_length / 2, self.angular_length)[int(self.slot_position)]
-        return math.radians(self.starting_angle - before)
-
-    def centre(self, m: Machine) -> tuple[float, float]:
+    def centre(self, m: Machine) -> Place:
         """Of the pitch circle: as it is written, or from the tool, which stands on the circle."""
         if not self.slot_position:
             return self.centre_x, self.centre_y
         radius, angle = self.pitch_circle_diameter / 2, math.radians(self.starting_angle)
         return m.programmed[0] - radius * math.cos(angle), m.programmed[1] - radius * math.sin(angle)
 
-    def places(self, m: Machine) -> Iterator[Place]:
-        """Slot after slot, each turned on by the stepping angle."""
+    def places(self, m: Machine) -> Iterator[tuple[Place, Contour]]:
+        """Slot after slot, each turned on by the stepping angle; Q376 is where the tool stands on the first one."""
         x, y = self.centre(m)
-        for k in range(self.slots):
-            begin = self.first_angle + k * math.radians(self.stepping_angle)
+        before = (0.0, 0.0, self.angular_length / 2, self.angular_length)[int(self.slot_position)]
+        for k in range(int(self.repetitions)):
+            begin = math.radians(self.starting_angle - before) + k * math.radians(self.stepping_angle)
             arc = shapes.arc(self.pitch_circle_diameter / 2, begin, math.radians(self.angular_length))
             dx, dy = arc.points[0].tolist()
-            yield Place((x + dx, y + dy), Contour(arc.points - (dx, dy), arc.bulge, closed=False))
+            yield (x + dx, y + dy), Contour(arc.points - (dx, dy), arc.bulge, closed=False)
 
-    def last(self, m: Machine) -> tuple[float, float] | None:
-        """To the centre of the pitch circle if the tool has no place of its own; else it stays above the last slot."""
-        return None if self.slot_position else self.centre(m)
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """To the centre of the circle at the end if the tool has no place of its own; else it stays above the last slot."""
+        return mill(self, m, self.places(m), None if self.slot_position else self.centre(m))
 
 
-def straight(top: float, bottom: float) -> Descent:
-    """Straight down at the beginning of the centre line."""
-    return vertical((0.0, 0.0), top, bottom)
+# --- what both share ------------------------------------------------------------------------------------------------
+
+
+def slot(c: Any, m: Machine, line: Contour) -> Slot:
+    """The shape of one slot."""
+    return Slot(line, c.slot_width, m.radius, c.milling_type >= 0)
+
+
+def check_slot(c: Any, m: Machine, line: Contour, length: float, count: int = 1) -> Iterator[Fault]:
+    """The tool fits, and gets down; no more passes than somebody would wait for."""
+    shape = slot(c, m, line)
+    for least, what in ((2 * m.radius, ""), (2 * m.radius + 2 * c.side_allowance, " and twice Q368")):
+        if c.slot_width < least - SAME and not shape.is_full:
+            yield "slot_width", f"must be at least the tool diameter{what}, {least:g}, got {c.slot_width:g}"
+    yield from check_angle(c, m)
+    levels = milling.levels(c, m)
+    if c.plunging_strategy and slopes(c, m) and c.machining_operation != 2:
+        if length <= NOTHING:
+            yield "plunging_strategy", f"{c.plunging_strategy:g} has no room for a ramp: the slot is round"
+        yield from too_many("plunging_strategy", lambda: way_in(c, m, line)(0.0, levels[0] - c.surface))
+    yield from too_many("slot_width", lambda: shape.clearing(0.0))
+    yield from few_passes("infeed", len(levels), count * len(shape.clearing(c.side_allowance).passes))
+
+
+def way_in(c: Any, m: Machine, line: Contour) -> Down:
+    """To and fro along the line, or straight down at its beginning."""
+    angle = tool(m).plunge_angle
+    return (lambda top, bottom: swing(line, top, bottom, angle)) if slopes(c, m) else straight
+
+
+def mill(c: Any, m: Machine, places: Iterable[tuple[Place, Contour]], last: Place | None) -> Iterator[Step]:
+    """Each slot from the second set-up plane: roughing, side, floor."""
+    work, why = milling.work(c, m, feeds(c, m)), "neither Q368 nor Q369 is given"
+    if not work.is_nothing and abs(c.slot_width / 2 - m.radius) <= NOTHING:
+        work, why = work._replace(walls=(), floor=()), "the slot is as wide as the tool"
+    slots = (Figure(start, start, mill_slot(slot(c, m, line), work, way_in(c, m, line))) for start, line in places)
+    return milling.mill(c, m, work, slots, () if last is None else [*c.leave(), milling.back(last)], why)

@@ -26,7 +26,7 @@ LOADS: dict[float, str] = {0: "forget the values found before", 1: "weigh: the a
 class DwellTime(Cycle):
     """The program waits; the spindle turns on."""
 
-    dwell_time: float = param("DWELL", "dwell", "s", at_least=0, at_most=addresses.LONG)
+    dwell_time: float = param("DWELL", "dwell", "s", at_least=0, at_most=addresses.LONG, example=2)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """One wait."""
@@ -37,7 +37,7 @@ class DwellTime(Cycle):
 class SpindleOrientation(Cycle):
     """Stores the angle at which M19 or M20 stops the spindle; cycles 202, 204 and 209 overwrite it."""
 
-    orientation_angle: float = param("ANGLE", "angle of the spindle", "deg", at_least=0, at_most=360, modal=True)
+    orientation_angle: float = param("ANGLE", "angle of the spindle", "deg", at_least=0, at_most=360, modal=True, example=90)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """No motion."""
@@ -108,8 +108,9 @@ class ThreadCutting(Cycle):
         at_most=99999,
         incremental=True,
         modal=True,
+        example=-20,
     )
-    thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, note="positive: a right-hand thread")
+    thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, example=1.5, note="positive: a right-hand thread")
 
     own_spindle: ClassVar[bool] = True
     does: ClassVar[str] = TAPS

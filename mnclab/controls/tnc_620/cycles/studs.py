@@ -8,25 +8,25 @@ finishing feed of 0 is the milling feed: Q385 came later than the cycles.
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from functools import partial
+from typing import Any, ClassVar
 
 import numpy as np
 
-from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.holes import rate
-from mnclab.controls.tnc_620.cycles.milling import ANY_FEED, FigureMilling
+from mnclab.controls.tnc_620.cycles.milling import Fault, Figure, Place
+from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machine.true_size import tool
+from mnclab.machine.true_size import MILLS
 from mnclab.machining.milling import studs
 from mnclab.machining.milling.clearing import Clearing
 from mnclab.machining.milling.pocket_steps import Feeds
-from mnclab.machining.milling.stud_steps import Lifting, mill_stud
-from mnclab.machining.steps import Go
-from mnclab.running.performing import perform
+from mnclab.machining.milling.stud_steps import Stud, mill_stud
+from mnclab.machining.steps import Step
 
 CYCLES = CycleTable()
 
@@ -39,243 +39,196 @@ APPROACH: dict[float, str] = {
     4: "at the upper left corner",
 }
 CIRCLES: dict[float, str] = {0: "the size is that of the inscribed circle", 1: "of the circumscribed circle"}
-ROUND = "rounding (+) or bevel (-) of the corners"
-
-
-@dataclass(frozen=True)
-class Stud(FigureMilling):
-    """What all studs share."""
-
-    machining_operation: float = addresses.operation(default=1, example=0)
-    floor_allowance: float = addresses.floor_allowance(default=0, example=0.1)
-    plunging_feed: float = addresses.plunge_feed(("FMAX", *ANY_FEED), example=150)
-    finishing_infeed: float = addresses.finishing_infeed(default=0, example=5)
-    finishing_feed: float = addresses.finishing_feed(default=0, example=800)
-    overlap: float = addresses.overlap(0.0001, note="stepover at most Q370 times R", example=1)
-
-    # --- what a shape says -------------------------------------------------------------------------------------------
-
-    def centre(self, m: Machine) -> tuple[float, float]:
-        """C, in program coordinates; the tool position."""
-        return m.programmed[:2]
-
-    @abstractmethod
-    def start(self, radius: float, aside: float) -> tuple[float, float]:
-        """S, counted from C; `aside` is `ASIDE` in lengths of the program."""
-
-    @abstractmethod
-    def clearing(self, radius: float, allowance: float, blank: bool = True) -> Clearing:
-        """The passes from the blank to the stud and an allowance, about (0, 0); without a blank the last one alone."""
-
-    def off(self, aside: float) -> float | None:
-        """How far the tool leaves the stud to the side after a pass; None: as far as S."""
-        return aside
-
-    def lifting(self) -> Lifting | None:
-        """How the tool goes back to S: on the level, or at a height."""
-        return None
-
-    # --- what follows from it ----------------------------------------------------------------------------------------
-
-    @property
-    def finish_feed(self) -> float:
-        """As in roughing where none is given."""
-        return self.finishing_feed or self.milling_feed
-
-    def roughing_feeds(self, radius: float) -> Feeds:
-        """In the plane and down; FMAX is rapid."""
-        return Feeds(self.milling_feed, rate(self.plunging_feed))
-
-    def side_feeds(self, radius: float) -> Feeds:
-        """Along the stud."""
-        return Feeds(self.finish_feed, rate(self.plunging_feed))
-
-    floor_feeds = side_feeds
-
-    def check_figure(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Sizes, and a number of passes that somebody would wait for."""
-        sizes = list(self.check_sizes())
-        yield from sizes
-        if sizes:
-            return
-        yield from too_many("overlap", lambda: self.clearing(m.radius, self.side_allowance))
-        passes = self.clearing(m.radius, self.side_allowance).passes
-        yield from few_passes("infeed", len(self.levels(tool(m))), sum(len(contour.starts) for contour in passes) // 4)
-
-    @abstractmethod
-    def check_sizes(self) -> Iterator[tuple[str, str]]:
-        """Whether the blank holds the stud, and the stud its corners."""
-
-    def parts(self, m: Machine) -> Iterator[tuple[str, tuple[float, ...], Clearing, Feeds]]:
-        """What is done: its name, levels, passes and feeds."""
-        radius, outermost = m.radius, min(self.side_allowance, 0.0)
-        if self.roughs:
-            yield "layer", self.levels(tool(m)), self.clearing(radius, self.side_allowance), self.roughing_feeds(radius)
-        if self.finishes_side:
-            yield "side finishing", self.wall_levels(), self.clearing(radius, 0.0, blank=False), self.side_feeds(radius)
-        if self.finishes_floor:
-            yield "floor finishing", (self.floor,), self.clearing(radius, outermost), self.floor_feeds(radius)
-
-    def moves(self, m: Machine) -> None:
-        """To S, and from there roughing in layers, the side in infeeds, the floor."""
-        if not self.executed(m) or self.finishes_nothing(m):
-            return
-        aside, side = ASIDE / m.scale, 1 if self.climb else -1
-        centre, start, off = self.centre(m), self.start(m.radius, aside), self.off(aside)
-        self.to_start(m, (centre[0] + start[0], centre[1] + start[1]))
-        for name, levels, passes, feeds in self.parts(m):
-            perform(m, self.code, [Go(f"{name}, to the clearance level", self.above)])
-            steps = mill_stud(name, passes, levels, start, feeds, side=side, off=off, lifting=self.lifting())
-            perform(m, self.code, steps, centre)
-        self.to_end(m, self.last(centre))
-
-    def last(self, centre: tuple[float, float]) -> tuple[float, float] | None:
-        """Where the tool goes at the end; None: it stays above S."""
-        return None
+PLUNGE = ("FMAX", *addresses.PLANE)
 
 
 @CYCLES("CYCL DEF 256", "Rectangular stud", runs="call", source="6.6")
-class RectangularStud(Stud):
+class RectangularStud(AtSurface):
     """Mills a rectangular stud free: roughing in layers from the blank inwards, then its side, then the floor about it."""
+
+    does: ClassVar[str] = MILLS
+    about = milling.in_program_coordinates
 
     first_side_length: float = addresses.length("Q218", "first side length", example=60)
     blank_side_1: float = addresses.length("Q424", "first side of the blank", note="at least Q218", example=74)
     second_side_length: float = addresses.length("Q219", "second side length", example=40)
     blank_side_2: float = addresses.length("Q425", "second side of the blank", note="at least Q219", example=60)
-    corner_radius_or_chamfer: float = addresses.coordinate("Q220", ROUND, note="a bevel counts on each side", example=5)
-    rotation_angle: float = addresses.angle("Q224", "angle of rotation", note="about the tool position", example=15)
+    corner_radius_or_chamfer: float = addresses.corner(example=5)
+    side_allowance: float = addresses.side_allowance()
+    rotation_angle: float = addresses.rotation("Q224")
     stud_position: float = addresses.choice("Q367", "stud position", CORNER, example=0)
-    overlap: float = addresses.overlap(0.1, note="stepover at most Q370 times R", example=1)
+    milling_feed: float = addresses.milling_feed()
+    milling_type: float = addresses.climb(predef=True)
+    depth: float = addresses.depth()
+    infeed: float = addresses.layer()
+    plunging_feed: float = addresses.plunge_feed(also=PLUNGE)
+    clearance: float = addresses.clearance(predef=True)
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(predef=True, example=50)
+    overlap: float = addresses.overlap(at_least=0.1)
     approach_position: float = addresses.choice("Q437", "approach position", APPROACH, default=0, example=0)
+    machining_operation: float = addresses.operation(default=1)
+    floor_allowance: float = addresses.floor_allowance(default=0)
+    finishing_infeed: float = addresses.finishing_infeed(default=0)
+    finishing_feed: float = addresses.finishing_feed(default=0, example=800)
 
-    def check_sizes(self) -> Iterator[tuple[str, str]]:
+    def contradictions(self) -> Iterator[Fault]:
+        return milling.contradictions(self)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
         """Both sides of the blank, and the corners."""
-        sides = (self.first_side_length, self.blank_side_1), (self.second_side_length, self.blank_side_2)
-        for name, address, (side, blank) in zip(("blank_side_1", "blank_side_2"), ("Q218", "Q219"), sides, strict=True):
+        if self.depth == 0:
+            return
+        yield from milling.check(self, m, finishing_feed(self))
+        for name, address, (side, blank) in zip(
+            ("blank_side_1", "blank_side_2"), ("Q218", "Q219"), self.sides, strict=True
+        ):
             if blank < side:
                 yield name, f"must be at least the side of the stud {address}, {side:g}, got {blank:g}"
         half = min(self.first_side_length, self.second_side_length) / 2
         if abs(self.corner_radius_or_chamfer) > half:
             found = f"{half:g}, got {self.corner_radius_or_chamfer:g}"
             yield "corner_radius_or_chamfer", f"must be at most half the shorter side, {found}"
+        yield from check_passes(self, m)
 
     @property
-    def angle(self) -> float:
-        """Q224 in rad."""
-        return math.radians(self.rotation_angle)
+    def sides(self) -> tuple[Place, Place]:
+        """Of the stud and of the blank, the first and the second one."""
+        return (self.first_side_length, self.blank_side_1), (self.second_side_length, self.blank_side_2)
 
-    def turned(self, u: float, v: float) -> tuple[float, float]:
-        """A place by the angle of rotation."""
-        c, s = math.cos(self.angle), math.sin(self.angle)
-        return c * u - s * v, s * u + c * v
-
-    def centre(self, m: Machine) -> tuple[float, float]:
-        """From the tool by half the sides, turned about the tool."""
-        u, v = np.array(SIGNS[int(self.stud_position)]) * (self.first_side_length, self.second_side_length) / 2
-        x, y = self.turned(float(u), float(v))
-        return m.programmed[0] + x, m.programmed[1] + y
-
-    def start(self, radius: float, aside: float) -> tuple[float, float]:
-        """On the right of the blank, or beside two of its sides."""
-        sides = (self.first_side_length, self.blank_side_1), (self.second_side_length, self.blank_side_2)
-        u, v = (max(blank / 2 + aside, side / 2 + self.side_allowance) + radius for side, blank in sides)
-        if not self.approach_position:
-            return self.turned(u, 0.0)
-        x, y = SIGNS[int(self.approach_position)]
-        return self.turned(-x * u, -y * v)
-
-    def clearing(self, radius: float, allowance: float, blank: bool = True) -> Clearing:
+    def clearing(self, radius: float, allowance: float, blank: bool) -> Clearing:
         """Rings begun on the right, or a spiral from a corner."""
-        sides = (self.first_side_length, self.blank_side_1), (self.second_side_length, self.blank_side_2)
-        u, v = (max(whole if blank else 0.0, side + 2 * allowance) for side, whole in sides)
+        u, v = (max(whole if blank else 0.0, side + 2 * allowance) for side, whole in self.sides)
         return studs.rectangle(
             self.first_side_length, self.second_side_length, (u, v), radius, self.overlap * radius,
-            corner=self.corner_radius_or_chamfer, allowance=allowance, climb=self.climb, angle=self.angle,
+            corner=self.corner_radius_or_chamfer, allowance=allowance, climb=self.milling_type >= 0,
+            angle=math.radians(self.rotation_angle),
             begin=int(self.approach_position) - 1 if self.approach_position else None,
         )  # fmt: skip
 
-    def off(self, aside: float) -> float | None:
-        """On the right as far as the start."""
-        return aside if self.approach_position else None
+    def stud(self, m: Machine) -> Stud:
+        """S on the right of the blank, or beside two of its sides; on the right the tool leaves the stud as far as S."""
+        aside = ASIDE / m.scale
+        u, v = (max(blank / 2 + aside, side / 2 + self.side_allowance) + m.radius for side, blank in self.sides)
+        if not self.approach_position:
+            return Stud(partial(self.clearing, m.radius), self.turned(u, 0.0))
+        x, y = SIGNS[int(self.approach_position)]
+        return Stud(partial(self.clearing, m.radius), self.turned(-x * u, -y * v), aside)
+
+    def turned(self, u: float, v: float) -> Place:
+        """A place by the angle of rotation."""
+        c, s = math.cos(math.radians(self.rotation_angle)), math.sin(math.radians(self.rotation_angle))
+        return c * u - s * v, s * u + c * v
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """C lies half the sides away from the tool, turned about the tool."""
+        u, v = SIGNS[int(self.stud_position)]
+        x, y = self.turned(u * self.first_side_length / 2, v * self.second_side_length / 2)
+        return mill(self, m, (m.programmed[0] + x, m.programmed[1] + y))
 
 
 @CYCLES("CYCL DEF 257", "Circular stud", runs="call", source="6.7")
-class CircularStud(Stud):
+class CircularStud(AtSurface):
     """Mills a circular stud about the tool position free: on a spiral from the blank inwards, then its side and the floor."""
+
+    does: ClassVar[str] = MILLS
+    about = milling.in_program_coordinates
 
     finished_diameter: float = addresses.length("Q223", "diameter of the finished stud", example=50)
     blank_diameter: float = addresses.length("Q222", "diameter of the blank", note="at least Q223", example=80)
+    side_allowance: float = addresses.side_allowance()
+    milling_feed: float = addresses.milling_feed()
+    milling_type: float = addresses.climb(predef=True)
+    depth: float = addresses.depth()
+    infeed: float = addresses.layer()
+    plunging_feed: float = addresses.plunge_feed(also=PLUNGE)
+    clearance: float = addresses.clearance(predef=True)
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(predef=True, example=50)
+    overlap: float = addresses.overlap(at_least=0.0001)
     starting_angle: float = addresses.angle(
         "Q376", "starting angle", at_least=-1, default=-1, note="from the centre of the stud; -1: as the control likes, 0",
         example=0,
     )  # fmt: skip
+    machining_operation: float = addresses.operation(default=1)
+    floor_allowance: float = addresses.floor_allowance(default=0)
+    finishing_infeed: float = addresses.finishing_infeed(default=0)
+    finishing_feed: float = addresses.finishing_feed(default=0, example=800)
 
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        """An angle, or -1."""
-        yield from super().contradictions()
+    def contradictions(self) -> Iterator[Fault]:
+        yield from milling.contradictions(self)
         if -1 < self.starting_angle < 0:
             yield "starting_angle", f"must be -1 or at least 0, got {self.starting_angle:g}"
 
-    def check_sizes(self) -> Iterator[tuple[str, str]]:
-        """The blank."""
+    def check(self, m: Machine) -> Iterator[Fault]:
+        if self.depth == 0:
+            return
+        yield from milling.check(self, m, finishing_feed(self))
         if self.blank_diameter < self.finished_diameter:
             found = f"{self.finished_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be at least the diameter of the stud Q223, {found}"
+        yield from check_passes(self, m)
 
     @property
     def angle(self) -> float:
         """Q376 in rad; where the control may choose, it chooses 0."""
         return math.radians(max(self.starting_angle, 0.0))
 
-    def start(self, radius: float, aside: float) -> tuple[float, float]:
-        """On the ray of the starting angle."""
-        away = max(self.blank_diameter / 2 + aside, self.finished_diameter / 2 + self.side_allowance) + radius
-        return away * math.cos(self.angle), away * math.sin(self.angle)
-
-    def clearing(self, radius: float, allowance: float, blank: bool = True) -> Clearing:
+    def clearing(self, radius: float, allowance: float, blank: bool) -> Clearing:
         """A spiral and a circle."""
         stock = max(self.blank_diameter if blank else 0.0, self.finished_diameter + 2 * allowance)
-        step = self.overlap * radius
         return studs.circle(
-            self.finished_diameter, stock, radius, step, allowance=allowance, climb=self.climb, angle=self.angle
-        )
+            self.finished_diameter, stock, radius, self.overlap * radius, allowance=allowance,
+            climb=self.milling_type >= 0, angle=self.angle,
+        )  # fmt: skip
 
-    def last(self, centre: tuple[float, float]) -> tuple[float, float] | None:
-        """Back over the stud."""
-        return centre
+    def stud(self, m: Machine) -> Stud:
+        """S on the ray of the starting angle."""
+        aside = ASIDE / m.scale
+        away = max(self.blank_diameter / 2 + aside, self.finished_diameter / 2 + self.side_allowance) + m.radius
+        return Stud(partial(self.clearing, m.radius), on_ray(away, self.angle), aside)
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """Back over the stud at the end."""
+        return mill(self, m, m.programmed[:2], [milling.back(m.programmed[:2])])
 
 
 @CYCLES("CYCL DEF 258", "Polygon stud", runs="call", source="6.8")
-class PolygonStud(Stud):
+class PolygonStud(AtSurface):
     """Mills a regular polygon about the tool position free: on a spiral from the round blank inwards, then side and floor."""
+
+    does: ClassVar[str] = MILLS
+    about = milling.in_program_coordinates
 
     reference_circle: float = addresses.choice("Q573", "reference circle", CIRCLES, example=0)
     reference_diameter: float = addresses.length("Q571", "diameter of the reference circle", example=50)
     blank_diameter: float = addresses.length("Q222", "diameter of the blank", note="greater than Q571", example=80)
     corners: float = addresses.number("Q572", "number of corners", at_least=3, at_most=30, example=6)
     rotation_angle: float = addresses.angle("Q224", "angle of the first corner", example=15)
-    corner_radius_or_chamfer: float = addresses.coordinate("Q220", ROUND, note="a bevel counts on each side", example=2)
-    side_allowance: float = addresses.coordinate(
-        "Q368", "finishing allowance for side", incremental=True, note="negative: so much smaller", example=0.2
-    )
-    machining_operation: float = addresses.operation(example=0)
-    floor_allowance: float = addresses.floor_allowance(example=0.1)
-    finishing_infeed: float = addresses.finishing_infeed(example=5)
+    corner_radius_or_chamfer: float = addresses.corner(example=2)
+    side_allowance: float = addresses.side_allowance(at_least=-addresses.FAR, note="negative: so much smaller")
+    milling_feed: float = addresses.milling_feed()
+    milling_type: float = addresses.climb(predef=True)
+    depth: float = addresses.depth()
+    infeed: float = addresses.layer()
+    plunging_feed: float = addresses.plunge_feed(also=PLUNGE)
+    clearance: float = addresses.clearance(predef=True)
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(predef=True, example=50)
+    overlap: float = addresses.overlap(at_least=0.0001)
+    machining_operation: float = addresses.operation()
+    floor_allowance: float = addresses.floor_allowance()
+    finishing_infeed: float = addresses.finishing_infeed()
     finishing_feed: float = addresses.finishing_feed(example=800)
 
-    @property
-    def inscribed(self) -> float:
-        """The radius of the inscribed circle."""
-        half = math.cos(math.pi / self.corners) if self.reference_circle else 1.0
-        return self.reference_diameter / 2 * half
+    def contradictions(self) -> Iterator[Fault]:
+        return milling.contradictions(self)
 
-    @property
-    def angle(self) -> float:
-        """Q224 in rad."""
-        return math.radians(self.rotation_angle)
-
-    def check_sizes(self) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         """The blank, the corners, and that something stays."""
+        if self.depth == 0:
+            return
+        yield from milling.check(self, m, finishing_feed(self))
         if self.blank_diameter <= self.reference_diameter:
             found = f"{self.reference_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be greater than the reference circle Q571, {found}"
@@ -288,21 +241,62 @@ class PolygonStud(Stud):
         if self.inscribed + self.side_allowance <= 0:
             found = f"{self.inscribed:g} of the inscribed circle, got {self.side_allowance:g}"
             yield "side_allowance", f"must leave something of the radius {found}"
+        yield from check_passes(self, m)
 
-    def start(self, radius: float, aside: float) -> tuple[float, float]:
-        """On the ray of the first corner, outside of the blank and of the corners."""
-        apex = self.clearing(radius, max(self.side_allowance, 0.0), blank=False).passes[0].points[0]
-        away = max(self.blank_diameter / 2 + radius, float(np.hypot(*apex))) + aside
-        return away * math.cos(self.angle), away * math.sin(self.angle)
+    @property
+    def inscribed(self) -> float:
+        """The radius of the inscribed circle."""
+        half = math.cos(math.pi / self.corners) if self.reference_circle else 1.0
+        return self.reference_diameter / 2 * half
 
-    def clearing(self, radius: float, allowance: float, blank: bool = True) -> Clearing:
+    def clearing(self, radius: float, allowance: float, blank: bool) -> Clearing:
         """A spiral and a polygon."""
         stock = max(self.blank_diameter if blank else 0.0, 2 * (self.inscribed + allowance))
         return studs.polygon(
             int(self.corners), self.inscribed, stock, radius, self.overlap * radius, corner=self.corner_radius_or_chamfer,
-            allowance=allowance, climb=self.climb, angle=self.angle,
+            allowance=allowance, climb=self.milling_type >= 0, angle=math.radians(self.rotation_angle),
         )  # fmt: skip
 
-    def lifting(self) -> Lifting | None:
-        """In the second set-up plane."""
-        return Lifting(self.end, self.above)
+    def stud(self, m: Machine) -> Stud:
+        """S on the ray of the first corner, outside of the blank and of the corners; back to it in the second set-up plane."""
+        aside = ASIDE / m.scale
+        apex = self.clearing(m.radius, max(self.side_allowance, 0.0), False).passes[0].points[0]
+        away = max(self.blank_diameter / 2 + m.radius, float(np.hypot(*apex))) + aside
+        start = on_ray(away, math.radians(self.rotation_angle))
+        return Stud(partial(self.clearing, m.radius), start, aside, self.end)
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        return mill(self, m, m.programmed[:2])
+
+
+# --- what they share ------------------------------------------------------------------------------------------------
+
+
+def on_ray(away: float, angle: float) -> Place:
+    """A place so far from C in a direction."""
+    return away * math.cos(angle), away * math.sin(angle)
+
+
+def finishing_feed(c: Any) -> float:
+    """As in roughing where none is given."""
+    return float(c.finishing_feed or c.milling_feed)
+
+
+def check_passes(c: Any, m: Machine) -> Iterator[Fault]:
+    """A number of passes that somebody would wait for."""
+    yield from too_many("overlap", lambda: c.clearing(m.radius, c.side_allowance, True))
+    passes = c.clearing(m.radius, c.side_allowance, True).passes
+    yield from few_passes("infeed", len(milling.levels(c, m)), sum(len(contour.starts) for contour in passes) // 4)
+
+
+def mill(c: Any, m: Machine, centre: Place, last: Iterable[Step] = ()) -> Iterator[Step]:
+    """To S, and from there roughing in layers, the side in infeeds, the floor; at the end the tool stays above S."""
+    plunge = rate(c.plunging_feed)
+    finishing = Feeds(finishing_feed(c), plunge)
+    work = milling.work(c, m, (Feeds(c.milling_feed, plunge), finishing, finishing))
+
+    def figures() -> Iterator[Figure]:  # a stud has none where its depth is 0, and its sizes anything
+        stud = c.stud(m)
+        yield Figure((centre[0] + stud.start[0], centre[1] + stud.start[1]), centre, mill_stud(stud, work))
+
+    return milling.mill(c, m, work, figures(), last)

@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections.abc import Iterable, Iterator
 from typing import ClassVar
 
-from mnclab.controls.tnc_620.cycles import addresses, thread_parameters
+from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.holes import oriented
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, param, too_many
@@ -70,7 +70,7 @@ class FloatingTapping(Tapping):
     """Taps at a feed in one pass with the spindle as it turns, reversed at the bottom and again at the set-up clearance."""
 
     clearance: float = addresses.clearance(example=2, note="about four pitches")
-    thread_depth: float = thread_parameters.thread_depth(example=-20)
+    thread_depth: float = addresses.thread_depth(example=-20)
     tapping_feed: float = addresses.feed("Q206", "feed rate for tapping", ("FAUTO",), note="S times pitch", example=150)
     dwell_bottom: float = addresses.dwell_bottom(note="0 to 0.5 s, so that the tap does not jam", example=0.25)
     surface: float = addresses.surface(example=0)
@@ -120,8 +120,8 @@ class RigidTappingInOnePass(RigidTapping):
     """Taps in one pass with the spindle locked to the feed; afterwards it turns as before the cycle."""
 
     clearance: float = addresses.clearance(example=2)
-    thread_depth: float = thread_parameters.thread_depth(example=-20)
-    pitch: float = thread_parameters.pitch()
+    thread_depth: float = addresses.thread_depth(example=-20)
+    pitch: float = addresses.pitch()
     surface: float = addresses.surface(example=0)
     second_clearance: float = addresses.second_clearance(example=50)
 
@@ -142,8 +142,8 @@ class ChipBreakingTapping(RigidTapping):
     """Taps in several passes in phase, with the spindle locked to the feed and oriented before the first of them."""
 
     clearance: float = addresses.clearance(example=2)
-    thread_depth: float = thread_parameters.thread_depth(example=-20)
-    pitch: float = thread_parameters.pitch()
+    thread_depth: float = addresses.thread_depth(example=-20)
+    pitch: float = addresses.pitch()
     surface: float = addresses.surface(example=0)
     second_clearance: float = addresses.second_clearance(example=50)
     chip_breaking_depth: float = addresses.length(

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
-from mnclab.controls.tnc_620.cycles import addresses, thread_parameters
-from mnclab.controls.tnc_620.cycles.threads import ThreadMilling
+from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.threads import Way, check, front, hand, inside, remark_on_the_end, thread
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
+from mnclab.machine.true_size import MILLS_THREADS
 from mnclab.machining.depths import MOST, infeeds
 from mnclab.machining.holes.drilling import drill
-from mnclab.machining.steps import Step
+from mnclab.machining.steps import Go, Step
 
 CYCLES = CycleTable()
 
@@ -19,17 +21,19 @@ ORDER: dict[float, str] = {0: "before thread milling", 1: "after thread milling"
 
 
 @CYCLES("CYCL DEF 264", "Thread drilling and milling", runs="call", source="5.8")
-class ThreadDrillingMilling(ThreadMilling):
+class ThreadDrillingMilling(AtSurface):
     """Drills a hole in infeeds, countersinks it with the end of the tool, and mills a thread in it in one turn."""
 
-    nominal_diameter: float = thread_parameters.nominal_diameter()
-    pitch: float = thread_parameters.pitch()
-    thread_depth: float = thread_parameters.thread_depth(example=-16)
+    does: ClassVar[str] = MILLS_THREADS
+
+    nominal_diameter: float = addresses.nominal_diameter()
+    pitch: float = addresses.pitch()
+    thread_depth: float = addresses.thread_depth(example=-16)
     total_hole_depth: float = addresses.coordinate(
         "Q356", "total hole depth", incremental=True, note="0: no drilling", example=-20
     )
-    prepositioning_feed: float | str = thread_parameters.prepositioning_feed()
-    milling_type: float = addresses.climb(example=1)
+    prepositioning_feed: float | str = addresses.positioning_feed()
+    milling_type: float = addresses.climb()
     infeed: float = addresses.infeed(note="the whole depth at once where it is as great", example=5)
     upper_advanced_stop_distance: float = addresses.length(
         "Q258", "upper advanced stop distance", incremental=True, note="above the last depth", example=0.2
@@ -40,31 +44,27 @@ class ThreadDrillingMilling(ThreadMilling):
     chip_breaking_retract: float = addresses.length(
         "Q256", "retraction for chip breaking", incremental=True, at_most=99999.999, example=0.2
     )
-    depth_at_front: float = thread_parameters.front_depth()
-    offset_at_front: float = thread_parameters.front_offset()
-    clearance: float = addresses.clearance(example=2)
-    surface: float = addresses.surface(example=0)
+    depth_at_front: float = addresses.front_depth()
+    offset_at_front: float = addresses.front_offset()
+    clearance: float = addresses.clearance()
+    surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)
     plunging_feed: float = addresses.plunge_feed(example=150)
-    milling_feed: float = thread_parameters.milling_feed()
-    approach_feed: float = thread_parameters.approach_feed()
+    milling_feed: float = addresses.edge_feed()
+    approach_feed: float = addresses.approach_feed()
 
     def depths(self) -> dict[str, float]:
-        """Thread, hole, front."""
         return {name: getattr(self, name) for name in ("thread_depth", "total_hole_depth", "depth_at_front")}
 
-    def used_feeds(self) -> Iterator[str]:
-        """The feed of drilling; that of milling also countersinks."""
-        yield "prepositioning_feed"
-        if self.total_hole_depth:
-            yield "plunging_feed"
-        if self.thread_depth or self.depth_at_front:
-            yield "milling_feed"
+    @property
+    def way(self) -> Way:
+        return Way(inside(self))
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As all thread milling; and an infeed to drill with."""
-        yield from super().check(m)
-        if self.total_hole_depth:
+        """As all thread milling, the feed of milling also countersinks; and an infeed to drill with."""
+        drills, mills = bool(self.total_hole_depth), bool(self.thread_depth or self.depth_at_front)
+        yield from check(self, m, plunging_feed=drills, milling_feed=mills)
+        if drills:
             if self.infeed == 0:
                 yield "infeed", "must be greater than 0 to drill with, got 0"
             yield from too_many("infeed", self.levels)
@@ -76,9 +76,10 @@ class ThreadDrillingMilling(ThreadMilling):
         """The plunging depths."""
         return infeeds(self.surface, self.surface + self.total_hole_depth, self.infeed)
 
-    def steps(self, m: Machine) -> Iterator[Step]:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Hole, countersink at front at the milling feed, thread."""
-        self.remark_on_the_end(m, "total_hole_depth")
+        remark_on_the_end(self, m, "total_hole_depth")
+        yield Go("to the set-up clearance", self.above)
         if self.total_hole_depth:
             every = self.chip_breaking_depth
             yield from drill(
@@ -86,53 +87,48 @@ class ThreadDrillingMilling(ThreadMilling):
                 breaks=MOST if every else 0, break_every=every, back=self.chip_breaking_retract, approach=self.plunging_feed,
                 start=self.surface,
             )  # fmt: skip
-        yield from self.front(m, self.depth_at_front, self.offset_at_front, self.milling_feed, self.positioning)
-        yield from self.thread(m)
+        yield from front(self, m, self.milling_feed)
+        yield from thread(self, m)
+        yield from self.leave()
 
 
 @CYCLES("CYCL DEF 265", "Helical thread drilling and milling", runs="call", source="5.9")
-class HelicalThreadMilling(ThreadMilling):
+class HelicalThreadMilling(AtSurface):
     """Mills a thread into solid material in one continuous helix downwards; a countersink before it or after it."""
 
-    nominal_diameter: float = thread_parameters.nominal_diameter()
-    pitch: float = thread_parameters.pitch()
-    thread_depth: float = thread_parameters.thread_depth(example=-16)
-    prepositioning_feed: float | str = thread_parameters.prepositioning_feed()
-    depth_at_front: float = thread_parameters.front_depth()
-    offset_at_front: float = thread_parameters.front_offset()
-    countersink_order: float = addresses.choice("Q360", "when the countersink is made", ORDER, example=0)
-    clearance: float = addresses.clearance(example=2)
-    surface: float = addresses.surface(example=0)
-    second_clearance: float = addresses.second_clearance(example=50)
-    countersinking_feed: float = thread_parameters.countersinking_feed()
-    milling_feed: float = thread_parameters.milling_feed()
+    does: ClassVar[str] = MILLS_THREADS
 
-    either_way: ClassVar[bool] = True
+    nominal_diameter: float = addresses.nominal_diameter()
+    pitch: float = addresses.pitch()
+    thread_depth: float = addresses.thread_depth(example=-16)
+    prepositioning_feed: float | str = addresses.positioning_feed()
+    depth_at_front: float = addresses.front_depth()
+    offset_at_front: float = addresses.front_offset()
+    countersink_order: float = addresses.choice("Q360", "when the countersink is made", ORDER, example=0)
+    clearance: float = addresses.clearance()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(example=50)
+    countersinking_feed: float = addresses.countersinking_feed()
+    milling_feed: float = addresses.edge_feed()
 
     def depths(self) -> dict[str, float]:
-        """Thread, front."""
         return {"thread_depth": self.thread_depth, "depth_at_front": self.depth_at_front}
 
     @property
-    def rotation(self) -> int:
-        """Always downwards: the hand of the thread alone says which way round."""
-        return -self.hand
+    def way(self) -> Way:
+        """One continuous helix, always downwards: the hand of the thread alone says which way round."""
+        return Way(-hand(self), 1, either_way=True)
 
-    def a_step(self) -> int:
-        """One continuous helix."""
-        return 1
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=bool(self.depth_at_front))
 
-    def used_feeds(self) -> Iterator[str]:
-        """The feed of countersinking too."""
-        yield from super().used_feeds()
-        if self.depth_at_front:
-            yield "countersinking_feed"
-
-    def steps(self, m: Machine) -> Iterator[Step]:
+    def moves(self, m: Machine) -> Iterator[Step]:
         """Before the thread the tool countersinks on its way down, after it on its way up."""
         feed = self.countersinking_feed
+        yield Go("to the set-up clearance", self.above)
         if self.countersink_order == 0:
-            yield from self.front(m, self.depth_at_front, self.offset_at_front, feed, feed)
-        yield from self.thread(m)
+            yield from front(self, m, feed, feed)
+        yield from thread(self, m)
         if self.countersink_order == 1:
-            yield from self.front(m, self.depth_at_front, self.offset_at_front, feed, self.positioning)
+            yield from front(self, m, feed)
+        yield from self.leave()

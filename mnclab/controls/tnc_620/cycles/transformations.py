@@ -57,7 +57,7 @@ class Rotation(Cycle):
     """Turns the coordinates of the working plane about the active datum; cancels a radius compensation."""
 
     angle: float = param(
-        "ROT", "rotation angle", "deg", at_least=-360, at_most=360, modal=True, note="IROT adds to the active angle"
+        "ROT", "rotation angle", "deg", at_least=-360, at_most=360, modal=True, example=30, note="IROT adds to the active angle"
     )
 
     @classmethod
@@ -88,7 +88,7 @@ class Scaling(Cycle):
     Feeds, fixed distances and pitches stay: a cycle that cuts a thread is refused under it.
     """
 
-    scaling_factor: float = factor("SCL", "scaling factor")
+    scaling_factor: float = factor("SCL", "scaling factor", example=0.5)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """No motion."""
@@ -108,7 +108,7 @@ def centre(address: str) -> Any:
 class AxisScaling(Cycle):
     """A factor for each axis, about a centre: coordinates that share an arc must have the same one. An axis left out has 1."""
 
-    x: float = factor("X", "factor along X", default=1)
+    x: float = factor("X", "factor along X", default=1, example=1.4)
     y: float = factor("Y", "factor along Y", default=1)
     z: float = factor("Z", "factor along Z", default=1)
     centre_x: float | None = centre("CCX")

@@ -15,6 +15,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.holes import rate
+from mnclab.controls.tnc_620.cycles.milling import edges
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS, SIGNS
 from mnclab.geometry.contours import Contour
@@ -22,13 +23,12 @@ from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, remark, tool
 from mnclab.machining.depths import infeeds
-from mnclab.machining.milling.between_walls import Feeds, Heights, Line, Walled, finish_along, over_lines, past_walls
+from mnclab.machining.milling.between_walls import Walled
 from mnclab.machining.milling.clearing import begin, numbered
-from mnclab.machining.milling.face_lines import rows, spiral
-from mnclab.machining.milling.finishing import onto
-from mnclab.machining.steps import Along, Go, Step
+from mnclab.machining.milling.face_lines import rows, spiral_from
+from mnclab.machining.milling.wall_steps import Level, Passes, face_levels, finish_along
+from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.tool import Tool
-from mnclab.running.performing import perform
 
 CYCLES = CycleTable()
 STRATEGIES: dict[float, str] = {
@@ -54,6 +54,7 @@ POSITION: dict[float, str] = {
     3: "at the upper right corner",
     4: "at the upper left corner",
 }
+INTO = "the sign points into the surface"
 
 
 @CYCLES("CYCL DEF 233", "Face milling with side walls", runs="call", source="6.9")
@@ -62,24 +63,20 @@ class WalledFaceMilling(AtSurface):
 
     does: ClassVar[str] = MILLS
 
-    machining_operation: float = addresses.operation(example=0)
+    machining_operation: float = addresses.operation()
     strategy: float = addresses.choice("Q389", "machining strategy", STRATEGIES, example=2)
     milling_direction: float = addresses.choice("Q350", "milling direction", DIRECTIONS, example=1)
-    first_side_length: float = addresses.coordinate(
-        "Q218", "first side length", incremental=True, note="the sign points into the surface", example=120
-    )
-    second_side_length: float = addresses.coordinate(
-        "Q219", "second side length", incremental=True, note="the sign points into the surface", example=80
-    )
+    first_side_length: float = addresses.side("Q218", "first side length", note=INTO, example=120)
+    second_side_length: float = addresses.side("Q219", "second side length", note=INTO, example=80)
     surface: float = addresses.coordinate("Q227", "coordinate of the surface", example=0)
     end_tool_axis: float = addresses.coordinate("Q386", "coordinate to mill down to", example=-6)
     floor_allowance: float = addresses.floor_allowance(note="the last infeed", example=0.2)
     max_plunging_depth: float = addresses.length("Q202", "greatest infeed", incremental=True, example=3)
-    overlap: float = addresses.overlap(0.1, predef=False, note="stepover at most Q370 times R", example=1)
-    milling_feed: float = addresses.milling_feed(example=500)
+    overlap: float = addresses.overlap(at_least=0.1, predef=False)
+    milling_feed: float = addresses.milling_feed()
     finishing_feed: float = addresses.finishing_feed(at_most=addresses.FAR, example=400)
-    prepositioning_feed: float = addresses.positioning_feed(example=750)
-    side_clearance: float = addresses.length("Q357", "clearance to the side", incremental=True, example=2)
+    prepositioning_feed: float = addresses.positioning_feed()
+    side_clearance: float = addresses.side_clearance()
     clearance: float = addresses.clearance(predef=True, example=3)
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
     limit_1: float = addresses.choice("Q347", "first limit", WALLS, example=2)
@@ -94,23 +91,49 @@ class WalledFaceMilling(AtSurface):
 
     @property
     def roughs(self) -> bool:
-        """Whether the surface is roughed."""
         return self.machining_operation != 2
 
     @property
     def finishes_floor(self) -> bool:
-        """Whether there is a last infeed to finish."""
         return self.machining_operation != 1 and self.floor_allowance > 0
 
     @property
     def finishes_side(self) -> bool:
-        """Whether there is something to take off a wall."""
         return self.machining_operation != 1 and self.side_allowance > 0 and bool(self.walled.walls)
 
+    # --- heights -----------------------------------------------------------------------------------------------------
+
+    def depths(self) -> dict[str, float]:
+        """From the surface to the end."""
+        return {"end_tool_axis": self.end_tool_axis - self.surface}
+
     @property
-    def one_way(self) -> bool:
-        """Whether lines run all in one direction."""
-        return self.strategy in (2, 3)
+    def left_over(self) -> float:
+        """Where roughing ends."""
+        return self.end_tool_axis + self.down * self.floor_allowance
+
+    def rough_levels(self, tool: Tool) -> tuple[float, ...]:
+        """Equal infeeds."""
+        return rows(self.surface, self.left_over, min(self.max_plunging_depth, edges(tool)))[1:]
+
+    def wall_levels(self, tool: Tool) -> tuple[float, ...]:
+        """Of the walls."""
+        infeed = min(self.finishing_infeed or math.inf, edges(tool))
+        return infeeds(self.surface, self.end_tool_axis, infeed if infeed < math.inf else 0.0)
+
+    def levels(self, tool: Tool) -> list[Level]:
+        """Of roughing, then of finishing: one, more where the edges are shorter."""
+        parts = []
+        if self.roughs:
+            parts.append(("level", self.surface, self.rough_levels(tool), self.milling_feed))
+        if self.finishes_floor:
+            last = rows(self.left_over, self.end_tool_axis, min(self.floor_allowance, edges(tool)))[1:]
+            parts.append(("floor finishing", self.left_over, last, self.finishing_feed))
+        found = []
+        for what, top, heights, feed in parts:
+            tops = (top, *heights)
+            found += [Level(*each, feed) for each in zip(numbered(what, len(heights)), heights, tops)]
+        return found
 
     # --- where -------------------------------------------------------------------------------------------------------
 
@@ -120,40 +143,27 @@ class WalledFaceMilling(AtSurface):
         walls = frozenset(int(limit) for limit in (self.limit_1, self.limit_2, self.limit_3) if limit)
         return Walled(abs(self.first_side_length), abs(self.second_side_length), walls, self.corner_radius)
 
-    def centre(self, m: Machine) -> tuple[float, float]:
-        """The middle of the surface, in program coordinates."""
-        half = np.array([self.first_side_length, self.second_side_length]) / 2
-        away = half if self.surface_position < 0 else np.abs(half) * SIGNS[int(self.surface_position)]
-        x, y = (np.array(m.programmed[:2]) + away).tolist()
-        return x, y
-
-    def lines(self, radius: float) -> tuple[Line, ...]:
-        """Of a level, in their order; begun on the open side where the other one has a wall."""
-        axis, walls = int(self.milling_direction) - 1, self.walled.walls
+    def passes(self, radius: float) -> Passes:
+        """Of a level: lines, begun on the open side where the other one has a wall, or a spiral."""
+        axis, walled = int(self.milling_direction), self.walled
+        outside = radius + self.side_clearance
+        if self.strategy == 4:
+            sides, factor = (self.first_side_length, self.second_side_length), min(self.overlap, CORNERS)
+            start, way = spiral_from(sides, radius, factor * radius, max(0.0, factor - 1) * radius, axis - 1, outside)
+            return Passes(start, True, spiral=way)
         senses = [int(math.copysign(1, size)) for size in (self.first_side_length, self.second_side_length)]
-        ahead, across = senses[axis], senses[1 - axis]
-        if -ahead * (axis + 1) in walls and ahead * (axis + 1) not in walls:
+        ahead, across = senses[axis - 1], senses[2 - axis]
+        if -ahead * axis in walled.walls and ahead * axis not in walled.walls:
             ahead = -ahead
-        over = self.side_clearance + (radius if self.strategy in (0, 2) else 0.0)
-        return self.walled.lines(
-            radius, self.overlap * radius, axis=axis, ahead=ahead, across=across, outside=radius + self.side_clearance,
-            over=over, first=max(0.0, self.overlap - 1) * radius, allowance=self.side_allowance, one_way=self.one_way,
+        lines = walled.lines(
+            radius, self.overlap * radius, axis=axis - 1, ahead=ahead, across=across, outside=outside,
+            over=outside if self.strategy in (0, 2) else self.side_clearance, first=max(0.0, self.overlap - 1) * radius,
+            allowance=self.side_allowance, one_way=self.strategy in (2, 3),
         )  # fmt: skip
-
-    def spiral(self, radius: float) -> tuple[tuple[float, float], Contour]:
-        """Its start outside of P0, and the way, clockwise."""
-        x, y = self.walled.length, self.walled.width
-        right, above = self.first_side_length < 0, self.second_side_length < 0
-        turn = {(0, 0): 0, (0, 1): -1, (1, 1): 2, (1, 0): 1}[right, above]
-        factor = min(self.overlap, CORNERS)
-        (way,) = spiral(
-            *((y, x) if turn % 2 else (x, y)), radius, factor * radius, first=max(0.0, factor - 1) * radius,
-            angle=turn * math.pi / 2,
-        ).passes  # fmt: skip
-        start = np.array([x if right else -x, y if above else -y]) / 2
-        axis = int(self.milling_direction) - 1
-        start[axis] += math.copysign(radius + self.side_clearance, start[axis])
-        return (float(start[0]), float(start[1])), way
+        bounded = bool(walled.walls & {axis, -axis})
+        along = self.along(radius, self.side_allowance) if bounded else ()
+        clear = not {axis, -axis} <= walled.walls
+        return Passes(lines[0].begin, clear, lines, self.strategy in (2, 3), along)
 
     def along(self, radius: float, allowance: float) -> tuple[Contour, ...]:
         """The ways along the walls, longer by Q357 in the milling direction."""
@@ -161,37 +171,12 @@ class WalledFaceMilling(AtSurface):
         beyond[int(self.milling_direction) - 1] += self.side_clearance
         return self.walled.along(radius, outside=(beyond[0], beyond[1]), allowance=allowance)
 
-    # --- heights -----------------------------------------------------------------------------------------------------
-
-    def depths(self) -> dict[str, float]:
-        """From the surface to the end."""
-        return {"end_tool_axis": self.end_tool_axis - self.surface}
-
-    def levels(self, tool: Tool) -> tuple[float, ...]:
-        """Of roughing: equal infeeds."""
-        left_over = self.end_tool_axis + self.down * self.floor_allowance
-        return rows(self.surface, left_over, min(self.max_plunging_depth, edges(tool)))[1:]
-
-    def last_levels(self, tool: Tool) -> tuple[float, ...]:
-        """Of finishing: one, more where the edges are shorter."""
-        left_over = self.end_tool_axis + self.down * self.floor_allowance
-        if not self.floor_allowance:
-            return ()
-        return rows(left_over, self.end_tool_axis, min(self.floor_allowance, edges(tool)))[1:]
-
-    def wall_levels(self, tool: Tool) -> tuple[float, ...]:
-        """Of the walls."""
-        infeed = min(self.finishing_infeed or math.inf, edges(tool))
-        return infeeds(self.surface, self.end_tool_axis, infeed if infeed < math.inf else 0.0)
-
     # --- checks ------------------------------------------------------------------------------------------------------
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """No walls round a spiral; an infeed; not all of the depth is allowance."""
-        for name, limit in zip(
-            ("limit_1", "limit_2", "limit_3"), (self.limit_1, self.limit_2, self.limit_3), strict=True
-        ):
-            if limit and self.strategy == 4:
+        for name in ("limit_1", "limit_2", "limit_3"):
+            if (limit := getattr(self, name)) and self.strategy == 4:
                 yield name, f"must be 0 in spiral machining (Q389 = 4), got {limit:g}"
         depth = abs(self.end_tool_axis - self.surface)
         if depth == 0:
@@ -206,10 +191,8 @@ class WalledFaceMilling(AtSurface):
         if self.down == 0:
             return
         if self.down < 0 and m.settings["depth_error"]:
-            yield (
-                "end_tool_axis",
-                f"must lie below Q227 = {self.surface:g}, got {self.end_tool_axis:g}: it works upwards",
-            )
+            found = f"{self.surface:g}, got {self.end_tool_axis:g}: it works upwards"
+            yield "end_tool_axis", f"must lie below Q227 = {found}"
         if m.radius <= 0:
             yield "", f"needs a tool with a radius, got {m.radius:g}"
             return
@@ -221,19 +204,12 @@ class WalledFaceMilling(AtSurface):
         for name in (name for name, needed in used.items() if needed and getattr(self, name) == 0):
             yield name, "must be greater than 0 to mill with, got 0"
         yield from self.check_walls(m.radius)
-        yield from too_many("max_plunging_depth", partial(self.levels, tool(m)))
+        yield from too_many("max_plunging_depth", partial(self.rough_levels, tool(m)))
         yield from too_many("finishing_infeed", partial(self.wall_levels, tool(m)))
-        shorter = min(self.walled.length, self.walled.width)
-        yield from too_many(
-            "overlap", lambda: rows(0, shorter if self.strategy == 4 else self.width, self.overlap * m.radius)
-        )
-        lines = 1 + int(self.width / (self.overlap * m.radius))
-        yield from few_passes("max_plunging_depth", len(self.levels(tool(m))), lines)
-
-    @property
-    def width(self) -> float:
-        """Across the milling direction."""
-        return self.walled.width if self.milling_direction == 1 else self.walled.length
+        length, width = self.walled.length, self.walled.width
+        across, step = (width, length)[int(self.milling_direction) - 1], self.overlap * m.radius
+        yield from too_many("overlap", lambda: rows(0, min(length, width) if self.strategy == 4 else across, step))
+        yield from few_passes("max_plunging_depth", len(self.rough_levels(tool(m))), 1 + int(across / step))
 
     def check_walls(self, radius: float) -> Iterator[tuple[str, str]]:
         """The tool and its allowance between opposite walls, their corners."""
@@ -244,102 +220,43 @@ class WalledFaceMilling(AtSurface):
             if both and size < least - 1e-9:
                 yield name, f"must be at least the tool diameter and twice Q368 between walls, {least:g}, got {size:g}"
             widest = size / 2 if both else size
-            if self.has_corners and self.corner_radius > widest:
-                yield (
-                    "corner_radius",
-                    f"must be at most {widest:g} to fit between the limits, got {self.corner_radius:g}",
-                )
+            if walled.has_corners and self.corner_radius > widest:
+                found = f"{widest:g} to fit between the limits, got {self.corner_radius:g}"
+                yield "corner_radius", f"must be at most {found}"
                 return
-
-    @property
-    def has_corners(self) -> bool:
-        """Whether two walls meet."""
-        return bool(self.walled.walls & {1, -1}) and bool(self.walled.walls & {2, -2})
 
     # --- steps -------------------------------------------------------------------------------------------------------
 
-    def scrapes(self, m: Machine) -> float:
-        """How far a line that still stands reaches above the rapid way back over it, mm; 0 where none does."""
-        lines = self.lines(m.radius)[1:] if self.one_way else ()
-        if not any(line.begins_outside for line in lines):
-            return 0.0
-        heights = (abs(top - level) for _, level, top, _ in self.parts(m))
-        return max(0.0, max(heights, default=0.0) - self.clearance)
+    def about(self, m: Machine) -> tuple[float, float]:
+        """The middle of the surface."""
+        half = np.array([self.first_side_length, self.second_side_length]) / 2
+        away = half if self.surface_position < 0 else np.abs(half) * SIGNS[int(self.surface_position)]
+        x, y = (np.array(m.programmed[:2]) + away).tolist()
+        return x, y
 
-    def start(self, m: Machine) -> tuple[float, float]:
-        """Starting point 1."""
-        if not (self.roughs or self.finishes_floor):
-            x, y = begin(self.along(m.radius, 0.0)[0]).tolist()
-            return x, y
-        return self.spiral(m.radius)[0] if self.strategy == 4 else self.lines(m.radius)[0].begin
-
-    def parts(self, m: Machine) -> Iterator[tuple[str, float, float, float]]:
-        """Every level: its name, where it is, what stands above it, and the feed."""
-        top, levels = self.surface, self.levels(tool(m))
-        if self.roughs:
-            for name, level in zip(numbered("level", len(levels)), levels, strict=True):
-                yield name, level, top, self.milling_feed
-                top = level
-        top = self.end_tool_axis + self.down * self.floor_allowance
-        levels = self.last_levels(tool(m))
-        if self.finishes_floor:
-            for name, level in zip(numbered("floor finishing", len(levels)), levels, strict=True):
-                yield name, level, top, self.finishing_feed
-                top = level
-
-    def over(self, m: Machine, name: str, at: Heights, feeds: Feeds) -> Iterator[Step]:
-        """All of one level."""
-        if self.strategy == 4:
-            start, way = self.spiral(m.radius)
-            if (arc := onto(start, way)) is not None:
-                yield Along(f"{name}, approach", arc, feeds.mill)
-            yield Along(f"{name}, spiral", way, feeds.mill)
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """To the start, over all levels, along the walls, to the second set-up clearance."""
+        if not self.down:
+            yield self.left_out
             return
-        yield from over_lines(name, self.lines(m.radius), at, feeds, one_way=self.one_way)
-        if self.walled.walls & {self.milling_direction, -self.milling_direction}:
-            yield from past_walls(name, self.along(m.radius, self.side_allowance), feeds.mill)
-
-    def steps(self, m: Machine) -> Iterator[Step]:
-        """Level by level, then the walls."""
-        (x, y), lift = self.start(m), self.down * self.clearance
-        outside = self.strategy == 4 or not {self.milling_direction, -self.milling_direction} <= self.walled.walls
-        position = rate(self.prepositioning_feed)
-        for k, (name, level, top, feed) in enumerate(self.parts(m)):
-            yield Go(f"{name}, down", level, position if k and outside else feed)
-            yield from self.over(m, name, Heights(level, top, lift), Feeds(feed, position))
-            yield Go(f"{name}, lift", level + lift)
-            yield Go(f"{name}, back to the start", x=x, y=y)
-        if self.finishes_side:
-            feeds = Feeds(self.finishing_feed, position)
-            yield from finish_along(self.along(m.radius, 0.0), self.wall_levels(tool(m)), self.above, feeds)
-
-    def moves(self, m: Machine) -> None:
-        """To the start, over all levels, to the second set-up clearance."""
-        if not self.executed(m):
+        passes, levels, lift = self.passes(m.radius), self.levels(tool(m)), self.down * self.clearance
+        walls = self.along(m.radius, 0.0) if self.finishes_side else ()
+        if not (levels or walls):
+            yield Say("Q215=2 finishes nothing: neither Q369 nor Q368 with a limit is given")
             return
-        if not (self.roughs or self.finishes_side or self.finishes_floor):
-            m.warn(f"{self.code} Q215=2 finishes nothing: neither Q369 nor Q368 with a limit is given")
-            return
-        if self.has_corners and self.corner_radius < m.radius:
-            m.warn(
-                f"{self.code} Q220={self.corner_radius:g}: the corners get the radius of the tool, {m.radius:g}{remark(m)}"
-            )
-        if (scrapes := self.scrapes(m)) > 1e-9:
-            m.warn(
-                f"{self.code} Q200={self.clearance:g}: the rapid way back to the next line passes {scrapes:.10g} mm below what "
-                "that line has still to take away",
+        if self.walled.has_corners and self.corner_radius < m.radius:
+            yield Say(f"Q220={self.corner_radius:g}: the corners get the radius of the tool, {m.radius:g}{remark(m)}")
+        if (scrapes := passes.scrapes(levels, self.clearance)) > 1e-9:
+            yield Say(
+                f"Q200={self.clearance:g}: the rapid way back to the next line passes {scrapes:.10g} mm below what that line "
+                "has still to take away",
                 hint="choose Q200 not smaller than the infeed",
             )
-        centre, (x, y) = self.centre(m), self.start(m)
-        end = self.surface + max(self.second_clearance, self.clearance)
-        go = [
-            Go("to the second set-up clearance", max(m.programmed[2], end)),
-            Go("over the start", x=x, y=y),
-            Go("to the set-up clearance", self.above),
-        ]
-        perform(m, self.code, [*go, *self.steps(m), *self.leave()], centre)
-
-
-def edges(tool: Tool) -> float:
-    """LCUTS; a tool without has edges all along."""
-    return tool.cutting_length if tool.cutting_length > 0 else math.inf
+        x, y = passes.start if levels else begin(walls[0]).tolist()
+        yield Go("to the second set-up clearance", max(m.programmed[2], self.end))
+        yield Go("over the start", x=x, y=y)
+        yield Go("to the set-up clearance", self.above)
+        position = rate(self.prepositioning_feed)
+        yield from face_levels(passes, levels, lift, position)
+        yield from finish_along(walls, self.wall_levels(tool(m)), self.above, self.finishing_feed, position)
+        yield from self.leave()

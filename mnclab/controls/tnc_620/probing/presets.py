@@ -23,11 +23,11 @@ WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
 class PresetInOneAxis(Cycle):
     """One touch along an axis; the touched point gets the coordinate Q333."""
 
-    x: float = param("Q263", "first touch point, reference axis", modal=True, **WIDE)
-    y: float = param("Q264", "first touch point, minor axis", modal=True, **WIDE)
-    z: float = param("Q261", "measuring height of the ball's centre", modal=True, **WIDE)
-    clearance: float = param("Q320", "set-up clearance", at_least=0, at_most=99999.9999, incremental=True, modal=True)
-    height: float = param("Q260", "clearance height", modal=True, **WIDE)
+    x: float = param("Q263", "first touch point, reference axis", modal=True, example=20, **WIDE)
+    y: float = param("Q264", "first touch point, minor axis", modal=True, example=10, **WIDE)
+    z: float = param("Q261", "measuring height of the ball's centre", modal=True, example=-5, **WIDE)
+    clearance: float = param("Q320", "set-up clearance", at_least=0, at_most=99999.9999, incremental=True, modal=True, example=2)
+    height: float = param("Q260", "clearance height", modal=True, example=20, **WIDE)
     axis: float = param(
         "Q272", "measuring axis", "choice", modal=True,
         choices={1: "reference axis", 2: "minor axis", 3: "touch probe axis"},
@@ -35,10 +35,10 @@ class PresetInOneAxis(Cycle):
     direction: float = param(
         "Q267", "traverse direction", "choice", choices={-1: "negative", 1: "positive"}, modal=True
     )
-    row: float = param("Q305", "number in table", "count", at_least=0, at_most=9999, type="integer", modal=True)
+    row: float = param("Q305", "number in table", "count", at_least=0, at_most=9999, type="integer", modal=True, example=0)
     datum: float = param("Q333", "new coordinate of the touched point", default=0, modal=True, **WIDE)
     transfer: float = param(
-        "Q303", "measured value transfer", "choice", modal=True,
+        "Q303", "measured value transfer", "choice", modal=True, example=1,
         choices={-1: "do not use", 0: "datum table", 1: "preset table"},
     )  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""Turning cycles: one pass G70, G71, and roughing in passes G77, G78 (source, 3.20.3 to 3.20.6).
+"""Removing stock: one pass G70, G71, and roughing in passes G77, G78 (source, 3.20.3 to 3.20.6).
 
 G71 and G78 are G70 and G77 with the axes exchanged. The figures of the source are lost: the bevel and the way back are
 readings (a closed cycle from its start point, with the shoulder faced on the way out).
@@ -151,8 +151,13 @@ def check_roughing(cycle: Roughing, m: Machine) -> Iterator[tuple[str, str]]:
         yield "", "needs a feed F before it, for the clean-up pass"
 
 
-def rough(cycle: Roughing, m: Machine, modal: float | None) -> Iterator[Step]:
-    """Roughing passes at the feed of the cycle, clean-up at the `modal` one, return."""
+def rough(cycle: Roughing, m: Machine) -> Iterable[Step]:
+    """Roughing passes, clean-up, return."""
+    return cycle.in_axes(passes_and_clean_up(cycle, m, m.feed))
+
+
+def passes_and_clean_up(cycle: Roughing, m: Machine, modal: float | None) -> Iterator[Step]:
+    """Roughing passes at the feed of the cycle, the clean-up at the `modal` one."""
     begin, shoulder = contour_of(cycle, m)
     passes = roughing(begin[0], shoulder, depth_of(cycle, m))
     chip, retract = (m.settings[f"parameter_{n}"] / discretes.TRAVEL for n in (10, 11))
@@ -184,11 +189,7 @@ class LongitudinalRoughing(FromStart):
         "@", "ends at point B (X, Z1) instead of the start", "mark", default=0, choices=SWITCH, mark=INCREMENTAL
     )
 
-    check = check_roughing
-
-    def moves(self, m: Machine) -> Iterable[Step]:
-        """Passes, clean-up, return."""
-        return self.in_axes(rough(self, m, m.feed))
+    check, moves = check_roughing, rough
 
 
 @CYCLES("G78", "Transverse roughing in passes", runs="definition", source="NC-31 3.20.6")
@@ -210,12 +211,7 @@ class TransverseRoughing(FromStart):
         "@", "ends at point B (X1, Z) instead of the start", "mark", default=0, choices=SWITCH, mark=INCREMENTAL
     )
     transverse = True
-
-    check = check_roughing
-
-    def moves(self, m: Machine) -> Iterable[Step]:
-        """Passes, clean-up, return."""
-        return self.in_axes(rough(self, m, m.feed))
+    check, moves = check_roughing, rough
 
 
 LatheCut = LongitudinalPass | TransversePass | LongitudinalRoughing | TransverseRoughing

@@ -1,0 +1,94 @@
+"""Functions that milling controls of G words have alike: planes, dimensions, feed, blending, compensation, stops, coolant."""
+
+from __future__ import annotations
+
+from mnclab.controls.word_address.motion import first_word
+from mnclab.machine.control import FunctionTable, Obey, Words
+from mnclab.machine.machine import Machine
+
+ARCS = {"G2": "Circular interpolation clockwise", "G3": "Circular interpolation counter-clockwise"}
+SPINDLE = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise", "M5": "Spindle stop"}
+PLANES = {"G17": "Plane XY", "G18": "Plane ZX", "G19": "Plane YZ"}
+DIMENSIONS = {"G90": "Absolute dimensions", "G91": "Incremental dimensions"}
+FEEDS = {"G94": "Feed per minute", "G95": "Feed per revolution"}
+STOPS = {"G61": "Exact stop between blocks", "G64": "Block blending"}
+SIDES = {"G40": "Radius compensation off", "G41": "Radius compensation left", "G42": "Radius compensation right"}
+PAUSES = {"M0": "Program stop", "M1": "Optional stop"}
+COOLANT = {"M7": "Coolant 2 on", "M8": "Coolant on", "M9": "Coolant off"}
+
+
+def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
+    """Their table for a control, which may `remark` on each of them first; `sources` of groups, and one of the others."""
+    table = FunctionTable()
+
+    def listed(group: str) -> str:
+        return sources.get(group.replace(" ", "_"), source)
+
+    @table(" ".join(PLANES), PLANES, group="plane", phase="plane", power_on="G17", source=listed("plane"))
+    def plane(m: Machine, words: Words) -> None:
+        """The plane of arcs, radius compensation, polar coordinates and rotation; holes lie along Z in all of them."""
+        remark(m, words)
+        head = first_word(words)
+        plane = {"G17": "XY", "G19": "YZ"}.get(words.code) or m.settings.get("g18_axes", "ZX")
+        if m.pole is not None and plane != m.plane:
+            m.alarm("the plane cannot change while polar coordinates are on", head, hint="write G15 first")
+        if m.side and plane != m.plane:
+            m.alarm("the plane cannot change while radius compensation is active", head, hint="write G40 first")
+        m.change("plane", plane)
+
+    @table(
+        " ".join(DIMENSIONS), DIMENSIONS, group="dimension", phase="plane", power_on="G90", source=listed("dimension")
+    )
+    def dimension(m: Machine, words: Words) -> None:
+        """Coordinates of the selected system, or distances from the last programmed point."""
+        remark(m, words)
+
+    @table(" ".join(FEEDS), FEEDS, group="feed mode", phase="plane", power_on="G94", source=listed("feed mode"))
+    def feed_mode(m: Machine, words: Words) -> None:
+        """What F means, mm/min or mm/rev; a new F must follow, unless the setting feed_mode_switch says otherwise."""
+        remark(m, words)
+        per_rev, speed, switch = words.code == "G95", abs(m.spindle_speed), m.settings.get("feed_mode_switch")
+        if per_rev != m.per_rev and m.feed is not None and switch != "kept":
+            converted = switch == "converted" and speed > 0
+            m.change("feed", (m.feed / speed if per_rev else m.feed * speed) if converted else None)
+        m.change("per_rev", per_rev)
+
+    @table(" ".join(STOPS), STOPS, group="blending", phase="plane", power_on="G64", source=listed("blending"))
+    def exact_stop(m: Machine, words: Words) -> None:
+        """Whether every motion ends with exact positioning; the path is the same."""
+        remark(m, words)
+        m.change("exact", words.code == "G61")
+
+    @table(
+        " ".join(SIDES),
+        SIDES,
+        group="compensation",
+        phase="compensation",
+        power_on="G40",
+        source=listed("compensation"),
+    )
+    def compensation(m: Machine, words: Words) -> None:
+        """Takes effect with the next straight line in the plane: entry, change of side, exit."""
+        remark(m, words)
+        m.change("side", {"G40": 0, "G41": 1, "G42": -1}[words.code])
+
+    @table("M0 M1", PAUSES, phase="end", modal=False, source=source)
+    def program_stop(m: Machine, words: Words) -> None:
+        """Wait for the operator, after the motion of the block."""
+        remark(m, words)
+        m.stop()
+
+    @table("M2 M30", "Program end", phase="end", modal=False, source=source)
+    def program_end(m: Machine, words: Words) -> None:
+        """The program ends here, after the motion of the block; without it, at the end of the text."""
+        remark(m, words)
+        m.ended = True
+
+    def coolant(m: Machine, words: Words) -> None:
+        """On before the motion of the block, off after it."""
+        remark(m, words)
+        m.coolant()
+
+    table("M7 M8", COOLANT, group="coolant", phase="auxiliary", source=source)(coolant)
+    table("M9", COOLANT, group="coolant", phase="end", power_on="M9", source=source)(coolant)
+    return table

@@ -1,0 +1,79 @@
+"""`mnclab.steps`: every cycle of every control looked at without a program."""
+
+import math
+
+import pytest
+
+import mnclab as mnc
+from mnclab.machining.steps import Call, Go, Touch, Wait, Write
+
+CYCLES = [(name, cycle.code) for name, control in mnc.controls.items() for cycle in dict.fromkeys(control.cycles.values())]
+#: What cycles ask for that only a program has, or a user: the piece of the alarm that says so.
+NEEDS = {
+    "CYCL DEF 7": "needs an axis",
+    "CYCL DEF 12": "PGM (name of the program) is missing",
+    "CYCL DEF 14": "names label 1, which does not exist",
+    "CYCL DEF 22": "CYCL DEF 14 comes before it",
+    "CYCL DEF 225": "Q500 (text) is missing",
+}
+
+
+@pytest.mark.parametrize(("control", "code"), CYCLES)
+def test_every_cycle_shows_its_steps(control: str, code: str) -> None:
+    if code in NEEDS:
+        with pytest.raises(mnc.Alarm) as refused:
+            mnc.steps(code, control)
+        assert NEEDS[code] in refused.value.message and refused.value.span is None
+        return
+    found = mnc.steps(code, control)
+    if not len(found):
+        pytest.skip("it performs by itself")
+    lines = str(found).splitlines()
+    assert len(found) and len(lines) == len(found) + 3 and lines[0].startswith(code)
+    assert found._repr_html_().count("<tr>") == len(found) + 1
+
+
+def test_the_steps_of_drilling() -> None:
+    """From the set-up plane 2 above the surface: pecks of 6 to -6 and -10, and between them up and back to 2 above the last."""
+    found = mnc.steps("CYCL DEF 200", "tnc-620", Q201=-10, infeed=6, Q211=0, Q210=0, Q204=20)
+    assert [(step.z, step.feed) for step in found if isinstance(step, Go)] == [
+        (2, math.inf), (-6, 150), (2, math.inf), (-4, math.inf), (-10, 150), (20, math.inf)
+    ]  # fmt: skip
+    assert found[0].label == "to the set-up clearance" and [type(step) for step in found[1:3]] == [Go, Wait]
+    assert "go    peck 2 of 2              0  0  -10  150" in str(found)
+
+
+def test_a_number_alone_finds_its_cycle_and_values_go_by_address_or_name() -> None:
+    assert list(mnc.steps("200", "tnc-620", Q202=3)) == list(mnc.steps("CYCL DEF 200", "tnc-620", infeed=3))
+
+
+def test_a_touch_finds_what_it_is_aimed_at() -> None:
+    """A ball of 2, 2 + 3 of clearance and 10 of reach: from X 27 to X 17; the ball's side lies at 15, which becomes 1."""
+    setup = mnc.Setup(tools={1: mnc.Tool(radius=2, kind="probe")}, probe=mnc.Probe(clearance=3, reach=10))
+    found = mnc.steps("419", "tnc-620", setup, Q263=20, Q320=2, Q272=1, Q267=-1, Q303=1, Q305=4, Q333=1)
+    assert [(step.x, step.z) for step in found if isinstance(step, Touch)] == [(17, -7)]
+    assert [(step.what, step.key, step.value[0]) for step in found if isinstance(step, Write)] == [("presets", 4, 14)]
+
+
+def test_a_pattern_calls_the_cycle_at_each_of_its_points() -> None:
+    found = mnc.steps("220", "tnc-620", Q241=3)
+    assert sum(isinstance(step, Call) for step in found) == 3
+    centres = [row.end[:2] for row in found.rows if row.end and row.step.label.endswith("point")]
+    assert centres[0] == pytest.approx((90, 50)) and centres[1] == pytest.approx((30, 50 + 40 * math.sin(math.tau / 3)))
+
+
+@pytest.mark.parametrize(
+    ("code", "values", "message"),
+    [
+        ("CYCL DEF 200", {"Q2O1": -5}, "has no parameter Q2O1"),
+        ("CYCL DEF 200", {"Q201": -5, "depth": -6}, "Q201 is given twice"),
+        ("CYCL DEF 200", {"Q202": -5}, "Q202 (infeed depth) must be at least 0 and at most 99999.9999, got -5"),
+        ("CYCL DEF 200", {"Q202": "deep"}, "Q202 (infeed depth) must be a number"),
+        ("L", {}, "L is no cycle"),
+        ("CYCL DEF 999", {}, "has no code"),
+    ],
+)
+def test_what_is_wrong_is_said(code: str, values: dict[str, float], message: str) -> None:
+    with pytest.raises(mnc.Alarm) as refused:
+        mnc.steps(code, "tnc-620", **values)
+    assert message in refused.value.message
