@@ -174,9 +174,7 @@ class Contour:
         """
         frame = np.asarray(matrix, dtype=float)
         turn, shift = frame[:2, :2], frame[:2, -1]
-        gram = turn.T @ turn
-        alike = np.allclose(gram, gram[0, 0] * np.eye(2), rtol=1e-9, atol=1e-9 * np.trace(gram))
-        if self.bulge.any() and not alike:
+        if self.bulge.any() and not keeps_circles(turn):
             raise ValueError("an arc stays an arc only under equal scales and without a tilt of its plane")
         sign = -1.0 if np.linalg.det(turn) < 0 else 1.0
         return Contour(self.points @ turn.T + shift, sign * self.bulge, self.closed)
@@ -311,6 +309,12 @@ class Contour:
             off[:, k] = np.where(inside, np.abs(length_of(arm) - self.radii[k]), np.minimum(at_start, at_end))
             u[:, k] = np.where(inside, ahead / np.abs(s[k]), np.where(at_start <= at_end, 0.0, 1.0))
         return off, u
+
+
+def keeps_circles(matrix: Floats) -> bool:
+    """Whether a 2×2 matrix makes circles of circles."""
+    gram = matrix.T @ matrix
+    return np.allclose(gram, gram[0, 0] * np.eye(2), rtol=1e-9, atol=1e-9 * np.trace(gram))
 
 
 def steps_within(radii: Floats, sweeps: Floats, chord_error: float) -> NDArray[np.intp]:
