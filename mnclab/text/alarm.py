@@ -106,10 +106,7 @@ class Alarm(Exception):
         return self.changed(span=place, places=(place, *(each for each in self.places if each != place)))
 
     def lines(self, width: int = WIDTH) -> tuple[str, str]:
-        """The line of the program and the carets under the faulty characters; two empty strings if there is none.
-
-        Of a line longer than `width` only what stands around them.
-        """
+        """At most `width` characters of the line, and the carets under the faulty ones; two empty strings if there is none."""
         if self.span is None or self.source is None:
             return "", ""
         text, at = quoted(self.source.line_text(self.span.line), self.span.column - 1, width)

@@ -149,7 +149,6 @@ class Program:
 
     @property
     def title(self) -> str:
-        """What the program is called, without its folders."""
         return Path(self.name).name
 
     def __len__(self) -> int:

@@ -73,9 +73,6 @@ class NumberFromText:
         return float(_NUMBER_OF[self.part.text](self.part, variables))
 
 
-# --- reading ----------------------------------------------------------------------------------------------------------
-
-
 def is_number(text: str) -> bool:
     """Whether a formula begins with a function of texts that gives a number (or is refused)."""
     found = _FUNCTION.match(text.lstrip())
@@ -174,9 +171,6 @@ class _Reader:
         if blank or found is None:
             raise Alarm(f"{word} needs a number or a Q parameter", self.place(len(word), begin))
         return parse(found.group(), self.place(1, at))
-
-
-# --- working out ------------------------------------------------------------------------------------------------------
 
 
 def _text(part: Part, variables: Mapping[str, Any]) -> str:
