@@ -43,22 +43,11 @@ def guided(surface: float, deepened: float, clearance: float, up: float = 1.0) -
 
 
 def drill(
-    levels: Sequence[float],
-    *,
-    above: float,
-    feed: float | None,
-    reenter: float | Sequence[float],
-    withdraw: float | None = RAPID,
-    dwell_top: float = 0.0,
-    dwell_each: float = 0.0,
-    dwell_bottom: float = 0.0,
-    breaks: int = 0,
-    break_every: float = 0.0,
-    back: float = 0.0,
-    back_feed: float | None = None,
-    approach: float | None = None,
-    start: float | None = None,
-) -> Iterator[Step]:
+    levels: Sequence[float], *, above: float, feed: float | None, reenter: float | Sequence[float],
+    withdraw: float | None = RAPID, dwell_top: float = 0.0, dwell_each: float = 0.0, dwell_bottom: float = 0.0,
+    breaks: int = 0, break_every: float = 0.0, back: float = 0.0, back_feed: float | None = None,
+    approach: float | None = None, start: float | None = None,
+) -> Iterator[Step]:  # fmt: skip
     """Drill to each of the `levels`; between two, break the chip or withdraw to `above` at the feed `withdraw`.
 
     A withdrawal waits `dwell_top` seconds and returns at rapid to `reenter` mm over the last depth: one distance, or
@@ -101,15 +90,9 @@ def ream(
 
 
 def bore(
-    bottom: float,
-    *,
-    above: float,
-    feed: float | None,
-    retract: float | None,
-    dwell: float = 0.0,
-    angle: float = 0.0,
+    bottom: float, *, above: float, feed: float | None, retract: float | None, dwell: float = 0.0, angle: float = 0.0,
     direction: int = 0,
-) -> Iterator[Step]:
+) -> Iterator[Step]:  # fmt: skip
     """Bore, stop the spindle at an angle, leave the wall in a direction (one of `DIRECTIONS`, 0 none), retract.
 
     The tool ends at `above`, still shifted.
@@ -144,19 +127,9 @@ def bore_and_stop(
 
 
 def back_bore(
-    *,
-    above: float,
-    below: float,
-    bottom: float,
-    eccentricity: float,
-    direction: int,
-    angle: float,
-    feed: float | None,
-    travel: float | None,
-    dwell: float,
-    turning: int,
-    coolant: bool = False,
-) -> Iterator[Step]:
+    *, above: float, below: float, bottom: float, eccentricity: float, direction: int, angle: float,
+    feed: float | None, travel: float | None, dwell: float, turning: int, coolant: bool = False,
+) -> Iterator[Step]:  # fmt: skip
     """Counterbore from below: shifted through the hole, back to its axis, up to the `bottom` of the counterbore.
 
     Levels are those of the tip: `below` with the edge free under the workpiece. `travel` is the feed through the hole.
@@ -190,21 +163,11 @@ def back_to_axis(level: float, turning: int, name: str = "retract") -> Iterator[
 
 
 def gun_drill(
-    levels: Sequence[float],
-    *,
-    above: float,
-    start: float,
-    feed: float | None,
-    approach: float | None,
-    retract: float | None,
-    entry: tuple[int, float | None],
-    speed: float | None,
-    dwell: float = 0.0,
-    pause: float | None = None,
-    feed_after: float | None = None,
-    coolant: tuple[str, str] = ("coolant on", "coolant off"),
-    cool_until_slow: bool = False,
-) -> Iterator[Step]:
+    levels: Sequence[float], *, above: float, start: float, feed: float | None, approach: float | None,
+    retract: float | None, entry: tuple[int, float | None], speed: float | None, dwell: float = 0.0,
+    pause: float | None = None, feed_after: float | None = None,
+    coolant: tuple[str, str] = ("coolant on", "coolant off"), cool_until_slow: bool = False,
+) -> Iterator[Step]:  # fmt: skip
     """Single-lip drilling: in and out with the spindle as `entry` (turning, speed), drilling at `speed` with coolant.
 
     Drilling begins at `start`, reached at the feed `approach`; at each of the `levels`, and at the level `pause`,

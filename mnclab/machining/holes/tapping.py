@@ -11,21 +11,10 @@ from mnclab.machining.steps import Go, Orient, Spin, Step, Thread, Wait
 
 
 def tap(
-    levels: Sequence[float],
-    *,
-    above: float,
-    sense: int,
-    end: int,
-    pitch: float = 0.0,
-    feed: float | None = None,
-    speed: float | None = None,
-    out_speed: float | None = None,
-    dwell: float = 0.0,
-    dwell_first: bool = True,
-    stand: float = 0.0,
-    back: float = 0.0,
-    angle: float | None = None,
-) -> Iterator[Step]:
+    levels: Sequence[float], *, above: float, sense: int, end: int, pitch: float = 0.0, feed: float | None = None,
+    speed: float | None = None, out_speed: float | None = None, dwell: float = 0.0, dwell_first: bool = True,
+    stand: float = 0.0, back: float = 0.0, angle: float | None = None,
+) -> Iterator[Step]:  # fmt: skip
     """Cut to each of the `levels` and back: between two by `back` mm, or with 0 out of the hole to `above`.
 
     Without a `pitch` the holder floats and the axis runs at `feed`. `end` is what the spindle does afterwards:

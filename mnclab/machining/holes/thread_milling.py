@@ -66,16 +66,9 @@ def centre_feed(feed: float, nominal: float, tool_radius: float, external: bool 
 
 
 def mill_thread(
-    path: Path,
-    runs: list[tuple[float, float]],
-    *,
-    pitch: float,
-    sense: int,
-    feed: float,
-    approach_feed: float,
-    position_feed: float,
-    external: bool = False,
-) -> Iterator[Step]:
+    path: Path, runs: list[tuple[float, float]], *, pitch: float, sense: int, feed: float, approach_feed: float,
+    position_feed: float, external: bool = False,
+) -> Iterator[Step]:  # fmt: skip
     """Along every helix of `helices`, with an approach and a departure of its own; ends beside the thread.
 
     The tool comes to the axis of a hole, or to the start point outside a stud; from a hole it goes back to its axis.

@@ -125,6 +125,16 @@ def _clear(centres: Region, a: Floats, b: Floats, done: Sequence[Contour], stepo
     return centres.holds(a, b)
 
 
+def round_walls(centres: Region, here: Floats, climb: bool) -> tuple[list[Contour], list[str]]:
+    """Passes round islands, then along walls, and their names; each begins where it comes nearest to the end of the last."""
+    passes: list[Contour] = []
+    for loop in (loops := sorted(centres.loops, key=lambda loop: loop.area)):  # islands have areas below 0
+        ring = loop.started_at(loop.nearest(here))
+        passes.append(ring if climb else ring.reversed())
+        here = ring.points[0]
+    return passes, ["island" if loop.area < 0 else "wall" for loop in loops]
+
+
 def piecewise(centres: Region, radius: float, plan: Callable[[Region], Piece]) -> Clearing:
     """A clearing planned piece by piece; a ValueError where the tool does not fit."""
     if not centres.loops:

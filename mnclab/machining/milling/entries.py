@@ -119,12 +119,7 @@ def swing(line: Contour, top: float, bottom: float, angle: float) -> Descent:
         raise ValueError(f"a ramp needs a stroke and an angle up to 90 degrees, got {length:g} and {angle:g}")
     if angle == 90 or top == bottom:
         return vertical(line.points[0], top, bottom)
-    count = stroke_count(length, top, bottom, angle)
-    parts = [line if k % 2 == 0 else line.reversed() for k in range(count)]
-    points = np.vstack([*(part.points[:-1] for part in parts), parts[-1].points[-1:]])
-    bulge = np.concatenate([*(part.bulge[:-1] for part in parts), np.zeros(1)])
-    upto = np.append(0.0, np.cumsum(np.concatenate([part.lengths for part in parts])))
-    return Descent(Contour(points, bulge, closed=False), top + (bottom - top) * upto / upto[-1], "entry ramp")
+    return _sloping(_to_and_fro(line, stroke_count(length, top, bottom, angle)), top, bottom, "entry ramp")
 
 
 def stroke_count(length: float, top: float, bottom: float, angle: float) -> int:
@@ -198,18 +193,11 @@ def along(contour: Contour, top: float, bottom: float, angle: float) -> Descent:
     slope = math.tan(math.radians(angle))
     rounds = max(1, math.ceil(abs(top - bottom) / (contour.length * slope) - DRIFT)) if top != bottom else 0
     if contour.closed:
-        points, bulge = np.tile(contour.points, (rounds, 1)), np.tile(contour.bulge, rounds)
-        lengths = np.tile(contour.lengths, rounds)
-        way = Contour(np.vstack([points, contour.points[:1]]), np.append(bulge, 0.0), closed=False)
+        points = np.vstack([np.tile(contour.points, (rounds, 1)), contour.points[:1]])
+        way = Contour(points, np.append(np.tile(contour.bulge, rounds), 0.0), closed=False)
     else:
-        rounds += rounds % 2  # an even number of strokes ends where the pass begins
-        parts = [contour if k % 2 == 0 else contour.reversed() for k in range(rounds)]
-        points = np.vstack([part.points[:-1] for part in parts] + [contour.points[:1]])
-        bulge = np.concatenate([part.bulge[:-1] for part in parts] + [np.zeros(1)])
-        lengths = np.concatenate([part.lengths for part in parts])
-        way = Contour(points, bulge, closed=False)
-    upto = np.append(0.0, np.cumsum(lengths))
-    return Descent(way, top + (bottom - top) * upto / upto[-1], "entry along the pass")
+        way = _to_and_fro(contour, rounds + rounds % 2)  # an even number of strokes ends where the pass begins
+    return _sloping(way, top, bottom, "entry along the pass")
 
 
 def descent(
@@ -239,3 +227,19 @@ def descent(
     if not piece.passes or piece.passes[0].length <= 0:
         return vertical(place, top, bottom)
     return along(piece.passes[0], top, bottom, entry.angle)
+
+
+# ---- beneath ----
+
+
+def _to_and_fro(line: Contour, count: int) -> Contour:
+    """So many strokes along an open contour, from its start."""
+    parts = [line if k % 2 == 0 else line.reversed() for k in range(count)]
+    points = np.vstack([*(part.points[:-1] for part in parts), parts[-1].points[-1:]])
+    return Contour(points, np.concatenate([*(part.bulge[:-1] for part in parts), np.zeros(1)]), closed=False)
+
+
+def _sloping(way: Contour, top: float, bottom: float, label: str) -> Descent:
+    """Evenly down along a way."""
+    upto = np.append(0.0, np.cumsum(way.lengths))
+    return Descent(way, top + (bottom - top) * upto / upto[-1], label)

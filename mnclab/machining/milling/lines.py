@@ -15,7 +15,18 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.scanning import scan
 from mnclab.geometry.shapes import placed
-from mnclab.machining.milling.clearing import SLACK, Clearing, Piece, begin, end, links, numbered, piecewise, room_for
+from mnclab.machining.milling.clearing import (
+    SLACK,
+    Clearing,
+    Piece,
+    begin,
+    end,
+    links,
+    numbered,
+    piecewise,
+    room_for,
+    round_walls,
+)
 
 Segment = tuple[Floats, Floats]
 
@@ -59,13 +70,8 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool, angle: 
                 labels.append("link along the wall")
             passes.append(line)
             labels.append(name)
-    here = end(passes[-1]) if passes else centres.loops[0].points[0]
-    walls = sorted(centres.loops, key=lambda loop: loop.area)  # islands have areas below 0
-    for loop in walls:
-        ring = loop.started_at(loop.nearest(here))
-        passes.append(ring if climb else ring.reversed())
-        labels.append("island" if loop.area < 0 else "wall")
-        here = ring.points[0]
+    walls, faces = round_walls(centres, end(passes[-1]) if passes else centres.loops[0].points[0], climb)
+    passes, labels = passes + walls, labels + faces
     linked = list(links(centres, passes, stepover))
     if single:
         for k, name in enumerate(labels[1:]):

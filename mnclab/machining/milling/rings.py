@@ -35,14 +35,9 @@ class Ring:
 
 
 def rings(
-    region: Region,
-    radius: float,
-    stepover: float,
-    *,
-    allowance: float = 0.0,
-    climb: bool = True,
+    region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
     corner_radius: float = 0.0,
-) -> Clearing:
+) -> Clearing:  # fmt: skip
     """Passes that clear `region` with a tool of `radius`, leaving `allowance` at its walls.
 
     Rings round islands come first, then those along the walls, both from the inside out. In climb milling,

@@ -19,7 +19,7 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import Skeleton, skeleton
 from mnclab.geometry.vectors import left
-from mnclab.machining.milling.clearing import Clearing, Piece, end, links, numbered, piecewise, room_for
+from mnclab.machining.milling.clearing import Clearing, Piece, end, links, numbered, piecewise, room_for, round_walls
 from mnclab.machining.milling.spirals import half_circles
 
 SMALLEST = 0.05  # of the tool radius: discs of tool centres below that are left to the passes along the walls
@@ -60,12 +60,8 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piec
         passes += arcs
         labels += [f"branch {number}, {name}" for name in numbered("arc", len(arcs))]
     place = passes[0].points[0] if passes else None
-    here = end(passes[-1]) if passes else centres.loops[0].points[0]
-    for loop in sorted(centres.loops, key=lambda loop: loop.area):
-        ring = loop.started_at(loop.nearest(here))
-        passes.append(ring if climb else ring.reversed())
-        labels.append("island" if loop.area < 0 else "wall")
-        here = ring.points[0]
+    walls, faces = round_walls(centres, end(passes[-1]) if passes else centres.loops[0].points[0], climb)
+    passes, labels = passes + walls, labels + faces
     return Piece(centres, tuple(passes), links(centres, passes, stepover), tuple(labels), place)
 
 

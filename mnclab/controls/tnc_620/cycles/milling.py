@@ -3,15 +3,14 @@
     roughing: infeeds of Q202, at most LCUTS, down to Q369 above the floor; the last one is the rest
     side finishing: infeeds of Q338, or one, down to the same level;  floor finishing: one infeed at Q203 + Q201
 
-`c` is any of the cycles 251 to 258, whose parameters have the same names. A cycle says where its figure lies and what shape
-it has.
+The parameters of the cycles have the same names. Each says where its figure lies and what shape it has.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
@@ -20,6 +19,13 @@ from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.pocket_steps import Feeds, Work
 from mnclab.machining.steps import Go, Say, Step, moved
 from mnclab.path.tool import Tool
+
+if TYPE_CHECKING:
+    from mnclab.controls.tnc_620.cycles.pockets import AnyPocket
+    from mnclab.controls.tnc_620.cycles.slots import AnySlot
+    from mnclab.controls.tnc_620.cycles.studs import AnyStud
+
+AnyFigure: TypeAlias = "AnyPocket | AnySlot | AnyStud"
 
 Place = tuple[float, float]
 Fault = tuple[str, str]
@@ -33,7 +39,7 @@ class Figure(NamedTuple):
     steps: Iterable[Step]
 
 
-def in_program_coordinates(c: Any, m: Machine) -> Place:
+def in_program_coordinates(c: AnyFigure, m: Machine) -> Place:
     """`about` of all of them: the steps of a figure are moved to their place."""
     return 0.0, 0.0
 
@@ -43,22 +49,22 @@ def edges(tool: Tool) -> float:
     return tool.cutting_length if tool.cutting_length > 0 else math.inf
 
 
-def levels(c: Any, m: Machine) -> tuple[float, ...]:
+def levels(c: AnyFigure, m: Machine) -> tuple[float, ...]:
     """Of roughing."""
     return infeeds(c.surface, left_over(c), min(c.infeed, edges(tool(m))))
 
 
-def left_over(c: Any) -> float:
+def left_over(c: AnyFigure) -> float:
     """Where roughing and side finishing end."""
     return float(c.surface + c.depth + c.down * c.floor_allowance)
 
 
-def wall_levels(c: Any) -> tuple[float, ...]:
+def wall_levels(c: AnyFigure) -> tuple[float, ...]:
     """Of side finishing."""
     return infeeds(c.surface, left_over(c), c.finishing_infeed)
 
 
-def work(c: Any, m: Machine, feeds: tuple[Feeds, Feeds, Feeds]) -> Work:
+def work(c: AnyFigure, m: Machine, feeds: tuple[Feeds, Feeds, Feeds]) -> Work:
     """What is done of the cycle; Q351 = 0 is climb milling too."""
     roughs, finishes = c.machining_operation != 2, c.machining_operation != 1
     return Work(
@@ -75,7 +81,7 @@ def work(c: Any, m: Machine, feeds: tuple[Feeds, Feeds, Feeds]) -> Work:
     )
 
 
-def contradictions(c: Any) -> Iterator[Fault]:
+def contradictions(c: AnyFigure) -> Iterator[Fault]:
     """An infeed; not all of the depth is allowance. A depth of 0 is not executed, so nothing of it can be wrong."""
     if c.depth == 0:
         return
@@ -86,7 +92,7 @@ def contradictions(c: Any) -> Iterator[Fault]:
     yield from too_many("finishing_infeed", lambda: wall_levels(c))
 
 
-def check(c: Any, m: Machine, finishing_feed: float) -> Iterator[Fault]:
+def check(c: AnyFigure, m: Machine, finishing_feed: float) -> Iterator[Fault]:
     """The sign of the depth, a tool with a radius, feeds for all that is done, a number of levels to wait for."""
     yield from c.signs(m)
     if m.radius <= 0:
@@ -103,7 +109,7 @@ def check(c: Any, m: Machine, finishing_feed: float) -> Iterator[Fault]:
 
 
 def mill(
-    c: Any, m: Machine, work: Work, figures: Iterable[Figure], last: Iterable[Step] = (),
+    c: AnyFigure, m: Machine, work: Work, figures: Iterable[Figure], last: Iterable[Step] = (),
     why: str = "neither Q368 nor Q369 is given",
 ) -> Iterator[Step]:  # fmt: skip
     """Figure after figure, at rapid from the second set-up plane and back to it, and what comes `last`.

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -24,6 +24,9 @@ from mnclab.machining.milling.entries import Descent, Entry, onto_floor
 from mnclab.machining.milling.figures import Pocket, mill_pocket, straight
 from mnclab.machining.milling.pocket_steps import Down, Feeds, Room, way_down
 from mnclab.machining.steps import Step
+
+if TYPE_CHECKING:
+    from mnclab.controls.tnc_620.cycles.slots import AnySlot
 
 CYCLES = CycleTable()
 
@@ -153,10 +156,12 @@ class CircularPocket(AtSurface):
         return mill(self, m, self.pocket(m), m.programmed[:2], end)
 
 
+AnyPocket: TypeAlias = RectangularPocket | CircularPocket
+
 # --- what both share ------------------------------------------------------------------------------------------------
 
 
-def check_pocket(c: Any, m: Machine, pocket: Pocket) -> Iterator[Fault]:
+def check_pocket(c: AnyPocket, m: Machine, pocket: Pocket) -> Iterator[Fault]:
     """No more passes than somebody would wait for, and the tool gets down."""
     yield from too_many("overlap", lambda: pocket.clearing(0.0))
     levels, room = milling.levels(c, m), pocket.room(c.side_allowance)
@@ -174,33 +179,33 @@ def check_pocket(c: Any, m: Machine, pocket: Pocket) -> Iterator[Fault]:
     yield from too_many("plunging_strategy", lambda: way_in(c, m, room)(0.0, levels[0] - c.surface))
 
 
-def check_angle(c: Any, m: Machine) -> Iterator[Fault]:
+def check_angle(c: AnyPocket | AnySlot, m: Machine) -> Iterator[Fault]:
     """All strategies but the vertical one need a plunge angle."""
     if c.plunging_strategy and not 0 < m.tool.plunge_angle <= 90:
         angle = f"the plunge angle (ANGLE) of tool {m.tool.number}, greater than 0 and at most 90"
         yield "plunging_strategy", f"{c.plunging_strategy:g} needs {angle}, in the tool table"
 
 
-def slopes(c: Any, m: Machine) -> bool:
+def slopes(c: AnyPocket | AnySlot, m: Machine) -> bool:
     """Whether the tool goes down on a helix or a ramp; at 90 degrees both are straight down."""
     return bool(c.plunging_strategy > 0 and m.tool.plunge_angle < 90)
 
 
-def way_in(c: Any, m: Machine, room: Room) -> Down:
+def way_in(c: AnyPocket, m: Machine, room: Room) -> Down:
     """The way from one level to another; straight down where a helix is as narrow as the tool."""
     sloping = slopes(c, m) and not (c.plunging_strategy == 1 and room.half_width < NOTHING)
     entry = Entry(ENTRIES[int(c.plunging_strategy)], tool(m).plunge_angle) if sloping else Entry()
     return partial(way_down, entry, room, m.radius, c.milling_type >= 0)
 
 
-def feeds(c: Any, m: Machine) -> tuple[Feeds, Feeds, Feeds]:
+def feeds(c: AnyPocket | AnySlot, m: Machine) -> tuple[Feeds, Feeds, Feeds]:
     """Of roughing, the side and the floor: from which Q439 on they count at the cutting edge; ways down never do."""
     first, second, third = (m.radius if c.feed_reference >= least else 0.0 for least in (3, 1, 2))
     plunge, finish = c.plunging_feed, c.finishing_feed
     return Feeds(c.milling_feed, plunge, first), Feeds(finish, plunge, second), Feeds(finish, plunge, third)
 
 
-def mill(c: Any, m: Machine, pocket: Pocket, centre: Place, end: float | None = None) -> Iterator[Step]:
+def mill(c: AnyPocket, m: Machine, pocket: Pocket, centre: Place, end: float | None = None) -> Iterator[Step]:
     """Roughing in layers, the walls in infeeds, the floor; then back to where the tool was called."""
     whole, work = pocket.room(0.0), milling.work(c, m, feeds(c, m))
 

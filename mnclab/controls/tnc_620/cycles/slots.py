@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import Any, ClassVar
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 
@@ -179,15 +179,17 @@ class CircularSlot(AtSurface):
         return mill(self, m, self.places(m), None if self.slot_position else self.centre(m))
 
 
+AnySlot: TypeAlias = StraightSlot | CircularSlot
+
 # --- what both share ------------------------------------------------------------------------------------------------
 
 
-def slot(c: Any, m: Machine, line: Contour) -> Slot:
+def slot(c: AnySlot, m: Machine, line: Contour) -> Slot:
     """The shape of one slot."""
     return Slot(line, c.slot_width, m.radius, c.milling_type >= 0)
 
 
-def check_slot(c: Any, m: Machine, line: Contour, length: float, count: int = 1) -> Iterator[Fault]:
+def check_slot(c: AnySlot, m: Machine, line: Contour, length: float, count: int = 1) -> Iterator[Fault]:
     """The tool fits, and gets down; no more passes than somebody would wait for."""
     shape = slot(c, m, line)
     for least, what in ((2 * m.radius, ""), (2 * m.radius + 2 * c.side_allowance, " and twice Q368")):
@@ -203,13 +205,13 @@ def check_slot(c: Any, m: Machine, line: Contour, length: float, count: int = 1)
     yield from few_passes("infeed", len(levels), count * len(shape.clearing(c.side_allowance).passes))
 
 
-def way_in(c: Any, m: Machine, line: Contour) -> Down:
+def way_in(c: AnySlot, m: Machine, line: Contour) -> Down:
     """To and fro along the line, or straight down at its beginning."""
     angle = tool(m).plunge_angle
     return (lambda top, bottom: swing(line, top, bottom, angle)) if slopes(c, m) else straight
 
 
-def mill(c: Any, m: Machine, places: Iterable[tuple[Place, Contour]], last: Place | None) -> Iterator[Step]:
+def mill(c: AnySlot, m: Machine, places: Iterable[tuple[Place, Contour]], last: Place | None) -> Iterator[Step]:
     """Each slot from the second set-up plane: roughing, side, floor."""
     work, why = milling.work(c, m, feeds(c, m)), "neither Q368 nor Q369 is given"
     if not work.is_nothing and abs(c.slot_width / 2 - m.radius) <= NOTHING:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from functools import partial
-from typing import Any, ClassVar
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 
@@ -269,6 +269,8 @@ class PolygonStud(AtSurface):
         return mill(self, m, m.programmed[:2])
 
 
+AnyStud: TypeAlias = RectangularStud | CircularStud | PolygonStud
+
 # --- what they share ------------------------------------------------------------------------------------------------
 
 
@@ -277,19 +279,19 @@ def on_ray(away: float, angle: float) -> Place:
     return away * math.cos(angle), away * math.sin(angle)
 
 
-def finishing_feed(c: Any) -> float:
+def finishing_feed(c: AnyStud) -> float:
     """As in roughing where none is given."""
     return float(c.finishing_feed or c.milling_feed)
 
 
-def check_passes(c: Any, m: Machine) -> Iterator[Fault]:
+def check_passes(c: AnyStud, m: Machine) -> Iterator[Fault]:
     """A number of passes that somebody would wait for."""
     yield from too_many("overlap", lambda: c.clearing(m.radius, c.side_allowance, True))
     passes = c.clearing(m.radius, c.side_allowance, True).passes
     yield from few_passes("infeed", len(milling.levels(c, m)), sum(len(contour.starts) for contour in passes) // 4)
 
 
-def mill(c: Any, m: Machine, centre: Place, last: Iterable[Step] = ()) -> Iterator[Step]:
+def mill(c: AnyStud, m: Machine, centre: Place, last: Iterable[Step] = ()) -> Iterator[Step]:
     """To S, and from there roughing in layers, the side in infeeds, the floor; at the end the tool stays above S."""
     plunge = rate(c.plunging_feed)
     finishing = Feeds(finishing_feed(c), plunge)

@@ -58,7 +58,7 @@ class ThreadDrillingMilling(AtSurface):
 
     @property
     def way(self) -> Way:
-        return Way(inside(self))
+        return Way(inside(self.milling_type))
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """As all thread milling, the feed of milling also countersinks; and an infeed to drill with."""
@@ -78,7 +78,7 @@ class ThreadDrillingMilling(AtSurface):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Hole, countersink at front at the milling feed, thread."""
-        remark_on_the_end(self, m, "total_hole_depth")
+        yield from remark_on_the_end(self, m, "total_hole_depth")
         yield Go("to the set-up clearance", self.above)
         if self.total_hole_depth:
             every = self.chip_breaking_depth

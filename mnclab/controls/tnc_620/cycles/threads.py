@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, TypeAlias
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.holes import rate
@@ -18,7 +18,7 @@ from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS_THREADS
 from mnclab.machining.holes.thread_milling import Path, centre_feed, chamfer, countersink, helices, mill_thread, path_of
-from mnclab.machining.steps import Go, Step
+from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()
 
@@ -62,7 +62,7 @@ class InnerThreadMilling(AtSurface):
     @property
     def way(self) -> Way:
         """Q355 threads per step."""
-        return Way(inside(self), int(self.threads_per_step))
+        return Way(inside(self.milling_type), int(self.threads_per_step))
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Nothing where the depth is 0, for then nothing is done."""
@@ -111,7 +111,7 @@ class ThreadMillingCountersinking(AtSurface):
 
     @property
     def way(self) -> Way:
-        return Way(inside(self))
+        return Way(inside(self.milling_type))
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         sinks = bool(self.countersinking_depth or self.depth_at_front)
@@ -119,7 +119,7 @@ class ThreadMillingCountersinking(AtSurface):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Countersink, countersink at front, thread."""
-        remark_on_the_end(self, m, "countersinking_depth")
+        yield from remark_on_the_end(self, m, "countersinking_depth")
         yield Go("to the set-up clearance", self.above)
         feed, position = self.countersinking_feed, rate(self.prepositioning_feed)
         if self.countersinking_depth:
@@ -164,7 +164,7 @@ class OutsideThreadMilling(AtSurface):
     @property
     def way(self) -> Way:
         """Outside, climb milling turns clockwise."""
-        return Way(-inside(self), int(self.threads_per_step), external=True)
+        return Way(-inside(self.milling_type), int(self.threads_per_step), external=True)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """The tool does not plunge into the stud."""
@@ -182,25 +182,33 @@ class OutsideThreadMilling(AtSurface):
         yield from self.leave()
 
 
-# --- what all share, 264 and 265 too: `c` is the cycle, its `way` how it mills ---------------------------------------
+if TYPE_CHECKING:
+    from mnclab.controls.tnc_620.cycles.thread_drilling import HelicalThreadMilling, ThreadDrillingMilling
+
+Countersunk: TypeAlias = (
+    "ThreadMillingCountersinking | OutsideThreadMilling | ThreadDrillingMilling | HelicalThreadMilling"
+)
+AnyThread: TypeAlias = "InnerThreadMilling | Countersunk"
+
+# --- what all share --------------------------------------------------------------------------------------------------
 
 
-def inside(c: Any) -> int:
+def inside(milling_type: float) -> int:
     """The rotation inside a thread: climb milling runs counter-clockwise there."""
-    return -1 if c.milling_type < 0 else 1
+    return -1 if milling_type < 0 else 1
 
 
-def hand(c: Any) -> int:
+def hand(c: AnyThread) -> int:
     """+1 for a right-hand thread, -1 for a left-hand one."""
     return 1 if c.pitch > 0 else -1
 
 
-def path(c: Any, m: Machine) -> Path:
+def path(c: AnyThread, m: Machine) -> Path:
     """Where the tool centre runs."""
     return path_of(c.nominal_diameter, m.radius, abs(c.pitch), c.way.external)
 
 
-def passes(c: Any) -> list[tuple[float, float]]:
+def passes(c: AnyThread) -> list[tuple[float, float]]:
     """Start and end levels of the helices; a thread upwards is one downwards turned over at its end."""
     bottom, upwards, lead = c.surface + c.thread_depth, hand(c) * c.way.rotation > 0, abs(c.pitch)
     if c.thread_depth < 0:
@@ -209,7 +217,7 @@ def passes(c: Any) -> list[tuple[float, float]]:
     return [(bottom - begin, bottom - end) for begin, end in found]
 
 
-def check(c: Any, m: Machine, **feeds: bool) -> Iterator[tuple[str, str]]:
+def check(c: AnyThread, m: Machine, **feeds: bool) -> Iterator[tuple[str, str]]:
     """Spindle, tool, pitch, signs, room for the tool, and the `feeds` that the cycle runs at where something is not 0."""
     if not any(c.depths().values()):
         every = " and ".join(address(c, name) for name in c.depths())
@@ -234,21 +242,21 @@ def check(c: Any, m: Machine, **feeds: bool) -> Iterator[tuple[str, str]]:
         yield from too_many("pitch", lambda: passes(c))
 
 
-def address(c: Any, name: str) -> str:
+def address(c: AnyThread, name: str) -> str:
     """Of a parameter."""
     return next(p.address for p in c.parameters() if p.name == name)
 
 
-def remark_on_the_end(c: Any, m: Machine, name: str) -> None:
+def remark_on_the_end(c: AnyThread, m: Machine, name: str) -> Iterator[Say]:
     """The thread ends a third of a pitch above the end of the hole or of the countersink, or there is a warning."""
     depth = abs(getattr(c, name))
     if c.thread_depth and depth and abs(c.thread_depth) > depth - abs(c.pitch) / 3 + 1e-9:
         least = f"at least a third of the pitch less deep than {address(c, name)} = {getattr(c, name):g}"
         word = m.cycle.words.get("thread_depth") if m.cycle else None
-        m.warn(f"{c.code} Q201 (thread depth) should be {least}, got {c.thread_depth:g}", word)
+        yield Say(f"Q201 (thread depth) should be {least}, got {c.thread_depth:g}", word=word)
 
 
-def thread(c: Any, m: Machine) -> Iterator[Step]:
+def thread(c: AnyThread, m: Machine) -> Iterator[Step]:
     """Every helix with its approach and departure; nothing without a depth."""
     if c.thread_depth:
         slow = getattr(c, "approach_feed", 0.0) or c.milling_feed  # cycle 265 has no Q512
@@ -261,7 +269,7 @@ def thread(c: Any, m: Machine) -> Iterator[Step]:
         )  # fmt: skip
 
 
-def front(c: Any, m: Machine, feed: float, plunge: float | None = None) -> Iterator[Step]:
+def front(c: Countersunk, m: Machine, feed: float, plunge: float | None = None) -> Iterator[Step]:
     """Countersink with the end of the tool: down at `plunge`, Q253 if None, and round; nothing without a depth."""
     if c.depth_at_front:
         down = rate(c.prepositioning_feed) if plunge is None else plunge
