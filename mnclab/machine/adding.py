@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.machine.coordinates import NORMALS, PLANES, normal
 from mnclab.path.cutting_speed import mean_turn, spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.recorder import NAN, State
@@ -54,13 +55,14 @@ def add_row(
 def row_state(m: Machine) -> int:
     """The state that rows made now share."""
     if m.row_state is None:
+        axis = NORMALS[m.plane] if m.shift is not None else normal(m.matrix, *PLANES[m.plane][:2])
         per_rev = m.feed if m.per_rev and m.feed is not None else NAN
         cutting = {}
         if m.surface is not None:
             cutting = {"surface": m.surface, "speed_limit": m.speed_limit, "spindle_x": spindle_axis(m)}
         m.row_state = m.recorder.state(
             State(
-                program=m.program, axis=m.axis, rotary=m.rotary, per_rev=per_rev, spindle=m.spindle_speed,
+                program=m.program, axis=axis, rotary=m.rotary, per_rev=per_rev, spindle=m.spindle_speed,
                 tool=m.tool.number, radius=m.tool.effective_radius, side=m.side * m.orientation,
                 corner_rule=m.corner_rule, exact=m.exact, synchronous=m.synchronous, tolerance=m.tolerance, **cutting,
             )

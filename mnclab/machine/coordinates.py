@@ -88,11 +88,6 @@ class Placed(State):
     # --- the plane ---------------------------------------------------------------------------------------------------
 
     @property
-    def axis(self) -> Place:
-        """The unit normal of the plane, in machine axes."""
-        return NORMALS[self.plane] if self.shift is not None else normal(self.matrix, *PLANES[self.plane][:2])
-
-    @property
     def scale(self) -> float:
         """How long 1 mm of the program in the plane is on the machine; 1 where that depends on the direction."""
         if self.shift is not None or not self.keeps_circles:

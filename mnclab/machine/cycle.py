@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from mnclab.machine import true_size
 from mnclab.machining.depths import TooMany
+from mnclab.machining.steps import Step
 from mnclab.text.program import Word
 from mnclab.text.records import written
 
@@ -193,11 +194,12 @@ class Cycle:
         """
         yield from ()
 
-    def moves(self, m: Machine) -> Iterable[Any] | None:
-        """The steps of the cycle (`machining.steps`); it reads the machine and changes nothing.
+    def moves(self, m: Machine) -> Iterable[Step]:
+        """The steps of the cycle; it reads the machine and changes nothing.
 
         Steps are made while they are carried out: what is asked of the machine after the first `yield` is asked later.
         """
+        return ()
 
     def about(self, m: Machine) -> tuple[float, float]:
         """Where x and y of the steps count from: where the tool stands at the call."""

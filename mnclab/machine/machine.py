@@ -94,7 +94,7 @@ class Machine(Placed):
         """
         if getattr(self, name) != value:
             setattr(self, name, value)
-            if name in ROWS:
+            if name in ROWS and (name != "feed" or self.per_rev):  # a feed per minute stands in the row itself
                 self.row_state = None
             if name in HISTORY and name not in self.modal:
                 self.log(name, value)

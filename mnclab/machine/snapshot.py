@@ -17,7 +17,7 @@ import numpy as np
 from mnclab.path.toolpath import Toolpath
 
 PLAIN = frozenset((str, int, float, bool, type(None)))
-FIXED = (*PLAIN, Toolpath, MappingProxyType)
+FIXED: tuple[type, ...] = (Toolpath, MappingProxyType)
 HOLDERS = (list, set, frozenset)
 
 

@@ -52,7 +52,7 @@ class Part(NamedTuple):
 
 def part(
     default: Any, *, rows: bool = False, history: bool = False, outlives: bool = False, compared: tuple[str, ...] = ALWAYS
-) -> Any:
+) -> Any:  # fmt: skip
     """A line of the table."""
     return Part(default, rows, history, outlives, compared)
 

@@ -71,7 +71,8 @@ class Course:
         self.bulk: Callable[[int, int], int] = _none_at_once
         self.spent = 0  # of the limit, by blocks that take as long as many
         self.depth, self.calls = 0, 0  # calls: subprograms alone, without repeats
-        self.limit, self.in_bulk = LONGEST + len(program), 0  # steps obeyed in bulk do not count: they end by themselves
+        self.limit = LONGEST + len(program)
+        self.in_bulk = 0  # steps obeyed in bulk do not count for it: they end by themselves
         self.watched: Callable[[int], None] = _nothing  # hears now and then how many steps were begun
         self.returning = self.over = False  # the subprogram, the called program ends
         self.target = -1  # block to go on at, after a jump
@@ -211,7 +212,8 @@ class Course:
                 break
             if loop.done > 2:
                 continue
-            blocks, rows = (self.begun - self.in_bulk - begin) * times, made + (recorder.made - made) * (times - loop.done)
+            blocks = (self.begun - self.in_bulk - begin) * times
+            rows = made + (recorder.made - made) * (times - loop.done)
             if blocks > CERTAIN * self.limit and not self.loops.asked_since(loop.begun):
                 self._too_long(here)
             if rows > recorder.most:  # and will be, if this pass was like the one before

@@ -51,24 +51,18 @@ def run_cycle(m: Machine, definition: Definition, through: Through | None = None
     `through` is what the steps go through on their way, with the place that they count from.
     """
     definition = as_it_stands(m, definition)
-    label, m.label = m.label, f"{definition.cycle.code} {definition.cycle.title}"
-    plane = (
-        {"plane": "XY"} if definition.cycle.does == MILLS and m.plane != "XY" else {}
-    )  # m.radius and m.scale count there
+    elsewhere = definition.cycle.does == MILLS and m.plane != "XY"  # than where m.radius and m.scale count
     try:
-        with m.within(**plane):
+        with m.within(**({"plane": "XY"} if elsewhere else {})):
             bound = bind(definition, m)
             if instead:
                 names = {p.name for p in definition.cycle.parameters()} & instead.keys()
                 bound = replace(bound, **{name: instead[name] for name in names})
-            steps, about = bound.moves(m), bound.about(m)
-            if steps is not None:
-                feed = bound.modal_feed(m)
-                with m.within(**({} if feed is None else {"feed": feed})):
-                    perform(m, bound.code, through(steps, about) if through else steps, about)
+            feed, steps, about = bound.modal_feed(m), bound.moves(m), bound.about(m)
+            with m.within(**({} if feed is None else {"feed": feed})):
+                perform(m, bound.code, through(steps, about) if through else steps, about)
     except TooMany as error:
         raise fault(definition, None, str(error)) from None
-    m.label = label
 
 
 def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = None) -> Any:

@@ -101,7 +101,7 @@ def compensation_panel(run: Run, **options: Any) -> Any:
 
 
 def form(code: str, control: str) -> Any:
-    """The parameters of a cycle as boxes, required ones first, with a picture of the cycle run alone.
+    """The parameters of a cycle as boxes, in the order of the manual, with a picture of the cycle run alone.
 
     A parameter that may be left out has a box to tick before its word is written. The result has `boxes` (by name of
     the parameter), `ticks` and `run`, the last run.
@@ -115,7 +115,7 @@ def form(code: str, control: str) -> Any:
     chosen: type[Cycle] = cycle
     boxes, ticks, rows = {}, {}, []
     longest = max((len(_name(p)) for p in chosen.parameters()), default=0)
-    for parameter in sorted(chosen.parameters(), key=lambda p: not p.required):
+    for parameter in chosen.parameters():
         box = boxes[parameter.name] = _parameter_box(parameter, min(32.0, 0.58 * longest))
         if not parameter.required and parameter.default in (None, inf):
             ticks[parameter.name] = tick = _tick(parameter, box)

@@ -48,6 +48,7 @@ def test_alarms_of_a_kind_are_counted_after_the_first_thousand():
     assert len(many) <= KEPT + KINDS and sum(alarm.count for alarm in many) == 5000
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("control", mnclab.controls)
 @pytest.mark.parametrize("wrong", WRONG)
 def test_thousands_of_wrong_lines(control, wrong):
@@ -93,6 +94,7 @@ def test_a_rest_of_one_is_one_and_names_what_there_is():
     assert rest(22, 1) == "… and 2 more alarms and 1 more warning, 23 in all"
 
 
+@pytest.mark.deep
 def test_memory_of_many_alarms_is_bounded():
     tracemalloc.start()
     alarms = Alarms(Alarm(f"X{k} has no meaning in this block", Span(k, 2)) for k in range(30_000))

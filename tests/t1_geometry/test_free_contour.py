@@ -138,6 +138,7 @@ def distance(contour, reading, drawn):
     return found
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("seed", range(60))
 def test_a_drawn_contour_is_found_again(seed):
     random = np.random.default_rng(seed)
@@ -208,6 +209,7 @@ def chain(elements):
 UNFINISHED = ["aL" * 6, "AL" * 6, "AAAAAA", "aAAAaL", "lA" * 4, "A" * 3, "l" * 12, "aAlAaLAa"]
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("elements", UNFINISHED)
 def test_a_contour_that_is_not_finished_is_given_up_soon_and_without_threads(elements):
     contour = chain("l")
@@ -221,6 +223,7 @@ def test_a_contour_that_is_not_finished_is_given_up_soon_and_without_threads(ele
     assert all_threads - mine < 0.5 * mine + 0.1
 
 
+@pytest.mark.deep
 def test_the_search_is_bounded():
     contour = FreeContour((0, 0))
     with pytest.raises(TooManyReadings):

@@ -142,6 +142,7 @@ def test_the_dumbbell_falls_apart():
     assert len(left_over.parts) == 1
 
 
+@pytest.mark.deep
 def test_inset_keeps_its_distance():
     region = Region.of(dumbbell(), box(-20, 20, 80, 40), holes=[Contour.circle((30, 30), 6)])
     for d in (0.1, 2, 8, -1, -15):

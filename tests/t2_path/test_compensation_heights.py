@@ -12,6 +12,8 @@ from running import run
 from mnclab import Kind, Tool
 from mnclab.path.toolpath import Toolpath
 
+pytestmark = pytest.mark.deep
+
 
 def ring(rng):
     """A polygon (n, 2), counter-clockwise, and a radius that fits inside and outside, starting in the middle of a side."""

@@ -64,6 +64,7 @@ BAD = {
 }
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("control", CALLS)
 @pytest.mark.parametrize("lines", BAD.values(), ids=BAD)
 def test_a_tool_that_rolls_through_the_part_is_refused(control, lines):

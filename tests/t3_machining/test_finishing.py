@@ -31,6 +31,7 @@ def test_leaving():
     assert off.points == pytest.approx(np.array([(35, 0), (33, -2)]))
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("climb", [True, False])
 def test_walls_and_islands(climb):
     region = Region.of(rectangle(80, 60, 8), holes=[Contour.circle((5, 0), 10)])

@@ -10,6 +10,8 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machining.milling.rings import rings, rounded
 
+pytestmark = pytest.mark.deep
+
 
 def box(x0, y0, x1, y1):
     return Contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])

@@ -14,6 +14,8 @@ from mnclab.machining.milling.layers import toolpath
 from mnclab.machining.milling.strategies import STRATEGIES, clear
 from mnclab.path.kinds import Kind
 
+pytestmark = pytest.mark.deep
+
 
 def star(seed):
     """A star with 5 to 8 arms, some of its sides bent, from a seed."""

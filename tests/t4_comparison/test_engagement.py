@@ -11,6 +11,8 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import rectangle
 
+pytestmark = pytest.mark.deep
+
 R = 5.0
 
 

@@ -26,6 +26,7 @@ odd = st.sampled_from(
 )
 
 
+@pytest.mark.deep
 @given(st.lists(st.one_of(plain, plain, plain, arc, full), min_size=2 * SHORTEST, max_size=90), st.booleans())
 def test_runs_of_plain_blocks(both, assert_equal, blocks, incremental):
     text = HEAD + ("G91\n" if incremental else "") + "\n".join(blocks) + "\n"
@@ -64,6 +65,7 @@ def test_runs_with_switches_between(both, assert_equal, blocks):
     assert_equal(*both(HEAD + "\n".join(blocks) + "\n"))
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("head", [*TURNED, "G18 G39 Z1 X2 A50", "G19 G51 Y3"])
 @pytest.mark.parametrize("first", ["G1 X1 Y2 Z3", "", "F150", "a whole circle"])
 def test_circles_stay_circles_in_bulk(both, assert_equal, executed, head, first):

@@ -8,6 +8,8 @@ import pytest
 import mnclab
 from mnclab.text.nearest import nearest
 
+pytestmark = pytest.mark.deep
+
 CONTROLS = ["mnc", "jnc-t01", "g43", "tnc-620"]
 
 

@@ -12,6 +12,8 @@ import mnclab
 from mnclab import Kind
 from mnclab.machine import trial
 
+pytestmark = pytest.mark.deep
+
 #: Cycles of the TNC 620 that are varied too, by the numbers of CYCL DEF.
 TNC = (200, 201, 202, 203, 204, 205, 208, 240, 241)
 CYCLES = {code: cycle for code, cycle in mnclab.controls["mnc"].cycles.items() if code == cycle.code} | {

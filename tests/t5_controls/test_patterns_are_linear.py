@@ -18,6 +18,8 @@ import pytest
 
 import mnclab
 
+pytestmark = pytest.mark.deep
+
 LONG = 8000
 MOST = 0.02  # s of processor, the least of three
 SOURCE = Path(mnclab.__file__).parent

@@ -32,6 +32,7 @@ def test_it_is_refused_there_and_so(file):
     assert str(raised.value) == str(first)
 
 
+@pytest.mark.deep
 @each(LINES)
 def test_the_path_is_kept_up_to_there(file):
     """What the blocks before the fault do is done, and nothing after it."""

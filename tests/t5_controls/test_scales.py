@@ -17,6 +17,8 @@ from mnclab import Kind, Setup, Tool
 from mnclab.controls.tnc_620.trial import klartext as signed
 from mnclab.machine import trial
 
+pytestmark = pytest.mark.deep
+
 MNC, TNC = (
     {code: cycle for code, cycle in mnclab.controls[name].cycles.items() if code == cycle.code}
     for name in ("mnc", "tnc-620")

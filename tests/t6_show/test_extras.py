@@ -111,6 +111,7 @@ SPARED = [
 EXTRAS = ("matplotlib", "pyvista", "vtkmodules", "ipywidgets", "jupyterlab", "IPython", "ezdxf", "tqdm")
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("arguments", NEEDED + SPARED, ids=" ".join)
 def test_commands_without_any_extra(tmp_path, monkeypatch, capsys, without, arguments):
     (tmp_path / "a.mnc").write_text(PROGRAM)

@@ -22,20 +22,8 @@ from mnclab.running.bulk import PlainWords
 
 #: Order inside a block.
 PHASES = (
-    *(
-        "plane",
-        "feed",
-        "spindle",
-        "tool",
-        "change",
-        "corrector",
-        "length",
-        "auxiliary",
-        "frames",
-        "local",
-        "compensation",
-    ),
-    *("dwell", "motion", "call", "end"),
+    *("plane", "feed", "spindle", "tool", "change", "corrector", "length", "auxiliary", "frames", "local"),
+    *("compensation", "dwell", "motion", "call", "end"),
 )
 
 SETTINGS = (
@@ -76,7 +64,7 @@ def start(m: Machine) -> None:
     lengths.place(m, "tip")
 
 
-FUNCTIONS = language.FUNCTIONS | lengths.FUNCTIONS | cycles.FUNCTIONS
+FUNCTIONS = language.FUNCTIONS | lengths.FUNCTIONS
 
 CONTROL = Control(
     name="g43",

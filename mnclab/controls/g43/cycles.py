@@ -17,7 +17,7 @@ from mnclab.controls.g43.language import ISO, undescribed
 from mnclab.controls.g43.lengths import activate
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import holes
-from mnclab.machine.control import FunctionTable, Words
+from mnclab.machine.control import Words
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
@@ -26,25 +26,12 @@ from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Step
 from mnclab.text.program import Word
 
-FUNCTIONS = FunctionTable()
 CYCLES = CycleTable()
 
-RETURN = {"G98": "Return to the initial level", "G99": "Return to level R"}
 POSITION = "X Y Z R"
 
 dwell = partial(param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500)
 peck = partial(param, "Q", "depth of one peck", above=0, incremental=True, modal=True, example=5)
-
-
-@FUNCTIONS("G80", "Drilling cycle off", group="cycle", phase="plane", power_on="G80", ends_cycle=True, source=ISO)
-def cycle_off(m: Machine, words: Words) -> None:
-    """Ends the cycle."""
-    m.position_cycle = None
-
-
-@FUNCTIONS("G98 G99", RETURN, group="return", phase="plane", power_on="G98", source=ISO)
-def return_level(m: Machine, words: Words) -> None:
-    """Where a drilling cycle leaves the tool."""
 
 
 class HoleCycle(Cycle, ABC):
@@ -60,7 +47,6 @@ class HoleCycle(Cycle, ABC):
     r_level: float
     peck: float | None = None
     dwell: float = 0.0
-    feed: float | None
 
     @classmethod
     def prepare(

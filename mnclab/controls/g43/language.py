@@ -13,12 +13,13 @@ from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.functions import ARCS, SPINDLE, functions
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
-from mnclab.machine.control import Control, Modal, Words
+from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
 
+FUNCTIONS = FunctionTable()
 ISO = "ISO 6983, not described"
 DATUMS = {f"G{n}": n - 53 for n in range(54, 60)}
 LENGTHS = ("G43", "G44", "G49")
@@ -48,9 +49,6 @@ def remark(m: Machine, words: Words) -> None:
     """What stands in the example, or changes nothing, needs no remark; nor do M functions."""
     if words.code[0] == "G" and words.code not in ("G17", "G40", "G90"):
         undescribed(m, words)
-
-
-FUNCTIONS = functions(remark, ISO, plane="7.1, example")
 
 
 def targets(m: Machine, words: Words) -> dict[str, float]:
@@ -159,3 +157,6 @@ def spindle(m: Machine, words: Words) -> None:
         m.at_block_end(lambda: m.spindle(turning=0))
     else:
         m.spindle(turning=1 if words.code == "M3" else -1)
+
+
+FUNCTIONS |= functions(remark, ISO, plane="7.1, example")

@@ -56,7 +56,7 @@ MEANINGS = {
 }  # fmt: skip
 
 FUNCTIONS = (
-    language.FUNCTIONS | auxiliary.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | fixed.FUNCTIONS | prepared.FUNCTIONS
+    language.FUNCTIONS | auxiliary.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | prepared.FUNCTIONS
 )  # fmt: skip
 
 CONTROL = Control(

@@ -23,7 +23,9 @@ def remark_m(m: Machine, words: Words) -> None:
         unlisted(m, words)
 
 
-FUNCTIONS = functions(remark_m, ISO, plane="2.4", dimension="2.3", feed_mode="4.2", blending="3.5", compensation="6")
+FUNCTIONS = functions(
+    remark_m, ISO, plane="2.4", dimension="2.3", feed_mode="4.2", blending="3.5", compensation="6", cycle="9"
+)
 
 
 # --- tool ----------------------------------------------------------------------------------------------------------------

@@ -95,26 +95,22 @@ def target(m: Machine, words: Words) -> dict[str, Any]:
     return to
 
 
-@FUNCTIONS("G10", "Rapid positioning, polar", group="motion", takes="R A X Y Z", moves=True, source="2.8.5")
-def polar_rapid(m: Machine, words: Words) -> None:
-    """Like G0, to radius R and angle A about the pole."""
-    if has_target(words):
+STRAIGHT = {"G10": "Rapid positioning, polar", "G11": "Linear interpolation, polar"}
+ARCS = {"G12": "Circular interpolation clockwise, polar", "G13": "Circular interpolation counter-clockwise, polar"}
+
+
+@FUNCTIONS("G10 G11", STRAIGHT, group="motion", takes="R A X Y Z", moves=True, source="2.8.5")
+def polar_straight(m: Machine, words: Words) -> None:
+    """Like G0 and G1, to radius R and angle A about the pole: a straight line, not a spiral."""
+    if has_target(words) and words.code == "G10":
         m.rapid(**target(m, words))
-
-
-@FUNCTIONS("G11", "Linear interpolation, polar", group="motion", takes="R A X Y Z", moves=True, source="2.8.5")
-def polar_line(m: Machine, words: Words) -> None:
-    """Like G1: a straight line, not a spiral."""
-    if has_target(words):
+    elif has_target(words):
         m.line(**target(m, words), word=first_word(words))
 
 
 def has_target(words: Words) -> bool:
     """Whether a block moves."""
     return any(address in words for address in ("R", "A", "X", "Y", "Z", "K"))
-
-
-ARCS = {"G12": "Circular interpolation clockwise, polar", "G13": "Circular interpolation counter-clockwise, polar"}
 
 
 @FUNCTIONS("G12 G13", ARCS, group="motion", takes="R A K X Y Z", moves=True, source="2.8.5")

@@ -25,11 +25,11 @@ def faults(cycle: FromStart, m: Machine, peck: float, depth: float) -> Iterator[
     yield from cycle.needs_feed(m)
 
 
-def deep_hole(m: Machine, start: float, bottom: float, peck: float, aside: float | None) -> Iterator[Step]:
+def deep_hole(m: Machine, begin: float, bottom: float, peck: float, aside: float | None) -> Iterator[Step]:
     """Drill along in pecks, each from a gap before the last depth, each followed by a retract to the start; then aside."""
     gap = m.settings["parameter_8"] / discretes.TRAVEL
-    yield from drill(infeeds(start, bottom, peck), above=start, feed=None, reenter=gap)
-    yield Go("retract", start)
+    yield from drill(infeeds(begin, bottom, peck), above=begin, feed=None, reenter=gap)
+    yield Go("retract", begin)
     if aside is not None:
         yield Go("aside", x=aside)
 

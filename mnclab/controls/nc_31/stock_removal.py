@@ -12,11 +12,11 @@ from collections.abc import Iterable, Iterator
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.targets import (
     FROM_START,
-    SWITCH,
     FromStart,
     apart,
     feed_word,
     here,
+    own_mark,
     rapid_mark,
     size,
     start,
@@ -25,7 +25,6 @@ from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import RAPID, Go, Step, Write
 from mnclab.machining.turning.roughing import Shoulder, around, count_of_breaks, count_of_levels, loops, roughing
-from mnclab.text.program import INCREMENTAL
 
 CYCLES = CycleTable()
 
@@ -33,18 +32,18 @@ MOST_PASSES = 10_000  # beyond any blank: a P1 that is so small is a slip
 TO_DIAMETER = "diameter of the finished surface"
 
 
-def too_far(name: str, size: float, room: float) -> Iterator[tuple[str, str]]:
+def too_far(name: str, bevel: float, room: float) -> Iterator[tuple[str, str]]:
     """A bevel that is longer than the way to the start."""
-    if size > room * (1 + 1e-9):
-        yield name, f"must be at most {room:.10g}, the distance to the start, got {size:.10g}"
+    if bevel > room * (1 + 1e-9):
+        yield name, f"must be at most {room:.10g}, the distance to the start, got {bevel:.10g}"
 
 
-def back(end: float, size: float, start: float, scale: float) -> float:
-    """The coordinate, mm, that lies `size` from `end` (both in discretes) towards `start` (mm).
+def back(end: float, bevel: float, begin: float, scale: float) -> float:
+    """The coordinate, mm, that lies `bevel` from `end` (both in discretes) towards `begin` (mm).
 
     Added as whole numbers: a bevel as long as the way to the start ends exactly there.
     """
-    return (end + math.copysign(size, start * scale - end)) / scale
+    return (end + math.copysign(bevel, begin * scale - end)) / scale
 
 
 def shoulder_of(cycle: LatheCut, bevel: tuple[float, float]) -> Shoulder:
@@ -185,9 +184,7 @@ class LongitudinalRoughing(FromStart):
     stock_per_pass: float = size("stock removed per pass", "0.01 mm on diameter", above=0, example=200)
     bevel: float = size("size of the bevel along Z", default=0, at_least=0, example=500)
     rapid_infeed: float = rapid_mark("infeed at rapid")
-    to_contour: float = param(
-        "@", "ends at point B (X, Z1) instead of the start", "mark", default=0, choices=SWITCH, mark=INCREMENTAL
-    )
+    to_contour: float = own_mark("ends at point B (X, Z1) instead of the start")
 
     check, moves = check_roughing, rough
 
@@ -207,9 +204,7 @@ class TransverseRoughing(FromStart):
     stock_per_pass: float = size("stock removed per pass along Z", above=0, example=200)
     bevel: float = size("size of the bevel along Z", default=0, at_least=0, example=500)
     rapid_infeed: float = rapid_mark("infeed at rapid")
-    to_contour: float = param(
-        "@", "ends at point B (X1, Z) instead of the start", "mark", default=0, choices=SWITCH, mark=INCREMENTAL
-    )
+    to_contour: float = own_mark("ends at point B (X1, Z) instead of the start")
     transverse = True
     check, moves = check_roughing, rough
 

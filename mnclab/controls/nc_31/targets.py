@@ -10,7 +10,7 @@ from mnclab.controls.nc_31.functions import refuse_rapid
 from mnclab.machine.cycle import Cycle, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.turning.roughing import Crosswise
-from mnclab.text.program import RAPID_MARK, Word
+from mnclab.text.program import INCREMENTAL, RAPID_MARK, Word
 
 SWITCH = {0.0: "no", 1.0: "yes"}
 FROM_START = "@: from the start point"
@@ -78,3 +78,8 @@ def size(meaning: str, unit: str = "0.01 mm", **options: Any) -> Any:
 def rapid_mark(meaning: str) -> Any:
     """The mark ~ on the G frame."""
     return param("~", meaning, "mark", default=0, choices=SWITCH, mark=RAPID_MARK, example=1)
+
+
+def own_mark(meaning: str, **options: Any) -> Any:
+    """The mark @ on the G frame, where it means something of its own."""
+    return param("@", meaning, "mark", default=0, choices=SWITCH, mark=INCREMENTAL, **options)

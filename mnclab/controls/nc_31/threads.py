@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.functions import refuse_rapid, targets
-from mnclab.controls.nc_31.targets import FROM_START, SWITCH, FromStart, apart, feed_word, here, size, start
+from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, own_mark, size, start
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
@@ -26,7 +26,6 @@ FUNCTIONS = FunctionTable()
 
 SAME = "the modal feed"
 ONE_PASS = "a single pass at X"
-ZERO_MARK = "start at the zero mark of the spindle"
 
 
 def pitch_of(m: Machine, feed: float | None) -> float:
@@ -110,7 +109,7 @@ class Tapping(FromStart):
                             note=FROM_START, example=6000)  # fmt: skip
     z: float = param("Z", "end of the thread", "0.01 mm", note=FROM_START, example=-2000)
     feed: float | None = feed_word("pitch", "0.0001 mm", SAME, 12_500)
-    zero_mark: float = param("@", ZERO_MARK, "mark", default=0, choices=SWITCH, mark=INCREMENTAL, example=1)
+    zero_mark: float = own_mark("start at the zero mark of the spindle", example=1)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """A thread, a pitch, a spindle."""

@@ -1,6 +1,11 @@
-"""Functions that milling controls of G words have alike: planes, dimensions, feed, blending, compensation, stops, coolant."""
+"""Functions that milling controls of G words have alike.
+
+Planes, dimensions, feed, blending, compensation, the end of fixed cycles, stops, coolant.
+"""
 
 from __future__ import annotations
+
+from collections import defaultdict
 
 from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.control import FunctionTable, Obey, Words
@@ -12,7 +17,9 @@ PLANES = {"G17": "Plane XY", "G18": "Plane ZX", "G19": "Plane YZ"}
 DIMENSIONS = {"G90": "Absolute dimensions", "G91": "Incremental dimensions"}
 FEEDS = {"G94": "Feed per minute", "G95": "Feed per revolution"}
 STOPS = {"G61": "Exact stop between blocks", "G64": "Block blending"}
-SIDES = {"G40": "Radius compensation off", "G41": "Radius compensation left", "G42": "Radius compensation right"}
+SIDES = {"G40": 0, "G41": 1, "G42": -1}
+COMPENSATION = {"G40": "Radius compensation off", "G41": "Radius compensation left", "G42": "Radius compensation right"}
+RETURN = {"G98": "Return to the initial level", "G99": "Return to level R"}
 PAUSES = {"M0": "Program stop", "M1": "Optional stop"}
 COOLANT = {"M7": "Coolant 2 on", "M8": "Coolant on", "M9": "Coolant off"}
 
@@ -20,11 +27,9 @@ COOLANT = {"M7": "Coolant 2 on", "M8": "Coolant on", "M9": "Coolant off"}
 def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
     """Their table for a control, which may `remark` on each of them first; `sources` of groups, and one of the others."""
     table = FunctionTable()
+    of = defaultdict(lambda: source, sources)
 
-    def listed(group: str) -> str:
-        return sources.get(group.replace(" ", "_"), source)
-
-    @table(" ".join(PLANES), PLANES, group="plane", phase="plane", power_on="G17", source=listed("plane"))
+    @table("G17 G18 G19", PLANES, group="plane", phase="plane", power_on="G17", source=of["plane"])
     def plane(m: Machine, words: Words) -> None:
         """The plane of arcs, radius compensation, polar coordinates and rotation; holes lie along Z in all of them."""
         remark(m, words)
@@ -36,14 +41,12 @@ def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
             m.alarm("the plane cannot change while radius compensation is active", head, hint="write G40 first")
         m.change("plane", plane)
 
-    @table(
-        " ".join(DIMENSIONS), DIMENSIONS, group="dimension", phase="plane", power_on="G90", source=listed("dimension")
-    )
+    @table("G90 G91", DIMENSIONS, group="dimension", phase="plane", power_on="G90", source=of["dimension"])
     def dimension(m: Machine, words: Words) -> None:
         """Coordinates of the selected system, or distances from the last programmed point."""
         remark(m, words)
 
-    @table(" ".join(FEEDS), FEEDS, group="feed mode", phase="plane", power_on="G94", source=listed("feed mode"))
+    @table("G94 G95", FEEDS, group="feed mode", phase="plane", power_on="G94", source=of["feed_mode"])
     def feed_mode(m: Machine, words: Words) -> None:
         """What F means, mm/min or mm/rev; a new F must follow, unless the setting feed_mode_switch says otherwise."""
         remark(m, words)
@@ -53,24 +56,33 @@ def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
             m.change("feed", (m.feed / speed if per_rev else m.feed * speed) if converted else None)
         m.change("per_rev", per_rev)
 
-    @table(" ".join(STOPS), STOPS, group="blending", phase="plane", power_on="G64", source=listed("blending"))
+    @table("G61 G64", STOPS, group="blending", phase="plane", power_on="G64", source=of["blending"])
     def exact_stop(m: Machine, words: Words) -> None:
         """Whether every motion ends with exact positioning; the path is the same."""
         remark(m, words)
         m.change("exact", words.code == "G61")
 
     @table(
-        " ".join(SIDES),
-        SIDES,
+        "G40 G41 G42",
+        COMPENSATION,
         group="compensation",
         phase="compensation",
         power_on="G40",
-        source=listed("compensation"),
+        source=of["compensation"],
     )
     def compensation(m: Machine, words: Words) -> None:
         """Takes effect with the next straight line in the plane: entry, change of side, exit."""
         remark(m, words)
-        m.change("side", {"G40": 0, "G41": 1, "G42": -1}[words.code])
+        m.change("side", SIDES[words.code])
+
+    @table("G80", "Fixed cycle off", group="cycle", phase="plane", power_on="G80", ends_cycle=True, source=of["cycle"])
+    def cycle_off(m: Machine, words: Words) -> None:
+        """Ends the fixed cycle, and forgets a prepared one."""
+        m.position_cycle = m.cycle = None
+
+    @table("G98 G99", RETURN, group="return", phase="plane", power_on="G98", source=of["cycle"])
+    def return_level(m: Machine, words: Words) -> None:
+        """Where a fixed cycle leaves the tool; a prepared one always ends at its start point."""
 
     @table("M0 M1", PAUSES, phase="end", modal=False, source=source)
     def program_stop(m: Machine, words: Words) -> None:

@@ -96,12 +96,12 @@ def _note_labels(
     whole = (found.value > 0) & (found.value == np.floor(found.value))
     good = is_label & first & whole
     for i in np.flatnonzero(is_label & ~good):
-        if first[i]:
-            message = f"N must be a positive whole number, got {found.value[i]:g}"
-        else:
-            message = "N must be the first word of its block"
-        builder.alarm(message, int(found.offset[i]), int(found.length[i]))
+        builder.alarm(_label_fault(first[i], found.value[i]), int(found.offset[i]), int(found.length[i]))
     labels += zip(found.offset[good].tolist(), found.value[good].tolist(), strict=True)
+
+
+def _label_fault(first: bool, number: float) -> str:
+    return f"N must be a positive whole number, got {number:g}" if first else "N must be the first word of its block"
 
 
 def plain_blocks(
@@ -164,12 +164,10 @@ def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labe
             _refuse(builder, text, match.end(), stop, mark)
             return
         if address == "N" and mark.labels:
-            if not first:
-                builder.alarm("N must be the first word of its block", at, length)
-            elif not 0 < number < math.inf or number != int(number):
-                builder.alarm(f"N must be a positive whole number, got {number:g}", at, length)
-            else:
+            if first and 0 < number < math.inf and number == int(number):
                 labels.append((at, int(number)))
+            else:
+                builder.alarm(_label_fault(first, number), at, length)
         else:
             if abs(number) >= LARGEST:
                 builder.alarm(f"a number must be smaller than {LARGEST:g}", at, length)

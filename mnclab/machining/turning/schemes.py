@@ -1,6 +1,6 @@
 """Roughing schemes of turning (NC-31, 3.20.2): strokes of a tool tip from a blank of one radius down to a profile.
 
-Every scheme takes a profile (z, r) as `turning_profiles` has it, with the finishing allowance already on it, the
+Every scheme takes a profile (z, r) as `profiles` has it, with the finishing allowance already on it, the
 radius of the blank and the depth of a pass on the radius, mm; it works on what the tool's angles let it reach, and on
 one zone at a time (`combined` parts the rest). Feeds belong to the `role` of a stroke and are given later.
 
@@ -9,6 +9,8 @@ one zone at a time (`combined` parts the rest). Feeds belong to the `role` of a 
     descent      radial strokes             equidistant  along offsets       contour  along shifted copies
 
     levels: blank - depth, blank - 2 depth, …, the bottom (catalogue: turning-technology)
+
+The lathe cycles G77 and G78 are the semi-finish on one shoulder: `roughing` has its steps for every side and direction.
 """
 
 from __future__ import annotations

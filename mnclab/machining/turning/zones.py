@@ -7,7 +7,7 @@
 
 The figures of the source are missing; the test by growth is the reading adopted, as it gives the stated restrictions. Water
 poured over the profile stands in the closed zones; what stays dry grows up to the greatest radius (semi-open) and does
-not grow behind it (open). Profiles are those of `turning_profiles`: (z, r), mm, from the face to the chuck.
+not grow behind it (open). Profiles are those of `profiles`: (z, r), mm, from the face to the chuck.
 """
 
 from __future__ import annotations

@@ -61,7 +61,7 @@ def test_a_parameter_acts(code, parameter):
 @pytest.mark.parametrize(("code", "parameter"), CASES, ids=lambda case: getattr(case, "name", case))
 def test_left_out_it_is_its_default_or_missing(code, parameter):
     if code == "G31" and parameter.name.startswith(("thread", "depth")):
-        return  # all P or none: test_threads of refused.txt
+        return  # all P or none: some are in tests/refused/nc-31
     values = {name: value for name, value in beginning(code).items() if name != parameter.name}
     if parameter.address == "P":  # a P can only be left out if all after it are
         names = [p.name for p in CONTROL.cycles[code].parameters() if p.address == "P"]

@@ -14,6 +14,8 @@ from hypothesis import strategies as st
 import mnclab as mnc
 from mnclab import Kind
 
+pytestmark = pytest.mark.deep
+
 
 def hundredths(least, most):
     return st.integers(round(least * 100), round(most * 100)).map(lambda n: n / 100)

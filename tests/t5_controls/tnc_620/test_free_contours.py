@@ -165,6 +165,7 @@ HEAD = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F100\n"
 
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("pairs", [1, 6, 40])
 @pytest.mark.parametrize("pair", ["FC DR- R15\nFLT\nRND R2", "FCT R7\nFCT R7\nRND R1", "FC\nFL", "FL LEN20\nFCT DR+ R5"])
 def test_what_is_missing_is_said_soon(pair, pairs):

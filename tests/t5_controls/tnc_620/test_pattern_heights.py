@@ -55,6 +55,7 @@ def after_each_hole(run: mnc.Run, way: str) -> list[np.ndarray]:
     return found
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("levels", LEVELS, ids=str)
 @pytest.mark.parametrize("code", HOLES)
 def test_after_a_hole_the_tool_rises_to_the_clearance_height(code: str, levels: tuple[float, ...]) -> None:

@@ -189,6 +189,7 @@ SCRAPS = st.sampled_from([
 ])  # fmt: skip
 
 
+@pytest.mark.deep
 @settings(max_examples=150, deadline=None)
 @given(st.integers(0, len(WHOLE_PROGRAM)), st.integers(0, 12), st.lists(SCRAPS, max_size=3))
 def test_no_program_raises(at: int, gone: int, scraps: list[str]) -> None:

@@ -8,6 +8,8 @@ import mnclab
 from mnclab import Kind
 from mnclab.machine import trial
 
+pytestmark = pytest.mark.deep
+
 CYCLES = {code: mnclab.controls["tnc-620"].cycles[code] for code in (f"CYCL DEF {n}" for n in (251, 252, 253, 254))}
 CASES = [(code, parameter) for code, cycle in CYCLES.items() for parameter in cycle.parameters()]
 #: In 252 the tool decides alone whether it goes down on a helix or not; the other value is refused (test_pockets_refused).

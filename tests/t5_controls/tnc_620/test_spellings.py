@@ -11,6 +11,8 @@ import pytest
 
 import mnclab as mnc
 
+pytestmark = pytest.mark.deep
+
 CATALOGUE = Path(__file__).parents[2] / "authorities" / "catalogue"
 DRILL = ("Q200=2", "Q201=-{}", "Q206=FAUTO", "Q202=5", "Q210=0", "Q203=+0", "Q204=20", "Q211=0.25")
 NAMES = ("", "GAURIRE", "DALTUIRE FRONTALĂ", "Bohren", "孔", "ГОРЯЧО", "DEPL. DECALARE OR.")

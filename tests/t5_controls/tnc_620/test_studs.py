@@ -276,6 +276,7 @@ def tried(code, values):
     return (path.end.round(9).tolist(), path.sweep.round(9).tolist()), path.feed.tolist()
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(("code", "parameter"), CASES, ids=lambda case: getattr(case, "name", case))
 def test_a_parameter_acts(code, parameter):
     values, name = examples(code), parameter.name

@@ -174,6 +174,7 @@ ODD = {
 }  # fmt: skip
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("number", ALL)
 @settings(max_examples=60)
 @given(data=st.data(), errors=st.booleans())

@@ -52,6 +52,7 @@ def seen(path: mnc.Toolpath) -> dict[str, object]:
 CHANGES = {"s": {"dwells"}, "mm/min": {"feeds"}, "deg": {"angle"}}
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(("number", "address"), CASES)
 def test_a_parameter_changes_what_it_means(called, rows, printed, number, address) -> None:
     beside = BESIDE.get((number, address), {})

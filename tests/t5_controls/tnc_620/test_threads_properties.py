@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 
 import mnclab as mnc
 
+pytestmark = pytest.mark.deep
+
 ALL = (262, 263, 264, 265, 267)
 
 CASES = st.fixed_dictionaries(

@@ -12,7 +12,6 @@ from functools import partial
 from typing import Any, ClassVar
 
 from mnclab.controls.word_address import holes
-from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS, depth_scale
@@ -22,23 +21,10 @@ from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Step
 from mnclab.text.program import Word
 
-FUNCTIONS = FunctionTable()
 CYCLES = CycleTable()
 
-RETURN = {"G98": "Return to the initial level", "G99": "Return to level R"}
 POSITION = "X Y U V Z W R"
 PAIRS = (("x", "x_increment"), ("y", "y_increment"), ("bottom", "depth_from_r"))
-
-
-@FUNCTIONS("G80", "Fixed cycle off", group="cycle", phase="plane", power_on="G80", ends_cycle=True, source="9")
-def cycle_off(m: Machine, words: Words) -> None:
-    """Ends G83, G84 and G85, and forgets a prepared cycle."""
-    m.position_cycle = m.cycle = None
-
-
-@FUNCTIONS("G98 G99", RETURN, group="return", phase="plane", power_on="G98", source="9")
-def return_level(m: Machine, words: Words) -> None:
-    """Where a fixed cycle leaves the tool; the prepared cycles always end at their start point."""
 
 
 # --- addresses -----------------------------------------------------------------------------------------------------------
@@ -63,14 +49,10 @@ class FixedCycle(Cycle, ABC):
     """A cycle at a hole; each declares the parameters named here, and says in `work` what happens below level R."""
 
     x: float | None
-    x_increment: float | None
     y: float | None
-    y_increment: float | None
     bottom: float
-    depth_from_r: float | None
     r_level: float
-    dwell: float
-    feed: float | None
+    peck_depth: float | None = None
 
     @classmethod
     def prepare(
@@ -106,8 +88,13 @@ class FixedCycle(Cycle, ABC):
         return values
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """The bottom lies below level R."""
+        """The bottom lies below level R; no more pecks than a hole can have."""
         yield from holes.upside_down(self.bottom, self.r_level)
+        yield from too_many("peck_depth", self.levels)
+
+    def levels(self) -> tuple[float, ...]:
+        """Pecks count from level R."""
+        return infeeds(self.r_level, self.bottom, self.peck_depth)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """No radius compensation, no machine coordinates."""
@@ -153,15 +140,6 @@ class DeepHoleDrilling(FixedCycle):
             m.warn(fault, None, "write K for each hole")
         kept["pecked"] = "peck_depth" in given
         return super().prepare(values, given, m, kept)
-
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        """As all fixed cycles; and no more pecks than a hole can have."""
-        yield from super().contradictions()
-        yield from too_many("peck_depth", self.levels)
-
-    def levels(self) -> tuple[float, ...]:
-        """Pecks count from level R."""
-        return infeeds(self.r_level, self.bottom, self.peck_depth)
 
     def work(self, m: Machine) -> Iterator[Step]:
         """Pecks and a dwell; the clearance above the last depth is one of the control, no length of the program."""

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from typing import ClassVar
 
 from mnclab.controls.mnc.cycles import addresses
-from mnclab.controls.mnc.state import memory
+from mnclab.controls.word_address.holes import out_of_place
 from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, remark
@@ -39,10 +39,7 @@ class MillingCycle(Cycle):
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Tool, feed, compensation; and no machine coordinates."""
-        if m.side:
-            yield "", "cannot run under radius compensation"
-        if memory(m).machine_coordinates:
-            yield "", "and G53 stand in one block: the cycle counts from the workpiece"
+        yield from out_of_place(m)
         if m.radius <= 0:
             yield "", f"needs a tool with a radius, got {m.radius:g}"
         if self.feed is None and m.feed is None:

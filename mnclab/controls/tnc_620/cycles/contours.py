@@ -9,6 +9,8 @@ from collections.abc import Generator, Iterator, Sequence
 from dataclasses import replace
 from typing import Any, ClassVar, NamedTuple
 
+from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, length
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
@@ -26,7 +28,7 @@ from mnclab.running.binding import unit_of
 
 CYCLES = CycleTable()
 FEEDS = ("FAUTO", "FU", "FZ")
-WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
+STRATEGIES: dict[float, str] = {0: "along the contour at depth", 1: "retract between the areas"}
 MOST_LABELS = 12
 
 
@@ -65,17 +67,15 @@ class ContourGeometry(Cycle):
 class ContourData(Cycle):
     """Depths, allowances and the sense of milling for the cycles that follow; no motion."""
 
-    depth: float = param("Q1", "milling depth from the surface to the floor", modal=True, incremental=True, example=-20, **WIDE)
+    depth: float = coordinate("Q1", "milling depth from the surface to the floor", incremental=True, example=-20)
     overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True, example=1)
-    side_allowance: float = param("Q3", "finishing allowance for side", modal=True, incremental=True, example=0.2, **WIDE)
-    floor_allowance: float = param("Q4", "finishing allowance for floor", modal=True, incremental=True, example=0.1, **WIDE)
-    surface: float = param("Q5", "coordinate of the workpiece surface", modal=True, example=0, **WIDE)
-    clearance: float = param("Q6", "set-up clearance", at_least=0, at_most=99999.9999, modal=True, incremental=True, example=2)
-    height: float = param("Q7", "clearance height", modal=True, example=50, **WIDE)
-    corner: float = param("Q8", "radius at inside corners", at_least=0, at_most=99999.9999, modal=True, example=0.5)
-    sense: float = param(
-        "Q9", "direction of machining", "choice", choices={-1: "up-cut milling", 1: "climb milling"}, modal=True
-    )
+    side_allowance: float = coordinate("Q3", "finishing allowance for side", incremental=True, example=0.2)
+    floor_allowance: float = coordinate("Q4", "finishing allowance for floor", incremental=True, example=0.1)
+    surface: float = coordinate("Q5", "coordinate of the workpiece surface", example=0)
+    clearance: float = length("Q6", "set-up clearance", incremental=True, example=2)
+    height: float = coordinate("Q7", "clearance height", example=50)
+    corner: float = length("Q8", "radius at inside corners", example=0.5)
+    sense: float = choice("Q9", "direction of machining", {-1: "up-cut milling", 1: "climb milling"})
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """The floor lies below its allowance, the clearance height above the set-up clearance."""
@@ -150,36 +150,21 @@ class RoughOut(Cycle):
 
     does: ClassVar[str] = MILLS
 
-    infeed: float = param("Q10", "infeed per cut", modal=True, incremental=True, example=5, **WIDE)
-    plunge_feed: float = param(
-        "Q11", "feed rate for plunging", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True, example=150
-    )
-    feed: float = param(
-        "Q12", "feed rate for roughing", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True, example=500
-    )
+    infeed: float = coordinate("Q10", "infeed per cut", incremental=True, example=5)
+    plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", FEEDS, at_most=FAR, example=150)
+    feed: float = addresses.feed("Q12", "feed rate for roughing", FEEDS, at_most=FAR, example=500)
     coarse_tool: float = param(
         ("Q18", "QS18"), "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
     )
-    swing_feed: float = param(
-        "Q19", "feed rate for reciprocation", "mm/min", at_least=0, at_most=99999.9999, also=FEEDS, modal=True, example=0
-    )
+    swing_feed: float = addresses.feed("Q19", "feed rate for reciprocation", FEEDS, at_most=FAR, example=0)
     retract_feed: float | str = param(
-        "Q208",
-        "retraction feed rate",
-        "mm/min",
-        default=INF,
-        default_means="FMAX",
-        at_least=0,
-        also=("FMAX", "FAUTO"),
+        "Q208", "retraction feed rate", "mm/min", default=INF, default_means="FMAX", at_least=0, also=("FMAX", "FAUTO"),
         modal=True,
-    )
+    )  # fmt: skip
     factor: float = param(
         "Q401", "feed rate factor at full engagement", "ratio", default=100, at_least=0.0001, at_most=100, modal=True
     )
-    fine_strategy: float = param(
-        "Q404", "fine roughing strategy", "choice", default=0, modal=True,
-        choices={0: "along the contour at depth", 1: "retract between the areas"},
-    )  # fmt: skip
+    fine_strategy: float = choice("Q404", "fine roughing strategy", STRATEGIES, default=0)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """Contour and data are there, the infeed is not zero; what is not built is refused."""
@@ -189,8 +174,8 @@ class RoughOut(Cycle):
             yield "", "needs its contour data: CYCL DEF 20 comes before it"
         if self.infeed == 0:
             yield "infeed", "must not be 0"
-        if isinstance(self.retract_feed, float) and 99999.9999 < self.retract_feed < INF:
-            yield "retract_feed", f"must be at most 99999.9999 or FMAX, got {self.retract_feed:g}"
+        if isinstance(self.retract_feed, float) and FAR < self.retract_feed < INF:
+            yield "retract_feed", f"must be at most {FAR:.10g} or FMAX, got {self.retract_feed:g}"
         if self.coarse_tool:
             yield "coarse_tool", "other than 0, fine roughing, is not built yet"
         if self.factor != 100:

@@ -59,8 +59,8 @@ class Drilling(Defaults):
     serves = DRILLING
 
     break_retract: float = addresses.length("Q256", "retraction for chip breaking", incremental=True, example=0.2)
-    dwell_top: float = addresses.seconds("Q210", "dwell at the set-up clearance", example=0)
     dwell_bottom: float = addresses.dwell_bottom()
+    dwell_top: float = addresses.seconds("Q210", "dwell at the set-up clearance", example=0)
 
 
 @CYCLES("GLOBAL DEF 110", "Defaults of pocket cycles", runs="definition", source="3.2")
@@ -82,9 +82,9 @@ class ContourMilling(Defaults):
 
     serves = CONTOURS
 
-    overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True, example=1)
     clearance: float = addresses.length("Q6", "set-up clearance", incremental=True, example=2)
     height: float = addresses.coordinate("Q7", "clearance height", example=50)
+    overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True, example=1)
     climb: float = addresses.choice("Q9", "sense of milling", CLIMB)
 
 

@@ -127,14 +127,7 @@ class SingleLipDrilling(DeepHole):
         "Q435", "depth of a dwell on the way", incremental=True, default=0, note="0: none", example=10
     )
     factor: float = param(
-        "Q401",
-        "feed rate factor after the dwell",
-        "ratio",
-        default=100,
-        at_least=0,
-        at_most=100,
-        modal=True,
-        example=50,
+        "Q401", "feed rate factor after the dwell", "ratio", default=100, at_least=0, at_most=100, modal=True, example=50
     )
     infeed: float | None = addresses.infeed(default=None, default_means="one pass")
     decrement: float = addresses.decrement(default=0)

@@ -101,14 +101,8 @@ class ThreadCutting(Cycle):
     call with the depth reversed runs the thread back.
     """
 
-    thread_depth: float = param(
-        "DEPTH",
-        "depth of the thread from where the tool stands",
-        at_least=-99999,
-        at_most=99999,
-        incremental=True,
-        modal=True,
-        example=-20,
+    thread_depth: float = addresses.coordinate(
+        "DEPTH", "depth of the thread from where the tool stands", at_least=-99999, at_most=99999, incremental=True, example=-20
     )
     thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, example=1.5, note="positive: a right-hand thread")
 
@@ -118,10 +112,8 @@ class ThreadCutting(Cycle):
     def contradictions(self) -> Iterator[tuple[str, str]]:
         """A pitch, within what the control can hold."""
         if self.thread_pitch == 0 or abs(self.thread_pitch) > addresses.FAR:
-            yield (
-                "thread_pitch",
-                f"must be at most {addresses.FAR:.10g} either way and not 0, got {self.thread_pitch:g}",
-            )
+            allowed = f"must be at most {addresses.FAR:.10g} either way and not 0"
+            yield "thread_pitch", f"{allowed}, got {self.thread_pitch:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """A spindle that stands still and has a speed."""

@@ -127,14 +127,8 @@ class RigidTappingInOnePass(RigidTapping):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         """In, reversed, out, stopped."""
-        return tap(
-            [self.bottom],
-            above=self.above,
-            pitch=abs(self.pitch),
-            sense=self.sense,
-            end=0,
-            stand=m.settings["thread_wait"],
-        )
+        stand = m.settings["thread_wait"]
+        return tap([self.bottom], above=self.above, pitch=abs(self.pitch), sense=self.sense, end=0, stand=stand)
 
 
 @CYCLES("CYCL DEF 209", "Tapping with chip breaking", runs="call", source="5.4")

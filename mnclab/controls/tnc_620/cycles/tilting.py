@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
-from mnclab.controls.tnc_620.cycles.addresses import FAR, FAST
+from mnclab.controls.tnc_620.cycles.addresses import FAR, FAST, angle
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import tilting
 from mnclab.geometry.frames import Matrix
@@ -38,16 +38,7 @@ RESULTS = {"A": "Q120", "B": "Q121", "C": "Q122"}
 
 def tilt(axis: str) -> Any:
     """The angle of an axis."""
-    return param(
-        axis,
-        f"tilt angle {axis}",
-        "deg",
-        default=None,
-        default_means="as it is",
-        at_least=-360,
-        at_most=360,
-        modal=True,
-    )
+    return angle(axis, f"tilt angle {axis}", default=None, default_means="as it is")
 
 
 @CYCLES("CYCL DEF 19", "Working plane", runs="definition", source="11.9")
@@ -104,10 +95,8 @@ class WorkingPlane(Cycle):
         if m.settings["tilt_angles"] == "axes":
             for axis, angle in self.angles.items():
                 if angle and axis not in pair:
-                    yield (
-                        f"angle_{axis.lower()}",
-                        f"must be 0, got {angle:g}: the rotary axes are {' and '.join(sorted(pair))}",
-                    )
+                    there = f"the rotary axes are {' and '.join(sorted(pair))}"
+                    yield f"angle_{axis.lower()}", f"must be 0, got {angle:g}: {there}"
 
     def about(self, m: Machine) -> tuple[float, float]:
         """Where the tip goes is told in coordinates of the program."""

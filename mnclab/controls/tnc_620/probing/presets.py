@@ -9,38 +9,32 @@ from __future__ import annotations
 from collections.abc import Generator, Iterator
 from typing import Any
 
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.state import active_preset
-from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.machining.steps import Go, Step, Touch, Write
 
 CYCLES = CycleTable()
-WIDE: dict[str, Any] = {"at_least": -99999.9999, "at_most": 99999.9999}
 
 
 @CYCLES("TCH PROBE 419", "Preset in one axis", runs="definition", source="15.13")
 class PresetInOneAxis(Cycle):
     """One touch along an axis; the touched point gets the coordinate Q333."""
 
-    x: float = param("Q263", "first touch point, reference axis", modal=True, example=20, **WIDE)
-    y: float = param("Q264", "first touch point, minor axis", modal=True, example=10, **WIDE)
-    z: float = param("Q261", "measuring height of the ball's centre", modal=True, example=-5, **WIDE)
-    clearance: float = param("Q320", "set-up clearance", at_least=0, at_most=99999.9999, incremental=True, modal=True, example=2)
-    height: float = param("Q260", "clearance height", modal=True, example=20, **WIDE)
-    axis: float = param(
-        "Q272", "measuring axis", "choice", modal=True,
-        choices={1: "reference axis", 2: "minor axis", 3: "touch probe axis"},
-    )  # fmt: skip
-    direction: float = param(
-        "Q267", "traverse direction", "choice", choices={-1: "negative", 1: "positive"}, modal=True
+    x: float = coordinate("Q263", "first touch point, reference axis", example=20)
+    y: float = coordinate("Q264", "first touch point, minor axis", example=10)
+    z: float = coordinate("Q261", "measuring height of the ball's centre", example=-5)
+    clearance: float = length("Q320", "set-up clearance", incremental=True, example=2)
+    height: float = coordinate("Q260", "clearance height", example=20)
+    axis: float = choice("Q272", "measuring axis", {1: "reference axis", 2: "minor axis", 3: "touch probe axis"})
+    direction: float = choice("Q267", "traverse direction", {-1: "negative", 1: "positive"})
+    row: float = count("Q305", "number in table", 9999, example=0)
+    datum: float = coordinate("Q333", "new coordinate of the touched point", default=0)
+    transfer: float = choice(
+        "Q303", "measured value transfer", {-1: "do not use", 0: "datum table", 1: "preset table"}, example=1
     )
-    row: float = param("Q305", "number in table", "count", at_least=0, at_most=9999, type="integer", modal=True, example=0)
-    datum: float = param("Q333", "new coordinate of the touched point", default=0, modal=True, **WIDE)
-    transfer: float = param(
-        "Q303", "measured value transfer", "choice", modal=True, example=1,
-        choices={-1: "do not use", 0: "datum table", 1: "preset table"},
-    )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         """A probe in the spindle, no transformation, a table to write to."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from types import MappingProxyType
 
 from mnclab.controls.tnc_620.reading.words import INCH, LARGEST
 from mnclab.controls.tnc_620.state import memory
@@ -39,7 +40,7 @@ _FIELD = re.compile(r"\S+")
 def select_table(m: Machine, words: Words) -> None:
     """The table that cycle 7 reads with #; it stays active until another one is selected."""
     word = words["file"]
-    memory(m).datum_table = str(word.value), read_table(m, word)
+    memory(m).datum_table = str(word.value), MappingProxyType(read_table(m, word))
 
 
 def row_of(m: Machine, row: int) -> Mapping[str, float]:
