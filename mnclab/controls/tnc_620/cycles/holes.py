@@ -19,10 +19,6 @@ class Hole(AtSurface):
     feed: float
     reference = 0.0
 
-    def depths(self) -> dict[str, float]:
-        """One."""
-        return {"depth": self.depth}
-
     def reach(self, m: Machine) -> float:
         """Where the hole ends, counted from the surface, mm."""
         return self.depth
