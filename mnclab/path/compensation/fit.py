@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from mnclab.geometry.curves import Curves, distance
 from mnclab.geometry.offsets import beside
 from mnclab.path.compensation import neighbours
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import at_height, meet
 from mnclab.path.compensation.joining import ends, remaining
 from mnclab.path.compensation.passes import crossed, given_up, run_past
@@ -35,9 +36,6 @@ from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Rule
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
-
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
 
 EXACT = 1e-9  # mm
 HINT = "take a smaller tool"

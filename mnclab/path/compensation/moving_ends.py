@@ -1,24 +1,80 @@
-"""The tool-centre path in rows: ends moved to the equidistant, arcs inserted about outside corners."""
+"""The pass: a programmed contour becomes the path of the tool centre.
+
+Ends of rows are moved to the equidistant, arcs inserted about outside corners.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.columns import COLUMNS
-from mnclab.path.compensation.elements import Mask
-from mnclab.path.compensation.rules import CORNER
+from mnclab.path.compensation.elements import Elements, Mask
+from mnclab.path.compensation.equidistant import Equidistant
+from mnclab.path.compensation.fit import check
+from mnclab.path.compensation.rules import CORNER, SPIKE_TURN, Compensation, Report
+from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind, Rule
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
+
+def apply(
+    path: Toolpath, rules: Compensation | None, unfinished: bool = False, gouge: str = "refuse", report: Report | None = None
+) -> Toolpath:  # fmt: skip
+    """The path of the tool centre; the path itself where nothing is compensated. Raises PathFault.
+
+    `unfinished`: the program broke off, so the end of the last compensated row is unknown and the row is left out.
+    `gouge` says what happens where the tool does not fit: "refuse" raises, "mark" cuts anyway, marks the rows in the
+    column `gouge` and adds to `report`, where remarks go as well.
+    """
+    if rules is None or not (path.side != 0).any():
+        return path
+    view = PlaneView(path)
+    rows = np.flatnonzero(view.moves)
+    el = Elements.of(path, view, rows)
+    if unfinished and len(rows) and el.on[-1]:
+        return apply(path[: rows[-1]], rules, False, gouge, report) if rows[-1] else path[:0]
+    if not el.on.any():
+        return path
+    report = Report() if report is None else report
+    _check_leads(path, el, rules)
+    found = Equidistant(el, rules)
+    marked = check(found, path, view, gouge, report)
+    _notice_spikes(path, found, report)
+    return _tool_centre_path(path, view, found, marked)
 
 
-def tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked: Mask) -> Toolpath:
+def _check_leads(path: Toolpath, el: Elements, rules: Compensation) -> None:
+    """Entry, exit and change of side are straight lines."""
+    kind = path.kind[el.rows]
+    bent = (kind != Kind.LINE) & ~(rules.rapid & (kind == Kind.RAPID))
+    for bad, message, hint in (
+        (el.entry & bent, "radius compensation begins only in a straight line at feed",
+         "write the entry as a linear move, then the contour"),
+        (el.exit & bent, "radius compensation ends only in a straight line at feed", ""),
+        (el.change & (not rules.change), "the side of the compensation cannot change from one element to the next",
+         "write a straight line without compensation between them"),
+        (el.change & bent, "the side of the compensation changes only in a straight line at feed",
+         "write a linear move that leads to the other side"),
+    ):  # fmt: skip
+        if bad.any():
+            raise PathFault(message, int(path.step[el.rows[int(np.argmax(bad))]]), hint)
+
+
+def _notice_spikes(path: Toolpath, found: Equidistant, report: Report) -> None:
+    """Straight corners that reach far out."""
+    el = found.el
+    straight = found.rule[:-1] == Rule.OUTSIDE_STRAIGHT
+    for k in np.flatnonzero(straight & (np.abs(found.turn[1:]) > SPIKE_TURN)):
+        angle, reach = 180 - np.degrees(abs(found.turn[k + 1])), float(np.hypot(*(found.end[k] - el.end[k])))
+        message = f"the straight corner of {angle:.3g} degrees reaches {reach:.4g} mm out"
+        report.notices.append(PathFault(message, int(path.step[el.rows[k + 1]]), "G162 makes an arc at acute corners"))
+
+
+def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked: Mask) -> Toolpath:
     """The rows of `path` along the equidistant; rows without motion in the plane stand where the one before ends."""
     el = found.el
     rows, n = el.rows, len(path)

@@ -9,7 +9,7 @@ tool's turn about a point. Farther apart `fit` has other means.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,12 +17,10 @@ from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, gap, part
 from mnclab.geometry.vectors import dot
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import meet
 from mnclab.path.compensation.joining import corners, ends, remaining
 from mnclab.path.compensation.rules import CUSP, Compensation
-
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
 
 FAR = 4  # elements on each side that are looked at
 WITHIN = 3.0  # tool radii along the contour

@@ -8,19 +8,15 @@ next pass of a roughing, say, which leaves the last one by a loop and comes back
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, crossings, distance, part, share
 from mnclab.geometry.vectors import cross, dot, left
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import meet, retracted
 from mnclab.path.compensation.rules import CLEAR
-
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
 
 ENDS = 1e-6  # mm: a crossing so near to an end of an element is its joint
 ALONG = 1e-6  # rad: elements that meet at a smaller angle touch

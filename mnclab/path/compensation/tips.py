@@ -5,19 +5,15 @@ All other walls must stay clear of the tip, and their vertices of the rows that 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, distance
 from mnclab.path.compensation.elements import Array, Elements, Index
+from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.joining import corners, ends, remaining
 from mnclab.path.compensation.rules import Compensation
 from mnclab.path.kinds import Rule
-
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
 
 LEAST = 1e-6  # mm: tips that reach out less are as good as round
 
