@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS
+from mnclab.path.columns import gathered
 from mnclab.path.compensation.elements import Elements, Mask
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.fit import check
@@ -89,8 +89,8 @@ def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marke
     ends = view.to_space(np.arange(n), _joined(flat, view.end[:, 2]))
     ends[keep] = path.end[keep]  # not compensated: exactly as it was
 
-    columns: dict[str, NDArray[Any]] = {name: getattr(path, name) for name in COLUMNS if name not in ("start", "end")}
-    columns["sweep"], columns["rule"], columns["gouge"] = path.sweep.copy(), np.zeros(n, np.uint8), np.zeros(n, bool)
+    columns = path.all_but_ends()
+    columns |= {"sweep": path.sweep.copy(), "rule": np.zeros(n, np.uint8), "gouge": np.zeros(n, bool)}
     columns["sweep"][rows], columns["rule"][rows], columns["gouge"][rows] = found.sweep, found.rule, marked
     labels = path.labels if CORNER in path.labels else (*path.labels, CORNER)
     k = np.flatnonzero(found.insert)
@@ -115,11 +115,14 @@ def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marke
         source = np.repeat(np.arange(n), count)
         inserted = like + np.arange(len(k))
         for name, column in columns.items():
-            columns[name] = _spread(column, source, inserted, made.get(name))
+            columns[name] = gathered(column, source)
+            constant = column.strides[0] == 0
+            if name in made and not (constant and np.array_equal(column[0], made[name], equal_nan=True)):
+                columns[name] = np.array(columns[name], copy=constant or None)
+                columns[name][inserted] = made[name]
         ends = ends.take(source, axis=0, mode="clip")
         ends[inserted] = view.to_space(like, _joined(found.begin[k], w))
-    vertices = np.concatenate([path.start[:1], ends])
-    return Toolpath.chain(vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe)
+    return path.through(np.concatenate([path.start[:1], ends]), columns, CORNER)
 
 
 def _joined(flat: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -127,19 +130,3 @@ def _joined(flat: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.flo
     points = np.empty((len(flat), 3))
     points[:, 0], points[:, 1], points[:, 2] = flat[:, 0], flat[:, 1], w
     return points
-
-
-def _spread(column: NDArray[Any], source: NDArray[np.int64], at: NDArray[np.int64], value: Any) -> NDArray[Any]:
-    """A column gathered from its old rows, other values in the rows `at`; a constant one stays so."""
-    same = value is None or (
-        np.ndim(value) == 0 and (value == column[0] or (value != value and column[0] != column[0]))
-    )
-    if column.strides[0] == 0 and same:
-        return np.broadcast_to(column[0], (len(source), *column.shape[1:]))
-    if column.strides[0] == 0:
-        found = np.full((len(source), *column.shape[1:]), column[0])
-    else:
-        found = column.take(source, axis=0, mode="clip")  # faster than column[source]
-    if value is not None:
-        found[at] = value
-    return found
