@@ -7,10 +7,10 @@ from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 
 FUNCTIONS = FunctionTable()
-ORIENTATION = "spindle angle"  # what Cycle 13 remembers, degrees
 HANDWHEEL = " ".join(f"M118:{axis}" for axis in "XYZABC")
 
 TURNING = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise"}
+COOLANT = {"M7": "Second coolant on", "M8": "Coolant on"}
 BOTH = {"M13": "Spindle on clockwise, coolant on", "M14": "Spindle on counter-clockwise, coolant on"}
 
 
@@ -26,9 +26,7 @@ def spindle_off(m: Machine, words: Words) -> None:
     m.spindle(turning=0)
 
 
-@FUNCTIONS(
-    "M7 M8", {"M7": "Second coolant on", "M8": "Coolant on"}, group="coolant", phase="start", source="4.5"
-)  # fmt: skip
+@FUNCTIONS("M7 M8", COOLANT, group="coolant", phase="start", source="4.5")
 def coolant_on(m: Machine, words: Words) -> None:
     """Before the motion of the block; what M7 switches is up to the machine."""
     m.coolant()

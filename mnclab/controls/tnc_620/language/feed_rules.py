@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from mnclab.controls.tnc_620.language.checks import above_zero
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.path.feed_rules import FeedRule
@@ -17,12 +18,9 @@ TITLES = {
 
 
 def from_here(m: Machine, **changed: Any) -> None:
-    """Another rule from this block on."""
+    """Another rule from this block on, in a new list: a recorded label leaves the old one."""
     last = m.feed_rules[-1] if m.feed_rules else FeedRule(0)
-    m.feed_rules = [
-        *m.feed_rules,
-        last._replace(step=m.step, **changed),
-    ]  # a new list: a recorded label leaves the old one
+    m.feed_rules = [*m.feed_rules, last._replace(step=m.step, **changed)]
 
 
 @FUNCTIONS("M103", "Feed factor of plunging moves", takes="M103:F", phase="start", source="3.4")
@@ -32,9 +30,7 @@ def plunging(m: Machine, words: Words) -> None:
     if (word := words.get("M103:F")) is not None:
         if word.value is None:
             m.alarm("M103 F needs a number", word, hint="for example M103 F20: 20 percent")
-        share = m.value(word)
-        if share <= 0:
-            m.alarm(f"M103 F (percent of the feed downwards) must be greater than 0, got {share:g}", word)
+        share = above_zero(m, word, "M103 F (percent of the feed downwards)")
     from_here(m, plunging=share / 100)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from mnclab.controls.tnc_620.language.checks import above_zero, one_of
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import INF, Machine
@@ -19,19 +20,16 @@ MEANINGS = {"F": "feed rate", "FU": "feed per revolution", "FZ": "feed per tooth
 
 def feed(m: Machine, words: Words) -> float | None:
     """Set the feed of this and the following blocks; inf for FMAX, which counts in its block alone."""
-    given = [words[name] for name in FORMS if name in words]
-    if not given:
+    word = one_of(m, words, FORMS, "one feed")
+    if word is None:
         return None
-    if len(given) > 1:
-        m.alarm(f"{given[0]} and {given[1]} stand in one block: one feed is allowed", given[1])
-    word = given[0]
     if word.address == "FMAX":
         return INF
     memory(m).feed_per_tooth = None
     if word.address == "FAUTO":
         set_feed(m, auto_feed(m, word))
         return None
-    value = positive(m, word)
+    value = above_zero(m, word, f"{word.address} ({MEANINGS[word.address]})")
     if word.address == "FZ":
         memory(m).feed_per_tooth = value
         value *= teeth(m, word)
@@ -45,16 +43,7 @@ def set_feed(m: Machine, value: float | None, per_rev: bool = False) -> None:
     m.change("feed", value)
 
 
-def positive(m: Machine, word: Word) -> float:
-    """The number of a feed."""
-    value = m.value(word)
-    if value <= 0:
-        m.alarm(f"{word.address} ({MEANINGS[word.address]}) must be greater than 0, got {value:g}", word)
-    return value
-
-
 def teeth(m: Machine, word: Word) -> int:
-    """Of the tool in the spindle."""
     if m.tool.teeth <= 0:
         m.alarm(f"{word} needs the number of teeth of tool {m.tool.number} (column CUT of the tool table)", word)
     return m.tool.teeth
@@ -67,7 +56,7 @@ def with_another_tool(m: Machine) -> None:
 
 
 def auto_feed(m: Machine, word: Word) -> float:
-    """The feed of the TOOL CALL block, mm/min."""
+    """That of the TOOL CALL block, mm/min."""
     value = memory(m).auto_feed
     if value is None:
         m.alarm("FAUTO needs a feed in the TOOL CALL block", word, hint="write TOOL CALL … F500")

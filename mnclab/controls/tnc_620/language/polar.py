@@ -18,8 +18,7 @@ def polar_line(m: Machine, words: Words) -> None:
     """To a point given by its distance and angle from the pole CC."""
     f = feed(m, words)
     side(m, words, begins=True)
-    x, y = polar_point(m, words)
-    m.line(x, y, f=f)
+    m.line(*polar_point(m, words), f=f)
 
 
 @FUNCTIONS("CP", "Circular path, polar; helix", takes="PA Z DR R0 RL RR F FMAX FAUTO", source="10.1, example")
@@ -30,7 +29,7 @@ def polar_circle(m: Machine, words: Words) -> None:
     turning, (u, v) = sense(m, words), pole(m, words)
     refuse_rapid(m, words)
     if "PA" not in words:
-        m.alarm("CP needs PA (polar angle of the end) or IPA (angle travelled)", None)
+        m.alarm("CP needs PA (polar angle of the end) or IPA (angle travelled)")
     word, here = words["PA"], angle_here(m, words)
     value, level = m.value(word), coordinates(m, words, "Z").get("z")
     if not word.incremental:
