@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from mnclab.controls.tnc_620.language.checks import above_zero
-from mnclab.controls.tnc_620.language.motion import SIDES, coordinates, feed, heading, refuse_rapid, scaled, side
+from mnclab.controls.tnc_620.language.motion import SIDED, SIDES, coordinates, feed, heading, refuse_rapid, scaled, side
 from mnclab.controls.tnc_620.language.pole import polar_point
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
@@ -22,7 +22,6 @@ from mnclab.path.kinds import Kind
 from mnclab.path.leads import Lead, way
 
 FUNCTIONS = FunctionTable()
-END = " R0 RL RR F FMAX FAUTO"
 
 
 def positive(m: Machine, words: Words, address: str, meaning: str, most: float = INF) -> float:
@@ -53,14 +52,14 @@ def shape(m: Machine, words: Words) -> Lead:
     return lead._replace(radius=scaled(m, radius), angle=angle)
 
 
-@FUNCTIONS("APPR LT,", "Approach on a tangent line", takes="X Y Z LEN" + END, source="8.12")
-@FUNCTIONS("APPR LN,", "Approach on a line square to the contour", takes="X Y Z LEN" + END, source="8.12")
-@FUNCTIONS("APPR CT,", "Approach on a tangent arc", takes="X Y Z CCA R" + END, source="8.12")
-@FUNCTIONS("APPR LCT,", "Approach on a line and a tangent arc", takes="X Y Z R" + END, source="8.12")
-@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes="PR PA Z LEN" + END, source="8.12")
-@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes="PR PA Z LEN" + END, source="8.12")
-@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes="PR PA Z CCA R" + END, source="8.12")
-@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes="PR PA Z R" + END, source="8.12")
+@FUNCTIONS("APPR LT,", "Approach on a tangent line", takes=f"X Y Z LEN {SIDED}", source="8.12")
+@FUNCTIONS("APPR LN,", "Approach on a line square to the contour", takes=f"X Y Z LEN {SIDED}", source="8.12")
+@FUNCTIONS("APPR CT,", "Approach on a tangent arc", takes=f"X Y Z CCA R {SIDED}", source="8.12")
+@FUNCTIONS("APPR LCT,", "Approach on a line and a tangent arc", takes=f"X Y Z R {SIDED}", source="8.12")
+@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes=f"PR PA Z LEN {SIDED}", source="8.12")
+@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes=f"PR PA Z LEN {SIDED}", source="8.12")
+@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes=f"PR PA Z CCA R {SIDED}", source="8.12")
+@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes=f"PR PA Z R {SIDED}", source="8.12")
 def approach(m: Machine, words: Words) -> None:
     """To the first contour point, compensated from there on; the line to the auxiliary point keeps the feed before."""
     refuse_rapid(m, words)
@@ -106,11 +105,11 @@ def begin_side(m: Machine, words: Words) -> None:
     side(m, words, begins=True)
 
 
-@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN F FAUTO", source="8.10")
-@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN F FAUTO", source="8.10")
-@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R F FAUTO", source="8.10")
-@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R F FAUTO", source="8.10")
-@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R F FAUTO", source="8.10")
+@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R F FAUTO FU FZ", source="8.10")
 def departure(m: Machine, words: Words) -> None:
     """From the last contour point; at its end the compensation is off, and the register is where the tool stands."""
     f, lead = feed(m, words), shape(m, words)._replace(departs=True)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from mnclab.controls.tnc_620.language.checks import first
-from mnclab.controls.tnc_620.language.motion import coordinates, feed
+from mnclab.controls.tnc_620.language.feeds import FORMS, feed
+from mnclab.controls.tnc_620.language.motion import coordinates
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Definition
@@ -18,7 +19,6 @@ from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 
-FEEDS = "F FMAX FAUTO"
 #: Statements that position the tool, and the free contours that M89 does not go with.
 POSITIONING = ("L", "LP", "C", "CR", "CT", "CP", "CTP")
 FREE = ("FPOL", "FL", "FLT", "FC", "FCT")
@@ -27,7 +27,7 @@ PLACES = frozenset("X Y Z U V W A B C PR PA".split())
 PLACED_BY_DATUM = frozenset(f"CYCL DEF {n}" for n in (12, *range(21, 26), 27, 28, 29, 39, 275, 276))
 
 
-@FUNCTIONS("CYCL CALL,", "Cycle call", group="call", modal=False, phase="call", takes=FEEDS, source="3.1")
+@FUNCTIONS("CYCL CALL,", "Cycle call", group="call", modal=False, phase="call", takes=FORMS, source="3.1")
 def cycle_call(m: Machine, words: Words) -> None:
     """Runs the cycle defined last where the tool stands; F sets the feed of the following blocks, not that of the cycle."""
     feed(m, words)
@@ -58,7 +58,6 @@ def calls_again(keyword: str, words: Sequence[Word]) -> bool:
 
 
 def ready(m: Machine, code: str, word: Word | None = None) -> Definition:
-    """The defined cycle; an alarm or a warning about what the manual requires before a call."""
     if m.cycle is None:
         m.alarm(f"{code} has no cycle to call", word, hint="define one before, for example CYCL DEF 200")
     if m.side:
@@ -74,7 +73,7 @@ def ready(m: Machine, code: str, word: Word | None = None) -> Definition:
 
 
 @FUNCTIONS(
-    "CYCL CALL POS,", "Cycle call at a position", group="call", modal=False, phase="call", takes=f"X Y Z {FEEDS}", source="3.1"
+    "CYCL CALL POS,", "Cycle call at a position", group="call", modal=False, phase="call", takes=f"X Y Z {FORMS}", source="3.1"
 )  # fmt: skip
 def cycle_call_at(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at X Y, its surface shifted by Z; F is the feed of the approach alone."""

@@ -18,7 +18,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.language.checks import counted, first
 from mnclab.controls.tnc_620.language.free_words import describe
-from mnclab.controls.tnc_620.language.motion import TOLERANCE, feed, refuse_rapid, side
+from mnclab.controls.tnc_620.language.motion import SIDED, TOLERANCE, feed, refuse_rapid, side
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import free_choice
 from mnclab.geometry.free_contour import FreeContour, Pair, Piece, known
@@ -32,9 +32,10 @@ from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 
-BOTH = "X Y PR PA LEN AN P1X P1Y P2X P2Y PDX PDY D CLSD RX RY RPR RPA RAN R0 RL RR F FMAX FAUTO"
+BOTH = f"X Y PR PA LEN AN P1X P1Y P2X P2Y PDX PDY D CLSD RX RY RPR RPA RAN {SIDED}"
 LINE = f"{BOTH} PAR DP"
 ARC = f"{BOTH} P3X P3Y R DR CCA CCX CCY CCPR CCPA RCCX RCCY RCCPR RCCPA"
+LINES = {"FL": "Free line", "FLT": "Free tangential line"}
 MOST_COMPARED = 2000  # elements in all solutions, when those that do not cross themselves are sought
 
 
@@ -70,7 +71,6 @@ class Chain:
         self.closed = False
 
     def mark(self, joint: Any) -> bool:
-        """A rounding or chamfer after the last element."""
         if self.blocks[-1].joints:
             return False
         self.blocks[-1].joints.append(joint)
@@ -98,7 +98,6 @@ class Chain:
             m.alarm("the free contour has too many solutions to follow", hint="write FSELECT after earlier blocks")
 
     def refuse(self, m: Machine, error: Contradiction) -> NoReturn:
-        """The alarm of a datum that no contour fulfils."""
         label, block = error.label, self.blocks[-1]
         if isinstance(label, Word):
             missed = "" if math.isnan(error.gap) else f", it is missed by {error.gap:.4f} mm"
@@ -131,7 +130,6 @@ class Chain:
             memory(m).free_start, self.closed = None, True
 
     def make(self, m: Machine) -> None:
-        """Settle everything and move."""
         self.follow(m, thoroughly=True)
         self.refuse_open(m)
         contour = self.contour
@@ -226,8 +224,10 @@ def _heading(m: Machine) -> float | None:
     return math.atan2(y, x) if abs(z) < 1e-9 and math.hypot(x, y) > 1e-9 else None
 
 
+@FUNCTIONS("FC FCT", {"FC": "Free arc", "FCT": "Free tangential arc"}, takes=ARC, collects=True, source="8.13, example")
+@FUNCTIONS("FL FLT", LINES, takes=LINE, collects=True, source="8.13, example")
 def element(m: Machine, words: Words) -> None:
-    """Add a block to the chain that waits, or begin one."""
+    """A line or an arc told by what is known of it; FLT and FCT join the element before tangentially."""
     own = feed(m, words)
     if words.code in ("FC", "FCT"):
         refuse_rapid(m, words)
@@ -236,20 +236,6 @@ def element(m: Machine, words: Words) -> None:
     if not isinstance(m.pending, Chain):
         m.pending = Chain(m)
     m.pending.add(m, words, f)
-
-
-@FUNCTIONS(
-    "FL FLT", {"FL": "Free line", "FLT": "Free tangential line"}, takes=LINE, collects=True, source="8.13, example"
-)
-def free_line(m: Machine, words: Words) -> None:
-    """A line told by what is known of it; FLT joins the element before tangentially."""
-    element(m, words)
-
-
-@FUNCTIONS("FC FCT", {"FC": "Free arc", "FCT": "Free tangential arc"}, takes=ARC, collects=True, source="8.13, example")
-def free_arc(m: Machine, words: Words) -> None:
-    """An arc told by what is known of it; FCT joins the element before tangentially."""
-    element(m, words)
 
 
 @FUNCTIONS("FPOL", "Pole of free contours", takes="X Y", collects=True, source="8.13, example")

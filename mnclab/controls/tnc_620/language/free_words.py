@@ -36,7 +36,6 @@ WORDS = {
 
 
 def describe(chain: Chain, m: Machine, words: Words, k: int) -> None:
-    """Every word of the block of element k."""
     contour = chain.contour
     place(chain, m, words, contour.end(k), "", k)
     angle(chain, m, words, k)
@@ -59,7 +58,6 @@ def describe(chain: Chain, m: Machine, words: Words, k: int) -> None:
 
 
 def of_arc(chain: Chain, m: Machine, words: Words, k: int) -> None:
-    """Sense, radius, centre and central angle."""
     contour, sign = chain.contour, 0
     if "DR" in words:
         sign = sense(m, words)

@@ -1,4 +1,4 @@
-"""Straight lines and arcs: L, C, CR, CT, with feed and radius compensation (catalogue: coordinates, F, R0 RL RR)."""
+"""Straight lines and arcs: L, C, CR, CT, polar LP, CP, CTP, with feed and side of the tool (catalogue: coordinates, R0 RL RR)."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
 from mnclab.controls.tnc_620.language.checks import counted, one_of
-from mnclab.controls.tnc_620.language.feeds import feed
+from mnclab.controls.tnc_620.language.feeds import FORMS, feed
 from mnclab.controls.tnc_620.language.machine_datum import machine_target
-from mnclab.controls.tnc_620.language.pole import polar_point, pole
+from mnclab.controls.tnc_620.language.pole import angle_here, polar_point, pole
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words
@@ -23,6 +23,8 @@ from mnclab.text.program import Word
 FUNCTIONS = FunctionTable()
 AXES = "XYZ"
 SIDES = {"R0": 0, "RL": 1, "RR": -1}
+SIDED = f"R0 RL RR {FORMS}"
+SAME = 1e-9  # rad: an end at the angle of the start is a whole turn
 TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue: C)
 
 
@@ -50,7 +52,7 @@ def side(m: Machine, words: Words, begins: bool) -> None:
 FEED_NEEDED = "write F or FMAX; with the setting feed_needed = False such a move is at rapid, with a warning"
 
 
-@FUNCTIONS("L", "Straight line", takes="X Y Z A B C PR PA R0 RL RR F FMAX FAUTO", source="4.11, example")
+@FUNCTIONS("L", "Straight line", takes=f"X Y Z A B C PR PA {SIDED}", source="4.11, example")
 def line(m: Machine, words: Words) -> None:
     """From the present position to the programmed point at feed, or with FMAX at rapid; axes not written keep their value."""
     f = feed(m, words)
@@ -76,6 +78,14 @@ def line(m: Machine, words: Words) -> None:
         m.line(**to, f=f)
 
 
+@FUNCTIONS("LP", "Straight line, polar", takes=f"PR PA {SIDED}", source="10.1, example")
+def polar_line(m: Machine, words: Words) -> None:
+    """To a point given by its distance and angle from the pole CC."""
+    f = feed(m, words)
+    side(m, words, begins=True)
+    m.line(*polar_point(m, words), f=f)
+
+
 def rotary_angles(m: Machine, words: Words) -> Angles:
     """Where the rotary axes go, degrees, behind their shift and mirror image; IA counts from where it stands."""
     found = list(angles(m))
@@ -96,12 +106,11 @@ def sense(m: Machine, words: Words) -> int:
 
 
 def turning_sense(what: Function, word: Word, _: int) -> str:
-    """Which sense of rotation a DR gives."""
     sense = {"+": "counter-clockwise", "-": "clockwise"}.get(str(word.value))
     return f"sense of rotation ({sense})" if sense and word.address == "DR" else ""
 
 
-@FUNCTIONS("C", "Circular path around CC", takes="X Y DR R0 RL RR F FMAX FAUTO", source="8.3, example")
+@FUNCTIONS("C", "Circular path around CC", takes=f"X Y DR {SIDED}", source="8.3, example")
 def circle(m: Machine, words: Words) -> None:
     """An arc around the centre CC; an end equal to the start is a full circle."""
     f = feed(m, words)
@@ -111,7 +120,30 @@ def circle(m: Machine, words: Words) -> None:
     m.arc(**coordinates(m, words, "XY"), sense=turning, centre=dict(enumerate(about)), f=f, tolerance=TOLERANCE)
 
 
-@FUNCTIONS("CR", "Circular path with radius", takes="X Y R DR R0 RL RR F FMAX FAUTO", source="9.2")
+@FUNCTIONS("CP", "Circular path, polar; helix", takes=f"PA Z DR {SIDED}", source="10.1, example")
+def polar_circle(m: Machine, words: Words) -> None:
+    """Around the pole CC on the present radius: to the angle PA, or by the angle IPA of any number of turns."""
+    f = feed(m, words)
+    side(m, words, begins=False)
+    turning, (u, v) = sense(m, words), pole(m, words)
+    refuse_rapid(m, words)
+    if "PA" not in words:
+        m.alarm("CP needs PA (polar angle of the end) or IPA (angle travelled)")
+    word, here = words["PA"], angle_here(m, words)
+    value, level = m.value(word), coordinates(m, words, "Z").get("z")
+    if not word.incremental:
+        away = turning * (math.radians(value) - here) % math.tau
+        travel = away if SAME < away < math.tau - SAME else math.tau
+        m.turn((u, v), turning * travel, level, f)
+        return
+    if value == 0:
+        m.alarm("CP IPA (angle travelled) must not be 0", word)
+    if (value > 0) != (turning > 0):
+        m.alarm(f"CP IPA{value:+g} and DR{'+' if turning > 0 else '-'} turn in opposite senses", word)
+    m.turn((u, v), math.radians(value), level, f)
+
+
+@FUNCTIONS("CR", "Circular path with radius", takes=f"X Y R DR {SIDED}", source="9.2")
 def circle_by_radius(m: Machine, words: Words) -> None:
     """An arc of a radius: up to half a turn, with a negative radius more."""
     f = feed(m, words)
@@ -129,7 +161,7 @@ def circle_by_radius(m: Machine, words: Words) -> None:
     m.arc(**to, sense=turning, radius=radius, f=f, word=words["R"])
 
 
-@FUNCTIONS("CT", "Circular path with tangential connection", takes="X Y R0 RL RR F FMAX FAUTO", source="8.13, example")
+@FUNCTIONS("CT", "Circular path with tangential connection", takes=f"X Y {SIDED}", source="8.13, example")
 def tangential_circle(m: Machine, words: Words) -> None:
     """An arc that goes on where the element before it points; straight ahead it is a line."""
     f = feed(m, words)
@@ -139,6 +171,15 @@ def tangential_circle(m: Machine, words: Words) -> None:
     if not to:
         m.alarm("CT needs X or Y of its end")
     tangent_arc(m, words, m.target(to.get("x"), to.get("y"), None)[:2], f)
+
+
+@FUNCTIONS("CTP", "Tangential arc, polar", takes=f"PR PA {SIDED}", source="Klartext, not described")
+def polar_tangent_arc(m: Machine, words: Words) -> None:
+    """An arc that goes on where the element before it points, to a polar point."""
+    f = feed(m, words)
+    side(m, words, begins=False)
+    refuse_rapid(m, words)
+    tangent_arc(m, words, polar_point(m, words), f)
 
 
 def tangent_arc(m: Machine, words: Words, to: tuple[float, float], f: float | None) -> None:

@@ -39,7 +39,6 @@ def text(m: Machine, word: Word) -> str:
 
 
 def give(m: Machine, word: Word, value: float | str) -> None:
-    """A parameter takes a value; what the control itself keeps there cannot be assigned."""
     name = str(word.value)
     if name in PREASSIGNED:
         m.alarm(

@@ -14,8 +14,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.language.calls import FEEDS, PLACED_BY_DATUM, call_at, planes, ready
-from mnclab.controls.tnc_620.language.motion import feed
+from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM, call_at, planes, ready
+from mnclab.controls.tnc_620.language.feeds import FORMS, feed
 from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
@@ -29,7 +29,7 @@ CODE = "CYCL CALL PAT"
 Floats = NDArray[np.float64]
 
 
-@FUNCTIONS(f"{CODE},", "Cycle call at a pattern", group="call", modal=False, phase="call", takes=FEEDS, source="3.1")
+@FUNCTIONS(f"{CODE},", "Cycle call at a pattern", group="call", modal=False, phase="call", takes=FORMS, source="3.1")
 def cycle_call_pattern(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at every point of the pattern; F is the feed from point to point."""
     definition = ready(m, CODE)

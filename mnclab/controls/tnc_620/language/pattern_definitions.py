@@ -115,7 +115,6 @@ class Element(NamedTuple):
         return math.radians(self.number(address))
 
     def count(self, address: str) -> int:
-        """A number of positions."""
         return whole(self.m, self.word(address), self.say(address), 1, MOST)
 
     def place(self) -> tuple[float, float]:
@@ -127,7 +126,6 @@ class Element(NamedTuple):
 
 
 def elements(m: Machine, words: Words) -> Iterator[Element]:
-    """The elements of a block in the order written."""
     element: Element | None = None
     seen: Counter[str] = Counter()
     for word in sorted(words.words, key=lambda word: word.place):

@@ -22,7 +22,6 @@ def centre(m: Machine, words: Words) -> None:
 
 
 def pole(m: Machine, words: Words, meaning: str = "pole") -> tuple[float, float]:
-    """The pole; an Alarm if there is none."""
     if m.pole is None:
         m.alarm(f"{words.code} needs a {meaning}: no CC was programmed", hint="write CC X… Y… before it")
     return m.pole

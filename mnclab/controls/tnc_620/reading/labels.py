@@ -97,7 +97,6 @@ def name_of_program(cursor: Cursor, address: str = "name", what: str = "CALL PGM
 
 
 def select_program(cursor: Cursor) -> None:
-    """SEL PGM: the name of another program, also in a QS parameter."""
     begin = cursor.blanks()
     if _TEXT_PARAMETER.fullmatch(cursor.rest().rstrip()):
         value = strings.parse_text(cursor.rest(), cursor.builder.span(begin))
@@ -108,6 +107,5 @@ def select_program(cursor: Cursor) -> None:
 
 
 def program_of_cycle(cursor: Cursor) -> None:
-    """12.1: the word PGM and the name of a program."""
     cursor.match(_PGM)
     name_of_program(cursor, "PGM", "CYCL DEF 12")

@@ -126,7 +126,6 @@ class _Lines:
         return begin, begin + len(content.rstrip(" \t")), comment, tilde
 
     def goes_on(self, at: int, stop: int) -> bool:
-        """Whether a line without a number belongs to the block before it."""
         if self.statement is None or self.statement.more is None or self.over or self.text[at] == "*":
             return False
         try:
@@ -179,12 +178,10 @@ class _Lines:
         self.close(cursor)
 
     def close(self, cursor: Cursor) -> None:
-        """The end of a line: nothing may be left, and no word may be missing a partner."""
         if not cursor.done:
             raise cursor.unexpected()
 
     def check_part(self, before: Statement, now: Statement, begin: int, length: int, skip: bool) -> None:
-        """Sub-blocks follow each other, all marked with / or none."""
         if now.part <= before.part:
             raise Fault(f"{now.keyword}.{now.part} stands after {before.keyword}.{before.part}", begin, length)
         if skip != self.skip:
@@ -200,7 +197,6 @@ class _Lines:
             self.end = begin
 
     def unknown(self, cursor: Cursor) -> Fault:
-        """The fault of a line that begins with no statement."""
         found = _WORD.match(self.text, cursor.at, cursor.stop)
         word = found.group().upper() if found else ""
         if not word.isascii() or not word.isalpha() or word == "G":

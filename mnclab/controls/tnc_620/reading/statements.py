@@ -50,7 +50,6 @@ def leading(name: str) -> Read:
 
 
 def tool_call(cursor: Cursor) -> None:
-    """Number or name of the tool, its axis, and words."""
     tool(cursor)
     with_axis(cursor)
 
@@ -67,7 +66,6 @@ def tool(cursor: Cursor) -> None:
 
 
 def tool_def(cursor: Cursor) -> None:
-    """The tool, and its length and radius when no tool table is active."""
     tool(cursor)
     with_radius(cursor)
 
@@ -152,7 +150,6 @@ def contour_labels(cursor: Cursor) -> None:
 
 
 def datum_shift(cursor: Cursor) -> None:
-    """7.1 …: axis words, or the row of a datum table."""
     begin = cursor.blanks()
     if cursor.match(_ROW):
         cursor.add("#", cursor.needed("# needs the number of a row", begin), begin)
@@ -177,7 +174,8 @@ WORDS: dict[str, Read] = {
     "FCT": with_radius, "FSELECT": leading("number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
     "CYCL CALL": plain, "LBL": labels.set_label, "CALL LBL": labels.call_label, "CALL PGM": labels.name_of_program,
     "SEL PGM": labels.select_program, "CALL SELECTED PGM": plain, "TOOL CALL": tool_call, "TOOL DEF": tool_def,
-    "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name, "PATTERN DEF": plain,  # whose lines PatternWords reads
+    "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
+    "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip

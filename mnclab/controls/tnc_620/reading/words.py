@@ -90,7 +90,6 @@ class Cursor:
 
     @property
     def done(self) -> bool:
-        """Whether only blanks are left."""
         return self.blanks() >= self.stop
 
     def rest(self) -> str:
@@ -133,7 +132,6 @@ class Cursor:
         return self.expression(found.start(), found.end())
 
     def expression(self, begin: int, end: int) -> Expression:
-        """The formula that stands between two places."""
         formula = self.text[begin:end].lstrip()
         return parse(formula, self.builder.span(end - len(formula)))
 

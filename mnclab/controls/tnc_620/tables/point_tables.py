@@ -24,7 +24,6 @@ class PointTable(NamedTuple):
 
 
 def read_points(m: Machine, word: Word) -> PointTable:
-    """The table that SEL PATTERN names."""
     return read_table(m, word, "SEL PATTERN", "point table", ".PNT", parse)[1]
 
 

@@ -96,7 +96,6 @@ class Lines:
 
 
 def value(field: str, name: str, number: int) -> float:
-    """A number with a decimal point or comma."""
     if not NUMBER.fullmatch(field) or abs(result := float(field.replace(",", "."))) >= LARGEST:
         raise Fault(f"{name} must be a number, got {field}", number)
     return result
