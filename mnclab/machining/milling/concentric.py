@@ -18,7 +18,6 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.machining.depths import TooMany
 from mnclab.machining.milling.clearing import Clearing, Piece, numbered
-from mnclab.machining.milling.spirals import half_circles
 
 DRIFT = 1e-9  # a number of steps this little above a whole one is that whole one
 MOST = 2_000  # steps from the middle to the wall, beyond any tool and pocket
@@ -74,56 +73,6 @@ def circle(
     return _from_the_centre(circles, "circle", radius, np.asarray(centre, dtype=float))
 
 
-def circular_spiral(
-    diameter: float, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
-    centre: ArrayLike = (0, 0), angle: float = 0.0,
-) -> Clearing:  # fmt: skip
-    """A circular pocket on one spiral of half circles from the centre, and a full circle at the end."""
-    reach = diameter / 2 - radius - allowance
-    _must_fit(reach, radius, allowance, f"a pocket of diameter {diameter:g}")
-    middle, halves = np.asarray(centre, dtype=float), steps(2 * reach, stepover)
-    if not halves:
-        return Clearing(Region(), (Piece(Region(), (), (), (), middle),), radius)
-    spiral = half_circles(middle, 0.0, reach, halves, angle, clockwise=not climb)
-    last = Contour.circle(middle, reach, angle + np.pi * halves, clockwise=not climb)
-    return joined([spiral, last], ("spiral", "last circle"), radius, Region((_turned_left(last),)), middle)
-
-
-def rectangular_spiral(
-    length: float, width: float, radius: float, stepover: float, *, corner: float = 0.0, allowance: float = 0.0,
-    climb: bool = True, centre: ArrayLike = (0, 0), angle: float = 0.0,
-) -> Clearing:  # fmt: skip
-    """A rectangular pocket on one spiral of lines and quarter circles, and the last rectangle of `rectangle` at the end.
-
-    Every round lies one step farther out than the one before; it takes the step in its corners.
-    """
-    if width > length:  # it begins along the longer axis
-        length, width, angle = width, length, angle + np.pi / 2
-    rings = rectangle(length, width, radius, stepover, corner=corner, allowance=allowance)
-    a, b = length / 2 - radius - allowance, width / 2 - radius - allowance
-    least, n = min(a, b), steps(min(a, b), stepover)
-    out = least * np.arange(n + 1) / max(n, 1)
-    x, y = a - least + out, b - least + out
-    corners = [(-x[0], -y[0])]
-    for i in range(n):
-        corners += [(x[i + 1], -y[i]), (x[i + 1], y[i + 1]), (-x[i + 1], y[i + 1]), (-x[i + 1], -y[i + 1])]
-    last = rings.passes[-1] if n else None
-    if last is None:
-        corners.append((x[0], y[0]))
-    else:
-        corners += [(0.0, -y[-1])]
-        last = last.started_at(last.nearest((0.0, -y[-1])))
-    sharp = np.array(corners)[np.append(True, np.hypot(*np.diff(corners, axis=0).T) > DRIFT)]
-    way = _softened(sharp, max(corner - radius - allowance, least / max(n, 1)))
-    passes = [way] if last is None else [way, last]
-    flip = np.array([1.0, 1.0 if climb else -1.0])
-    turned = [
-        Contour(shapes.placed(p.points * flip, centre, angle), p.bulge * flip[1], closed=p.closed) for p in passes
-    ]
-    outer = Region((_turned_left(turned[-1]),)) if last is not None else Region()
-    return joined(turned, ("spiral", "last ring")[: len(turned)], radius, outer, turned[0].points[0])
-
-
 def slot(
     line: Contour, width: float, radius: float, stepover: float | None = None, *, allowance: float = 0.0,
     climb: bool = True,
@@ -145,18 +94,6 @@ def slot(
 
 
 # ---- beneath ----
-
-
-def _softened(corners: Floats, radius: float) -> Contour:
-    """An open way of lines that turn left by a quarter, with a quarter circle at each turn, as large as there is room."""
-    side = np.hypot(*np.diff(corners, axis=0).T)
-    size = np.minimum(radius, np.minimum(side[:-1], side[1:]) / 2)
-    ahead = np.diff(corners, axis=0) / side[:, None]
-    before, after = corners[1:-1] - size[:, None] * ahead[:-1], corners[1:-1] + size[:, None] * ahead[1:]
-    points = np.vstack([corners[:1], np.stack([before, after], axis=1).reshape(-1, 2), corners[-1:]])
-    bulge = np.concatenate([[0.0], np.tile([shapes.QUARTER, 0.0], len(size)), [0.0]])
-    some = np.append(np.hypot(*np.diff(points, axis=0).T) > DRIFT, True)
-    return Contour(points[some], bulge[some], closed=False)
 
 
 def _must_fit(room: float, radius: float, allowance: float, what: str) -> None:

@@ -18,29 +18,10 @@ import numpy as np
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import Skeleton, skeleton
-from mnclab.geometry.vectors import left
 from mnclab.machining.milling.clearing import Clearing, Piece, end, links, numbered, piecewise, room_for, round_walls
 from mnclab.machining.milling.spirals import half_circles
 
 SMALLEST = 0.05  # of the tool radius: discs of tool centres below that are left to the passes along the walls
-
-
-def trochoid(line: Contour, width: float, radius: float, stepover: float, *, climb: bool = True) -> Clearing:
-    """A slot of a width along an open line, in full circles that advance by `stepover` along it, and on to the next."""
-    reach = width / 2 - radius
-    if not reach > 0:
-        raise ValueError(f"a trochoid needs a slot wider than the tool, got {width:g} for a tool radius of {radius:g}")
-    if not 0 < stepover <= radius:
-        raise ValueError(f"the stepover must lie above 0 and not above the tool radius, got {stepover:g}")
-    count = max(1, int(np.ceil(line.length / stepover - 1e-9)))
-    middles, ahead = line.point_at(line.length * np.arange(count + 1) / count)
-    sense = 1.0 if climb else -1.0
-    first = middles - sense * reach * left(ahead)
-    points = np.stack([first, 2 * middles - first, first], axis=1).reshape(-1, 2)
-    bulge = np.tile([sense, sense, 0.0], count + 1)
-    way = Contour(points, bulge, closed=False)
-    piece = Piece(Region(), (way,), (), ("trochoid",))
-    return Clearing(Region(), (piece,), radius)
 
 
 def trochoidal(
