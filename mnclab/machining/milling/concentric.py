@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mnclab.geometry import shapes
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.machining.depths import TooMany
-from mnclab.machining.milling.clearing import Clearing, Piece, numbered
+from mnclab.machining.milling.clearing import Clearing, joined, numbered
 
 DRIFT = 1e-9  # a number of steps this little above a whole one is that whole one
 MOST = 2_000  # steps from the middle to the wall, beyond any tool and pocket
@@ -54,11 +54,10 @@ def rectangle(
         passes.append(Contour(shapes.placed(np.array([far, -far, far]), centre, angle), closed=False))
     for i in range(1, n + 1):
         back = least * (n - i) / n
-        ring = shapes.rectangle(
-            2 * (a - back), 2 * (b - back), max(0.0, inner - back), centre=centre, angle=angle, begin=axis
-        )
+        sides, round_off = (2 * (a - back), 2 * (b - back)), max(0.0, inner - back)
+        ring = shapes.rectangle(*sides, round_off, centre=centre, angle=angle, begin=axis)
         passes.append(ring if climb else ring.reversed())
-    return _from_the_centre(passes, "ring", radius, np.asarray(centre, dtype=float))
+    return _from_the_centre(passes, "ring", radius, centre)
 
 
 def circle(
@@ -70,7 +69,7 @@ def circle(
     _must_fit(reach, radius, allowance, f"a pocket of diameter {diameter:g}")
     n = steps(reach, stepover)
     circles = [Contour.circle(centre, reach * i / n, angle, clockwise=not climb) for i in range(1, n + 1)]
-    return _from_the_centre(circles, "circle", radius, np.asarray(centre, dtype=float))
+    return _from_the_centre(circles, "circle", radius, centre)
 
 
 def slot(
@@ -88,9 +87,8 @@ def slot(
         raise ValueError("a slot has a centre line of one straight line or one arc")
     n = steps(reach, stepover or radius)
     rounds = [shapes.slot(line, 2 * reach * i / n) for i in range(1, n + 1)]
-    outer = Region(tuple(rounds[-1:]))
     passes = [line, *(ring if climb else ring.reversed() for ring in rounds)]
-    return joined(passes, ("centre line", *numbered("ring", n)), radius, outer, line.points[0])
+    return joined(passes, ("centre line", *numbered("ring", n)), radius, Region(tuple(rounds[-1:])))
 
 
 # ---- beneath ----
@@ -104,16 +102,6 @@ def _must_fit(room: float, radius: float, allowance: float, what: str) -> None:
         raise ValueError(f"a tool of radius {radius:g}{rest} does not fit into {what}")
 
 
-def _turned_left(ring: Contour) -> Contour:
-    return ring if ring.area > 0 else ring.reversed()
-
-
-def _from_the_centre(passes: list[Contour], name: str, radius: float, centre: Floats) -> Clearing:
-    outer = Region((_turned_left(passes[-1]),)) if passes and passes[-1].closed else Region()
-    return joined(passes, numbered(name, len(passes)), radius, outer, centre)
-
-
-def joined(passes: list[Contour], labels: tuple[str, ...], radius: float, centres: Region, place: Floats) -> Clearing:
-    """Passes that lead on to one another, the tool coming in at a place."""
-    piece = Piece(centres, tuple(passes), (True,) * max(0, len(passes) - 1), labels, np.asarray(place))
-    return Clearing(centres, (piece,), radius)
+def _from_the_centre(passes: list[Contour], name: str, radius: float, centre: ArrayLike) -> Clearing:
+    outer = Region(tuple(ring if ring.area > 0 else ring.reversed() for ring in passes[-1:] if ring.closed))
+    return joined(passes, numbered(name, len(passes)), radius, outer, np.asarray(centre, dtype=float))
