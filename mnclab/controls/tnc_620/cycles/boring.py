@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import chain
-from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.chain import MIRROR
@@ -32,7 +31,7 @@ def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
     return with_the_spindle(m, steps, plain.matrix)
 
 
-@CYCLES("CYCL DEF 202", "Boring", runs="call", source="4.5")
+@CYCLES("CYCL DEF 202", "Boring", source="4.5")
 class Boring(Hole):
     """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws; ends on the axis of the hole."""
 
@@ -47,12 +46,10 @@ class Boring(Hole):
     spindle_angle: float = addresses.spindle_angle()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A spindle that stops at an angle; those of every hole."""
         yield from oriented(m)
         yield from super().check(m)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Down, dwell, off the wall, to the set-up plane, end plane, axis."""
         yield Write("memory", self.spindle_angle, "orientation")
         bored = bore(
             self.bottom(m), above=self.above, feed=self.feed, retract=rate(self.retract_feed, self.feed),
@@ -61,14 +58,14 @@ class Boring(Hole):
         yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
 
 
-@CYCLES("CYCL DEF 204", "Back boring", runs="call", source="4.7")
+@CYCLES("CYCL DEF 204", "Back boring", source="4.7")
 class BackBoring(Hole):
     """Counterbores from below, with a bar that goes through the hole off its axis.
 
     Levels count for the lower end of the bar; its edge is Q252 above that.
     """
 
-    does: ClassVar[str] = SHIFTS
+    does = SHIFTS
 
     clearance: float = addresses.clearance()
     counterbore_depth: float = addresses.coordinate(
@@ -98,7 +95,6 @@ class BackBoring(Hole):
         return {"counterbore_depth": -self.counterbore_depth}
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A spindle that stops at an angle; a counterbore upwards that stays inside the workpiece; feeds."""
         yield from oriented(m)
         if self.counterbore_depth < 0:
             yield "counterbore_depth", f"must not be negative, got {self.counterbore_depth:g}"
@@ -108,7 +104,6 @@ class BackBoring(Hole):
         yield from moving("positioning_feed", self.positioning_feed, "to position with")
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Shifted through the hole, counterbore from below, shifted out; end plane, axis."""
         yield Write("memory", self.spindle_angle, "orientation")
         lower = self.surface - self.thickness - self.edge_height
         bored = back_bore(
@@ -120,7 +115,7 @@ class BackBoring(Hole):
         yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
 
 
-@CYCLES("CYCL DEF 208", "Bore milling", runs="call", source="4.9")
+@CYCLES("CYCL DEF 208", "Bore milling", source="4.9")
 class BoreMilling(Hole):
     """Mills a hole on a helix from the set-up plane, with a full circle at the bottom; as wide as the tool it drills it.
 
@@ -128,7 +123,7 @@ class BoreMilling(Hole):
     climb into up-cut milling.
     """
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
 
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
@@ -143,7 +138,6 @@ class BoreMilling(Hole):
     climb: float = addresses.climb(example=1)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A bore as wide as the tool, and at most twice as wide if no other came before; a helix that goes down."""
         yield from super().check(m)
         size = 2 * m.radius
         if self.radius(m) < 0:
@@ -164,7 +158,6 @@ class BoreMilling(Hole):
         return min(self.pitch, steepest_pitch(self.radius(m), tool(m).plunge_angle))
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """To the wall, helix, circle, back to the axis; end plane."""
         pitch, sense = self.pitch_on(m), -1 if self.climb < 0 else 1
         if pitch < self.pitch and self.radius(m):
             allowed = f"the plunge angle {m.tool.plunge_angle:g} of tool {m.tool.number} allows {pitch:.4g}"

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
 from dataclasses import replace
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, length
@@ -50,7 +50,6 @@ class ContourGeometry(Cycle):
     )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Numbers that are labels of the program."""
         if len(self.labels) > MOST_LABELS:
             yield "labels", f"must be at most {MOST_LABELS} labels, got {len(self.labels)}"
         for number in self.labels:
@@ -58,7 +57,6 @@ class ContourGeometry(Cycle):
                 yield "labels", f"names label {number:g}, which does not exist"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Keep the list until the next one."""
         names = tuple(f"{number:g}" for number in self.labels)
         yield Write("memory", Labels(names, m.program, m.variable_unit), "contour_labels")
 
@@ -78,7 +76,6 @@ class ContourData(Cycle):
     sense: float = choice("Q9", "direction of machining", {-1: "up-cut milling", 1: "climb milling"})
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The floor lies below its allowance, the clearance height above the set-up clearance."""
         if abs(self.depth) < self.floor_allowance:
             yield "depth", f"must be at least Q4 = {self.floor_allowance:g} deep, got {self.depth:g}"
         if self.height < self.surface + self.clearance:
@@ -144,11 +141,11 @@ def united(pockets: Sequence[tuple[Contour, tuple[float, float]]], islands: Sequ
     return region
 
 
-@CYCLES("CYCL DEF 22", "Rough-out", runs="call", source="8.6")
+@CYCLES("CYCL DEF 22", "Rough-out", source="8.6")
 class RoughOut(Cycle):
     """Clears the contour level by level, each from the inside outward, islands first; a mirror image keeps its climb (8.3)."""
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
 
     infeed: float = coordinate("Q10", "infeed per cut", incremental=True, example=5)
     plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", FEEDS, at_most=FAR, example=150)
@@ -167,7 +164,6 @@ class RoughOut(Cycle):
     fine_strategy: float = choice("Q404", "fine roughing strategy", STRATEGIES, default=0)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Contour and data are there, the infeed is not zero; what is not built is refused."""
         if memory(m).contour_labels is None:
             yield "", "needs a contour: CYCL DEF 14 comes before it"
         if memory(m).contour_data is None:
@@ -188,11 +184,9 @@ class RoughOut(Cycle):
             yield "", f"needs a tool with a radius, got {m.radius:g}"
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """Contours are told in coordinates of the program."""
         return 0.0, 0.0
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Every level, every piece of the area, every ring."""
         data = contour_data(m)
         region = yield from contour_region(m)
         down = -1 if data.depth < 0 else 1

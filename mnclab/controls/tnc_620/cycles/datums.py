@@ -49,7 +49,6 @@ class DatumShift(Cycle):
     def prepare(
         cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
     ) -> dict[str, Any]:
-        """Increments are added to the shift as it is."""
         for name, before in zip(AXES, (*chain.shift_of(m), *chain.rotary(m)[0]), strict=True):
             if name in given and given[name].incremental:
                 values[name] += before
@@ -61,7 +60,6 @@ class DatumShift(Cycle):
         return {axis: value for axis in AXES if (value := getattr(self, axis)) is not None}
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Either axes or the row of a table."""
         if not self.written and self.datum_number is None:
             yield "", "needs an axis, for example CYCL DEF 7.1 X+60"
         if self.written and self.datum_number is not None:
@@ -73,7 +71,6 @@ class DatumShift(Cycle):
                 yield "datum_number", str(error.args[0])
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion: the register is read anew from where the tip stands."""
         new = self.written if self.datum_number is None else row_of(m, int(self.datum_number))
         x, y, z = (new.get(axis, before) for axis, before in zip("xyz", chain.shift_of(m), strict=True))
         turned = tuple(new.get(axis, before) for axis, before in zip("abc", chain.rotary(m)[0], strict=True))
@@ -91,7 +88,6 @@ class Presetting(Cycle):
     )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A row of the table; row 0 is always there."""
         row = int(self.preset_number)
         if row and row not in m.tables.presets:
             known = ", ".join(map(str, sorted(m.tables.presets))) or "none but 0"
@@ -101,7 +97,6 @@ class Presetting(Cycle):
             yield "preset_number", f"names row {row}, which carries a rotation: that is not built yet"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion: the register is read anew from where the tip stands."""
         row = int(self.preset_number)
         yield from chain.reset(m)
         yield Write("memory", row, "preset")

@@ -33,7 +33,6 @@ class Defaults(Cycle):
     in_variables: ClassVar[bool] = False
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion."""
         values = {parameter.address: getattr(self, parameter.name) for parameter in self.parameters()}
         yield Write("memory", memory(m).defaults | values, "defaults")
         for address, value in values.items():

@@ -19,7 +19,7 @@ CYCLES = CycleTable()
 CENTRED: dict[float, str] = {0: "to the depth Q201", 1: "to the diameter Q344"}
 
 
-@CYCLES("CYCL DEF 240", "Centering", runs="call", source="4.2")
+@CYCLES("CYCL DEF 240", "Centering", source="4.2")
 class Centering(Hole):
     """Centres to a depth, or so deep that the point of the tool leaves a cone of a diameter on the surface."""
 
@@ -39,13 +39,11 @@ class Centering(Hole):
         return {"diameter": self.diameter} if self.mode else {"depth": self.depth}
 
     def reach(self, m: Machine) -> float:
-        """The depth, or that of a cone of the diameter."""
         if not self.mode:
             return self.depth
         return math.copysign(point_length(abs(self.diameter) / 2, tool(m).angle), self.diameter)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The sign of what Q343 chooses, the point angle for a diameter, a feed."""
         yield from self.signs(m)
         if self.mode:
             yield from point_angle(m, "mode")
@@ -54,20 +52,18 @@ class Centering(Hole):
         yield from moving("feed", self.feed, "to drill with")
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """As every hole; a cone is not wider than the tool."""
         if self.mode and abs(self.diameter) > 2 * m.radius > 0:
             sentence = f"is wider than the tool, {2 * m.radius:.10g}: the cone ends at the tool's diameter"
             yield Say(f"Q344={self.diameter:.10g} {sentence}")
         yield from super().moves(m)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Down, dwell, out."""
         yield Go("centre", self.bottom(m), self.feed)
         yield Wait("dwell at the bottom", self.dwell_bottom)
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 200", "Drilling", runs="call", source="4.3")
+@CYCLES("CYCL DEF 200", "Drilling", source="4.3")
 class Drilling(Hole):
     """Drills in infeeds with full retraction to the set-up plane, a dwell after each infeed, and a rapid to the end plane."""
 
@@ -82,16 +78,13 @@ class Drilling(Hole):
     reference: float = addresses.reference()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Those of every hole; no more infeeds than one can have."""
         yield from super().check(m)
         yield from too_many("infeed", lambda: self.levels(m))
 
     def levels(self, m: Machine) -> tuple[float, ...]:
-        """Infeeds count from the surface."""
         return infeeds(self.surface, self.bottom(m), self.infeed)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Infeed, dwell, set-up plane, dwell, back above the last depth; end plane."""
         yield from drill(
             self.levels(m), above=self.above, feed=self.feed, reenter=self.clearance, dwell_top=self.dwell_top,
             dwell_each=self.dwell_bottom, dwell_bottom=self.dwell_bottom,
@@ -99,7 +92,7 @@ class Drilling(Hole):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 201", "Reaming", runs="call", source="4.4")
+@CYCLES("CYCL DEF 201", "Reaming", source="4.4")
 class Reaming(Hole):
     """In and out at feed: a reamer does not leave its hole at rapid."""
 
@@ -112,13 +105,12 @@ class Reaming(Hole):
     second_clearance: float = addresses.second_clearance()
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Down, dwell, to the set-up plane; end plane."""
         out = rate(self.retract_feed, self.feed)
         yield from ream(self.bottom(m), above=self.above, feed=self.feed, retract=out, dwell=self.dwell_bottom)
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 203", "Universal drilling", runs="call", source="4.6")
+@CYCLES("CYCL DEF 203", "Universal drilling", source="4.6")
 class UniversalDrilling(Hole):
     """Drills with infeeds that may shrink; breaks the chip Q213 times before each full retraction.
 
@@ -142,16 +134,13 @@ class UniversalDrilling(Hole):
     reference: float = addresses.reference()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Those of every hole; no more infeeds than one can have."""
         yield from super().check(m)
         yield from too_many("infeed", lambda: self.levels(m))
 
     def levels(self, m: Machine) -> tuple[float, ...]:
-        """Infeeds count from the surface."""
         return infeeds(self.surface, self.bottom(m), self.infeed, self.decrement, self.min_infeed)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Infeeds with chip breaks and retractions at Q208, dwell, end plane at rapid."""
         yield from drill(
             self.levels(m), above=self.above, feed=self.feed, reenter=self.break_retract or self.clearance,
             withdraw=rate(self.retract_feed, self.feed), dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.machine.cycle import Cycle, CycleTable, too_many
@@ -25,11 +24,11 @@ STRATEGIES: dict[float, str] = {
 }
 
 
-@CYCLES("CYCL DEF 232", "Face milling", runs="call", source="12.7")
+@CYCLES("CYCL DEF 232", "Face milling", source="12.7")
 class FaceMilling(Cycle):
     """Mills a level surface in several infeeds, each level backwards over the one before; the last one finishes."""
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
 
     strategy: float = addresses.choice("Q389", "machining strategy", STRATEGIES, example=2)
     start_1st_axis: float = addresses.coordinate("Q225", "starting point, first axis", example=10)
@@ -57,12 +56,10 @@ class FaceMilling(Cycle):
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """Downwards."""
         if self.end_3rd_axis > self.start_3rd_axis:
             yield "end_3rd_axis", f"must not lie above Q227 = {self.start_3rd_axis:g}, got {self.end_3rd_axis:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """An infeed, a tool that is flat below; nothing where nothing is milled."""
         if self.height == 0:
             return
         if self.maximum_plunging_depth == 0 and self.roughing > DRIFT:
@@ -109,7 +106,6 @@ class FaceMilling(Cycle):
         return tuple(self.start_2nd_axis + math.copysign(place, self.second_side_length) for place in places)
 
     def lines(self, m: Machine) -> Clearing:
-        """The lines of the first level."""
         ahead, near = math.copysign(1.0, self.first_side_length), self.start_1st_axis
         far, outside = near + self.first_side_length, ahead * (m.radius + self.side_clearance)
         edges = (near, far) if self.strategy == 1 else None
@@ -129,11 +125,9 @@ class FaceMilling(Cycle):
             yield Layer("finishing" if finishing else name, level, way, feed, link, self.prepositioning_feed)
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """Places are coordinates of the program."""
         return 0.0, 0.0
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 9 of the manual."""
         if self.height == 0:
             yield Say("Q386 makes a depth of 0: the cycle is not executed")
             return

@@ -33,14 +33,12 @@ class Hole(AtSurface):
         return self.surface + self.reach(m) - self.down * point
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The sign of the depth, the point angle for Q395 = 1, a feed."""
         yield from self.signs(m)
         if self.reference == 1:
             yield from point_angle(m, "reference")
         yield from moving("feed", self.feed, "to drill with")
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """To the set-up plane and then what the cycle does, with spindle and coolant as at the call."""
         return [Go("to the set-up clearance", self.above), *self.steps(m)] if self.down else [self.left_out]
 
 

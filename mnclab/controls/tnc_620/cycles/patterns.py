@@ -44,7 +44,6 @@ class PointPattern(Cycle, ABC):
     move_to_clearance: float
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A machining cycle that may be combined, a tool position without compensation."""
         if m.cycle is None:
             yield "", "has no machining cycle to run: define one before it, for example CYCL DEF 200"
             return
@@ -66,7 +65,6 @@ class PointPattern(Cycle, ABC):
 
     @property
     def above(self) -> float:
-        """The set-up clearance."""
         return self.surface + self.clearance
 
     @property
@@ -79,11 +77,9 @@ class PointPattern(Cycle, ABC):
         """Where the cycle runs, (n, 2)."""
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """Points are told in coordinates of the program."""
         return 0.0, 0.0
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """At the second set-up clearance over the first of the points; then the cycle at each."""
         points = self.points()
         (x, y), others = points[0].tolist(), points[1:]
         yield Go("to the second set-up clearance", self.high)
@@ -92,13 +88,11 @@ class PointPattern(Cycle, ABC):
         yield from self.others(m, others)
 
     def others(self, m: Machine, points: Floats) -> Iterator[Step]:
-        """All points but the first, on straight lines."""
         yield Each(points[:-1], self.visit)
         for x, y in points[-1:].tolist():
             yield from self.visit(x, y, last=True)
 
     def visit(self, x: float, y: float, last: bool = False) -> Iterator[Step]:
-        """One of the points, from the one before."""
         yield Go("to the level between the points", self.between)
         yield Go("to the next point", x=x, y=y)
         yield from self.work(last)
@@ -129,7 +123,6 @@ class PolarPattern(PointPattern):
     type_of_traverse: float = addresses.choice("Q365", "way between the points", WAY)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As both; and an arc to divide."""
         yield from super().check(m)
         if self.type_of_traverse == 1 and not is_round(m):
             yield "type_of_traverse", "must be 0 under unequal scales of the plane, got 1: the way would be an ellipse"
@@ -148,11 +141,9 @@ class PolarPattern(PointPattern):
         return patterns.step_between(start, end, int(self.nr_of_repetitions), closed)
 
     def centre(self) -> tuple[float, float]:
-        """Of the pitch circle."""
         return self.center_in_1st_axis, self.center_in_2nd_axis
 
     def points(self) -> Floats:
-        """On the circle, from the starting angle."""
         start, radius = math.radians(self.starting_angle), self.pitch_circle_diameter / 2
         return patterns.circle(self.centre(), radius, start, self.step(), int(self.nr_of_repetitions))
 
@@ -188,7 +179,6 @@ class CartesianPattern(PointPattern):
     move_to_clearance: float = addresses.choice("Q301", "level between the points", TRAVERSE)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As both; a circular slot must have a place in the pattern (Q367); no more points than any plate has."""
         yield from super().check(m)
         if m.cycle is not None and m.cycle.cycle.code == "CYCL DEF 254" and m.variables.get("Q367") == 0:
             yield "", "cannot be combined with CYCL DEF 254 and Q367 = 0"
@@ -197,7 +187,6 @@ class CartesianPattern(PointPattern):
             yield "number_of_lines", f"makes {many:g} points, more than {MOST}"
 
     def points(self) -> Floats:
-        """Line by line, to and fro."""
         return patterns.grid(
             (self.starting_point_1st_axis, self.starting_point_2nd_axis),
             (self.spacing_in_1st_axis, self.spacing_in_2nd_axis),

@@ -6,7 +6,6 @@ Both may begin in a hole that is there already, Q379 deep: a long drill stays in
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.holes import Hole, moving, rate
@@ -33,7 +32,6 @@ class DeepHole(Hole):
     retract_feed: float | str
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Those of every hole; something left to drill; no more infeeds than a hole can have."""
         yield from super().check(m)
         if self.depth and self.start_depth >= abs(self.depth):
             yield "start_depth", f"must be less than the depth {abs(self.depth):g}, got {self.start_depth:g}"
@@ -50,11 +48,10 @@ class DeepHole(Hole):
         return self.surface - self.down * self.start_depth
 
     def levels(self, m: Machine) -> tuple[float, ...]:
-        """The depths of the infeeds."""
         return infeeds(self.begin(m), self.bottom(m), self.infeed, self.decrement, self.min_infeed)
 
 
-@CYCLES("CYCL DEF 205", "Universal pecking", runs="call", source="4.8")
+@CYCLES("CYCL DEF 205", "Universal pecking", source="4.8")
 class UniversalPecking(DeepHole):
     """Drills in infeeds that may shrink, breaks the chip every Q257 within each, and clears the chips after it.
 
@@ -82,14 +79,12 @@ class UniversalPecking(DeepHole):
     reference: float = addresses.reference()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Those of deep holes; a feed back to the depth after a chip break, and not too many of those."""
         yield from super().check(m)
         if self.break_every and self.break_retract:
             yield from moving("positioning_feed", self.positioning_feed, "to return after a chip break")
         yield from too_many("break_every", lambda: infeeds(self.begin(m), self.bottom(m), self.break_every))
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """To the start of the drilling, infeeds, dwell; out at Q208 all the way to the end plane."""
         levels, guide, out = self.levels(m), self.guide(m), rate(self.retract_feed, self.feed)
         yield Go("to the start of the drilling", guide.start, rate(self.positioning_feed))
         yield from drill(
@@ -100,14 +95,14 @@ class UniversalPecking(DeepHole):
         yield from self.leave(out)
 
 
-@CYCLES("CYCL DEF 241", "Single-lip deep-hole drilling", runs="call", source="4.10")
+@CYCLES("CYCL DEF 241", "Single-lip deep-hole drilling", source="4.10")
 class SingleLipDrilling(DeepHole):
     """Drills deep with a single-lip drill: slow in and out, fast and with coolant while it cuts, no retraction between.
 
     The spindle is left as it turns on the way out. A dwell on the way lasts as long as the one at the bottom.
     """
 
-    own_spindle: ClassVar[bool] = True
+    own_spindle = True
 
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
@@ -134,7 +129,6 @@ class SingleLipDrilling(DeepHole):
     min_infeed: float = addresses.min_infeed(default=0)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Those of deep holes; a dwell below the start and above the bottom; M functions that switch the coolant."""
         yield from super().check(m)
         for name, number in (("coolant_on", self.coolant_on), ("coolant_off", self.coolant_off)):
             function = m.control.functions.get(f"M{number:g}")
@@ -152,7 +146,6 @@ class SingleLipDrilling(DeepHole):
         yield from moving("factor", self.factor, "to drill on with")
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """To the start of the drilling, infeeds with dwells, out past the place of the chips; end plane."""
         guide, out = self.guide(m), rate(self.retract_feed, self.feed)
         on, off = (f"coolant M{code:g}" if code else "" for code in (self.coolant_on, self.coolant_off))
         yield from gun_drill(
@@ -165,7 +158,6 @@ class SingleLipDrilling(DeepHole):
         yield from self.leave()
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """As every hole; then spindle and coolant are what their M functions say."""
         yield from super().moves(m)
         if self.depth:
             yield Write("modal", f"M{self.spindle_direction:g}", "spindle")

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -43,11 +43,11 @@ SIGNS = ((0, 0), (1, 1), (-1, 1), (-1, -1), (1, -1))  # from the tool to the cen
 CORNERS = 1.4  # times R, the widest step between two rectangles with sharp corners that leaves nothing between them
 
 
-@CYCLES("CYCL DEF 251", "Rectangular pocket", runs="call", source="6.2")
+@CYCLES("CYCL DEF 251", "Rectangular pocket", source="6.2")
 class RectangularPocket(AtSurface):
     """Mills a rectangular pocket: roughing in layers from the centre outwards, then its walls, then its floor."""
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
     about = milling.in_program_coordinates
 
     machining_operation: float = addresses.operation()
@@ -79,7 +79,6 @@ class RectangularPocket(AtSurface):
             yield "corner_radius", f"must be at most half the shorter side, {half:g}, got {self.corner_radius:g}"
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        """Both sides hold tool and allowances, the corners the tool."""
         if self.depth == 0:
             return
         yield from milling.check(self, m, self.finishing_feed)
@@ -106,11 +105,11 @@ class RectangularPocket(AtSurface):
         return mill(self, m, self.pocket(m), (x, y))
 
 
-@CYCLES("CYCL DEF 252", "Circular pocket", runs="call", source="6.3")
+@CYCLES("CYCL DEF 252", "Circular pocket", source="6.3")
 class CircularPocket(AtSurface):
     """Mills a circular pocket about the tool position: roughing in layers outwards, then its wall, then its floor."""
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
     about = milling.in_program_coordinates
 
     machining_operation: float = addresses.operation()
@@ -135,7 +134,6 @@ class CircularPocket(AtSurface):
         return milling.contradictions(self)
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        """The tool and its allowance fit; straight down goes a tool whose plunge angle allows it."""
         if self.depth == 0:
             return
         yield from milling.check(self, m, self.finishing_feed)

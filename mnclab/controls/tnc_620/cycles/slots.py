@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import ClassVar, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -47,11 +47,11 @@ ON_CIRCLE: dict[float, str] = {
 SAME = 1e-9
 
 
-@CYCLES("CYCL DEF 253", "Slot milling", runs="call", source="6.4")
+@CYCLES("CYCL DEF 253", "Slot milling", source="6.4")
 class StraightSlot(AtSurface):
     """Mills a straight slot: roughing in layers, to and fro on a ramp, then its side, then its floor."""
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
     about = milling.in_program_coordinates
 
     machining_operation: float = addresses.operation()
@@ -78,7 +78,6 @@ class StraightSlot(AtSurface):
         return milling.contradictions(self)
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        """Longer than wide."""
         if self.depth == 0:
             return
         yield from milling.check(self, m, self.finishing_feed)
@@ -97,7 +96,6 @@ class StraightSlot(AtSurface):
         return np.array([math.cos(math.radians(self.rotation_angle)), math.sin(math.radians(self.rotation_angle))])
 
     def line(self) -> Contour:
-        """From the left arc to the right one."""
         return Contour(np.outer([0.0, self.line_length], self.ahead), closed=False)
 
     def moves(self, m: Machine) -> Iterator[Step]:
@@ -108,11 +106,11 @@ class StraightSlot(AtSurface):
         return mill(self, m, [((x, y), self.line())], None if self.slot_position else m.programmed[:2])
 
 
-@CYCLES("CYCL DEF 254", "Circular slot", runs="call", source="6.5")
+@CYCLES("CYCL DEF 254", "Circular slot", source="6.5")
 class CircularSlot(AtSurface):
     """Mills slots on a pitch circle: each roughed in layers, to and fro on a ramp, then its side, then its floor."""
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
     about = milling.in_program_coordinates
 
     machining_operation: float = addresses.operation()
@@ -146,7 +144,6 @@ class CircularSlot(AtSurface):
         return milling.contradictions(self)
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        """The centre of the pitch circle lies outside of the slots."""
         if self.depth == 0:
             return
         yield from milling.check(self, m, self.finishing_feed)

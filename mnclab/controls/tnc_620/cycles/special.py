@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.machine.cycle import Cycle, CycleTable, param
@@ -29,7 +28,6 @@ class DwellTime(Cycle):
     dwell_time: float = param("DWELL", "dwell", "s", at_least=0, at_most=addresses.LONG, example=2)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """One wait."""
         yield Wait("dwell", self.dwell_time)
 
 
@@ -40,7 +38,6 @@ class SpindleOrientation(Cycle):
     orientation_angle: float = param("ANGLE", "angle of the spindle", "deg", at_least=0, at_most=360, modal=True, example=90)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion."""
         yield Write("memory", self.orientation_angle, "orientation")
         yield Write("history", self.orientation_angle, "orientation")
 
@@ -63,7 +60,6 @@ class Tolerance(Cycle):
     )  # fmt: skip
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion."""
         yield Write("tolerance", self.tolerance or NAN)
         yield Write("history", self.tolerance or 0.0, "tolerance")
         yield Write("history", FILTERS[self.hsc_mode], "filter")
@@ -87,13 +83,12 @@ class LoadAscertaining(Cycle):
     load: float = param("Q570", "what to do", "choice", choices=LOADS, modal=True)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No path; a message where the axes would move."""
         yield Write("history", LOADS[self.load], "load")
         if self.load:
             yield Say("has no path: the axes would move to weigh the load, as the machine tool builder has set")
 
 
-@CYCLES("CYCL DEF 18", "Thread cutting", runs="call", source="12.9")
+@CYCLES("CYCL DEF 18", "Thread cutting", source="12.9")
 class ThreadCutting(Cycle):
     """Cuts a thread from where the tool stands with the spindle locked to the feed; the tool stays at the bottom.
 
@@ -106,24 +101,21 @@ class ThreadCutting(Cycle):
     )
     thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, example=1.5, note="positive: a right-hand thread")
 
-    own_spindle: ClassVar[bool] = True
-    does: ClassVar[str] = TAPS
+    own_spindle = True
+    does = TAPS
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """A pitch, within what the control can hold."""
         if self.thread_pitch == 0 or abs(self.thread_pitch) > addresses.FAR:
             allowed = f"must be at most {addresses.FAR:.10g} either way and not 0"
             yield "thread_pitch", f"{allowed}, got {self.thread_pitch:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A spindle that stands still and has a speed."""
         if m.turning:
             yield "", "needs a spindle that stands still: it would stop it and cut with no rotation; write M5 before"
         if not m.speed:
             yield "", "needs a spindle speed: write S in TOOL CALL"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """On, into the thread, off; a wait where the machine has one. Nothing where the depth is 0."""
         if not self.thread_depth:
             return
         opposite = (self.thread_pitch > 0) != (self.thread_depth > 0)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from functools import partial
-from typing import ClassVar, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -42,11 +42,11 @@ CIRCLES: dict[float, str] = {0: "the size is that of the inscribed circle", 1: "
 PLUNGE = ("FMAX", *addresses.PLANE)
 
 
-@CYCLES("CYCL DEF 256", "Rectangular stud", runs="call", source="6.6")
+@CYCLES("CYCL DEF 256", "Rectangular stud", source="6.6")
 class RectangularStud(AtSurface):
     """Mills a rectangular stud free: roughing in layers from the blank inwards, then its side, then the floor about it."""
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
     about = milling.in_program_coordinates
 
     first_side_length: float = addresses.length("Q218", "first side length", example=60)
@@ -76,7 +76,6 @@ class RectangularStud(AtSurface):
         return milling.contradictions(self)
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        """Both sides of the blank, and the corners."""
         if self.depth == 0:
             return
         yield from milling.check(self, m, finishing_feed(self))
@@ -116,7 +115,6 @@ class RectangularStud(AtSurface):
         return Stud(partial(self.clearing, m.radius), self.turned(-x * u, -y * v), aside)
 
     def turned(self, u: float, v: float) -> Place:
-        """A place by the angle of rotation."""
         c, s = math.cos(math.radians(self.rotation_angle)), math.sin(math.radians(self.rotation_angle))
         return c * u - s * v, s * u + c * v
 
@@ -127,11 +125,11 @@ class RectangularStud(AtSurface):
         return mill(self, m, (m.programmed[0] + x, m.programmed[1] + y))
 
 
-@CYCLES("CYCL DEF 257", "Circular stud", runs="call", source="6.7")
+@CYCLES("CYCL DEF 257", "Circular stud", source="6.7")
 class CircularStud(AtSurface):
     """Mills a circular stud about the tool position free: on a spiral from the blank inwards, then its side and the floor."""
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
     about = milling.in_program_coordinates
 
     finished_diameter: float = addresses.length("Q223", "diameter of the finished stud", example=50)
@@ -175,7 +173,6 @@ class CircularStud(AtSurface):
         return math.radians(max(self.starting_angle, 0.0))
 
     def clearing(self, radius: float, allowance: float, blank: bool) -> Clearing:
-        """A spiral and a circle."""
         stock = max(self.blank_diameter if blank else 0.0, self.finished_diameter + 2 * allowance)
         return studs.circle(
             self.finished_diameter, stock, radius, self.overlap * radius, allowance=allowance,
@@ -189,15 +186,14 @@ class CircularStud(AtSurface):
         return Stud(partial(self.clearing, m.radius), on_ray(away, self.angle), aside)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Back over the stud at the end."""
         return mill(self, m, m.programmed[:2], [milling.back(m.programmed[:2])])
 
 
-@CYCLES("CYCL DEF 258", "Polygon stud", runs="call", source="6.8")
+@CYCLES("CYCL DEF 258", "Polygon stud", source="6.8")
 class PolygonStud(AtSurface):
     """Mills a regular polygon about the tool position free: on a spiral from the round blank inwards, then side and floor."""
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
     about = milling.in_program_coordinates
 
     reference_circle: float = addresses.choice("Q573", "reference circle", CIRCLES, example=0)
@@ -225,7 +221,6 @@ class PolygonStud(AtSurface):
         return milling.contradictions(self)
 
     def check(self, m: Machine) -> Iterator[Fault]:
-        """The blank, the corners, and that something stays."""
         if self.depth == 0:
             return
         yield from milling.check(self, m, finishing_feed(self))
@@ -250,7 +245,6 @@ class PolygonStud(AtSurface):
         return self.reference_diameter / 2 * half
 
     def clearing(self, radius: float, allowance: float, blank: bool) -> Clearing:
-        """A spiral and a polygon."""
         stock = max(self.blank_diameter if blank else 0.0, 2 * (self.inscribed + allowance))
         return studs.polygon(
             int(self.corners), self.inscribed, stock, radius, self.overlap * radius, corner=self.corner_radius_or_chamfer,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterable, Iterator
-from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.holes import oriented
@@ -30,17 +29,15 @@ def pitch_of(m: Machine, name: str, pitch: float) -> Iterator[tuple[str, str]]:
 class Tapping(AtSurface):
     """What the three cycles share."""
 
-    does: ClassVar[str] = TAPS
+    does = TAPS
 
     thread_depth: float
 
     def depths(self) -> dict[str, float]:
-        """One."""
         return {"thread_depth": self.thread_depth}
 
     @property
     def bottom(self) -> float:
-        """The end of the thread."""
         return self.surface + self.thread_depth
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
@@ -58,14 +55,13 @@ class Tapping(AtSurface):
         """From the set-up plane into the thread and back to it."""
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """Set-up plane, thread, end plane; a spindle that stands still turns again as it did before."""
         if not self.down:
             return [self.left_out]
         again = Spin("spindle on again", m.turning, m.speed)
         return [Go("to the set-up clearance", self.above), *self.steps(m), *self.leave(), again]
 
 
-@CYCLES("CYCL DEF 206", "Tapping with a floating tap holder", runs="call", source="5.2")
+@CYCLES("CYCL DEF 206", "Tapping with a floating tap holder", source="5.2")
 class FloatingTapping(Tapping):
     """Taps at a feed in one pass with the spindle as it turns, reversed at the bottom and again at the set-up clearance."""
 
@@ -77,7 +73,6 @@ class FloatingTapping(Tapping):
     second_clearance: float = addresses.second_clearance(example=50)
 
     def needs(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A turning spindle, a feed, and that together they are the pitch of the tap."""
         if self.tapping_feed == 0:
             yield "tapping_feed", "must be greater than 0, got 0"
         if not m.spindle_speed:
@@ -85,7 +80,6 @@ class FloatingTapping(Tapping):
         yield from pitch_of(m, "tapping_feed", self.tapping_feed / m.speed)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """In, reversed, dwell, out, reversed again."""
         return tap(
             [self.bottom], above=self.above, sense=m.turning, end=m.turning, feed=self.tapping_feed, dwell=self.dwell_bottom,
             dwell_first=False, stand=m.settings["thread_wait"],
@@ -97,11 +91,10 @@ class RigidTapping(Tapping):
 
     pitch: float
 
-    own_spindle: ClassVar[bool] = True
+    own_spindle = True
     """None need turn before it: the spindle is turned by the cycle."""
 
     def needs(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A pitch, that of the tap, a speed, a spindle whose angle is controlled (5.3, 5.4)."""
         if self.pitch == 0:
             yield "pitch", "must not be 0"
         if not m.speed:
@@ -115,7 +108,7 @@ class RigidTapping(Tapping):
         return 1 if self.pitch > 0 else -1
 
 
-@CYCLES("CYCL DEF 207", "Rigid tapping", runs="call", source="5.3")
+@CYCLES("CYCL DEF 207", "Rigid tapping", source="5.3")
 class RigidTappingInOnePass(RigidTapping):
     """Taps in one pass with the spindle locked to the feed; afterwards it turns as before the cycle."""
 
@@ -126,12 +119,11 @@ class RigidTappingInOnePass(RigidTapping):
     second_clearance: float = addresses.second_clearance(example=50)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """In, reversed, out, stopped."""
         stand = m.settings["thread_wait"]
         return tap([self.bottom], above=self.above, pitch=abs(self.pitch), sense=self.sense, end=0, stand=stand)
 
 
-@CYCLES("CYCL DEF 209", "Tapping with chip breaking", runs="call", source="5.4")
+@CYCLES("CYCL DEF 209", "Tapping with chip breaking", source="5.4")
 class ChipBreakingTapping(RigidTapping):
     """Taps in several passes in phase, with the spindle locked to the feed and oriented before the first of them."""
 
@@ -153,16 +145,13 @@ class ChipBreakingTapping(RigidTapping):
     )
 
     def needs(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As rigid tapping; and not too many infeeds."""
         yield from super().needs(m)
         yield from too_many("chip_breaking_depth", self.levels)
 
     def levels(self) -> tuple[float, ...]:
-        """Where the chip is broken, and the bottom."""
         return infeeds(self.surface, self.bottom, self.chip_breaking_depth or None)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Oriented; in, reversed, back, reversed, …; out faster, as far as the spindle can."""
         yield Write("memory", self.spindle_angle, "orientation")
         lead = abs(self.pitch)
         yield from tap(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
@@ -20,11 +19,11 @@ CYCLES = CycleTable()
 ORDER: dict[float, str] = {0: "before thread milling", 1: "after thread milling"}
 
 
-@CYCLES("CYCL DEF 264", "Thread drilling and milling", runs="call", source="5.8")
+@CYCLES("CYCL DEF 264", "Thread drilling and milling", source="5.8")
 class ThreadDrillingMilling(AtSurface):
     """Drills a hole in infeeds, countersinks it with the end of the tool, and mills a thread in it in one turn."""
 
-    does: ClassVar[str] = MILLS_THREADS
+    does = MILLS_THREADS
 
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
@@ -61,7 +60,6 @@ class ThreadDrillingMilling(AtSurface):
         return Way(inside(self.milling_type))
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As all thread milling, the feed of milling also countersinks; and an infeed to drill with."""
         drills, mills = bool(self.total_hole_depth), bool(self.thread_depth or self.depth_at_front)
         yield from check(self, m, plunging_feed=drills, milling_feed=mills)
         if drills:
@@ -73,11 +71,9 @@ class ThreadDrillingMilling(AtSurface):
             )
 
     def levels(self) -> tuple[float, ...]:
-        """The plunging depths."""
         return infeeds(self.surface, self.surface + self.total_hole_depth, self.infeed)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Hole, countersink at front at the milling feed, thread."""
         yield from remark_on_the_end(self, m, "total_hole_depth")
         yield Go("to the set-up clearance", self.above)
         if self.total_hole_depth:
@@ -92,11 +88,11 @@ class ThreadDrillingMilling(AtSurface):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 265", "Helical thread drilling and milling", runs="call", source="5.9")
+@CYCLES("CYCL DEF 265", "Helical thread drilling and milling", source="5.9")
 class HelicalThreadMilling(AtSurface):
     """Mills a thread into solid material in one continuous helix downwards; a countersink before it or after it."""
 
-    does: ClassVar[str] = MILLS_THREADS
+    does = MILLS_THREADS
 
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()

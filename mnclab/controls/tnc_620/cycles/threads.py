@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.holes import rate
@@ -38,11 +38,11 @@ class Way(NamedTuple):
     either_way: bool = False
 
 
-@CYCLES("CYCL DEF 262", "Thread milling", runs="call", source="5.6")
+@CYCLES("CYCL DEF 262", "Thread milling", source="5.6")
 class InnerThreadMilling(AtSurface):
     """Mills a thread in a hole: one turn, a continuous helix, or several single turns."""
 
-    does: ClassVar[str] = MILLS_THREADS
+    does = MILLS_THREADS
 
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
@@ -61,16 +61,13 @@ class InnerThreadMilling(AtSurface):
 
     @property
     def way(self) -> Way:
-        """Q355 threads per step."""
         return Way(inside(self.milling_type), int(self.threads_per_step))
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Nothing where the depth is 0, for then nothing is done."""
         if self.thread_depth:
             yield from check(self, m, milling_feed=True)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """The thread alone; nothing with a depth of 0."""
         if not self.down:
             yield self.left_out
             return
@@ -79,11 +76,11 @@ class InnerThreadMilling(AtSurface):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 263", "Thread milling with countersinking", runs="call", source="5.7")
+@CYCLES("CYCL DEF 263", "Thread milling with countersinking", source="5.7")
 class ThreadMillingCountersinking(AtSurface):
     """Countersinks a hole with the side of the tool or with its end, and mills a thread in it in one turn."""
 
-    does: ClassVar[str] = MILLS_THREADS
+    does = MILLS_THREADS
 
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
@@ -118,7 +115,6 @@ class ThreadMillingCountersinking(AtSurface):
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=sinks)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Countersink, countersink at front, thread."""
         yield from remark_on_the_end(self, m, "countersinking_depth")
         yield Go("to the set-up clearance", self.above)
         feed, position = self.countersinking_feed, rate(self.prepositioning_feed)
@@ -137,11 +133,11 @@ class ThreadMillingCountersinking(AtSurface):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 267", "Outside thread milling", runs="call", source="5.10")
+@CYCLES("CYCL DEF 267", "Outside thread milling", source="5.10")
 class OutsideThreadMilling(AtSurface):
     """Countersinks the end of a stud and mills a thread on it; the tool ends beside the stud, on the first axis."""
 
-    does: ClassVar[str] = MILLS_THREADS
+    does = MILLS_THREADS
 
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
@@ -167,14 +163,12 @@ class OutsideThreadMilling(AtSurface):
         return Way(-inside(self.milling_type), int(self.threads_per_step), external=True)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The tool does not plunge into the stud."""
         sinks = bool(self.depth_at_front)
         yield from check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=sinks)
         if sinks and self.offset_at_front == 0:
             yield "offset_at_front", "must be greater than 0 with Q358: the tool would go into the stud"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Beside the stud at rapid; countersink at front, thread."""
         yield Go("to the set-up clearance", self.above)
         yield Go("to the start point beside the stud", x=path(self, m).start, y=0.0)
         yield from front(self, m, self.countersinking_feed)

@@ -74,7 +74,6 @@ class WorkingPlane(Cycle):
 
     @property
     def angles(self) -> dict[str, float]:
-        """A, B and C, degrees."""
         return {"A": self.angle_a or 0.0, "B": self.angle_b or 0.0, "C": self.angle_c or 0.0}
 
     @property
@@ -83,7 +82,6 @@ class WorkingPlane(Cycle):
         return self.angle_a is None
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """No compensation, both words of the positioning or none, and only axes that are there."""
         if m.side:
             yield "", "cannot tilt the plane under radius compensation: write R0 before"
         if (self.rotary_feed is None) != (self.set_up_clearance is None):
@@ -99,11 +97,9 @@ class WorkingPlane(Cycle):
                     yield f"angle_{axis.lower()}", f"must be 0, got {angle:g}: {there}"
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """Where the tip goes is told in coordinates of the program."""
         return 0.0, 0.0
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """The frame, the results, and the motion of the rotary axes where it is asked for."""
         if self.off:
             yield Write("memory", {}, "tilt_angles")
             if chain.TILT in m.frames and (left := (yield from chain.untilt(m))):

@@ -33,7 +33,6 @@ class Mirroring(Cycle):
     )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """At most three, each once, not the tool axis while a tool is called, and only those that are there."""
         named = self.mirrored_axes or ()
         if len(named) > 3:
             yield "mirrored_axes", f"must be at most three, got {' '.join(named)}"
@@ -45,7 +44,6 @@ class Mirroring(Cycle):
             yield "mirrored_axes", f"cannot be {absent}: this axis is not built yet"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion; an arc turns the other way and RL becomes RR where one axis of the plane is mirrored."""
         named = self.mirrored_axes or ()
         linear = "".join(axis for axis in named if axis in "XYZ")
         yield Write("memory", "".join(axis for axis in named if axis in "ABC"), "rotary_mirror")
@@ -70,7 +68,6 @@ class Rotation(Cycle):
         return values
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion: the register is read anew from where the tip stands."""
         yield Write("side", 0)
         yield from chain.remember_angle(m, self.angle)
         yield from chain.define(m, chain.ROTATION, frames.turn(math.radians(self.angle)) if self.angle % 360 else None)
@@ -91,7 +88,6 @@ class Scaling(Cycle):
     scaling_factor: float = factor("SCL", "scaling factor", example=0.5)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion."""
         s = self.scaling_factor
         yield from chain.define(m, chain.SCALE, frames.scale(s, s, s) if s != 1 else None)
 
@@ -119,13 +115,11 @@ class AxisScaling(Cycle):
     def prepare(
         cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
     ) -> dict[str, Any]:
-        """Factors and centre are absolute; at least one axis is named."""
         chain.absolute(m, cls.code, given)
         if not {"x", "y", "z"} & given.keys():
             m.alarm(f"{cls.code} needs an axis and its factor, for example CYCL DEF 26.1 X 1.4 Y 0.6", None)
         return values
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion."""
         scales, about = (self.x, self.y, self.z), (self.centre_x or 0.0, self.centre_y or 0.0, self.centre_z or 0.0)
         yield from chain.define(m, chain.FACTORS, frames.scale(*scales, about) if scales != (1, 1, 1) else None)

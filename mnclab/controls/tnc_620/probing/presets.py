@@ -37,7 +37,6 @@ class PresetInOneAxis(Cycle):
     )
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A probe in the spindle, no transformation, a table to write to."""
         if not m.tool.number:
             yield "", "needs a tool call before it, which names the probe and its axis"
         active = [name for name, _ in m.frames if name != "preset" and name in m.frames]
@@ -47,11 +46,9 @@ class PresetInOneAxis(Cycle):
             yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """Where to touch is told in coordinates of the program."""
         return 0.0, 0.0
 
     def moves(self, m: Machine) -> Generator[Step, Any, None]:
-        """Position, touch, back, up; then the preset."""
         k, ball, probe = int(self.axis) - 1, m.radius, m.setup.probe
         away = probe.clearance + self.clearance + ball
         start = [self.x, self.y, self.z]  # of the ball's centre
