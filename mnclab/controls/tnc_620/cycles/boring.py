@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from itertools import chain
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import distance, increment, length, seconds
 from mnclab.controls.tnc_620.cycles.chain import MIRROR
 from mnclab.controls.tnc_620.cycles.holes import Hole, moving, oriented, rate
 from mnclab.machine.cycle import CycleTable, too_many
@@ -68,23 +69,15 @@ class BackBoring(Hole):
     does = SHIFTS
 
     clearance: float = addresses.clearance()
-    counterbore_depth: float = addresses.coordinate(
-        "Q249", "depth of the counterbore", incremental=True, note="from the lower surface; positive is up", example=5
+    counterbore_depth: float = increment(
+        "Q249", "depth of the counterbore", note="from the lower surface; positive is up", example=5
     )
-    thickness: float = addresses.length(
-        "Q250", "thickness of the workpiece", at_least=0.0001, incremental=True, example=20
-    )
-    eccentricity: float = addresses.length(
-        "Q251", "off-centre distance of the bar", at_least=0.0001, incremental=True, example=3.5
-    )
-    edge_height: float = addresses.length(
-        "Q252", "height of the edge above the end of the bar", at_least=0.0001, incremental=True, example=15
-    )
+    thickness: float = distance("Q250", "thickness of the workpiece", at_least=0.0001, example=20)
+    eccentricity: float = distance("Q251", "off-centre distance of the bar", at_least=0.0001, example=3.5)
+    edge_height: float = distance("Q252", "height of the edge above the end of the bar", at_least=0.0001, example=15)
     positioning_feed: float | str = addresses.positioning_feed()
-    feed: float = addresses.feed(
-        "Q254", "feed rate for counterboring", ("FAUTO", "FU"), at_most=addresses.FAR, example=200
-    )
-    dwell_bottom: float = addresses.seconds("Q255", "dwell at the bottom of the counterbore", example=0.5)
+    feed: float = addresses.countersinking_feed(meaning="feed rate for counterboring", example=200)
+    dwell_bottom: float = seconds("Q255", "dwell at the bottom of the counterbore", example=0.5)
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
     disengage: float = addresses.disengage(shift=True)
@@ -128,11 +121,11 @@ class BoreMilling(Hole):
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
     feed: float = addresses.plunge_feed(also=("FAUTO", "FU", "FZ"))
-    pitch: float = addresses.length("Q334", "infeed per turn of the helix", incremental=True, example=1.5)
+    pitch: float = distance("Q334", "infeed per turn of the helix", example=1.5)
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
-    diameter: float = addresses.length("Q335", "diameter of the bore", example=14)
-    roughing_diameter: float = addresses.length(
+    diameter: float = length("Q335", "diameter of the bore", example=14)
+    roughing_diameter: float = length(
         "Q342", "diameter roughed before", note="above 0 the bore may be wider than twice the tool", example=0
     )
     climb: float = addresses.climb(example=1)

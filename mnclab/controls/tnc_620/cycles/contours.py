@@ -10,12 +10,12 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, length
+from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, count, distance, increment, length, ratio
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.flow import Recording
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.true_size import MILLS, remark
@@ -44,10 +44,9 @@ class Labels(NamedTuple):
 class ContourGeometry(Cycle):
     """The labels whose contours together are the pocket; no motion."""
 
-    labels: tuple[float, ...] = param(
-        "LBL", "label numbers of the contour", "count", type="integer", several=True, at_least=1, at_most=65535, modal=True,
-        note="1/2/3, up to 12", example=1,
-    )  # fmt: skip
+    labels: tuple[float, ...] = addresses.number(
+        "LBL", "label numbers of the contour", at_most=65535, several=True, note="1/2/3, up to 12", example=1
+    )
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         if len(self.labels) > MOST_LABELS:
@@ -65,12 +64,12 @@ class ContourGeometry(Cycle):
 class ContourData(Cycle):
     """Depths, allowances and the sense of milling for the cycles that follow; no motion."""
 
-    depth: float = coordinate("Q1", "milling depth from the surface to the floor", incremental=True, example=-20)
-    overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True, example=1)
-    side_allowance: float = coordinate("Q3", "finishing allowance for side", incremental=True, example=0.2)
-    floor_allowance: float = coordinate("Q4", "finishing allowance for floor", incremental=True, example=0.1)
+    depth: float = increment("Q1", "milling depth from the surface to the floor", example=-20)
+    overlap: float = ratio("Q2", "path overlap factor", at_most=1.9999, example=1)
+    side_allowance: float = increment("Q3", "finishing allowance for side", example=0.2)
+    floor_allowance: float = increment("Q4", "finishing allowance for floor", example=0.1)
     surface: float = coordinate("Q5", "coordinate of the workpiece surface", example=0)
-    clearance: float = length("Q6", "set-up clearance", incremental=True, example=2)
+    clearance: float = distance("Q6", "set-up clearance", example=2)
     height: float = coordinate("Q7", "clearance height", example=50)
     corner: float = length("Q8", "radius at inside corners", example=0.5)
     sense: float = choice("Q9", "direction of machining", {-1: "up-cut milling", 1: "climb milling"})
@@ -147,20 +146,13 @@ class RoughOut(Cycle):
 
     does = MILLS
 
-    infeed: float = coordinate("Q10", "infeed per cut", incremental=True, example=5)
-    plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", FEEDS, at_most=FAR, example=150)
-    feed: float = addresses.feed("Q12", "feed rate for roughing", FEEDS, at_most=FAR, example=500)
-    coarse_tool: float = param(
-        ("Q18", "QS18"), "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
-    )
-    swing_feed: float = addresses.feed("Q19", "feed rate for reciprocation", FEEDS, at_most=FAR, example=0)
-    retract_feed: float | str = param(
-        "Q208", "retraction feed rate", "mm/min", default=INF, default_means="FMAX", at_least=0, also=("FMAX", "FAUTO"),
-        modal=True,
-    )  # fmt: skip
-    factor: float = param(
-        "Q401", "feed rate factor at full engagement", "ratio", default=100, at_least=0.0001, at_most=100, modal=True
-    )
+    infeed: float = increment("Q10", "infeed per cut", example=5)
+    plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=FEEDS, at_most=FAR, example=150)
+    feed: float = addresses.feed("Q12", "feed rate for roughing", also=FEEDS, at_most=FAR, example=500)
+    coarse_tool: float = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0)
+    swing_feed: float = addresses.feed("Q19", "feed rate for reciprocation", also=FEEDS, at_most=FAR, example=0)
+    retract_feed: float | str = addresses.retract_feed(at_most=None, default=INF, default_means="FMAX", note="", example=None)
+    factor: float = ratio("Q401", "feed rate factor at full engagement", at_most=100, default=100)
     fine_strategy: float = choice("Q404", "fine roughing strategy", STRATEGIES, default=0)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:

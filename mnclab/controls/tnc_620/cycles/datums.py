@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
-from mnclab.controls.tnc_620.cycles.addresses import FAR
+from mnclab.controls.tnc_620.cycles.addresses import coordinate, count
 from mnclab.controls.tnc_620.tables.datum_tables import row_of
 from mnclab.geometry import frames
-from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.machining.steps import Step, Write
@@ -19,12 +20,8 @@ CYCLES = CycleTable()
 AXES = "xyzabc"
 
 
-def axis_shift(address: str) -> Any:
-    """The shift of one axis."""
-    return param(
-        address, f"datum shift along {address}" if address in "XYZ" else f"datum shift of {address}",
-        "mm" if address in "XYZ" else "deg", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True,
-    )  # fmt: skip
+linear = partial(coordinate, default=None, default_means="as it is")
+rotary = partial(linear, unit="deg")
 
 
 @CYCLES("CYCL DEF 7", "Datum shift", runs="definition", source="11.2")
@@ -34,16 +31,15 @@ class DatumShift(Cycle):
     `#5` takes the shift from a row of the active datum table; an empty field there leaves its axis as it is.
     """
 
-    x: float | None = axis_shift("X")
-    y: float | None = axis_shift("Y")
-    z: float | None = axis_shift("Z")
-    a: float | None = axis_shift("A")
-    b: float | None = axis_shift("B")
-    c: float | None = axis_shift("C")
-    datum_number: float | None = param(
-        "#", "row of the datum table", "count", default=None, default_means="the shift is written", at_least=0,
-        at_most=9999, modal=True, type="integer",
-    )  # fmt: skip
+    x: float | None = linear("X", "datum shift along X")
+    y: float | None = linear("Y", "datum shift along Y")
+    z: float | None = linear("Z", "datum shift along Z")
+    a: float | None = rotary("A", "datum shift of A")
+    b: float | None = rotary("B", "datum shift of B")
+    c: float | None = rotary("C", "datum shift of C")
+    datum_number: float | None = count(
+        "#", "row of the datum table", at_most=9999, default=None, default_means="the shift is written"
+    )
 
     @classmethod
     def prepare(
@@ -82,10 +78,7 @@ class DatumShift(Cycle):
 class Presetting(Cycle):
     """Makes a row of the preset table the datum of the program; cycles 7, 8, 10, 11 and 26 are over, a tilt stays."""
 
-    preset_number: float = param(
-        "Q339", "number of the preset", "count", at_least=0, at_most=65535, modal=True, type="integer",
-        example=0, note="0: the one set by hand",
-    )  # fmt: skip
+    preset_number: float = count("Q339", "number of the preset", at_most=65535, note="0: the one set by hand", example=0)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         row = int(self.preset_number)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count
 from mnclab.controls.tnc_620.cycles.holes import Hole, moving, point_angle, point_length, rate
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
@@ -24,11 +25,9 @@ class Centering(Hole):
     """Centres to a depth, or so deep that the point of the tool leaves a cone of a diameter on the surface."""
 
     clearance: float = addresses.clearance()
-    mode: float = addresses.choice("Q343", "what the centring goes to", CENTRED, example=0)
+    mode: float = choice("Q343", "what the centring goes to", CENTRED, example=0)
     depth: float = addresses.depth(example=-3)
-    diameter: float = addresses.coordinate(
-        "Q344", "diameter of the centring", note="negative is down; counts with Q343=1", example=-9
-    )
+    diameter: float = coordinate("Q344", "diameter of the centring", note="negative is down; counts with Q343=1", example=-9)
     feed: float = addresses.plunge_feed()
     dwell_bottom: float = addresses.dwell_bottom()
     surface: float = addresses.surface()
@@ -126,7 +125,7 @@ class UniversalDrilling(Hole):
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
     decrement: float = addresses.decrement()
-    chip_breaks: float = addresses.count("Q213", "chip breaks before each retraction", 99999, example=1)
+    chip_breaks: float = count("Q213", "chip breaks before each retraction", example=1)
     min_infeed: float = addresses.min_infeed()
     dwell_bottom: float = addresses.dwell_bottom()
     retract_feed: float | str = addresses.retract_feed()

@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 
 from mnclab.controls.tnc_620 import engraved_text
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, ratio
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
@@ -41,16 +42,13 @@ class Engraving(AtSurface):
     does = MILLS
 
     text: str | TextFormula = param(("Q500", "QS500"), "text", "text", modal=True, type="text")
-    character_height: float = addresses.length(
-        "Q513", "character height", note="0: as the length Q574 asks", example=10
+    character_height: float = addresses.length("Q513", "character height", note="0: as the length Q574 asks", example=10)
+    spacing_factor: float = ratio(
+        "Q514", "spacing factor", at_least=0, at_most=9.9999, note="0: as the letters have it", example=0
     )
-    spacing_factor: float = param(
-        "Q514", "spacing factor", "ratio", at_least=0, at_most=9.9999, modal=True, note="0: as the letters have it",
-        example=0,
-    )  # fmt: skip
-    font: float = addresses.choice("Q515", "font", FONTS, default=0, note="its widths; the strokes are our own")
-    text_layout: float = addresses.choice("Q516", "text layout", LAYOUTS, example=0)
-    angle: float = addresses.angle("Q374", "angle of rotation", note="on an arc that of the reference point", example=0)
+    font: float = choice("Q515", "font", FONTS, default=0, note="its widths; the strokes are our own")
+    text_layout: float = choice("Q516", "text layout", LAYOUTS, example=0)
+    angle: float = addresses.rotation("Q374", note="on an arc that of the reference point", example=0)
     arc_radius: float = addresses.length("Q517", "radius of the arc", example=50)
     feed: float = addresses.milling_feed(example=750)
     depth: float = addresses.depth(example=-0.5)
@@ -58,7 +56,7 @@ class Engraving(AtSurface):
     clearance: float = addresses.clearance(predef=True)
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
-    text_position: float = addresses.choice("Q367", "text position", REFERENCES, default=0, example=1)
+    text_position: float = choice("Q367", "text position", REFERENCES, default=0, example=1)
     maximum_text_length: float = addresses.length("Q574", "greatest text length", default=0, note="0: no limit")
 
     def contradictions(self) -> Iterator[tuple[str, str]]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment
 from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS
@@ -30,21 +31,19 @@ class FaceMilling(Cycle):
 
     does = MILLS
 
-    strategy: float = addresses.choice("Q389", "machining strategy", STRATEGIES, example=2)
-    start_1st_axis: float = addresses.coordinate("Q225", "starting point, first axis", example=10)
-    start_2nd_axis: float = addresses.coordinate("Q226", "starting point, second axis", example=12)
-    start_3rd_axis: float = addresses.coordinate("Q227", "coordinate of the surface", example=2.5)
-    end_3rd_axis: float = addresses.coordinate("Q386", "coordinate to mill down to", example=-3)
-    first_side_length: float = addresses.side(
+    strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
+    start_1st_axis: float = coordinate("Q225", "starting point, first axis", example=10)
+    start_2nd_axis: float = coordinate("Q226", "starting point, second axis", example=12)
+    start_3rd_axis: float = coordinate("Q227", "coordinate of the surface", example=2.5)
+    end_3rd_axis: float = coordinate("Q386", "coordinate to mill down to", example=-3)
+    first_side_length: float = increment(
         "Q218", "first side length", note="the sign is the direction of the first line", example=150
     )
-    second_side_length: float = addresses.side(
+    second_side_length: float = increment(
         "Q219", "second side length", note="the sign is the direction of the first stepover", example=75
     )
-    maximum_plunging_depth: float = addresses.length("Q202", "greatest infeed", incremental=True, example=2)
-    floor_allowance: float = addresses.length(
-        "Q369", "finishing allowance for the floor", incremental=True, note="the last infeed", example=0.5
-    )
+    maximum_plunging_depth: float = addresses.greatest_infeed(example=2)
+    floor_allowance: float = distance("Q369", "finishing allowance for the floor", note="the last infeed", example=0.5)
     maximum_overlap: float = addresses.overlap(
         meaning="greatest path overlap factor", at_least=0.1, predef=False, note="times the tool radius is the stepover"
     )

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length, number
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import faults, is_round
@@ -107,20 +108,20 @@ class PointPattern(Cycle, ABC):
 class PolarPattern(PointPattern):
     """Runs the cycle defined last at points on a circle or an arc."""
 
-    center_in_1st_axis: float = addresses.coordinate("Q216", "centre along the first axis", example=50)
-    center_in_2nd_axis: float = addresses.coordinate("Q217", "centre along the second axis", example=50)
-    pitch_circle_diameter: float = addresses.length("Q244", "diameter of the pitch circle", example=80)
+    center_in_1st_axis: float = coordinate("Q216", "centre along the first axis", example=50)
+    center_in_2nd_axis: float = coordinate("Q217", "centre along the second axis", example=50)
+    pitch_circle_diameter: float = length("Q244", "diameter of the pitch circle", example=80)
     starting_angle: float = addresses.angle("Q245", "starting angle", example=0)
     stopping_angle: float = addresses.angle("Q246", "stopping angle", example=360, note="where Q247 is 0")
     stepping_angle: float = addresses.angle(
         "Q247", "stepping angle", incremental=True, example=0, note="0: from the other angles and the number"
     )
-    nr_of_repetitions: float = addresses.number("Q241", "number of operations", example=8)
+    nr_of_repetitions: float = number("Q241", "number of operations", example=8)
     clearance: float = addresses.clearance()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
-    move_to_clearance: float = addresses.choice("Q301", "level between the points", TRAVERSE)
-    type_of_traverse: float = addresses.choice("Q365", "way between the points", WAY)
+    move_to_clearance: float = choice("Q301", "level between the points", TRAVERSE)
+    type_of_traverse: float = choice("Q365", "way between the points", WAY)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         yield from super().check(m)
@@ -153,11 +154,11 @@ class PolarPattern(PointPattern):
             yield from super().others(m, points)
             return
         rapid = float(np.min(m.setup.limits.rapid))
-        for number in range(len(points)):
+        for k in range(len(points)):
             yield Go("to the level between the points", self.between)
             if self.pitch_circle_diameter:
                 yield Turn("along the pitch circle", self.step(), feed=rapid, centre=self.centre())
-            yield from self.work(last=number == len(points) - 1)
+            yield from self.work(last=k == len(points) - 1)
 
 
 @CYCLES("CYCL DEF 221", "Cartesian pattern", runs="definition", source="7.3")
@@ -166,17 +167,17 @@ class CartesianPattern(PointPattern):
 
     combines = PointPattern.combines | {"CYCL DEF 254"}
 
-    starting_point_1st_axis: float = addresses.coordinate("Q225", "starting point along the first axis", example=15)
-    starting_point_2nd_axis: float = addresses.coordinate("Q226", "starting point along the second axis", example=15)
-    spacing_in_1st_axis: float = addresses.coordinate("Q237", "spacing along a line", example=10, incremental=True)
-    spacing_in_2nd_axis: float = addresses.coordinate("Q238", "spacing of the lines", example=8, incremental=True)
-    number_of_columns: float = addresses.number("Q242", "number of operations on a line", example=6)
-    number_of_lines: float = addresses.number("Q243", "number of lines", example=4)
+    starting_point_1st_axis: float = coordinate("Q225", "starting point along the first axis", example=15)
+    starting_point_2nd_axis: float = coordinate("Q226", "starting point along the second axis", example=15)
+    spacing_in_1st_axis: float = increment("Q237", "spacing along a line", example=10)
+    spacing_in_2nd_axis: float = increment("Q238", "spacing of the lines", example=8)
+    number_of_columns: float = number("Q242", "number of operations on a line", example=6)
+    number_of_lines: float = number("Q243", "number of lines", example=4)
     angle_of_rotation: float = addresses.angle("Q224", "rotation about the starting point", example=15)
     clearance: float = addresses.clearance()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
-    move_to_clearance: float = addresses.choice("Q301", "level between the points", TRAVERSE)
+    move_to_clearance: float = choice("Q301", "level between the points", TRAVERSE)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         yield from super().check(m)

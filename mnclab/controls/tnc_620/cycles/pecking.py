@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, count, distance, ratio
 from mnclab.controls.tnc_620.cycles.holes import Hole, moving, rate
-from mnclab.machine.cycle import CycleTable, param, too_many
+from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import advanced_stops, infeeds
 from mnclab.machining.holes.drilling import Guided, drill, guided, gun_drill
@@ -66,11 +67,9 @@ class UniversalPecking(DeepHole):
     second_clearance: float = addresses.second_clearance()
     decrement: float = addresses.decrement()
     min_infeed: float = addresses.min_infeed()
-    first_stop: float = addresses.length("Q258", "upper advanced stop distance", incremental=True, example=0.5)
-    last_stop: float = addresses.length("Q259", "lower advanced stop distance", incremental=True, example=1)
-    break_every: float = addresses.length(
-        "Q257", "infeed between chip breaks", incremental=True, note="0: no chip breaks", example=2
-    )
+    first_stop: float = addresses.first_stop(example=0.5)
+    last_stop: float = distance("Q259", "lower advanced stop distance", example=1)
+    break_every: float = addresses.break_every(meaning="infeed between chip breaks", note="0: no chip breaks", example=2)
     break_retract: float = addresses.break_retract()
     dwell_bottom: float = addresses.dwell_bottom()
     start_depth: float = addresses.start_depth()
@@ -113,17 +112,13 @@ class SingleLipDrilling(DeepHole):
     start_depth: float = addresses.start_depth()
     positioning_feed: float | str = addresses.positioning_feed()
     retract_feed: float | str = addresses.retract_feed()
-    spindle_direction: float = addresses.choice("Q426", "spindle when entering and leaving", ENTRY, example=3)
-    entry_speed: float = addresses.count("Q427", "speed when entering and leaving", 99999, "rev/min", example=25)
-    drilling_speed: float = addresses.count("Q428", "speed when drilling", 99999, "rev/min", example=500)
-    coolant_on: float = addresses.count("Q429", "M function for coolant on", 999, "choice", note="0: none", example=8)
-    coolant_off: float = addresses.count("Q430", "M function for coolant off", 999, "choice", note="0: none", example=9)
-    dwell_depth: float = addresses.length(
-        "Q435", "depth of a dwell on the way", incremental=True, default=0, note="0: none", example=10
-    )
-    factor: float = param(
-        "Q401", "feed rate factor after the dwell", "ratio", default=100, at_least=0, at_most=100, modal=True, example=50
-    )
+    spindle_direction: float = choice("Q426", "spindle when entering and leaving", ENTRY, example=3)
+    entry_speed: float = count("Q427", "speed when entering and leaving", unit="rev/min", example=25)
+    drilling_speed: float = count("Q428", "speed when drilling", unit="rev/min", example=500)
+    coolant_on: float = count("Q429", "M function for coolant on", at_most=999, unit="choice", note="0: none", example=8)
+    coolant_off: float = count("Q430", "M function for coolant off", at_most=999, unit="choice", note="0: none", example=9)
+    dwell_depth: float = distance("Q435", "depth of a dwell on the way", default=0, note="0: none", example=10)
+    factor: float = ratio("Q401", "feed rate factor after the dwell", at_least=0, at_most=100, default=100, example=50)
     infeed: float | None = addresses.infeed(default=None, default_means="one pass")
     decrement: float = addresses.decrement(default=0)
     min_infeed: float = addresses.min_infeed(default=0)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, milling
+from mnclab.controls.tnc_620.cycles.addresses import choice, distance, length
 from mnclab.controls.tnc_620.cycles.milling import Fault, Figure, Place
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
@@ -51,12 +52,12 @@ class RectangularPocket(AtSurface):
     about = milling.in_program_coordinates
 
     machining_operation: float = addresses.operation()
-    first_side_length: float = addresses.length("Q218", "first side length", incremental=True, example=80)
-    second_side_length: float = addresses.length("Q219", "second side length", incremental=True, example=60)
-    corner_radius: float = addresses.length("Q220", "corner radius", note="0: the tool radius", example=8)
+    first_side_length: float = distance("Q218", "first side length", example=80)
+    second_side_length: float = distance("Q219", "second side length", example=60)
+    corner_radius: float = length("Q220", "corner radius", note="0: the tool radius", example=8)
     side_allowance: float = addresses.side_allowance()
     rotation_angle: float = addresses.rotation("Q224")
-    pocket_position: float = addresses.choice("Q367", "pocket position", CORNER, example=0)
+    pocket_position: float = choice("Q367", "pocket position", CORNER, example=0)
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
     depth: float = addresses.depth()
@@ -113,7 +114,7 @@ class CircularPocket(AtSurface):
     about = milling.in_program_coordinates
 
     machining_operation: float = addresses.operation()
-    circle_diameter: float = addresses.length("Q223", "circle diameter", example=60)
+    circle_diameter: float = length("Q223", "circle diameter", example=60)
     side_allowance: float = addresses.side_allowance()
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)

@@ -14,6 +14,7 @@ from typing import TypeAlias
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, milling
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.cycles.milling import Fault, Figure, Place
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds, slopes
@@ -55,11 +56,11 @@ class StraightSlot(AtSurface):
     about = milling.in_program_coordinates
 
     machining_operation: float = addresses.operation()
-    slot_length: float = addresses.length("Q218", "slot length", note="over all", example=80)
+    slot_length: float = length("Q218", "slot length", note="over all", example=80)
     slot_width: float = addresses.slot_width()
     side_allowance: float = addresses.side_allowance()
     rotation_angle: float = addresses.rotation("Q374")
-    slot_position: float = addresses.choice("Q367", "slot position", LENGTHWISE, example=0)
+    slot_position: float = choice("Q367", "slot position", LENGTHWISE, example=0)
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
     depth: float = addresses.depth()
@@ -116,16 +117,14 @@ class CircularSlot(AtSurface):
     machining_operation: float = addresses.operation()
     slot_width: float = addresses.slot_width()
     side_allowance: float = addresses.side_allowance()
-    pitch_circle_diameter: float = addresses.length("Q375", "pitch circle diameter", example=80)
-    slot_position: float = addresses.choice("Q367", "reference of the slot position", ON_CIRCLE, example=0)
-    centre_x: float = addresses.coordinate("Q216", "centre in the first axis", note="only with Q367 = 0", example=50)
-    centre_y: float = addresses.coordinate("Q217", "centre in the second axis", note="only with Q367 = 0", example=50)
+    pitch_circle_diameter: float = length("Q375", "pitch circle diameter", example=80)
+    slot_position: float = choice("Q367", "reference of the slot position", ON_CIRCLE, example=0)
+    centre_x: float = coordinate("Q216", "centre in the first axis", note="only with Q367 = 0", example=50)
+    centre_y: float = coordinate("Q217", "centre in the second axis", note="only with Q367 = 0", example=50)
     starting_angle: float = addresses.angle("Q376", "starting angle", note="polar", example=45)
-    angular_length: float = addresses.angle(
-        "Q248", "opening angle of the slot", at_least=0, incremental=True, example=90
-    )
+    angular_length: float = addresses.angle("Q248", "opening angle of the slot", at_least=0, incremental=True, example=90)
     stepping_angle: float = addresses.angle("Q378", "stepping angle", incremental=True, example=180)
-    repetitions: float = addresses.count("Q377", "number of slots", 99999, at_least=1, example=2)
+    repetitions: float = count("Q377", "number of slots", at_least=1, example=2)
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
     depth: float = addresses.depth()

@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, increment, length, seconds
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS
@@ -25,7 +26,7 @@ LOADS: dict[float, str] = {0: "forget the values found before", 1: "weigh: the a
 class DwellTime(Cycle):
     """The program waits; the spindle turns on."""
 
-    dwell_time: float = param("DWELL", "dwell", "s", at_least=0, at_most=addresses.LONG, example=2)
+    dwell_time: float = seconds("DWELL", "dwell", modal=False, example=2)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         yield Wait("dwell", self.dwell_time)
@@ -35,7 +36,7 @@ class DwellTime(Cycle):
 class SpindleOrientation(Cycle):
     """Stores the angle at which M19 or M20 stops the spindle; cycles 202, 204 and 209 overwrite it."""
 
-    orientation_angle: float = param("ANGLE", "angle of the spindle", "deg", at_least=0, at_most=360, modal=True, example=90)
+    orientation_angle: float = addresses.angle("ANGLE", "angle of the spindle", at_least=0, example=90)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         yield Write("memory", self.orientation_angle, "orientation")
@@ -49,15 +50,14 @@ class Tolerance(Cycle):
     Without T, or with 0, the tolerance is that of the machine. Filter and tolerance of rotary axes are kept in the history.
     """
 
-    tolerance: float | None = param(
-        "T", "permissible contour deviation", default=None, default_means="that of the machine", at_least=0, at_most=10,
-        modal=True, note="0: that of the machine",
+    tolerance: float | None = length(
+        "T", "permissible contour deviation", at_most=10, default=None, default_means="that of the machine",
+        note="0: that of the machine",
     )  # fmt: skip
-    hsc_mode: float = param("HSC-MODE", "filter", "choice", choices=FILTERS, default=0, modal=True)
-    rotary_axis_tolerance: float = param(
-        "TA", "permissible deviation of rotary axes", "deg", default=0, at_least=0, at_most=10, modal=True,
-        note="with M128; 0: that of the machine",
-    )  # fmt: skip
+    hsc_mode: float = choice("HSC-MODE", "filter", FILTERS, default=0)
+    rotary_axis_tolerance: float = addresses.angle(
+        "TA", "permissible deviation of rotary axes", at_least=0, at_most=10, default=0, note="with M128; 0: that of the machine"
+    )
 
     def moves(self, m: Machine) -> Iterator[Step]:
         yield Write("tolerance", self.tolerance or NAN)
@@ -80,7 +80,7 @@ def toroid_rotary_tolerance(major_radius: float, tolerance: float) -> float:
 class LoadAscertaining(Cycle):
     """Finds what the load of the table weighs, or forgets it. How the axes move for that only the machine knows: no path."""
 
-    load: float = param("Q570", "what to do", "choice", choices=LOADS, modal=True)
+    load: float = choice("Q570", "what to do", LOADS)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         yield Write("history", LOADS[self.load], "load")
@@ -96,10 +96,10 @@ class ThreadCutting(Cycle):
     call with the depth reversed runs the thread back.
     """
 
-    thread_depth: float = addresses.coordinate(
-        "DEPTH", "depth of the thread from where the tool stands", at_least=-99999, at_most=99999, incremental=True, example=-20
+    thread_depth: float = increment(
+        "DEPTH", "depth of the thread from where the tool stands", at_least=-99999, at_most=99999, example=-20
     )
-    thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, example=1.5, note="positive: a right-hand thread")
+    thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, note="positive: a right-hand thread", example=1.5)
 
     own_spindle = True
     does = TAPS

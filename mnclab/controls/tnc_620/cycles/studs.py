@@ -15,6 +15,7 @@ from typing import TypeAlias
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, milling
+from mnclab.controls.tnc_620.cycles.addresses import choice, length, number
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.milling import Fault, Figure, Place
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
@@ -49,14 +50,14 @@ class RectangularStud(AtSurface):
     does = MILLS
     about = milling.in_program_coordinates
 
-    first_side_length: float = addresses.length("Q218", "first side length", example=60)
-    blank_side_1: float = addresses.length("Q424", "first side of the blank", note="at least Q218", example=74)
-    second_side_length: float = addresses.length("Q219", "second side length", example=40)
-    blank_side_2: float = addresses.length("Q425", "second side of the blank", note="at least Q219", example=60)
+    first_side_length: float = length("Q218", "first side length", example=60)
+    blank_side_1: float = length("Q424", "first side of the blank", note="at least Q218", example=74)
+    second_side_length: float = length("Q219", "second side length", example=40)
+    blank_side_2: float = length("Q425", "second side of the blank", note="at least Q219", example=60)
     corner_radius_or_chamfer: float = addresses.corner(example=5)
     side_allowance: float = addresses.side_allowance()
     rotation_angle: float = addresses.rotation("Q224")
-    stud_position: float = addresses.choice("Q367", "stud position", CORNER, example=0)
+    stud_position: float = choice("Q367", "stud position", CORNER, example=0)
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
     depth: float = addresses.depth()
@@ -66,7 +67,7 @@ class RectangularStud(AtSurface):
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
     overlap: float = addresses.overlap(at_least=0.1)
-    approach_position: float = addresses.choice("Q437", "approach position", APPROACH, default=0, example=0)
+    approach_position: float = choice("Q437", "approach position", APPROACH, default=0, example=0)
     machining_operation: float = addresses.operation(default=1)
     floor_allowance: float = addresses.floor_allowance(default=0)
     finishing_infeed: float = addresses.finishing_infeed(default=0)
@@ -132,8 +133,8 @@ class CircularStud(AtSurface):
     does = MILLS
     about = milling.in_program_coordinates
 
-    finished_diameter: float = addresses.length("Q223", "diameter of the finished stud", example=50)
-    blank_diameter: float = addresses.length("Q222", "diameter of the blank", note="at least Q223", example=80)
+    finished_diameter: float = length("Q223", "diameter of the finished stud", example=50)
+    blank_diameter: float = length("Q222", "diameter of the blank", note="at least Q223", example=80)
     side_allowance: float = addresses.side_allowance()
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
@@ -196,10 +197,10 @@ class PolygonStud(AtSurface):
     does = MILLS
     about = milling.in_program_coordinates
 
-    reference_circle: float = addresses.choice("Q573", "reference circle", CIRCLES, example=0)
-    reference_diameter: float = addresses.length("Q571", "diameter of the reference circle", example=50)
-    blank_diameter: float = addresses.length("Q222", "diameter of the blank", note="greater than Q571", example=80)
-    corners: float = addresses.number("Q572", "number of corners", at_least=3, at_most=30, example=6)
+    reference_circle: float = choice("Q573", "reference circle", CIRCLES, example=0)
+    reference_diameter: float = length("Q571", "diameter of the reference circle", example=50)
+    blank_diameter: float = length("Q222", "diameter of the blank", note="greater than Q571", example=80)
+    corners: float = number("Q572", "number of corners", at_least=3, at_most=30, example=6)
     rotation_angle: float = addresses.angle("Q224", "angle of the first corner", example=15)
     corner_radius_or_chamfer: float = addresses.corner(example=2)
     side_allowance: float = addresses.side_allowance(at_least=-addresses.FAR, note="negative: so much smaller")

@@ -6,9 +6,10 @@ from abc import abstractmethod
 from collections.abc import Iterable, Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import FAST, ratio
 from mnclab.controls.tnc_620.cycles.holes import oriented
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
-from mnclab.machine.cycle import CycleTable, param, too_many
+from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS
 from mnclab.machining.depths import infeeds
@@ -67,7 +68,7 @@ class FloatingTapping(Tapping):
 
     clearance: float = addresses.clearance(example=2, note="about four pitches")
     thread_depth: float = addresses.thread_depth(example=-20)
-    tapping_feed: float = addresses.feed("Q206", "feed rate for tapping", ("FAUTO",), note="S times pitch", example=150)
+    tapping_feed: float = addresses.feed("Q206", "feed rate for tapping", also=("FAUTO",), note="S times pitch", example=150)
     dwell_bottom: float = addresses.dwell_bottom(note="0 to 0.5 s, so that the tap does not jam", example=0.25)
     surface: float = addresses.surface(example=0)
     second_clearance: float = addresses.second_clearance(example=50)
@@ -132,17 +133,12 @@ class ChipBreakingTapping(RigidTapping):
     pitch: float = addresses.pitch()
     surface: float = addresses.surface(example=0)
     second_clearance: float = addresses.second_clearance(example=50)
-    chip_breaking_depth: float = addresses.length(
-        "Q257", "infeed depth for chip breaking", incremental=True, note="0: in one pass", example=5
+    chip_breaking_depth: float = addresses.break_every(note="0: in one pass")
+    chip_breaking_retract_factor: float = ratio(
+        "Q256", "retraction for chip breaking, in pitches", at_least=0, at_most=FAST, note="0: out of the hole", example=1
     )
-    chip_breaking_retract_factor: float = param(
-        "Q256", "retraction for chip breaking, in pitches", "ratio", at_least=0, at_most=99999.999, modal=True,
-        note="0: out of the hole", example=1,
-    )  # fmt: skip
-    spindle_angle: float = addresses.angle("Q336", "angle of the spindle before tapping", example=50)
-    retract_rpm_factor: float = param(
-        "Q403", "factor of the speed for retracting", "ratio", at_least=0.0001, at_most=10, modal=True, example=1.5
-    )
+    spindle_angle: float = addresses.spindle_angle(meaning="angle of the spindle before tapping", example=50)
+    retract_rpm_factor: float = ratio("Q403", "factor of the speed for retracting", at_most=10, example=1.5)
 
     def needs(self, m: Machine) -> Iterator[tuple[str, str]]:
         yield from super().needs(m)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, increment
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.controls.tnc_620.cycles.threads import Way, check, front, hand, inside, remark_on_the_end, thread
 from mnclab.machine.cycle import CycleTable, too_many
@@ -28,21 +29,13 @@ class ThreadDrillingMilling(AtSurface):
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-16)
-    total_hole_depth: float = addresses.coordinate(
-        "Q356", "total hole depth", incremental=True, note="0: no drilling", example=-20
-    )
+    total_hole_depth: float = increment("Q356", "total hole depth", note="0: no drilling", example=-20)
     prepositioning_feed: float | str = addresses.positioning_feed()
     milling_type: float = addresses.climb()
     infeed: float = addresses.infeed(note="the whole depth at once where it is as great", example=5)
-    upper_advanced_stop_distance: float = addresses.length(
-        "Q258", "upper advanced stop distance", incremental=True, note="above the last depth", example=0.2
-    )
-    chip_breaking_depth: float = addresses.length(
-        "Q257", "infeed depth for chip breaking", incremental=True, note="0: out of the hole", example=5
-    )
-    chip_breaking_retract: float = addresses.length(
-        "Q256", "retraction for chip breaking", incremental=True, at_most=99999.999, example=0.2
-    )
+    upper_advanced_stop_distance: float = addresses.first_stop(note="above the last depth", example=0.2)
+    chip_breaking_depth: float = addresses.break_every(note="0: out of the hole")
+    chip_breaking_retract: float = addresses.break_retract(meaning="retraction for chip breaking")
     depth_at_front: float = addresses.front_depth()
     offset_at_front: float = addresses.front_offset()
     clearance: float = addresses.clearance()
@@ -100,7 +93,7 @@ class HelicalThreadMilling(AtSurface):
     prepositioning_feed: float | str = addresses.positioning_feed()
     depth_at_front: float = addresses.front_depth()
     offset_at_front: float = addresses.front_offset()
-    countersink_order: float = addresses.choice("Q360", "when the countersink is made", ORDER, example=0)
+    countersink_order: float = choice("Q360", "when the countersink is made", ORDER, example=0)
     clearance: float = addresses.clearance()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import increment
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, too_many
@@ -85,14 +86,12 @@ class ThreadMillingCountersinking(AtSurface):
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-16)
-    countersinking_depth: float = addresses.coordinate(
-        "Q356", "countersinking depth", incremental=True, note="of the tool tip; 0: none", example=-20
-    )
+    countersinking_depth: float = increment("Q356", "countersinking depth", note="of the tool tip; 0: none", example=-20)
     prepositioning_feed: float | str = addresses.positioning_feed()
     milling_type: float = addresses.climb()
     clearance: float = addresses.clearance()
-    side_clearance: float = addresses.length(
-        "Q357", "set-up clearance at the side", incremental=True, note="from the tooth to the wall", example=0.2
+    side_clearance: float = addresses.side_clearance(
+        meaning="set-up clearance at the side", note="from the tooth to the wall", example=0.2
     )
     depth_at_front: float = addresses.front_depth()
     offset_at_front: float = addresses.front_offset()

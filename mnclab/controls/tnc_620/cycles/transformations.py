@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import Any
 
-from mnclab.controls.tnc_620.cycles import chain
-from mnclab.controls.tnc_620.cycles.addresses import FAR
+from mnclab.controls.tnc_620.cycles import addresses, chain
+from mnclab.controls.tnc_620.cycles.addresses import coordinate, ratio
 from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
@@ -19,7 +20,6 @@ from mnclab.machining.steps import Step, Write
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
-SMALLEST, LARGEST = 0.000001, 99.999999  # of a factor
 NOT_BUILT = "UVW"  # secondary axes
 
 
@@ -28,8 +28,8 @@ class Mirroring(Cycle):
     """Coordinates of the named axes change their sign about the active datum; without an axis the mirror image is over."""
 
     mirrored_axes: tuple[str, ...] | None = param(
-        "axes", "mirrored axes", "text", default=None, default_means="none: no mirror image", modal=True, type="text",
-        several=True, note="letters: X, Y, X Y; not the tool axis",
+        "axes", "mirrored axes", "text", type="text", several=True, default=None, default_means="none: no mirror image",
+        modal=True, note="letters: X, Y, X Y; not the tool axis",
     )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
@@ -54,9 +54,7 @@ class Mirroring(Cycle):
 class Rotation(Cycle):
     """Turns the coordinates of the working plane about the active datum; cancels a radius compensation."""
 
-    angle: float = param(
-        "ROT", "rotation angle", "deg", at_least=-360, at_most=360, modal=True, example=30, note="IROT adds to the active angle"
-    )
+    angle: float = addresses.angle("ROT", "rotation angle", note="IROT adds to the active angle", example=30)
 
     @classmethod
     def prepare(
@@ -73,9 +71,9 @@ class Rotation(Cycle):
         yield from chain.define(m, chain.ROTATION, frames.turn(math.radians(self.angle)) if self.angle % 360 else None)
 
 
-def factor(address: str, meaning: str, **more: Any) -> Any:
-    """A factor of enlargement or reduction."""
-    return param(address, meaning, "ratio", at_least=SMALLEST, at_most=LARGEST, modal=True, **more)
+#: A factor of enlargement or reduction.
+factor = partial(ratio, at_least=0.000001, at_most=99.999999)
+centre = partial(coordinate, default=None, default_means="the active datum")
 
 
 @CYCLES("CYCL DEF 11", "Scaling", runs="definition", source="11.7")
@@ -92,14 +90,6 @@ class Scaling(Cycle):
         yield from chain.define(m, chain.SCALE, frames.scale(s, s, s) if s != 1 else None)
 
 
-def centre(address: str) -> Any:
-    """CCX, CCY, CCZ."""
-    return param(
-        address, f"centre of the scaling along {address[-1]}", default=None, default_means="the active datum",
-        at_least=-FAR, at_most=FAR, modal=True,
-    )  # fmt: skip
-
-
 @CYCLES("CYCL DEF 26", "Axis-specific scaling", runs="definition", source="11.8")
 class AxisScaling(Cycle):
     """A factor for each axis, about a centre: coordinates that share an arc must have the same one. An axis left out has 1."""
@@ -107,9 +97,9 @@ class AxisScaling(Cycle):
     x: float = factor("X", "factor along X", default=1, example=1.4)
     y: float = factor("Y", "factor along Y", default=1)
     z: float = factor("Z", "factor along Z", default=1)
-    centre_x: float | None = centre("CCX")
-    centre_y: float | None = centre("CCY")
-    centre_z: float | None = centre("CCZ")
+    centre_x: float | None = centre("CCX", "centre of the scaling along X")
+    centre_y: float | None = centre("CCY", "centre of the scaling along Y")
+    centre_z: float | None = centre("CCZ", "centre of the scaling along Z")
 
     @classmethod
     def prepare(

@@ -13,6 +13,7 @@ from functools import partial
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.milling import edges
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
@@ -63,14 +64,14 @@ class WalledFaceMilling(AtSurface):
     does = MILLS
 
     machining_operation: float = addresses.operation()
-    strategy: float = addresses.choice("Q389", "machining strategy", STRATEGIES, example=2)
-    milling_direction: float = addresses.choice("Q350", "milling direction", DIRECTIONS, example=1)
-    first_side_length: float = addresses.side("Q218", "first side length", note=INTO, example=120)
-    second_side_length: float = addresses.side("Q219", "second side length", note=INTO, example=80)
-    surface: float = addresses.coordinate("Q227", "coordinate of the surface", example=0)
-    end_tool_axis: float = addresses.coordinate("Q386", "coordinate to mill down to", example=-6)
+    strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
+    milling_direction: float = choice("Q350", "milling direction", DIRECTIONS, example=1)
+    first_side_length: float = increment("Q218", "first side length", note=INTO, example=120)
+    second_side_length: float = increment("Q219", "second side length", note=INTO, example=80)
+    surface: float = coordinate("Q227", "coordinate of the surface", example=0)
+    end_tool_axis: float = coordinate("Q386", "coordinate to mill down to", example=-6)
     floor_allowance: float = addresses.floor_allowance(note="the last infeed", example=0.2)
-    max_plunging_depth: float = addresses.length("Q202", "greatest infeed", incremental=True, example=3)
+    max_plunging_depth: float = addresses.greatest_infeed(example=3)
     overlap: float = addresses.overlap(at_least=0.1, predef=False)
     milling_feed: float = addresses.milling_feed()
     finishing_feed: float = addresses.finishing_feed(at_most=addresses.FAR, example=400)
@@ -78,13 +79,13 @@ class WalledFaceMilling(AtSurface):
     side_clearance: float = addresses.side_clearance()
     clearance: float = addresses.clearance(predef=True, example=3)
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
-    limit_1: float = addresses.choice("Q347", "first limit", WALLS, example=2)
-    limit_2: float = addresses.choice("Q348", "second limit", WALLS, default=0, example=1)
-    limit_3: float = addresses.choice("Q349", "third limit", WALLS, default=0, example=0)
-    corner_radius: float = addresses.length("Q220", "corner radius between limits", example=8)
+    limit_1: float = choice("Q347", "first limit", WALLS, example=2)
+    limit_2: float = choice("Q348", "second limit", WALLS, default=0, example=1)
+    limit_3: float = choice("Q349", "third limit", WALLS, default=0, example=0)
+    corner_radius: float = length("Q220", "corner radius between limits", example=8)
     side_allowance: float = addresses.side_allowance(example=0.3)
     finishing_infeed: float = addresses.finishing_infeed(example=4)
-    surface_position: float = addresses.choice("Q367", "surface position", POSITION, default=-1, example=-1)
+    surface_position: float = choice("Q367", "surface position", POSITION, default=-1, example=-1)
 
     # --- what is done ------------------------------------------------------------------------------------------------
 
