@@ -24,7 +24,6 @@ from mnclab.controls.tnc_620.cycles import (
     special,
     studs,
     tapping,
-    thread_drilling,
     threads,
     tilting,
     transformations,
@@ -107,7 +106,7 @@ CYCLES = CycleTable()
 for chapter in (
     defaults,
     drilling, boring, pecking,
-    tapping, threads, thread_drilling,
+    tapping, threads,
     point_patterns,
     pockets, slots, studs, walled_faces,
     contours,

@@ -11,7 +11,8 @@ from itertools import chain
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import distance, increment, length, seconds
 from mnclab.controls.tnc_620.cycles.chain import MIRROR
-from mnclab.controls.tnc_620.cycles.holes import Hole, moving, oriented, rate
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, oriented
+from mnclab.controls.tnc_620.cycles.holes import Hole, rate
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, SHIFTS, tool, with_the_spindle
@@ -46,7 +47,7 @@ class Boring(Hole):
     disengage: float = addresses.disengage()
     spindle_angle: float = addresses.spindle_angle()
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from oriented(m)
         yield from super().check(m)
 
@@ -87,14 +88,14 @@ class BackBoring(Hole):
         """The counterbore goes up from below, but the bar comes from above as in every hole."""
         return {"counterbore_depth": -self.counterbore_depth}
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from oriented(m)
         if self.counterbore_depth < 0:
             yield "counterbore_depth", f"must not be negative, got {self.counterbore_depth:g}"
         if self.counterbore_depth >= self.thickness:
             yield "counterbore_depth", f"must be less than Q250 = {self.thickness:g}, got {self.counterbore_depth:g}"
-        yield from moving("feed", self.feed, "to bore with")
-        yield from moving("positioning_feed", self.positioning_feed, "to position with")
+        yield from not_zero(self, "feed", purpose="to bore with")
+        yield from not_zero(self, "positioning_feed", purpose="to position with")
 
     def steps(self, m: Machine) -> Iterator[Step]:
         yield Write("memory", self.spindle_angle, "orientation")
@@ -130,7 +131,7 @@ class BoreMilling(Hole):
     )
     climb: float = addresses.climb(example=1)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         size = 2 * m.radius
         if self.radius(m) < 0:
@@ -138,7 +139,7 @@ class BoreMilling(Hole):
         if not self.roughing_diameter and self.diameter > 2 * size + DRIFT:
             yield "diameter", f"must be at most twice the tool diameter {size:g} while Q342 is 0, got {self.diameter:g}"
         if self.radius(m):
-            yield from moving("pitch", self.pitch, "to mill with")
+            yield from not_zero(self, "pitch", purpose="to mill with")
             yield from too_many("pitch", lambda: turns(self.clearance + abs(self.depth), self.pitch_on(m)))
 
     def radius(self, m: Machine) -> float:

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count
-from mnclab.controls.tnc_620.cycles.holes import Hole, moving, point_angle, point_length, rate
-from mnclab.machine.cycle import CycleTable, too_many
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_angle
+from mnclab.controls.tnc_620.cycles.holes import Hole, point_length, rate
+from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import is_round, tool
-from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, ream
 from mnclab.machining.steps import Go, Say, Step, Wait
 
@@ -42,18 +42,18 @@ class Centering(Hole):
             return self.depth
         return math.copysign(point_length(abs(self.diameter) / 2, tool(m).angle), self.diameter)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from self.signs(m)
         if self.mode:
-            yield from point_angle(m, "mode")
+            yield from with_angle(m, "mode")
             if not is_round(m):
                 yield "mode", "1 cannot run under unequal scales of the plane: a diameter would be two"
-        yield from moving("feed", self.feed, "to drill with")
+        yield from not_zero(self, "feed", purpose="to drill with")
 
     def moves(self, m: Machine) -> Iterator[Step]:
         if self.mode and abs(self.diameter) > 2 * m.radius > 0:
-            sentence = f"is wider than the tool, {2 * m.radius:.10g}: the cone ends at the tool's diameter"
-            yield Say(f"Q344={self.diameter:.10g} {sentence}")
+            wider = f"wider than the tool, {2 * m.radius:.10g}: the cone ends at the tool's diameter"
+            yield Say(f"Q344={self.diameter:.10g} is {wider}")
         yield from super().moves(m)
 
     def steps(self, m: Machine) -> Iterator[Step]:
@@ -75,13 +75,6 @@ class Drilling(Hole):
     second_clearance: float = addresses.second_clearance()
     dwell_bottom: float = addresses.dwell_bottom()
     reference: float = addresses.reference()
-
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        yield from super().check(m)
-        yield from too_many("infeed", lambda: self.levels(m))
-
-    def levels(self, m: Machine) -> tuple[float, ...]:
-        return infeeds(self.surface, self.bottom(m), self.infeed)
 
     def steps(self, m: Machine) -> Iterator[Step]:
         yield from drill(
@@ -131,13 +124,6 @@ class UniversalDrilling(Hole):
     retract_feed: float | str = addresses.retract_feed()
     break_retract: float = addresses.break_retract()
     reference: float = addresses.reference()
-
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        yield from super().check(m)
-        yield from too_many("infeed", lambda: self.levels(m))
-
-    def levels(self, m: Machine) -> tuple[float, ...]:
-        return infeeds(self.surface, self.bottom(m), self.infeed, self.decrement, self.min_infeed)
 
     def steps(self, m: Machine) -> Iterator[Step]:
         yield from drill(

@@ -24,6 +24,12 @@ def at_least(c: Cycle, name: str, least: float, what: str, drift: float = SAME) 
         yield name, f"must be at least {what}, {least:g}, got {value:g}"
 
 
+def at_most(c: Cycle, name: str, most: float, what: str) -> Iterator[Fault]:
+    """A value above what it may be."""
+    if (value := getattr(c, name)) > most:
+        yield name, f"must be at most {what}, {most:g}, got {value:g}"
+
+
 def less_than_depth(c: Cycle, name: str, depth: float) -> Iterator[Fault]:
     """Something that should end above the bottom."""
     if (value := getattr(c, name)) >= abs(depth):

@@ -15,7 +15,8 @@ import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
-from mnclab.controls.tnc_620.cycles.milling import Fault, Figure, Place
+from mnclab.controls.tnc_620.cycles.faults import Fault, at_least
+from mnclab.controls.tnc_620.cycles.milling import Figure, Place
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds, slopes
 from mnclab.geometry import shapes
@@ -33,19 +34,13 @@ CYCLES = CycleTable()
 
 PLUNGE: dict[float, str] = {0: "vertical", 1: "reciprocating", 2: "reciprocating"}
 LENGTHWISE: dict[float, str] = {
-    0: "the tool is at the centre of the slot",
-    1: "at its left end",
-    2: "at the centre of the left arc",
-    3: "at the centre of the right arc",
-    4: "at its right end",
-}
+    0: "the tool is at the centre of the slot", 1: "at its left end", 2: "at the centre of the left arc",
+    3: "at the centre of the right arc", 4: "at its right end",
+}  # fmt: skip
 ON_CIRCLE: dict[float, str] = {
-    0: "centre and starting angle say where the slot lies",
-    1: "the tool is at the centre of the left arc",
-    2: "in the middle of the centre line",
-    3: "at the centre of the right arc",
-}
-SAME = 1e-9
+    0: "centre and starting angle say where the slot lies", 1: "the tool is at the centre of the left arc",
+    2: "in the middle of the centre line", 3: "at the centre of the right arc",
+}  # fmt: skip
 
 
 @CYCLES("CYCL DEF 253", "Slot milling", source="6.4")
@@ -54,6 +49,7 @@ class StraightSlot(AtSurface):
 
     does = MILLS
     about = milling.in_program_coordinates
+    contradictions = milling.contradictions
 
     machining_operation: float = addresses.operation()
     slot_length: float = length("Q218", "slot length", note="over all", example=80)
@@ -75,15 +71,11 @@ class StraightSlot(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def contradictions(self) -> Iterator[Fault]:
-        return milling.contradictions(self)
-
     def check(self, m: Machine) -> Iterator[Fault]:
         if self.depth == 0:
             return
         yield from milling.check(self, m, self.finishing_feed)
-        if self.slot_length < self.slot_width - SAME:
-            yield "slot_length", f"must be at least the width Q219, {self.slot_width:g}, got {self.slot_length:g}"
+        yield from at_least(self, "slot_length", self.slot_width, "the width Q219")
         yield from check_slot(self, m, self.line(), self.line_length)
 
     @property
@@ -94,7 +86,7 @@ class StraightSlot(AtSurface):
     @property
     def ahead(self) -> np.ndarray:
         """From the left to the right."""
-        return np.array([math.cos(math.radians(self.rotation_angle)), math.sin(math.radians(self.rotation_angle))])
+        return np.array(milling.turned(1.0, 0.0, self.rotation_angle))
 
     def line(self) -> Contour:
         return Contour(np.outer([0.0, self.line_length], self.ahead), closed=False)
@@ -113,6 +105,7 @@ class CircularSlot(AtSurface):
 
     does = MILLS
     about = milling.in_program_coordinates
+    contradictions = milling.contradictions
 
     machining_operation: float = addresses.operation()
     slot_width: float = addresses.slot_width()
@@ -139,9 +132,6 @@ class CircularSlot(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def contradictions(self) -> Iterator[Fault]:
-        return milling.contradictions(self)
-
     def check(self, m: Machine) -> Iterator[Fault]:
         if self.depth == 0:
             return
@@ -157,8 +147,8 @@ class CircularSlot(AtSurface):
         """Of the pitch circle: as it is written, or from the tool, which stands on the circle."""
         if not self.slot_position:
             return self.centre_x, self.centre_y
-        radius, angle = self.pitch_circle_diameter / 2, math.radians(self.starting_angle)
-        return m.programmed[0] - radius * math.cos(angle), m.programmed[1] - radius * math.sin(angle)
+        dx, dy = milling.turned(self.pitch_circle_diameter / 2, 0.0, self.starting_angle)
+        return m.programmed[0] - dx, m.programmed[1] - dy
 
     def places(self, m: Machine) -> Iterator[tuple[Place, Contour]]:
         """Slot after slot, each turned on by the stepping angle; Q376 is where the tool stands on the first one."""
@@ -188,9 +178,9 @@ def slot(c: AnySlot, m: Machine, line: Contour) -> Slot:
 def check_slot(c: AnySlot, m: Machine, line: Contour, length: float, count: int = 1) -> Iterator[Fault]:
     """The tool fits, and gets down; no more passes than somebody would wait for."""
     shape = slot(c, m, line)
-    for least, what in ((2 * m.radius, ""), (2 * m.radius + 2 * c.side_allowance, " and twice Q368")):
-        if c.slot_width < least - SAME and not shape.is_full:
-            yield "slot_width", f"must be at least the tool diameter{what}, {least:g}, got {c.slot_width:g}"
+    if not shape.is_full:
+        yield from at_least(c, "slot_width", 2 * m.radius, "the tool diameter")
+        yield from at_least(c, "slot_width", 2 * m.radius + 2 * c.side_allowance, "the tool diameter and twice Q368")
     yield from check_angle(c, m)
     levels = milling.levels(c, m)
     if c.plunging_strategy and slopes(c, m) and c.machining_operation != 2:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAST, ratio
-from mnclab.controls.tnc_620.cycles.holes import oriented
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, oriented
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
@@ -21,7 +22,7 @@ CYCLES = CycleTable()
 ROUNDED = 0.001  # mm; pitches that differ by no more are the same, for F and S are entered rounded
 
 
-def pitch_of(m: Machine, name: str, pitch: float) -> Iterator[tuple[str, str]]:
+def pitch_of(m: Machine, name: str, pitch: float) -> Iterator[Fault]:
     """A fault where the tool table has another pitch for the tap."""
     if m.tool.pitch and abs(m.tool.pitch - pitch) > ROUNDED:
         yield name, f"means a pitch of {pitch:g} mm, the tap of tool {m.tool.number} has {m.tool.pitch:g} mm (PITCH)"
@@ -31,24 +32,22 @@ class Tapping(AtSurface):
     """What the three cycles share."""
 
     does = TAPS
+    works = ("thread_depth",)
 
     thread_depth: float
-
-    def depths(self) -> dict[str, float]:
-        return {"thread_depth": self.thread_depth}
 
     @property
     def bottom(self) -> float:
         return self.surface + self.thread_depth
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         """The sign of the depth, and what the thread needs; nothing where the depth is 0, for then nothing is done."""
         if self.thread_depth:
             yield from self.signs(m)
             yield from self.needs(m)
 
     @abstractmethod
-    def needs(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def needs(self, m: Machine) -> Iterator[Fault]:
         """What one of the cycles needs to run."""
 
     @abstractmethod
@@ -73,9 +72,8 @@ class FloatingTapping(Tapping):
     surface: float = addresses.surface(example=0)
     second_clearance: float = addresses.second_clearance(example=50)
 
-    def needs(self, m: Machine) -> Iterator[tuple[str, str]]:
-        if self.tapping_feed == 0:
-            yield "tapping_feed", "must be greater than 0, got 0"
+    def needs(self, m: Machine) -> Iterator[Fault]:
+        yield from not_zero(self, "tapping_feed")
         if not m.spindle_speed:
             yield "", "needs a turning spindle: write S in TOOL CALL, and M3 or M4 before"
         yield from pitch_of(m, "tapping_feed", self.tapping_feed / m.speed)
@@ -90,12 +88,10 @@ class FloatingTapping(Tapping):
 class RigidTapping(Tapping):
     """What 207 and 209 share: the sign of the pitch is the hand, whatever way the spindle turned before."""
 
+    own_spindle = True
     pitch: float
 
-    own_spindle = True
-    """None need turn before it: the spindle is turned by the cycle."""
-
-    def needs(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def needs(self, m: Machine) -> Iterator[Fault]:
         if self.pitch == 0:
             yield "pitch", "must not be 0"
         if not m.speed:
@@ -103,10 +99,10 @@ class RigidTapping(Tapping):
         yield from oriented(m)
         yield from pitch_of(m, "pitch", abs(self.pitch))
 
-    @property
-    def sense(self) -> int:
-        """The spindle turns as M3 (+1) for a right-hand thread, as M4 (-1) for a left-hand one."""
-        return 1 if self.pitch > 0 else -1
+    def locked(self, m: Machine, levels: Sequence[float], **more: Any) -> Iterator[Step]:
+        """The spindle turns as M3 for a right-hand thread, as M4 for a left-hand one, and stops."""
+        stand, lead = m.settings["thread_wait"], abs(self.pitch)
+        return tap(levels, above=self.above, pitch=lead, sense=1 if self.pitch > 0 else -1, end=0, stand=stand, **more)
 
 
 @CYCLES("CYCL DEF 207", "Rigid tapping", source="5.3")
@@ -120,8 +116,7 @@ class RigidTappingInOnePass(RigidTapping):
     second_clearance: float = addresses.second_clearance(example=50)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        stand = m.settings["thread_wait"]
-        return tap([self.bottom], above=self.above, pitch=abs(self.pitch), sense=self.sense, end=0, stand=stand)
+        return self.locked(m, [self.bottom])
 
 
 @CYCLES("CYCL DEF 209", "Tapping with chip breaking", source="5.4")
@@ -140,7 +135,7 @@ class ChipBreakingTapping(RigidTapping):
     spindle_angle: float = addresses.spindle_angle(meaning="angle of the spindle before tapping", example=50)
     retract_rpm_factor: float = ratio("Q403", "factor of the speed for retracting", at_most=10, example=1.5)
 
-    def needs(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def needs(self, m: Machine) -> Iterator[Fault]:
         yield from super().needs(m)
         yield from too_many("chip_breaking_depth", self.levels)
 
@@ -149,9 +144,7 @@ class ChipBreakingTapping(RigidTapping):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         yield Write("memory", self.spindle_angle, "orientation")
-        lead = abs(self.pitch)
-        yield from tap(
-            self.levels(), above=self.above, pitch=lead, sense=self.sense, end=0, speed=m.speed,
-            out_speed=min(self.retract_rpm_factor * m.speed, m.setup.limits.spindle),
-            back=self.chip_breaking_retract_factor * lead, angle=self.spindle_angle, stand=m.settings["thread_wait"],
-        )  # fmt: skip
+        back, out = self.chip_breaking_retract_factor * abs(self.pitch), self.retract_rpm_factor * m.speed
+        yield from self.locked(
+            m, self.levels(), speed=m.speed, out_speed=min(out, m.setup.limits.spindle), back=back, angle=self.spindle_angle
+        )
