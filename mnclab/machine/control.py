@@ -52,7 +52,6 @@ class Words(dict[str, Word]):
         self.words, self.code = words, code
 
     def all(self, address: str) -> list[Word]:
-        """Every word of an address, in the order written."""
         return [word for word in self.words if word.address == address]
 
 

@@ -30,14 +30,12 @@ class Log:
         return twin
 
     def extend(self, steps: NDArray[np.integer[Any]], values: Values) -> None:
-        """Changes of many steps at once."""
         if len(steps):
             self._chunks += [(np.array(self.steps, dtype=np.int64), self.values), (steps, values)]
             self.steps, self.values = [], []
 
     @property
     def first(self) -> int:
-        """The step of the first change."""
         chunks = [steps for steps, _ in self._chunks if len(steps)]
         return int(chunks[0][0]) if chunks else self.steps[0]
 
@@ -64,7 +62,6 @@ class Logs:
         self.by_name: dict[str, Log] = {}
 
     def add(self, name: str, step: int, value: Any) -> None:
-        """A name has a new value from this step on."""
         log = self.by_name.get(name)
         if log is None:
             log = self.by_name[name] = Log()
@@ -76,5 +73,4 @@ class Logs:
             log.values.append(value)
 
     def extend(self, name: str, steps: NDArray[np.integer[Any]], values: Values) -> None:
-        """New values at many steps."""
         self.by_name.setdefault(name, Log()).extend(steps, values)

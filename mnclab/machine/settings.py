@@ -39,7 +39,6 @@ class Setting(NamedTuple):
 
     @property
     def allowed(self) -> str:
-        """What may be written, in words."""
         if self.choices:
             return "one of " + ", ".join(self.choices)
         if isinstance(self.default, bool):

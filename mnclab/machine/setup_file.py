@@ -69,7 +69,6 @@ class File:
 
     @property
     def end(self) -> Span:
-        """Just behind the last character."""
         return Span(len(self._lines), len(self._lines[-1]) + 1) if self._lines else Span(1, 1)
 
     def line_text(self, line: int) -> str:
@@ -239,7 +238,6 @@ def record(kind: Any, value: Any, file: File, *keys: str) -> Any:
 
 
 def _field(value: Any) -> Any:
-    """Lists as tuples."""
     return tuple(map(_field, value)) if isinstance(value, list) else value
 
 

@@ -93,7 +93,6 @@ class Course:
 
     @property
     def program(self) -> Program:
-        """The running program."""
         return self.programs[self.running[-1]]
 
     # --- running -----------------------------------------------------------------------------------------------------
@@ -117,7 +116,6 @@ class Course:
                 block, self.target = self.target, -1
 
     def call(self, m: Machine, label: str, span: Span | None = None) -> None:
-        """Run from a label to the end of its subprogram."""
         self.enter(span)
         here = self.current
         self.calls += 1
@@ -143,12 +141,10 @@ class Course:
         self.depth, self.over = self.depth - 1, False
 
     def record(self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
-        """Obey a label for its contour; nothing moves."""
         return record(m, self, label, span, after)
 
     @contextmanager
     def inside(self, m: Machine, index: int) -> Iterator[None]:
-        """Blocks and labels are those of another program."""
         if index == self.running[-1]:
             yield
             return
@@ -161,7 +157,6 @@ class Course:
         self._change_program(m)
 
     def _change_program(self, m: Machine) -> None:
-        """Blocks are those of another program from now on."""
         m.put(program=self.running[-1])
         self.switch(self.running[-1])
 
@@ -174,29 +169,23 @@ class Course:
 
     @property
     def called(self) -> bool:
-        """Whether the running program was called by another."""
         return len(self.running) > 1
 
     def end_program(self) -> None:
-        """Go back to the calling program."""
         self.over = True
 
     def jump(self, m: Machine, label: str, span: Span | None = None) -> None:
-        """Go on at a label."""
         self.target = self.index_of(label, span)
         if self.target <= self.current:
             self.loops.back(m, (self.running[-1], self.current, self.target), span or self.span_of_block(self.current))
 
     def ask(self, *values: Any) -> None:
-        """A function is about to decide where the program goes on; the values of the words that it reads for that."""
         self.loops.ask(self.begun - 1, values)
 
     def ask_whether(self, variable: str) -> None:
-        """A function is about to decide so by whether a variable has a value."""
         self.loops.asked[variable] = self.loops.otherwise = self.begun - 1
 
     def compare(self, one: Any, other: Any, difference: float) -> None:
-        """A function is about to decide so by two values of words, whose numbers differ by so much."""
         self.loops.compare(self.begun - 1, (self.running[-1], self.current), (one, other), difference)
 
     def repeat(self, m: Machine, first: int, stop: int, times: int, span: Span | None = None) -> None:
@@ -226,17 +215,14 @@ class Course:
         self.depth, self.current = self.depth - 1, here
 
     def enter(self, span: Span | None) -> None:
-        """Go one call deeper."""
         if self.depth >= DEEPEST:
             raise Alarm(f"calls are nested deeper than {DEEPEST}", span or self.span_of_step(self.begun - 1))
         self.depth += 1
 
     def leave(self) -> None:
-        """End the running subprogram; nothing in the main program."""
         self.returning = self.calls > 0
 
     def index_of(self, label: str, span: Span | None = None) -> int:
-        """The block of a label."""
         if label not in self.program.labels:
             known = ", ".join(list(self.program.labels)[:8])
             hint = f"labels of this program: {known}" if known else "this program has no labels"
@@ -246,7 +232,6 @@ class Course:
     # --- steps -------------------------------------------------------------------------------------------------------
 
     def span_of_block(self, block: int) -> Span:
-        """The place of a block of the running program."""
         return self.program.span_of_block(block)._replace(program=self.running[-1])
 
     @property
@@ -307,7 +292,6 @@ class Course:
             self._blocks = []
 
     def steps(self) -> Steps:
-        """All steps so far."""
         self._flush()
         blocks, programs = np.empty(self._counted, dtype=np.int32), np.zeros(self._counted, dtype=np.int16)
         at = 0
@@ -320,7 +304,6 @@ class Course:
         return Steps(blocks, np.broadcast_to(np.int16(0), (len(blocks),)) if alone else programs)
 
     def span_of_step(self, step: int) -> Span | None:
-        """The place of the block that a step executed."""
         if step < 0:
             return None
         self._flush()

@@ -107,7 +107,6 @@ class Planner:
         return Plan(tuple((action, action.pick) for action in order), (*self.strange, *self.remarks))
 
     def codes(self) -> list[tuple[str, int]]:
-        """The codes of a block: its keyword, and its G and M words."""
         found = [(self.keyword, -1)] if self.keyword else []
         for i, word in enumerate(self.words):
             if word.address in self.control.codes and type(word.value) is float:
