@@ -41,18 +41,16 @@ class Log:
 
     def close(self, last: int) -> tuple[NDArray[np.integer[Any]], Values]:
         """All changes up to step `last`."""
-        chunks = [
-            chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])
-        ]
-        if not chunks:
-            return np.empty(0, dtype=np.int64), []
-        steps = np.concatenate([chunk[0] for chunk in chunks])
+        own = np.array(self.steps, dtype=np.int64), self.values
+        chunks = [chunk for chunk in (*self._chunks, own) if len(chunk[0])] or [own]
+        pieces = [values for _, values in chunks]
+        steps = np.concatenate([steps for steps, _ in chunks])
         keep = int(np.searchsorted(steps, last, "right"))
-        if len(chunks) == 1:
-            return steps[:keep], chunks[0][1][:keep]
-        if any(isinstance(chunk[1], np.ndarray) for chunk in chunks):
-            return steps[:keep], np.concatenate([np.asarray(chunk[1]) for chunk in chunks])[:keep]
-        return steps[:keep], [value for chunk in chunks for value in chunk[1]][:keep]
+        if len(pieces) == 1:
+            return steps[:keep], pieces[0][:keep]
+        if any(isinstance(values, np.ndarray) for values in pieces):
+            return steps[:keep], np.concatenate([np.asarray(values) for values in pieces])[:keep]
+        return steps[:keep], [value for values in pieces for value in values][:keep]
 
 
 class Logs:
@@ -62,9 +60,7 @@ class Logs:
         self.by_name: dict[str, Log] = {}
 
     def add(self, name: str, step: int, value: Any) -> None:
-        log = self.by_name.get(name)
-        if log is None:
-            log = self.by_name[name] = Log()
+        log = self.by_name.get(name) or self.by_name.setdefault(name, Log())
         steps = log.steps
         if steps and steps[-1] == step:
             log.values[-1] = value
