@@ -19,25 +19,6 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
 from mnclab.machine.touching import Contact
 from mnclab.machine.true_size import MILLS
-from mnclab.machining.steps import (
-    Along,
-    Blocks,
-    Call,
-    Coolant,
-    Each,
-    Go,
-    Orient,
-    Record,
-    Say,
-    Spin,
-    Step,
-    Swivel,
-    Thread,
-    Touch,
-    Turn,
-    Wait,
-    Write,
-)  # fmt: skip
 from mnclab.path.listing import figure
 from mnclab.running.binding import store, value_of
 from mnclab.running.interpreter import Interpreter
@@ -47,6 +28,10 @@ from mnclab.text.given import plain, shown
 from mnclab.text.nearest import hint
 from mnclab.text.program import Word, place_of
 from mnclab.text.tables import html_table, text_table
+
+from mnclab.machining.steps import (  # isort: skip
+    Along, Blocks, Call, Coolant, Each, Go, Orient, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
+)  # fmt: skip
 
 HEAD = ("step", "label", "x", "y", "z", "feed", "")
 SPINDLE = {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}

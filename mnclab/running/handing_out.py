@@ -229,7 +229,10 @@ class Planner:
     def modal_call(self, functions: list[Function]) -> None:
         """A modal call of a cycle runs it in every block that positions and has no call of its own."""
         again, modal = self.control.calls_again, self.control.functions.get(self.modal.call or "")
-        if again and modal and not any(f.group == "call" for f in functions) and again(self.keyword, self.words):
+        own = next((f for f in functions if f.group == "call"), None)
+        if again is None or not (modal or (own and own.modal)):
+            return
+        if again(self.keyword, self.words) and modal and own is None:  # asked in any case: it refuses blocks
             self.hand_out(modal, -1)
 
     def refuse_still(self, functions: list[Function], index: int) -> None:
