@@ -74,30 +74,24 @@ class HoleCycle(Cycle, ABC):
 
     @property
     def seconds(self) -> float:
-        """The dwell, s."""
         return self.dwell / 1000
 
     def levels(self) -> tuple[float, ...]:
-        """Pecks count from level R."""
         return infeeds(self.r_level, self.bottom, self.peck)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """The bottom lies below level R; no more pecks than a hole can have."""
         yield from holes.upside_down(self.bottom, self.r_level)
         yield from too_many("peck", self.levels)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """No radius compensation, no machine coordinates; what the work needs."""
         yield from holes.out_of_place(m)
         for faults in self.needs:
             yield from faults(m)
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """The hole."""
         return holes.axis_of(m, self.x, self.y)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Over the hole, level R, the work, and up."""
         return holes.at_hole(m, self.x, self.y, self.r_level, self.work(m))
 
     @abstractmethod

@@ -43,7 +43,6 @@ class LatheCycle(Crosswise, Cycle):
         return values
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A feed, and a spindle for it."""
         cutting_feed(m, None)
         yield from ()
 
@@ -62,12 +61,10 @@ class DeepHoleDrilling(LatheCycle):
     )
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Not too many passes."""
         yield from too_many("peck", lambda: infeeds(m.programmed[2], self.bottom, self.peck))
         yield from super().check(m)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Passes, and the return."""
         start, feed = m.programmed[2], standing_feed(m)
         if self.bottom == start:
             yield Say(f"Z (bottom of the hole) is where the tool stands, Z{start:g}: nothing is drilled")

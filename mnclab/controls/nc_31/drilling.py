@@ -49,12 +49,10 @@ class DeepDrilling(FromStart):
     peck: float = size("depth drilled per pass", above=0, example=1000)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A hole, and pecks that it holds."""
         yield from apart(None, self.z, m)
         yield from faults(self, m, self.peck, abs(self.z - here(m)[1]))
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """The hole, then aside."""
         aside = None if self.x is None else self.x / discretes.X
         return deep_hole(m, start(m)[1], self.z / discretes.Z, self.peck / discretes.Z, aside)
 
@@ -79,11 +77,9 @@ class RadialDrilling(FromStart):
         return self.peck * (2 if m.settings["p1_on_radius"] else 1)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A hole, and pecks that it holds."""
         yield from apart(self.x, None, m)
         yield from faults(self, m, self.depth(m), abs(self.x - here(m)[0]))
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """The hole, then aside."""
         aside = None if self.z is None else self.z / discretes.Z
         return self.in_axes(deep_hole(m, start(m)[0], self.x / discretes.X, self.depth(m) / discretes.X, aside))

@@ -69,7 +69,6 @@ class _Frames:
         self.shadowed: set[int] = set()  # blocks with a frame whose number another one has
 
     def read_line(self, begin: int, end: int) -> None:
-        """One line: a frame, a comment, or nothing."""
         text = self.text
         comment = text.find(COMMENT, begin, end)
         stop = end if comment < 0 else comment

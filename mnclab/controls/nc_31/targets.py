@@ -25,7 +25,6 @@ class FromStart(Crosswise, Cycle):
     def prepare(
         cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
     ) -> dict[str, Any]:
-        """Increments become coordinates, in discretes."""
         ends = {name: given[name] for name in ("x", "z") if name in given}
         refuse_rapid(m, list(ends.values()), cls.code)
         for name, axis, scale in (("x", 0, discretes.X), ("z", 2, discretes.Z)):
@@ -38,7 +37,6 @@ class FromStart(Crosswise, Cycle):
         return None if self.feed is None else self.feed / discretes.CYCLE_FEED
 
     def needs_feed(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The fault of a cycle without F where none was set before."""
         if self.feed is None and m.feed is None:
             yield "", "needs a feed: F here, or before it"
 

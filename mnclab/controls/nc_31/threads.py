@@ -74,7 +74,6 @@ class ThreadCutting(FromStart):
             yield "depth_per_pass", "is missing: P1 stands alone (leave out both, or neither)"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A start beside the thread, a pitch, machine parameters that leave some thread."""
         yield from apart(self.x, self.z, m)
         yield from needs_pitch(m, self.feed)
         yield from too_many("depth_per_pass", self.depths)
@@ -91,7 +90,6 @@ class ThreadCutting(FromStart):
         return float(m.settings["parameter_7"]) * 0.1 * pitch_of(m, self.feed)
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """All passes, then at the start."""
         end, taper = (self.x / discretes.X, self.z / discretes.Z), self.taper / discretes.X
         angle, pitch = math.radians(m.settings["parameter_6"]), pitch_of(m, self.feed)
         return thread_passes(start(m), end, pitch, self.depths(), taper=taper, angle=angle, run_out=self.run_out(m))
@@ -112,12 +110,10 @@ class Tapping(FromStart):
     zero_mark: float = own_mark("start at the zero mark of the spindle", example=1)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A thread, a pitch, a spindle."""
         yield from apart(None, self.z, m)
         yield from needs_pitch(m, self.feed)
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """In, reversal, out, reversal, aside."""
         sense, pitch = m.turning, pitch_of(m, self.feed)
         steps: list[Step] = [*tap([self.z / discretes.Z], above=m.programmed[2], sense=sense, end=sense, pitch=pitch)]
         if self.zero_mark:

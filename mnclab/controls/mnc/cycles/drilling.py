@@ -37,15 +37,12 @@ class Drilling(PreparedCycle):
     dwell_bottom: float = addresses.dwell_bottom()
 
     def levels(self) -> tuple[float, ...]:
-        """Infeeds count from the surface."""
         return infeeds(self.surface, self.surface + self.depth, self.infeed)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """No more infeeds than a hole can have."""
         yield from too_many("infeed", self.levels)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 7 of the manual."""
         work = drill(
             self.levels(), above=self.level, feed=self.feed, reenter=self.clearance,
             dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,
@@ -87,18 +84,15 @@ class UniversalDrilling(PreparedCycle):
         return values
 
     def levels(self) -> tuple[float, ...]:
-        """Infeeds count from the surface."""
         bottom = self.surface + self.depth
         return infeeds(self.surface, bottom, self.infeed, self.decrement, self.min_infeed or 0.0)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """A decrement has a least infeed; no more infeeds than a hole can have."""
         if self.decrement and self.min_infeed is None:
             yield "decrement", f"{self.decrement:g} needs M, the least infeed"
         yield from too_many("infeed", self.levels)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 6 of the manual."""
         out = self.retract_feed or self.feed
         work = drill(
             self.levels(), above=self.level, feed=self.feed, reenter=self.clearance, withdraw=out,
@@ -127,7 +121,6 @@ class Centring(PreparedCycle):
     dwell_bottom: float = addresses.dwell_bottom()
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """What L chooses is given, and negative."""
         name, value = ("diameter", self.diameter) if self.mode else ("depth", self.depth)
         if value is None:
             yield name, f"is missing: L is {self.mode:g}"
@@ -135,7 +128,6 @@ class Centring(PreparedCycle):
             yield name, f"must be less than 0, got {value:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A diameter needs a point angle."""
         if self.mode and not 0 < m.tool.angle < 180:
             yield "mode", f"1 needs the point angle of tool {m.tool.number} in the tool table"
         if self.mode and not is_round(m):
@@ -182,13 +174,11 @@ class GunDrilling(PreparedCycle):
     dwell_depth: float = addresses.allowance("K", "depth of a dwell on the way", 10, note="0: none")
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """The dwell and the start point lie above the bottom."""
         for name in ("dwell_depth", "start_depth"):
             if (value := getattr(self, name)) >= -self.depth:
                 yield name, f"must be less than the depth {-self.depth:g}, got {value:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """There is a speed to drill with."""
         if not self.speed(m):
             yield "drilling_speed", "is missing, and no spindle speed was programmed before"
 
@@ -198,7 +188,6 @@ class GunDrilling(PreparedCycle):
         return self.drilling_speed or (drilled if m.speed == left else m.speed)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 5 of the manual."""
         speed = self.speed(m)
         entry = speed if self.entry_speed is None else self.entry_speed
         work = gun_drill(

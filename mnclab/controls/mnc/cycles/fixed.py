@@ -88,24 +88,19 @@ class FixedCycle(Cycle, ABC):
         return values
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """The bottom lies below level R; no more pecks than a hole can have."""
         yield from holes.upside_down(self.bottom, self.r_level)
         yield from too_many("peck_depth", self.levels)
 
     def levels(self) -> tuple[float, ...]:
-        """Pecks count from level R."""
         return infeeds(self.r_level, self.bottom, self.peck_depth)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """No radius compensation, no machine coordinates."""
         yield from holes.out_of_place(m)
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """The hole."""
         return holes.axis_of(m, self.x, self.y)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Over the hole, level R, the work, and up."""
         return holes.at_hole(m, self.x, self.y, self.r_level, self.work(m))
 
     @abstractmethod
@@ -164,7 +159,6 @@ class Tapping(FixedCycle):
     feed: float | None = holes.feed()
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As all fixed cycles; and there is a pitch."""
         yield from super().check(m)
         yield from holes.no_pitch(m)
 
@@ -189,5 +183,4 @@ class Reaming(FixedCycle):
     feed: float | None = holes.feed()
 
     def work(self, m: Machine) -> Iterator[Step]:
-        """In at feed, dwell, out at feed."""
         return ream(self.bottom, above=self.r_level, feed=None, retract=None, dwell=self.dwell)

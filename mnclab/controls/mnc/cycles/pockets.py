@@ -74,7 +74,6 @@ class RectangularPocket(MillingCycle):
     finish_feed: float | None = finish_feed()
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """As all pockets; and the corners fit."""
         yield from too_deep(self)
         half = min(self.length_x, self.length_y) / 2
         if self.corner_radius > half:
@@ -97,7 +96,6 @@ class RectangularPocket(MillingCycle):
         )  # fmt: skip
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 8 of the manual."""
         return mill(self, m)
 
 
@@ -122,11 +120,9 @@ class CircularPocket(MillingCycle):
     finish_feed: float | None = finish_feed()
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """As all pockets."""
         yield from too_deep(self)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The tool and its allowance fit; as all pockets."""
         yield from super().check(m)
         if self.diameter < (least := 2 * (m.radius + self.side_allowance)):
             yield "diameter", f"must be at least the tool diameter and twice U, {least:g}, got {self.diameter:g}"
@@ -138,7 +134,6 @@ class CircularPocket(MillingCycle):
         return shape._replace(arcs=quarter_circles)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 8 of the manual."""
         return mill(self, m)
 
 

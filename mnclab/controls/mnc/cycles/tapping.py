@@ -32,12 +32,10 @@ class RigidTapping(PreparedCycle):
     surface: float = addresses.surface()
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """There is a pitch."""
         if self.pitch == 0:
             yield "pitch", "must not be 0"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """There is a speed."""
         if not m.speed:
             yield "", "needs a spindle speed: write S before"
 
