@@ -21,6 +21,7 @@ CYCLES = CycleTable()
 TO: dict[float, str] = {0: "to the depth H", 1: "to the diameter D"}
 ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: "stopped (M5)"}
 ONE_PASS = {"default": None, "default_means": "one pass"}
+NO_LIMIT = {"default": None, "default_means": "no limit", "note": "needed where K is greater than 0"}
 TURNING = {3: 1, 4: -1, 5: 0}
 
 
@@ -40,7 +41,7 @@ class Drilling(PreparedCycle):
         return infeeds(self.surface, self.surface + self.depth, self.infeed)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        yield from too_many("infeed", self.levels)
+        return too_many("infeed", self.levels)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         work = drill(
@@ -58,9 +59,7 @@ class UniversalDrilling(PreparedCycle):
     depth: float = addresses.depth()
     infeed: float | None = addresses.distance("P", "depth of the first infeed", 6, **ONE_PASS)
     surface: float = addresses.surface()
-    min_infeed: float | None = addresses.distance(
-        "M", "least infeed", 2, default=None, default_means="no limit", note="needed where K is greater than 0"
-    )
+    min_infeed: float | None = addresses.distance("M", "least infeed", 2, **NO_LIMIT)
     feed: float | None = addresses.feed("drilling feed")
     retract_feed: float | None = addresses.other_feed("V", "feed out of the hole", 400)
     dwell_top: float = addresses.dwell_top()

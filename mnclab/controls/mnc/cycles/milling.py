@@ -58,9 +58,9 @@ class LineMilling(MillingCycle):
         "K", "number of lines", "count", type="integer", at_least=0, example=6, note="0 mills nothing"
     )
     plunge_feed: float = addresses.own_feed("V", "feed down to the height", 150)
-    feed: float | None = addresses.feed("milling feed", 500)
+    feed: float | None = addresses.feed("milling feed", example=500)
     stepover_feed: float | None = addresses.other_feed("T", "feed to the next line", 250)
-    clearance: float = addresses.clearance("clearance above the milling height")
+    clearance: float = addresses.clearance(meaning="clearance above the milling height")
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
         if self.passes > MOST:
@@ -110,10 +110,10 @@ class FaceMilling(MillingCycle):
     level_to: float = addresses.coordinate("W", "height down to which to mill", -5)
     length_x: float = addresses.side("A", "length along X", 60)
     length_y: float = addresses.side("B", "length along Y", 40)
-    clearance: float = addresses.clearance("clearance above the milling height")
+    clearance: float = addresses.clearance(meaning="clearance above the milling height")
     max_infeed: float = addresses.distance("P", "greatest infeed", 2)
     overlap: float = addresses.overlap(1.999, 1.5)
-    feed: float | None = addresses.feed("milling feed", 500)
+    feed: float | None = addresses.feed("milling feed", example=500)
     positioning_feed: float = addresses.own_feed("V", "positioning feed", 2000)
     side_clearance: float = addresses.distance("I", "clearance at the side", 3)
     allowance: float = addresses.allowance("U", "finishing allowance", 0.5, note="the last infeed")

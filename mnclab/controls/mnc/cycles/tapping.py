@@ -27,7 +27,7 @@ class RigidTapping(PreparedCycle):
     does: ClassVar[str] = TAPS
 
     clearance: float = addresses.clearance()
-    depth: float = addresses.depth("depth of the thread from the surface")
+    depth: float = addresses.depth(meaning="depth of the thread from the surface")
     pitch: float = param("P", "pitch", "mm/rev", note="positive right-hand, negative left-hand", example=1.25)
     surface: float = addresses.surface()
 
