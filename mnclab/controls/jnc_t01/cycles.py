@@ -5,19 +5,18 @@ All begin where the tool stands, at (X1, Z1), and end there.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mnclab.controls.jnc_t01.feeds import cutting_feed, standing_feed
 from mnclab.controls.jnc_t01.motion import coordinate, scale, use_corrector
-from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import MOST, infeeds
 from mnclab.machining.holes.drilling import drill
 from mnclab.machining.steps import RAPID, Go, Say, Step
 from mnclab.machining.turning.grooving import grooves, places
 from mnclab.machining.turning.roughing import Crosswise, Shoulder, remove_stock
-from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 INCREMENT = "under G91 from the start"
@@ -32,9 +31,7 @@ class LatheCycle(Crosswise, Cycle):
     """What all share: X, Z, U and W become coordinates of the tool, X and U on the radius."""
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """Increments and diameters become coordinates; a corrector chosen before counts from now on."""
         for name, word in given.items():
             if word.address in "XZUW":

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.functions import refuse_rapid
-from mnclab.machine.cycle import Cycle, param
+from mnclab.machine.cycle import Cycle, Given, Values, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.turning.roughing import Crosswise
-from mnclab.text.program import INCREMENTAL, RAPID_MARK, Word
+from mnclab.text.program import INCREMENTAL, RAPID_MARK
 
 SWITCH = {0.0: "no", 1.0: "yes"}
 FROM_START = "@: from the start point"
@@ -22,9 +22,7 @@ class FromStart(Crosswise, Cycle):
     feed: float | None
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         ends = {name: given[name] for name in ("x", "z") if name in given}
         refuse_rapid(m, list(ends.values()), cls.code)
         for name, axis, scale in (("x", 0, discretes.X), ("z", 2, discretes.Z)):

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
 from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.mnc.cycles.prepared import PreparedCycle, called, kept
-from mnclab.machine.cycle import CycleTable, param, too_many
+from mnclab.machine.cycle import CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, gun_drill
 from mnclab.machining.steps import Go, Say, Step, Wait, Write
-from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 
@@ -74,9 +72,7 @@ class UniversalDrilling(PreparedCycle):
     )
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """M99 in this block is a least infeed, which somebody may not have meant."""
         if values.get("min_infeed") == 99:
             m.warn(f"{cls.code} M99 is a least infeed of 99 mm, no cycle call", given["min_infeed"])
