@@ -61,8 +61,7 @@ def start(m: Machine) -> None:
 def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
     """One function that acts once in a block."""
     codes = [(f"G{digits(w.value)}", w) for w in words if w.address == "G" and isinstance(w.value, float)]
-    once = [(code, word) for code, word in codes if code in ONCE]
-    if len(once) > 1:
+    if len(once := [pair for pair in codes if pair[0] in ONCE]) > 1:
         (first, _), (second, word) = once[:2]
         message = f"{second} and {first} are of one group: only one of it may stand in a block"
         raise Alarm(message, word.span, hint="write two blocks")

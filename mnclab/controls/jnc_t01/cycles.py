@@ -22,9 +22,14 @@ CYCLES = CycleTable()
 INCREMENT = "under G91 from the start"
 
 
-def optional(address: str, meaning: str, left_out: str, **options: Any) -> Any:
-    """A parameter, and in words what it is where it is left out."""
-    return param(address, meaning, default=None, default_means=left_out, **options)
+def optional(address: str, meaning: str, left_out: str, example: float) -> Any:
+    """A coordinate, and in words what it is where it is left out."""
+    return param(address, meaning, default=None, default_means=left_out, note=INCREMENT, example=example)
+
+
+def pass_of(meaning: str, left_out: str, example: float = 6) -> Any:
+    """D: the depth of a pass, or the way to the next one."""
+    return param("D", meaning, default=None, default_means=left_out, above=0, incremental=True, example=example)
 
 
 class LatheCycle(Crosswise, Cycle):
@@ -50,9 +55,7 @@ class DeepHoleDrilling(LatheCycle):
     before the depth reached. Each pass makes the hole D deeper, the last one the remainder."""
 
     bottom: float = param("Z", "bottom of the hole", note=INCREMENT, example=-40)
-    peck: float | None = optional(
-        "D", "depth drilled in a pass", "the whole depth", above=0, incremental=True, example=15
-    )
+    peck: float | None = pass_of("depth drilled in a pass", "the whole depth", 15)
     clearance: float = param(
         "R", "distance from the depth reached at the return", default=0, at_least=0, incremental=True, example=5
     )
@@ -69,9 +72,6 @@ class DeepHoleDrilling(LatheCycle):
         levels = infeeds(start, self.bottom, self.peck)
         yield from drill(levels, above=start, feed=feed, reenter=self.clearance)
         yield Go("retract", start)
-
-
-# --- grooves ---------------------------------------------------------------------------------------------------------
 
 
 def cuts(cycle: FaceGrooves | CylindricalGrooves, m: Machine) -> tuple[float, ...]:
@@ -98,12 +98,8 @@ class FaceGrooves(LatheCycle):
     """Plunges along Z at X1 and at places D apart, the last one at X; between them it returns to Z1 at rapid."""
 
     bottom: float = param("Z", "bottom of the groove", note=INCREMENT, example=-30)
-    last_x: float | None = optional(
-        "X", "place of the last groove or cut", "one groove at the present X", note=INCREMENT, example=20
-    )
-    step: float | None = optional(
-        "D", "step between the cuts", "two cuts, at X1 and at X", above=0, incremental=True, example=6
-    )
+    last_x: float | None = optional("X", "place of the last groove or cut", "one groove at the present X", 20)
+    step: float | None = pass_of("step between the cuts", "two cuts, at X1 and at X")
 
     transverse = True
     check, moves = check_grooves, plunge
@@ -114,17 +110,10 @@ class CylindricalGrooves(LatheCycle):
     """Plunges along X at Z1 and at places D apart, the last one at Z; between them it returns to X1 at rapid."""
 
     bottom: float = param("X", "bottom of the groove", note=INCREMENT, example=25)
-    last_z: float | None = optional(
-        "Z", "place of the last groove or cut", "one groove at the present Z", note=INCREMENT, example=-15
-    )
-    step: float | None = optional(
-        "D", "step between the cuts", "two cuts, at Z1 and at Z", above=0, incremental=True, example=6
-    )
+    last_z: float | None = optional("Z", "place of the last groove or cut", "one groove at the present Z", -15)
+    step: float | None = pass_of("step between the cuts", "two cuts, at Z1 and at Z")
 
     check, moves = check_grooves, plunge
-
-
-# --- stock removal between the start and (X, Z); the bevel goes through U and W ----------------------------------------
 
 
 def check_removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterator[tuple[str, str]]:
@@ -145,7 +134,7 @@ def check_removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterator[t
 
 
 def removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterable[Step]:
-    """Infeed across, cuts along."""
+    """Infeed across, cuts along; the bevel goes through U and W."""
     x1, _, z1 = m.programmed
     finish, far = cycle.across_along(cycle.end_x, cycle.end_z)
     bevel = x1 if cycle.taper_x is None else cycle.taper_x, z1 if cycle.taper_z is None else cycle.taper_z
@@ -166,9 +155,9 @@ class LongitudinalTurning(LatheCycle):
 
     end_x: float = param("X", "end of the cut along X", note=INCREMENT, example=20)
     end_z: float = param("Z", "end of the cut along Z", note=INCREMENT, example=-75)
-    taper_x: float | None = optional("U", "X of the bevel", "X of the start", note=INCREMENT, example=30)
-    taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", note=INCREMENT, example=-60)
-    depth: float | None = optional("D", "depth of cut", "the contour alone", above=0, incremental=True, example=6)
+    taper_x: float | None = optional("U", "X of the bevel", "X of the start", 30)
+    taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", -60)
+    depth: float | None = pass_of("depth of cut", "the contour alone")
 
     check, moves = check_removal, removal
 
@@ -183,9 +172,9 @@ class Facing(LatheCycle):
 
     end_x: float = param("X", "end of the cut along X", note=INCREMENT, example=20)
     end_z: float = param("Z", "end of the cut along Z", note=INCREMENT, example=-75)
-    taper_x: float | None = optional("U", "X of the bevel", "X of the start", note=INCREMENT, example=30)
-    taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", note=INCREMENT, example=-60)
-    depth: float | None = optional("D", "depth of cut", "the contour alone", above=0, incremental=True, example=6)
+    taper_x: float | None = optional("U", "X of the bevel", "X of the start", 30)
+    taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", -60)
+    depth: float | None = pass_of("depth of cut", "the contour alone")
 
     transverse = True
     check, moves = check_removal, removal
