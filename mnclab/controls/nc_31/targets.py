@@ -58,6 +58,12 @@ def apart(x: float | None, z: float | None, m: Machine) -> Iterator[tuple[str, s
         yield "z", f"must differ from the Z of the start, got {z:.10g}"
 
 
+def aside(axis: str, meaning: str, left_out: str, example: float) -> Any:
+    """Where the tool goes afterwards, if it does."""
+    unit = "0.01 mm on diameter" if axis == "X" else "0.01 mm"
+    return param(axis, meaning, unit, default=None, default_means=left_out, note=FROM_START, example=example)
+
+
 def feed_word(meaning: str, unit: str = "0.0001 mm/rev", default: str = "the modal feed", example: float = 2000) -> Any:
     """F of a cycle: six digits, and left out what was set before it."""
     return param(

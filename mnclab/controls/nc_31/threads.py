@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.functions import refuse_rapid, targets
-from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, own_mark, size, start
+from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, aside, feed_word, here, own_mark, size, start
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
@@ -25,7 +25,7 @@ CYCLES = CycleTable()
 FUNCTIONS = FunctionTable()
 
 SAME = "the modal feed"
-ONE_PASS = "a single pass at X"
+ONE_PASS = {"default": None, "default_means": "a single pass at X", "above": 0}
 
 
 def pitch_of(m: Machine, feed: float | None) -> float:
@@ -54,12 +54,8 @@ class ThreadCutting(FromStart):
     x: float = param("X", "crest diameter, or root with no P", "0.01 mm on diameter", note=FROM_START, example=3600)
     z: float = param("Z", "end of the thread", "0.01 mm", note=FROM_START, example=-3000)
     feed: float | None = feed_word("pitch", "0.0001 mm", SAME, 15_000)
-    thread_depth: float | None = size(
-        "depth of the thread", "0.01 mm on radius", default=None, default_means=ONE_PASS, above=0, example=92
-    )
-    depth_per_pass: float | None = size(
-        "depth of cut per pass", "0.01 mm on radius", default=None, default_means=ONE_PASS, above=0, example=25
-    )
+    thread_depth: float | None = size("depth of the thread", "0.01 mm on radius", **ONE_PASS, example=92)
+    depth_per_pass: float | None = size("depth of cut per pass", "0.01 mm on radius", **ONE_PASS, example=25)
     taper: float = size("taper", "0.01 mm on diameter", default=0, at_least=0, example=0)
 
     def depths(self) -> tuple[float, ...]:
@@ -103,8 +99,7 @@ class Tapping(FromStart):
     out of a thread.
     """
 
-    x: float | None = param("X", "X of the tool afterwards", "0.01 mm on diameter", default=None, default_means="unchanged",
-                            note=FROM_START, example=6000)  # fmt: skip
+    x: float | None = aside("X", "X of the tool afterwards", "unchanged", 6000)
     z: float = param("Z", "end of the thread", "0.01 mm", note=FROM_START, example=-2000)
     feed: float | None = feed_word("pitch", "0.0001 mm", SAME, 12_500)
     zero_mark: float = own_mark("start at the zero mark of the spindle", example=1)
