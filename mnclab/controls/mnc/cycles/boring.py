@@ -96,7 +96,7 @@ class BackBoring(PreparedCycle):
             yield "counterbore_depth", f"must be less than the thickness {thickness:g}, got {depth:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        yield from tilted(m)
+        return tilted(m)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 6 of the manual; levels are those of the end of the bar."""
