@@ -81,7 +81,7 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array |
     n = len(path)
     speeds, slowest, jerks = (limits.axes(name) for name in ("rapid", "acceleration", "jerk"))
     jerky = bool(np.isfinite(jerks).any())
-    rows = Rows(*(np.empty(n) for _ in range(4)), np.empty(n if jerky else 0), np.zeros(n + 1))
+    rows = Rows(np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n if jerky else 0), np.zeros(n + 1))
     rule, slack = corner_speeds.rule(limits), corner_speeds.tolerances(path, limits)
     last: list[Array] = []  # the tangent at the end of the piece before
     for i in range(0, n, PIECE):
