@@ -250,11 +250,7 @@ def test_a_cycle_declares_the_addresses_of_its_table(control, code):
     assert mnclab.controls[control].cycles[code].source
 
 
-#: Cycles that do not have the order of their tables yet.
-UNORDERED = {("tnc-620", f"CYCL DEF {n}") for n in (251, 252, 253, 254, 256, 257, 258)}
-
-
-@pytest.mark.parametrize(("control", "code"), [case for case in CYCLES if case not in UNORDERED])
+@pytest.mark.parametrize(("control", "code"), CYCLES)
 def test_parameters_stand_in_the_order_of_the_table(control, code):
     """In the declaration, also of what it inherits, and therefore in help and form."""
     found = [TABLES[control][code].index(row) for _, row in rows(control, code)]
