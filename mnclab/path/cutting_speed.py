@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from mnclab.path.columns import Array
 
 
 def spindle_speed(surface: ArrayLike, radius: ArrayLike, limit: ArrayLike) -> Array:

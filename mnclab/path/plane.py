@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
-
-Array = NDArray[np.float64]
 
 
 def basis(axis: Array) -> Array:
@@ -71,7 +69,7 @@ class PlaneView:
         sense = np.sign(self.sweep)[:, None]
         return sense * np.stack([-spoke[:, 1], spoke[:, 0]], axis=-1) / np.where(length > 0, length, 1.0)
 
-    def to_space(self, rows: NDArray[np.int64], uvw: Array) -> Array:
+    def to_space(self, rows: Index, uvw: Array) -> Array:
         """Points (m, 3) of the planes of `rows` in machine axes."""
         if self.flat:
             return uvw

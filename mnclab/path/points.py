@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.kinds import Kind
 from mnclab.path.places import on_arcs, spokes
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 FINEST = 100_000  # pieces of one arc at most
 
 
-def points(path: Toolpath, chord_error: float = 0.01) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def points(path: Toolpath, chord_error: float = 0.01) -> tuple[Array, Index]:
     """Points (m, 3) along the motion rows and the row (m,) each belongs to.
 
     The first point is where the first motion begins; then every row ends with its own end point. An arc of radius r

@@ -10,8 +10,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import PerAxis
 from mnclab.path.toolpath import Toolpath
@@ -32,7 +32,7 @@ def broken(path: Toolpath, speed: PerAxis) -> Toolpath:
     if not (first_stop | second_stop).any():
         return path
 
-    def points(rows: NDArray[np.bool_], when: NDArray[np.float64]) -> NDArray[np.float64]:
+    def points(rows: Mask, when: Array) -> Array:
         with np.errstate(divide="ignore", invalid="ignore"):
             share = np.minimum(when[rows, None] * speeds / np.abs(travel[rows]), 1.0)
         return path.start[rows] + travel[rows] * np.where(travel[rows] == 0, 0.0, share)

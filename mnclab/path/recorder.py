@@ -14,7 +14,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS, Column, fields
+from mnclab.path.columns import COLUMNS, Array, Column, fields
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath, concatenate
 
@@ -61,7 +61,7 @@ class Recorder:
         self.start = start
 
     @property
-    def start(self) -> NDArray[np.float64]:
+    def start(self) -> Array:
         """Where (3,) the next path begins. Set it between two paths only."""
         return self._vertices[0]
 
@@ -113,12 +113,12 @@ class Recorder:
         """So many rows are to come; room made once is not made anew."""
         self.expected = max(self.expected, self._count + len(self.rows) // len(ROW) + count)
 
-    def room(self, count: int) -> NDArray[np.float64]:
+    def room(self, count: int) -> Array:
         """Where the vertices (count + 1, 3) of the next rows will lie; the first one is the end of the last row."""
         self._flush()
         return self._room(count)
 
-    def _room(self, count: int) -> NDArray[np.float64]:
+    def _room(self, count: int) -> Array:
         needed = self._count + count + 1
         if self.taken + needed - 1 > self.most:
             self.refuse(self.taken + needed - 1)
@@ -148,7 +148,7 @@ class Recorder:
                 self.refuse(self.made + 1)
             self._flush()
 
-    def bulk(self, columns: dict[str, NDArray[Any]], ends: NDArray[np.float64]) -> None:
+    def bulk(self, columns: dict[str, NDArray[Any]], ends: Array) -> None:
         """Rows (n,) as columns: `kind` and what differs from `PLAIN`; one value stands for all.
 
         A column but `kind` may also be (k, n / k), which is read row by row: what repeats need not be written out.
@@ -157,7 +157,7 @@ class Recorder:
         self._flush()
         self._append(columns, ends)
 
-    def _append(self, columns: dict[str, NDArray[Any]], ends: NDArray[np.float64]) -> None:
+    def _append(self, columns: dict[str, NDArray[Any]], ends: Array) -> None:
         room = self._room(len(ends))[1:]
         if room.__array_interface__["data"] != ends.__array_interface__["data"]:
             room[:] = ends
@@ -198,7 +198,7 @@ class Recorder:
         number = int(np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape)[row])
         return Kind(int(chunk["kind"][row])), self.joints[number] if number >= 0 else None
 
-    def heading(self) -> NDArray[np.float64] | None:
+    def heading(self) -> Array | None:
         """The unit tangent (3,) at the end of the last motion; None if it has none."""
         last = self._last_motion()
         if last is None:
@@ -242,7 +242,7 @@ class Recorder:
         self._vertices, self._count = self._vertices[self._count :], 0  # the next path begins where this one ends
         return self._path(columns, vertices)
 
-    def _path(self, columns: dict[str, NDArray[Any]], vertices: NDArray[np.float64]) -> Toolpath:
+    def _path(self, columns: dict[str, NDArray[Any]], vertices: Array) -> Toolpath:
         if columns:
             which = columns.pop("state")
             used = self.states if which.strides[0] else [self.states[int(which[0])]]
@@ -261,7 +261,7 @@ def _refuse(count: int) -> NoReturn:
     raise ValueError(f"there would be {count} rows")
 
 
-def _plain(name: str, part: NDArray[np.float64]) -> NDArray[Any]:
+def _plain(name: str, part: Array) -> NDArray[Any]:
     """A column of single rows (n, k); where one value serves for all of them it is that value, which costs nothing."""
     vector, dtype = bool(SINGLE[name].parts), SINGLE[name].dtype
     usual = PLAIN.get(name) if name != "state" else part[0]

@@ -14,12 +14,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 
-Array = NDArray[np.float64]
 NOISE = 1e-6  # mm
 
 

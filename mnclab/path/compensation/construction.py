@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import beside
 from mnclab.path import corners as joints
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.rules import Compensation
 from mnclab.path.kinds import Rule

@@ -14,7 +14,8 @@ import numpy as np
 from mnclab.geometry.curves import Curves, foot, gap, part, share
 from mnclab.geometry.offsets import beside, meetings
 from mnclab.geometry.vectors import cross, dot
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.rules import CLEAR, TANGENT
 
 

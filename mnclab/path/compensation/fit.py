@@ -18,13 +18,13 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mnclab.geometry.chords import Chunks, Walls, around, chunks, facing
 from mnclab.geometry.curves import Curves, distance
 from mnclab.geometry.offsets import beside
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation import neighbours
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import at_height, meet
 from mnclab.path.compensation.joining import ends, remaining
@@ -211,7 +211,7 @@ def _leads(el: Elements) -> list[Places]:
     return result
 
 
-def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
+def _global(found: Equidistant, contour: Index) -> list[Places]:
     """Bottlenecks, ends and straight corners."""
     el = found.el
     k = np.flatnonzero(el.wall)

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import beside, meet
 from mnclab.geometry.vectors import cross, dot
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation.cusps import in_a_cusp, inside_cusps, rolls_through
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.rules import ACUTE_TURN, CUSP, ROUND, STRAIGHT, TANGENT, Compensation
 from mnclab.path.kinds import Rule
 

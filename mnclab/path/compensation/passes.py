@@ -13,7 +13,8 @@ import numpy as np
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, crossings, distance, part, share
 from mnclab.geometry.vectors import cross, dot, left
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import meet, retracted
 from mnclab.path.compensation.rules import CLEAR

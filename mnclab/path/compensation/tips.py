@@ -9,7 +9,8 @@ import numpy as np
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, distance
-from mnclab.path.compensation.elements import Array, Elements, Index
+from mnclab.path.columns import Array, Index
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.joining import corners, ends, remaining
 from mnclab.path.compensation.rules import Compensation

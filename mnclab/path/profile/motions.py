@@ -13,8 +13,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array
 from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
@@ -26,8 +26,6 @@ from mnclab.text.records import shapes
 PIECE = 1 << 15  # rows worked on at a time
 FULL = 0.9  # of an arc's acceleration may be centripetal; the rest is left for speeding up and braking
 ARC_JERK = (0.3, 0.6)  # of the jerk: the part that turning takes at most, and that turning while braking takes
-
-Array = NDArray[np.float64]
 
 
 @dataclass
@@ -81,7 +79,7 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array |
     n = len(path)
     speeds, slowest, jerks = (limits.axes(name) for name in ("rapid", "acceleration", "jerk"))
     jerky = bool(np.isfinite(jerks).any())
-    rows = Rows(*(np.empty(n) for _ in range(4)), np.empty(n if jerky else 0), np.zeros(n + 1))
+    rows = Rows(np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n if jerky else 0), np.zeros(n + 1))
     rule, slack = corner_speeds.rule(limits), corner_speeds.tolerances(path, limits)
     last: list[Array] = []  # the tangent at the end of the piece before
     for i in range(0, n, PIECE):

@@ -13,9 +13,8 @@ Planning for Automatic Machines and Robots*, 3.4). Everything takes arrays (n,);
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from mnclab.path.columns import Array
 
 STEPS = 80  # of a solution; seven or so are usual
 

@@ -24,6 +24,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.profile import ramps
 from mnclab.path.profile.lookahead import reachable, running_sum
 from mnclab.path.profile.motions import Rows
@@ -32,9 +33,6 @@ SHARE = 0.5  # of a ramp from rest to the greatest speed: the least length of a 
 SHARP = 0.64  # of its neighbours: a corner with less v² gets a knot
 ROUNDS = 200
 STEPS = 60  # of Newton for the time at a place; seven or so are usual
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 
 class Groups:
