@@ -30,7 +30,6 @@ class Tried:
 
     @property
     def row(self) -> dict[str, Any]:
-        """The values of the columns."""
         return {name: value(self) for name, (_, _, value) in self.titles.items()}
 
     def __repr__(self) -> str:
@@ -72,7 +71,6 @@ class Table(Generic[Trial]):
 
     @cached_property
     def rows(self) -> tuple[dict[str, Any], ...]:
-        """One dict of the columns a trial."""
         return tuple(trial.row for trial in self.trials)
 
     def columns(self) -> dict[str, np.ndarray]:

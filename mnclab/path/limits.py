@@ -56,8 +56,7 @@ class Limits:
     spindle_acceleration: float | None = None
     tool_change: float = 0.0
 
-    def __repr__(self) -> str:
-        return written(self)
+    __repr__ = written
 
     def __post_init__(self) -> None:
         for name in ("rapid", "acceleration", "jerk", "spindle", "spindle_acceleration"):

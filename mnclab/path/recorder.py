@@ -56,8 +56,7 @@ class Recorder:
         self._count = 0
         self.most = INF
         self.refuse: Callable[[int], NoReturn] = _refuse
-        self.expected = 0
-        """How many rows there will be, roughly: room that is never used costs nothing, room made anew costs much."""
+        self.expected = 0  # rows, roughly: room that is never used costs nothing, room made anew costs much
         self.start = start
 
     @property
@@ -165,27 +164,23 @@ class Recorder:
         self._count += len(ends)
         self._look_out()
 
-    def _last_motion(self) -> tuple[dict[str, NDArray[Any]], int] | None:
-        """The columns and the row in them of the last line, arc or rapid not yet taken."""
+    def _last_motion(self) -> tuple[dict[str, NDArray[Any]], int, Array] | None:
+        """The columns, the row in them and the joints of the last line, arc or rapid not yet taken."""
         self._flush()
         for chunk in reversed(self._done):
-            moves = np.flatnonzero(chunk["kind"] <= Kind.PROBE)
-            if len(moves):
-                row = int(moves[-1])
-                return None if chunk["kind"][row] == Kind.PROBE else (chunk, row)
+            if len(moves := np.flatnonzero(chunk["kind"] <= Kind.PROBE)):
+                joints = np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape)
+                return None if chunk["kind"][moves[-1]] == Kind.PROBE else (chunk, int(moves[-1]), joints)
         return None
 
     def mark(self, joint: Any) -> bool:
         """Put a joint on the last motion; False if there is none, or if it has one already."""
         last = self._last_motion()
-        if last is None:
+        if last is None or last[2][last[1]] >= 0:
             return False
-        chunk, row = last
-        joints = np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape).copy()
-        if joints[row] >= 0:
-            return False
-        joints[row] = len(self.joints)
-        chunk["joint"] = joints
+        chunk, row, joints = last
+        chunk["joint"] = joints.copy()
+        chunk["joint"][row] = len(self.joints)
         self.joints.append(joint)
         return True
 
@@ -194,8 +189,8 @@ class Recorder:
         found = self._last_motion()
         if found is None:
             return None
-        chunk, row = found
-        number = int(np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape)[row])
+        chunk, row, joints = found
+        number = int(joints[row])
         return Kind(int(chunk["kind"][row])), self.joints[number] if number >= 0 else None
 
     def heading(self) -> Array | None:
@@ -203,7 +198,7 @@ class Recorder:
         last = self._last_motion()
         if last is None:
             return None
-        chunk, row = last
+        chunk, row, _ = last
         end = chunk["end"][row]
         if chunk["kind"][row] == Kind.ARC:
             state, turn = (_column(name, [chunk[name]], [len(chunk["kind"])])[row] for name in ("state", "sweep"))
@@ -211,9 +206,9 @@ class Recorder:
             spoke = end - chunk["centre"][row]
             travel = np.cross(axis, spoke) * np.sign(turn)
         else:
-            before = [self.start, *(c["end"][-1] for c in self._done)]
-            index = next(i for i, c in enumerate(self._done) if c is chunk)
-            travel = end - (chunk["end"][row - 1] if row else before[index])
+            index = next(i for i, each in enumerate(self._done) if each is chunk)
+            before = self._done[index - 1]["end"][-1] if index else self.start
+            travel = end - (chunk["end"][row - 1] if row else before)
         length = float(np.linalg.norm(travel))
         return travel / length if length > 0 else None
 

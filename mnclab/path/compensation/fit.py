@@ -153,17 +153,21 @@ def _beside(found: Equidistant, contour: Index, lost: Index) -> Places:
     bad = np.flatnonzero(neighbours.clearance(el, look, el.R[look.k], rules) < room)
     bad = bad[~np.isin(look.k[bad], lost) & ~np.isin(look.wall[bad], lost)]
     look, room = look.take(bad), room[bad]
+    message = (
+        "the tool of radius {R:.4g} beside this element cuts into that of line {other}, {r:.6g} mm from its centre"
+    )
+    return Places("neighbour", look.k, look.wall, *_measured(el, look, room, rules), message)
+
+
+def _measured(el: Elements, look: neighbours.Pairs, room: Array, rules: Compensation) -> tuple[Array, Array, Array]:
+    """Of pairs that must be `room` (m,) apart the width that is there, what is missing, and the largest radius."""
     R = el.R[look.k]
-    width = R + neighbours.clearance(el, look, R, rules)
 
     def clear(which: Index, radius: Array) -> Mask:
         return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
 
-    largest = narrowed(clear, R, parts=4)
-    message = (
-        "the tool of radius {R:.4g} beside this element cuts into that of line {other}, {r:.6g} mm from its centre"
-    )
-    return Places("neighbour", look.k, look.wall, width, R - width, largest, message)
+    width = R + neighbours.clearance(el, look, R, rules)
+    return width, R - width, narrowed(clear, R, parts=4)
 
 
 def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
@@ -212,7 +216,6 @@ def _leads(el: Elements) -> list[Places]:
 
 
 def _global(found: Equidistant, contour: Index) -> list[Places]:
-    """Bottlenecks, ends and straight corners."""
     el = found.el
     k = np.flatnonzero(el.wall)
     if not len(k):
@@ -332,23 +335,18 @@ def _rolled(found: Equidistant, contour: Index, k: Index, coarse: Chunks) -> lis
     for kind, step in (("entry", 1), ("exit", 0)):
         of = el.lead[every] == bool(step)
         at, w = every[of], wall[of]
-        own, R = at + step, el.R[at]  # the wall at the lead
+        own = at + step  # the wall at the lead
         look = neighbours.Pairs(at, np.ones(len(at), dtype=bool), w, np.full(len(at), np.inf))
         room = -CLEAR / 2 - slack[own] - slack[w]
-        bad = np.flatnonzero(neighbours.clearance(el, look, R, rules) < room)
+        bad = np.flatnonzero(neighbours.clearance(el, look, el.R[at], rules) < room)
         off = run_past(el, own[bad], w[bad]) | given_up(found, contour, own[bad], w[bad])
         bad = bad[~off | (own == w)[bad]]
         if not len(bad):
             continue
-        look, R, room = look.take(bad), R[bad], room[bad]
-        width = R + neighbours.clearance(el, look, R, rules)
-
-        def clear(which: Index, radius: Array, look: neighbours.Pairs = look, room: Array = room) -> Mask:
-            return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
-
+        look = look.take(bad)
         through = "the contour through the element of line {other}, {r:.6g} mm from its centre"
         message = f"the tool of radius {{R:.4g}} rolls {'onto' if step else 'off'} {through}"
         hint = f"let the {kind} {'come from' if step else 'lead to'} the side of the tool"
-        largest = narrowed(clear, R, parts=4)
-        places.append(Places(kind, look.k + 1 - step, look.wall, width, R - width, largest, message, hint))
+        measured = _measured(el, look, room[bad], rules)
+        places.append(Places(kind, look.k + 1 - step, look.wall, *measured, message, hint))
     return places

@@ -43,8 +43,7 @@ class Rows:
     j: Array
     corner: Array
 
-    def __repr__(self) -> str:
-        return shapes(self)
+    __repr__ = shapes
 
 
 def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, override: float) -> Array:

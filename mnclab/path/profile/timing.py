@@ -47,8 +47,7 @@ class Plan:
     ramps: Index | None = None
     groups: Groups | None = None
 
-    def __repr__(self) -> str:
-        return shapes(self)
+    __repr__ = shapes
 
 
 def plan(
