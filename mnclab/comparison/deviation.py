@@ -175,11 +175,8 @@ def _nearest(places: Array, start: Array, end: Array) -> Array:
 
 
 def _on_strokes(here: Array, start: Array, end: Array, boxes: NDArray[np.int64]) -> Array:
-    """The nearest place (m, 3) on the strokes of some boxes.
-
-    Which stroke is nearest is found with matrix products, which are quick and lose half of the digits; where on that
-    stroke, with differences.
-    """
+    """The nearest place (m, 3) on the strokes of some boxes. Which stroke is nearest is found with matrix products,
+    which are quick and lose half of the digits; where on that stroke, with differences."""
     which = (boxes[:, None] * GROUP + np.arange(GROUP)).ravel()
     which = which[which < len(start)]
     middle = here.mean(axis=0)

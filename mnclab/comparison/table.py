@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Generic, TypeVar
 
@@ -19,6 +20,7 @@ Titles = dict[
 ]  # of every column what it is, how it is written, and its value
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class Tried:
     """What is compared: a path under axis limits, or else with rapids at a rate in mm/min."""
 

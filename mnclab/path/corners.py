@@ -55,11 +55,8 @@ NOTHING = 1e-9  # mm
 
 
 def apply(path: Toolpath, unfinished: bool = False) -> Toolpath:
-    """The path with its corners replaced; itself when it has none. Raises PathFault.
-
-    `unfinished`: the program broke off, so the end of a last row that waits for its joint is unknown and the row is
-    left out.
-    """
+    """The path with its corners replaced; itself when it has none. Raises PathFault. `unfinished`: the program broke
+    off, so the end of a last row that waits for its joint is unknown and the row is left out."""
     which = [isinstance(joint, Corner) for joint in path.joints]
     rows = np.flatnonzero((path.joint >= 0) & np.array([*which, False])[path.joint])
     if not len(rows):

@@ -50,10 +50,8 @@ def plunging(path: Toolpath, share: Array) -> Array:
 
 
 def at_edge(path: Toolpath, where: NDArray[np.str_]) -> Array:
-    """Factor (n,) that makes the feed of the centre that of the cutting edge on compensated arcs.
-
-    Inside an arc the edge has the longer way and the centre is slowed down; "everywhere" outside it is made faster, too.
-    """
+    """Factor (n,) that makes the feed of the centre that of the cutting edge on compensated arcs. Inside an arc the
+    edge has the longer way and the centre is slowed down; "everywhere" outside it is made faster, too."""
     radius = np.linalg.norm(path.start - path.centre, axis=1)  # of the way of the centre
     inside = path.side * np.sign(path.sweep) > 0
     contour = np.where(inside, radius + path.radius, radius - path.radius)

@@ -64,12 +64,13 @@ class Way(NamedTuple):
     centre: Array | None = None
     sweep: float = 0.0
 
+    def centre_at(self, height: float) -> Array | None:
+        return None if self.centre is None else np.append(self.centre, height)
+
 
 def way(lead: Lead, start: Array, to: Array, t: Array) -> Way:
-    """The way from `start` to the place `to` where the contour begins with the tangent `t` (all (2,)).
-
-    A departure is asked for backwards: the side, the tangent and the sweep turn over. Raises PathFault.
-    """
+    """The way from `start` to the place `to` where the contour begins with the tangent `t` (all (2,)). A departure is
+    asked for backwards: the side, the tangent and the sweep turn over. Raises PathFault."""
     normal = lead.side * left(t)
     match lead.form:
         case "LT":
@@ -116,7 +117,7 @@ def apply(path: Toolpath, contour: Toolpath, unfinished: bool = False) -> Toolpa
     `contour` is the same before the compensation: its elements give the tangents. `unfinished`: the program broke
     off, so an approach may still wait for its contour and is left out.
     """
-    rows = [int(row) for row in np.flatnonzero(path.joint >= 0) if isinstance(_joint(path, int(row)), Lead)]
+    rows = [row for row in np.flatnonzero(path.joint >= 0).tolist() if isinstance(_joint(path, row), Lead)]
     if not rows:
         return path
     view, before = PlaneView(path), PlaneView(contour)
@@ -165,17 +166,12 @@ class _Part(NamedTuple):
     feed: float = math.nan  # nan: that of the block
 
 
-def _at(found: Way, height: float) -> Array | None:
-    """The centre (3,) at the height where its arc begins."""
-    return None if found.centre is None else np.append(found.centre, height)
-
-
 def _approach(view: PlaneView, row: int, lead: Lead, t: Array, contact: Array) -> list[_Part]:
     """To H, with the depth, and on to the contact Q with the contour."""
     start = view.start[row]
     found = way(lead, start[:2], contact[:2], t)
     by = np.append(found.by, contact[2])
-    return _moving(start, _Part(by, feed=lead.feed), _Part(contact, _at(found, contact[2]), found.sweep))
+    return _moving(start, _Part(by, feed=lead.feed), _Part(contact, found.centre_at(contact[2]), found.sweep))
 
 
 def _departure(view: PlaneView, row: int, lead: Lead, t: Array) -> list[_Part]:
@@ -183,8 +179,8 @@ def _departure(view: PlaneView, row: int, lead: Lead, t: Array) -> list[_Part]:
     start, end = view.start[row], view.end[row]
     found = way(lead._replace(side=-lead.side), end[:2], start[:2], -t)
     if lead.form != "LCT":
-        return [_Part(end, _at(found, start[2]), -found.sweep)]
-    return _moving(start, _Part(np.append(found.by, start[2]), _at(found, start[2]), -found.sweep), _Part(end))
+        return [_Part(end, found.centre_at(start[2]), -found.sweep)]
+    return _moving(start, _Part(np.append(found.by, start[2]), found.centre_at(start[2]), -found.sweep), _Part(end))
 
 
 def _moving(start: Array, first: _Part, last: _Part) -> list[_Part]:

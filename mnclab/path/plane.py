@@ -10,10 +10,8 @@ from mnclab.path.toolpath import Toolpath
 
 
 def basis(axis: Array) -> Array:
-    """Unit vectors (n, 3, 3): first and second axis of the plane and its normal.
-
-    For a normal along Z, X or Y the first axis is X, Y or Z: the planes XY, YZ and ZX of the controls.
-    """
+    """Unit vectors (n, 3, 3): first and second axis of the plane and its normal. For a normal along Z, X or Y the first
+    axis is X, Y or Z: the planes XY, YZ and ZX of the controls."""
     first = np.roll(axis, 1, axis=-1)
     skew = np.abs((first * axis).sum(axis=-1)) > 1e-12
     if skew.any():

@@ -35,9 +35,8 @@ def points(path: Toolpath, chord_error: float = 0.01) -> tuple[Array, Index]:
     radius = np.zeros(len(rows))
     radius[arc] = np.linalg.norm(spokes(path, rows[arc])[0], axis=1)
     step = 2 * np.arccos(np.clip(1 - chord_error / np.maximum(radius, chord_error), 0.0, 1.0))
-    pieces = (
-        np.where(arc, np.ceil(np.abs(path.sweep[rows]) / np.maximum(step, 1e-6)), 1).clip(1, FINEST).astype(np.int64)
-    )
+    pieces = np.where(arc, np.ceil(np.abs(path.sweep[rows]) / np.maximum(step, 1e-6)), 1)
+    pieces = pieces.clip(1, FINEST).astype(np.int64)
     row = np.repeat(np.arange(len(rows)), pieces)
     k = np.arange(len(row)) - np.repeat(np.cumsum(pieces) - pieces, pieces) + 1
     share = k / pieces[row]

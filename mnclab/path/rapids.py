@@ -19,9 +19,7 @@ from mnclab.path.toolpath import Toolpath
 
 def broken(path: Toolpath, speed: PerAxis) -> Toolpath:
     """The path with every rapid along several axes divided where one of them arrives; `speed` mm/min, per axis or all.
-
-    Speeds alone count: acceleration is left to the profile. The path itself where nothing is divided.
-    """
+    Speeds alone count: acceleration is left to the profile. The path itself where nothing is divided."""
     speeds = np.broadcast_to(np.asarray(speed, dtype=np.float64), (3,)) if np.ndim(speed) == 0 else np.array(speed)[:3]
     travel = path.end - path.start
     arrival = np.sort(np.abs(travel) / speeds, axis=1)  # (n, 3): when an axis, the second and the last has arrived

@@ -51,11 +51,8 @@ class Box(NamedTuple):
 
 
 class Revolved(NamedTuple):
-    """A body turned about an axis parallel to X, Y or Z.
-
-    `profile`: pairs of radius and place along the axis, mm, from one end to the other; `at`: a point on the axis.
-    `bore`: the radius of a hole all along it, for a tube.
-    """
+    """A body turned about an axis parallel to X, Y or Z. `profile`: pairs of radius and place along the axis, mm, from
+    one end to the other; `at`: a point on the axis. `bore`: the radius of a hole all along it, for a tube."""
 
     profile: tuple[tuple[float, float], ...]
     axis: str = "Z"

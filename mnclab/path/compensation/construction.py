@@ -55,10 +55,8 @@ class Construction:
 
 
 def construct(programmed: Toolpath, rules: Compensation | None, unfinished: bool = False) -> Construction:
-    """The construction for a programmed contour; without corners where nothing is compensated.
-
-    `unfinished`: the program broke off, so the end of its last compensated element is unknown.
-    """
+    """The construction for a programmed contour; without corners where nothing is compensated. `unfinished`: the
+    program broke off, so the end of its last compensated element is unknown."""
     path = joints.apply(programmed, unfinished)
     view = PlaneView(path)
     rows = np.flatnonzero(view.moves)

@@ -92,10 +92,8 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
 
 
 def _meet(el: Elements, c: Index, d: Index, P: Array, R: Array, s: Array, both: Array, along: Array) -> Array:
-    """Where the offsets before and after corners P meet: between lines P + R (n1 + n2) / (1 + n1 . n2).
-
-    `both` (m, 2) is the sum of the tangents t1 and t2, `along` (m,) their product.
-    """
+    """Where the offsets before and after corners P meet: between lines P + R (n1 + n2) / (1 + n1 . n2). `both` (m, 2)
+    is the sum of the tangents t1 and t2, `along` (m,) their product."""
     with np.errstate(divide="ignore", invalid="ignore"):
         found = beside(P, both, R * s / (1 + along))
     k = np.flatnonzero(el.arc[c] | el.arc[d])

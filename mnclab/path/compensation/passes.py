@@ -41,10 +41,8 @@ def run_past(el: Elements, i: Index, j: Index) -> Mask:
 
 
 def crossed(el: Elements, contour: Index) -> tuple[Index, Index]:
-    """Walls first < last (m,) of a contour that cross as at an inside corner from the last to the first and run on.
-
-    Not on a retracted way, with a lift before it and a plunge after it: what it crosses is in the air.
-    """
+    """Walls first < last (m,) of a contour that cross as at an inside corner from the last to the first and run on. Not
+    on a retracted way, with a lift before it and a plunge after it: what it crosses is in the air."""
     k, found = np.flatnonzero(el.wall & ~retracted(el, contour)), []
     if not len(k):
         return k, k

@@ -77,9 +77,6 @@ def divided(path: Toolpath, counts: Index) -> tuple[Toolpath, Index]:
         bends = Bends(path, row[arcs], path.lengths[row[arcs]])
         start[arcs] = bends.place(k[arcs] / many[arcs])
         end[arcs] = np.where(last[arcs], path.end[row[arcs]], bends.place((k[arcs] + 1) / many[arcs]))
-    columns |= {
-        "sweep": columns["sweep"] / many,
-        "time": columns["time"] / many,
-        "exact": columns["exact"] & last[:, 0],
-    }
+    columns |= {name: columns[name] / many for name in ("sweep", "time")}
+    columns["exact"] = columns["exact"] & last[:, 0]
     return path.replace(**columns), row

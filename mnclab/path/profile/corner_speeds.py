@@ -127,9 +127,7 @@ def bend_joints(before: Array, after: Array, limits: Limits, slack: Slack) -> Ar
 
 def curves(tangent: Array, length: Array, lines: Mask, limits: Limits, slack: Slack) -> Array:
     """v² (n - 1,) at the corners between rows that are short lines of a curve, 0 elsewhere; for "tolerance" with jerk.
-
-    `tangent` (n, 3) and `length` (n,) of all rows; `lines` (n,) says which of them are lines.
-    """
+    `tangent` (n, 3) and `length` (n,) of all rows; `lines` (n,) says which of them are lines."""
     mean = (length[1:] + length[:-1]) / 2
     corner = lines[1:] & lines[:-1]
     turn = np.where(corner[:, None], tangent[1:] - tangent[:-1], 0.0)

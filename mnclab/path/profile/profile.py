@@ -181,10 +181,8 @@ class Profile:
         return self._of_rows(np.maximum(p.seconds - ideal, 0.0))
 
     def time_by(self, key: str) -> dict[Any, float]:
-        """Seconds by "line", "tool", "kind" or "cause" (`CAUSES`); the values sum to `time`.
-
-        A line of a program that was called is a pair (program, line). An Alarm for another key.
-        """
+        """Seconds by "line", "tool", "kind" or "cause" (`CAUSES`); the values sum to `time`. A line of a program that
+        was called is a pair (program, line). An Alarm for another key."""
         path, key = self.path, choice(key, "key", ("line", "tool", "kind", "cause"))
         if key == "cause":
             return self._causes()

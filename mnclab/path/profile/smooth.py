@@ -64,10 +64,8 @@ class Groups:
         return up + cruise + down, up, up + cruise
 
     def items(self, row_seconds: Array, left_out: Index) -> tuple[NDArray[np.generic], ...]:
-        """Pieces: row, order, seconds, length, speed, acceleration, jerk; `left_out` rows have none.
-
-        `row_seconds` (n,) is the time of the rows, which for rows without length is not in the groups.
-        """
+        """Pieces: row, order, seconds, length, speed, acceleration, jerk; `left_out` rows have none. `row_seconds` (n,)
+        is the time of the rows, which for rows without length is not in the groups."""
         seconds, starts = self.phases()
         ends = np.cumsum(seconds, axis=1)
         begins = ends - seconds

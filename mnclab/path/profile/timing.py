@@ -71,7 +71,9 @@ def plan(
         found = Plan(path, row, rows, v, top, seconds, groups=groups)
     else:
         found = _trapezoids(path, row, rows)
-        if (slow := _slow_arcs(found)).any():
+        slow = (path.kind == Kind.ARC) & (rows.length > 0)
+        slow[slow] = found.top[slow] < rows.feed[slow] * (1 - 1e-12)
+        if slow.any():  # arcs that do not reach their feed
             found, parts = _turned(found, slow, limits, override)
             waits = None if waits is None else waits[parts]
             path, rows = found.path, found.rows
@@ -106,12 +108,6 @@ def _trapezoids(path: Toolpath, row: Index | None, rows: Rows, w: Array | None =
         np.divide(rest, a, out=seconds[part])
     seconds[rows.length == 0] = 0.0
     return Plan(path, row, rows, v, top, seconds)
-
-
-def _slow_arcs(found: Plan) -> Mask:
-    """Arcs (n,) that do not reach their feed."""
-    arcs = (found.path.kind == Kind.ARC) & (found.rows.length > 0)
-    return np.asarray(arcs & (found.top < found.rows.feed * (1 - 1e-12)) if arcs.any() else arcs)
 
 
 def _turned(found: Plan, slow: Mask, limits: Limits, override: float) -> tuple[Plan, Index]:
