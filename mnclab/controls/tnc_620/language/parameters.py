@@ -42,7 +42,7 @@ def give(m: Machine, word: Word, value: float | str) -> None:
     name = str(word.value)
     if name in PREASSIGNED:
         m.alarm(
-            f"{name} ({MEANINGS[name]}) is kept by the control and cannot be assigned", word, "take another parameter"
+            f"{name} ({KEPT[name][0]}) is kept by the control and cannot be assigned", word, "take another parameter"
         )
     m.variables[name] = value
 
@@ -102,20 +102,16 @@ def tool_axis(m: Machine) -> float:
     return 2.0 if m.tool.number else -1.0
 
 
-MEANINGS = {
-    "Q108": "radius of the active tool with its deltas", "Q109": "tool axis", "Q110": "spindle status",
-    "Q111": "coolant", "Q112": "overlap factor of pockets", "Q113": "unit of the main program",
-    "Q114": "length of the active tool with its deltas",
-}  # fmt: skip
-PREASSIGNED: dict[str, Callable[[Machine], float | None]] = {
-    "Q108": lambda m: m.tool.effective_radius / m.variable_unit,
-    "Q109": tool_axis,
-    "Q110": spindle_status,
-    "Q111": coolant_status,
-    "Q112": lambda m: float(m.settings["overlap"]),
-    "Q113": lambda m: 1.0 if memory(m).main_unit == "INCH" else 0.0,
-    "Q114": lambda m: m.tool.effective_length / m.variable_unit,
+KEPT: dict[str, tuple[str, Callable[[Machine], float | None]]] = {
+    "Q108": ("radius of the active tool with its deltas", lambda m: m.tool.effective_radius / m.variable_unit),
+    "Q109": ("tool axis", tool_axis),
+    "Q110": ("spindle status", spindle_status),
+    "Q111": ("coolant", coolant_status),
+    "Q112": ("overlap factor of pockets", lambda m: float(m.settings["overlap"])),
+    "Q113": ("unit of the main program", lambda m: 1.0 if memory(m).main_unit == "INCH" else 0.0),
+    "Q114": ("length of the active tool with its deltas", lambda m: m.tool.effective_length / m.variable_unit),
 }
+PREASSIGNED = {name: value for name, (_, value) in KEPT.items()}
 
 NAMES = re.compile(r"(?:Q1?\d{1,3}|Q[LR][1-4]?\d{1,2}|QS1?\d{1,3})")
 

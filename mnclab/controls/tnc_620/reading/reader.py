@@ -164,7 +164,11 @@ class _Lines:
             self.statement, self.faulty = statement, was_faulty
             if was_faulty:
                 return
-            self.check_part(before, statement, begin, cursor.at - begin, skip)
+            if statement.part <= before.part:
+                what = f"{statement.keyword}.{statement.part} stands after {before.keyword}.{before.part}"
+                raise Fault(what, begin, cursor.at - begin)
+            if skip != self.skip:
+                raise Fault("all sub-blocks of a cycle must be marked with / or none", begin, cursor.at - begin)
         else:
             self.builder.block(start, statement.keyword if statement else "", skip)
             self.statement, self.skip = statement, skip
@@ -180,12 +184,6 @@ class _Lines:
     def close(self, cursor: Cursor) -> None:
         if not cursor.done:
             raise cursor.unexpected()
-
-    def check_part(self, before: Statement, now: Statement, begin: int, length: int, skip: bool) -> None:
-        if now.part <= before.part:
-            raise Fault(f"{now.keyword}.{now.part} stands after {before.keyword}.{before.part}", begin, length)
-        if skip != self.skip:
-            raise Fault("all sub-blocks of a cycle must be marked with / or none", begin, length)
 
     def check_order(self, statement: Statement, begin: int, length: int) -> None:
         """BEGIN PGM stands once; END PGM is the last block that counts."""

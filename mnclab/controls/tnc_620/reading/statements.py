@@ -37,25 +37,16 @@ def ignored(cursor: Cursor) -> None:
     cursor.at = cursor.stop
 
 
-def leading(name: str) -> Read:
+def leading(cursor: Cursor, name: str) -> None:
     """A number without an address, then words."""
-
-    def read(cursor: Cursor) -> None:
-        begin = cursor.blanks()
-        if (value := cursor.value()) is not None:
-            cursor.add(name, value, begin)
-        cursor.words()
-
-    return read
+    begin = cursor.blanks()
+    if (value := cursor.value()) is not None:
+        cursor.add(name, value, begin)
+    cursor.words()
 
 
-def tool_call(cursor: Cursor) -> None:
-    tool(cursor)
-    with_axis(cursor)
-
-
-def tool(cursor: Cursor) -> None:
-    """A tool by number, by name in quotes or in a text parameter; nothing if none of them is there."""
+def tool(cursor: Cursor, words: Read) -> None:
+    """Perhaps a tool by number, by name in quotes or in a text parameter, then words."""
     begin = cursor.blanks()
     if found := cursor.match(TEXT):
         cursor.add("tool", found.group(1).strip(), begin)
@@ -63,11 +54,7 @@ def tool(cursor: Cursor) -> None:
         cursor.add("text", f"QS{int(found.group(1))}", begin)
     elif (value := cursor.value()) is not None:
         cursor.add("tool", value, begin)
-
-
-def tool_def(cursor: Cursor) -> None:
-    tool(cursor)
-    with_radius(cursor)
+    words(cursor)
 
 
 def program_name(cursor: Cursor) -> None:
@@ -100,9 +87,6 @@ def file_name(cursor: Cursor) -> None:
     cursor.add("file", name, begin)
 
 
-# --- cycles -----------------------------------------------------------------------------------------------------------
-
-
 def cycle_parameters(cursor: Cursor) -> None:
     """Lines `Q200=+2`; a name before the first of them is a comment in the language of the dialog."""
     builder = cursor.builder
@@ -128,9 +112,9 @@ def cycle_parameters(cursor: Cursor) -> None:
         builder.word(name, value, begin, cursor.at - begin)
 
 
-def name_of_cycle(cursor: Cursor, stop: int = -1) -> None:
+def name_of_cycle(cursor: Cursor, stop: int | None = None) -> None:
     """The name is free; what looks like a word in it would be lost, which is said."""
-    stop = cursor.stop if stop < 0 else stop
+    stop = cursor.stop if stop is None else stop
     for found in _LIKE_A_WORD.finditer(cursor.text, cursor.at, stop):
         message = f"{found.group()} is read as part of the cycle's name and not obeyed"
         cursor.builder.alarm(message, found.start(), len(found.group()), severity="warning")
@@ -143,9 +127,7 @@ def contour_labels(cursor: Cursor) -> None:
     while not cursor.done:
         cursor.match(_SLASH)
         begin = cursor.blanks()
-        found = cursor.match(WHOLE)
-        if found is None:
-            raise Fault("a contour label must be a whole number", begin)
+        found = cursor.expect(WHOLE, "a contour label must be a whole number")
         cursor.add("LBL", float(found.group(1)), begin)
 
 
@@ -170,10 +152,11 @@ PARTS: dict[str, Read] = {
 _FORMS = "LT LN CT LCT PLT PLN PCT PLCT".split()
 WORDS: dict[str, Read] = {
     "L": plain, "CC": plain, "C": plain, "CT": plain, "LP": plain, "CP": plain, "CTP": plain, "CR": with_radius,
-    "RND": with_radius, "CHF": leading("length"), "FPOL": plain, "FL": plain, "FLT": plain, "FC": with_radius,
-    "FCT": with_radius, "FSELECT": leading("number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
+    "RND": with_radius, "CHF": partial(leading, name="length"), "FPOL": plain, "FL": plain, "FLT": plain, "FC": with_radius,
+    "FCT": with_radius, "FSELECT": partial(leading, name="number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
     "CYCL CALL": plain, "LBL": labels.set_label, "CALL LBL": labels.call_label, "CALL PGM": labels.name_of_program,
-    "SEL PGM": labels.select_program, "CALL SELECTED PGM": plain, "TOOL CALL": tool_call, "TOOL DEF": tool_def,
+    "SEL PGM": labels.select_program, "CALL SELECTED PGM": plain,
+    "TOOL CALL": partial(tool, words=with_axis), "TOOL DEF": partial(tool, words=with_radius),
     "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
     "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
