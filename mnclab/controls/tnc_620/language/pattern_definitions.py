@@ -151,9 +151,6 @@ def check_number(element: Element, expected: int) -> None:
         m.alarm(f"{element.name} stands where {head.address}{expected} is expected", head)
 
 
-# --- forms: the points (n, 3) of an element ---------------------------------------------------------------------------
-
-
 def position(element: Element, before: Floats | None) -> Floats:
     """POS: one point, absolute or counted from the one before, axis by axis."""
     begin = np.zeros(3) if before is None else before
@@ -193,4 +190,5 @@ def circle(element: Element, before: Floats | None) -> Floats:
     return element.at_surface(patterns.circle(centre, diameter / 2, start, step, count))
 
 
+#: Each makes the points (n, 3) of an element.
 FORM = {"POS": position, "ROW": row, "PAT": grid, "FRAME": grid, "CIRC": circle, "PITCHCIRC": circle}

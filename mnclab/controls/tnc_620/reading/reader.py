@@ -29,6 +29,7 @@ from mnclab.text.words import Scan, characters, scan
 
 _UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
+_BEFORE_COMMENT = re.compile(r'(?:[^;"]++|"[^"]*+(?:"|$))*+')
 _SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
 _PLAIN = "FRXYZ"  # letters of plain lines
@@ -116,13 +117,9 @@ class _Lines:
             begin, content = 1, content[1:]
         tilde = content.endswith("~")
         content = content.removesuffix("~")
-        comment, quoted = -1, False
-        if ";" in content:
-            for k, c in enumerate(content):
-                quoted ^= c == '"'
-                if c == ";" and not quoted:
-                    comment, content = begin + k, content[:k]
-                    break
+        comment = -1
+        if ";" in content and (words := _BEFORE_COMMENT.match(content)) and words.end() < len(content):
+            comment, content = begin + words.end(), words.group()
         return begin, begin + len(content.rstrip(" \t")), comment, tilde
 
     def goes_on(self, at: int, stop: int) -> bool:

@@ -10,10 +10,11 @@ import re
 from functools import partial
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.reading import labels, sub_blocks
+from mnclab.controls.tnc_620.reading import labels
 from mnclab.controls.tnc_620.reading.formulas import FN, assignment, declared_text, text_assignment, text_formula
 from mnclab.controls.tnc_620.reading.pattern_words import PatternWords
-from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, TEXT, WHOLE, Cursor, Fault, Read
+from mnclab.controls.tnc_620.reading.sub_blocks import READERS
+from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, TEXT, Cursor, Fault, Read
 
 
 class Statement(NamedTuple):
@@ -121,34 +122,6 @@ def name_of_cycle(cursor: Cursor, stop: int | None = None) -> None:
     cursor.at = stop
 
 
-def contour_labels(cursor: Cursor) -> None:
-    """14.1: the numbers of the labels, `1/2/3/4`, after a word in the language of the dialog."""
-    cursor.match(_DIALOG)
-    while not cursor.done:
-        cursor.match(_SLASH)
-        begin = cursor.blanks()
-        found = cursor.expect(WHOLE, "a contour label must be a whole number")
-        cursor.add("LBL", float(found.group(1)), begin)
-
-
-def datum_shift(cursor: Cursor) -> None:
-    begin = cursor.blanks()
-    if cursor.match(_ROW):
-        cursor.add("#", cursor.needed("# needs the number of a row", begin), begin)
-    cursor.words()
-
-
-#: How sub-blocks n.1, n.2 … are read; the others are known by their number alone.
-PARTS: dict[str, Read] = {
-    "CYCL DEF 7": datum_shift,
-    **sub_blocks.READERS,
-    "CYCL DEF 10": plain,
-    "CYCL DEF 11": plain,
-    "CYCL DEF 12": labels.program_of_cycle,
-    "CYCL DEF 14": contour_labels,
-}
-
-
 _FORMS = "LT LN CT LCT PLT PLN PCT PLCT".split()
 WORDS: dict[str, Read] = {
     "L": plain, "CC": plain, "C": plain, "CT": plain, "LP": plain, "CP": plain, "CTP": plain, "CR": with_radius,
@@ -184,10 +157,7 @@ _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 _LIKE_A_WORD = re.compile(
     r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS
 )
-_DIALOG = re.compile(r"[^\d;~]*")
 _TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
-_SLASH = re.compile(r"[ \t]*/")
-_ROW = re.compile(r"#")
 
 
 def recognize(cursor: Cursor) -> Statement | None:
@@ -239,5 +209,5 @@ def _cycle(cursor: Cursor, found: re.Match[str]) -> Statement:
     part = int(found.group(3))
     if part == 0:
         return Statement(keyword, ignored if word == "TCH PROBE" else name_of_cycle, None, 0)
-    read = PARTS.get(f"{keyword}.{part}", PARTS.get(keyword, ignored))
+    read = READERS.get(f"{keyword}.{part}", READERS.get(keyword, ignored))
     return Statement(keyword, read, read, part)

@@ -9,13 +9,33 @@ from __future__ import annotations
 import re
 from functools import partial
 
-from mnclab.controls.tnc_620.reading.words import FLAGS, Cursor, Read, from_inches
+from mnclab.controls.tnc_620.reading.labels import program_of_cycle
+from mnclab.controls.tnc_620.reading.words import FLAGS, WHOLE, Cursor, Read, from_inches
 
+_LABELS, _SLASH = re.compile(r"[^\d;~]*"), re.compile(r"[ \t]*/")
+_ROW = re.compile(r"#")
 _LETTER = re.compile(r"[ \t]*([XYZUVWABC])(?![A-Z\d])", FLAGS)
 _DIALOG = re.compile(r"(?:(?!Q[LR]?\d)[^\d\s;~+.,=-])*(?:[ \t]+(?:(?!Q[LR]?\d)[^\d\s;~+.,=-])+)*", FLAGS)
 _EQUALS = re.compile(r"[ \t]*=", FLAGS)
 _TOLERANCE = re.compile(r"T(?![A-Z])", FLAGS)
 _FILTER = re.compile(r"HSC[ \t]*(?:-[ \t]*)?MODE[ \t]*:?|TA", FLAGS)
+
+
+def contour_labels(cursor: Cursor) -> None:
+    """14.1: the numbers of the labels, `1/2/3/4`, after a word in the language of the dialog."""
+    cursor.match(_LABELS)
+    while not cursor.done:
+        cursor.match(_SLASH)
+        begin = cursor.blanks()
+        found = cursor.expect(WHOLE, "a contour label must be a whole number")
+        cursor.add("LBL", float(found.group(1)), begin)
+
+
+def datum_shift(cursor: Cursor) -> None:
+    begin = cursor.blanks()
+    if cursor.match(_ROW):
+        cursor.add("#", cursor.needed("# needs the number of a row", begin), begin)
+    cursor.words()
 
 
 def mirrored(cursor: Cursor) -> None:
@@ -73,11 +93,16 @@ def filters(cursor: Cursor) -> None:
         cursor.add(address, cursor.needed(f"{address} needs a number", begin, cursor.at - begin), begin)
 
 
-#: By cycle, or by cycle and number of the sub-block.
+#: By cycle, or by cycle and number of the sub-block; the others are known by their number alone.
 READERS: dict[str, Read] = {
+    "CYCL DEF 7": datum_shift,
     "CYCL DEF 8": mirrored,
     "CYCL DEF 9.1": partial(after_dialog, address="DWELL", meaning="dwell in seconds"),
+    "CYCL DEF 10": Cursor.words,
+    "CYCL DEF 11": Cursor.words,
+    "CYCL DEF 12": program_of_cycle,
     "CYCL DEF 13.1": partial(after_dialog, address="ANGLE", meaning="angle of the spindle"),
+    "CYCL DEF 14": contour_labels,
     "CYCL DEF 18.1": partial(after_dialog, address="DEPTH", meaning="depth of the thread"),
     "CYCL DEF 18.2": partial(after_dialog, address="PITCH", meaning="pitch of the thread"),
     "CYCL DEF 19": tilting,
