@@ -22,10 +22,8 @@ class Statement(NamedTuple):
 
     keyword: str
     read: Read
-    more: Read | None = None
-    """Reads a further line that has no block number; None when only a line ending in ~ can be continued."""
-    part: int = -1
-    """k of a sub-block n.k, -1 for everything else."""
+    more: Read | None = None  # reads a further line without a block number; None: only a line ending in ~ goes on
+    part: int = -1  # k of a sub-block n.k
 
 
 plain: Read = Cursor.words
