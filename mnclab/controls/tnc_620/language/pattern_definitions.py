@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from mnclab.controls.tnc_620.language.checks import counted, not_negative, whole
 from mnclab.controls.tnc_620.reading.pattern_words import ADDRESSES, CLOSED, FORMS
 from mnclab.controls.tnc_620.state import memory
-from mnclab.controls.tnc_620.tables.point_tables import read_points
+from mnclab.controls.tnc_620.tables import point_tables
+from mnclab.controls.tnc_620.tables.table_files import read_table
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machining import patterns
@@ -67,7 +68,7 @@ def pattern_def(m: Machine, words: Words) -> None:
 @FUNCTIONS("SEL PATTERN,", "Point table", takes="file", source="3.4")
 def sel_pattern(m: Machine, words: Words) -> None:
     """The points of a file NAME.PNT; nothing moves."""
-    table = read_points(m, words["file"])
+    _, table = read_table(m, words["file"], "SEL PATTERN", "point table", ".PNT", point_tables.parse)
     m.flow.spend(len(table.points))
     activate(m, Pattern(table.points[~table.hidden], table.clearance[~table.hidden], True))
 

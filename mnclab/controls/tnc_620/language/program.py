@@ -88,7 +88,8 @@ def least_corner(m: Machine, words: Words) -> None:
     axis = str(words["axis"].value)
     if axis not in ("X", "Y", "Z"):
         m.alarm(f"BLK FORM 0.1: the tool axis must be X, Y or Z, got {axis}", words["axis"])
-    keep(m, Blank(axis, corner(m, words)))
+    memory(m).stock = Blank(axis, corner(m, words))
+    m.log("stock", memory(m).stock)
 
 
 @FUNCTIONS("BLK FORM 0.2,", "Blank: greatest corner", takes="X Y Z", source="4.11, example")
@@ -101,7 +102,8 @@ def greatest_corner(m: Machine, words: Words) -> None:
     for axis, low, high in zip("XYZ", blank.minimum, greatest, strict=True):
         if not high > low:
             m.alarm(f"BLK FORM 0.2 {axis} (greatest corner) must be greater than {low:g}, got {high:g}", words[axis])
-    keep(m, blank._replace(maximum=greatest))
+    memory(m).stock = blank._replace(maximum=greatest)
+    m.log("stock", memory(m).stock)
 
 
 def corner(m: Machine, words: Words, least: Corner | None = None) -> Corner:
@@ -113,11 +115,6 @@ def corner(m: Machine, words: Words, least: Corner | None = None) -> Corner:
             m.alarm(f"{what} must be absolute", words[axis])
     x, y, z = (counted(m, words[axis], at) for axis, at in zip("XYZ", least or (0.0, 0.0, 0.0), strict=True))
     return x, y, z
-
-
-def keep(m: Machine, blank: Blank) -> None:
-    memory(m).stock = blank
-    m.log("stock", blank)
 
 
 @FUNCTIONS("STOP", "Program stop", phase="end", source="Klartext, not described")

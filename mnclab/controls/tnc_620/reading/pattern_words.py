@@ -80,8 +80,7 @@ class PatternWords:
         address, begin, flag = self.pending
         value = cursor.value()
         if value is None:
-            where = begin if same_line else cursor.at
-            raise Fault(f"{address} needs a number", where, len(address) if same_line else 1)
+            raise Fault(f"{address} needs a number", *((begin, len(address)) if same_line else (cursor.at, 1)))
         self.pending = None
         if not same_line:
             cursor.builder.words.pop()  # the word without a number

@@ -171,7 +171,12 @@ class _Lines:
             self.statement, self.skip = statement, skip
             if statement is None:
                 raise self.unknown(cursor)
-            self.check_order(statement, begin, cursor.at - begin)
+            if statement.keyword == "BEGIN PGM":
+                if self.begun:
+                    raise Fault("BEGIN PGM stands twice: a file holds one program", begin, cursor.at - begin)
+                self.begun = True
+            if statement.keyword == "END PGM" and self.end is None:
+                self.end = begin
             if statement.part > 0:
                 what = f"{statement.keyword}.{statement.part} stands without {statement.keyword}.0 before it"
                 raise Fault(what, begin, cursor.at - begin)
@@ -181,15 +186,6 @@ class _Lines:
     def close(self, cursor: Cursor) -> None:
         if not cursor.done:
             raise cursor.unexpected()
-
-    def check_order(self, statement: Statement, begin: int, length: int) -> None:
-        """BEGIN PGM stands once; END PGM is the last block that counts."""
-        if statement.keyword == "BEGIN PGM":
-            if self.begun:
-                raise Fault("BEGIN PGM stands twice: a file holds one program", begin, length)
-            self.begun = True
-        if statement.keyword == "END PGM" and self.end is None:
-            self.end = begin
 
     def unknown(self, cursor: Cursor) -> Fault:
         found = _WORD.match(self.text, cursor.at, cursor.stop)

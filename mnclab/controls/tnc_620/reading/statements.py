@@ -59,17 +59,17 @@ def tool(cursor: Cursor, words: Read) -> None:
 def program_name(cursor: Cursor) -> None:
     """BEGIN PGM and END PGM: name and unit."""
     begin = cursor.blanks()
-    parts = cursor.rest().rsplit(None, 1)
-    if not parts or parts[-1].upper() not in ("MM", "INCH"):
+    *name, unit = cursor.rest().rsplit(None, 1) or [""]
+    if unit.upper() not in ("MM", "INCH"):
         cursor.at = cursor.stop
         what = "the unit of the program is missing: MM or INCH must follow its name"
-        raise Fault(what, begin, max(1, len(" ".join(parts))))
-    unit_at = begin + cursor.rest().rindex(parts[-1])
-    if len(parts) == 2:
-        cursor.at = begin + len(parts[0])
-        cursor.add("name", parts[0], begin)
-    cursor.at = unit_at + len(parts[-1])
-    cursor.add("unit", parts[-1].upper(), unit_at)
+        raise Fault(what, begin, max(1, len(" ".join((*name, unit)))))
+    if name:
+        cursor.at = begin + len(name[0])
+        cursor.add("name", name[0], begin)
+    at = cursor.text.rindex(unit, begin, cursor.stop)
+    cursor.at = at + len(unit)
+    cursor.add("unit", unit.upper(), at)
     cursor.at = cursor.stop
 
 
@@ -79,8 +79,7 @@ def file_name(cursor: Cursor) -> None:
     if found := cursor.match(TEXT):
         name = found.group(1).strip()
     else:
-        name = cursor.rest().strip()
-        cursor.at = cursor.stop
+        name, cursor.at = cursor.rest().strip(), cursor.stop
     if not name:
         raise Fault("the name of a file is missing", begin, hint='for example SEL PATTERN "HOLES"')
     cursor.add("file", name, begin)
