@@ -24,7 +24,6 @@ from mnclab.controls.tnc_620.cycles import (
     special,
     studs,
     tapping,
-    thread_drilling,
     threads,
     tilting,
     transformations,
@@ -98,7 +97,7 @@ FUNCTIONS = (
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
-    defaults, drilling, boring, pecking, tapping, threads, thread_drilling, point_patterns, pockets, slots, studs, walled_faces,
+    defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
     contours, transformations, datums, tilting, special, engraving, face_milling, presets, program_call,
 )  # fmt: skip
 CYCLES = CycleTable()

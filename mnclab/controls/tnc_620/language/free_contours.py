@@ -27,7 +27,7 @@ from mnclab.geometry.quadratic_form import Form
 from mnclab.geometry.readings import Contradiction, TooManyReadings
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.machine.waiting import Moment, as_of, moment
+from mnclab.machine.waiting import Reading, as_of, reading
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
@@ -52,7 +52,7 @@ class Block(NamedTuple):
 
     number: str
     code: str
-    moment: Moment
+    moment: Reading
     feed: float
     joints: list[Any]
 
@@ -82,7 +82,7 @@ class Chain:
             m.alarm(f"{words.code} needs a path element in the working plane directly before it")
         number = str(m.flow.program[m.flow.current].number)
         k = self.contour.arc(tangent, words.code) if arc else self.contour.line(tangent, words.code)
-        self.blocks.append(Block(number, words.code, moment(m), f, []))
+        self.blocks.append(Block(number, words.code, reading(m), f, []))
         describe(self, m, words, k)
         self.follow(m)
 
