@@ -93,10 +93,7 @@ def bore(
     bottom: float, *, above: float, feed: float | None, retract: float | None, dwell: float = 0.0, angle: float = 0.0,
     direction: int = 0,
 ) -> Iterator[Step]:  # fmt: skip
-    """Bore, stop the spindle at an angle, leave the wall in a direction (one of `DIRECTIONS`, 0 none), retract.
-
-    The tool ends at `above`, still shifted.
-    """
+    """Bore, stop the spindle at an angle, leave the wall in one of `DIRECTIONS` (0: none), retract; the tool ends shifted."""
     yield Go("bore", bottom, feed)
     yield Wait("dwell at the bottom", dwell)
     yield Orient(f"orient the spindle to {angle:g} degrees", angle)
@@ -109,10 +106,7 @@ def bore(
 def bore_and_stop(
     bottom: float, *, above: float, turning: int, dwell: float = 0.0, shift: float = 0.0, feed: float | None = None
 ) -> Iterator[Step]:
-    """Bore, stop the spindle, retract at rapid, turn the spindle on again.
-
-    With a `shift` the spindle stops oriented and the tool leaves the wall by that much along -x; it ends on the axis.
-    """
+    """Bore, stop the spindle, retract, spindle on; with a `shift` it stops oriented and the tool leaves the wall along -x."""
     yield Go("bore", bottom, feed)
     yield Wait("dwell at the bottom", dwell)
     if shift:

@@ -144,10 +144,7 @@ def joined(
 def piecewise(
     region: Region, radius: float, stepover: float, allowance: float, plan: Callable[[Region], Piece]
 ) -> Clearing:
-    """A clearing planned piece by piece of where the tool centre may go.
-
-    A ValueError where the numbers are impossible or the tool does not fit.
-    """
+    """A clearing planned for each piece of where the tool centre may go; a ValueError where the tool does not fit."""
     if not radius > 0:
         raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
     if not 0 < stepover <= 2 * radius:

@@ -76,10 +76,7 @@ def slot(
     line: Contour, width: float, radius: float, stepover: float | None = None, *, allowance: float = 0.0,
     climb: bool = True,
 ) -> Clearing:  # fmt: skip
-    """A slot about a straight or bent centre line: along the line, then round it ever wider, by `radius` at most.
-
-    A slot as wide as the tool is one pass along the line, whatever the allowance.
-    """
+    """Along the straight or bent line of a slot, then round it ever wider; just along the line where the tool fills the slot."""
     exact = abs(width - 2 * radius) <= DRIFT
     reach = 0.0 if exact else width / 2 - radius - allowance
     _must_fit(reach, radius, allowance, f"a slot {width:g} wide")

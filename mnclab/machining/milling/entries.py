@@ -72,10 +72,7 @@ def helix(
     centre: ArrayLike, radius: float, top: float, bottom: float, angle: float, *, start: float = 0.0,
     clockwise: bool = False,
 ) -> Descent:  # fmt: skip
-    """A helix about a centre from the direction `start` (rad) on, and a full circle at the bottom.
-
-    Raises ValueError where there is no radius or no angle.
-    """
+    """A helix about a centre from the direction `start` (rad) on, and a full circle at the bottom."""
     if not radius > 0:
         raise ValueError(f"there is no room for a helix: its radius is {radius:g}")
     if not 0 < angle <= 90:
@@ -110,10 +107,7 @@ def strokes(a: ArrayLike, b: ArrayLike, top: float, bottom: float, angle: float)
 
 
 def swing(line: Contour, top: float, bottom: float, angle: float) -> Descent:
-    """To and fro along an open contour, from its start, in equal drops.
-
-    What the last stroke leaves is taken away by a pass along the line. Raises ValueError where it has no length.
-    """
+    """To and fro along an open contour, from its start, in equal drops; a pass along it takes what the last stroke leaves."""
     length = line.length
     if not length > DRIFT or not 0 < angle <= 90:
         raise ValueError(f"a ramp needs a stroke and an angle up to 90 degrees, got {length:g} and {angle:g}")
@@ -163,10 +157,7 @@ def pendulum(
 
 
 def descend(down: Descent, plunge: float | None, feed: float | None) -> Iterator[Step]:
-    """A descent as steps from its start: slopes at the plunge feed, level moves at the other one.
-
-    Arcs that go on about one centre in one sense are one turn, a helix of any number of them.
-    """
+    """A descent from its start, slopes at the plunge feed; arcs that go on about one centre are one turn, a helix of many."""
     (_, *points), (_, *heights) = down.contour.points.tolist(), down.heights.tolist()
     turn, level, before = None, False, float(down.heights[0])
     columns = down.contour.sweeps.tolist(), down.contour.centres.tolist(), points, heights
@@ -186,10 +177,7 @@ def descend(down: Descent, plunge: float | None, feed: float | None) -> Iterator
 
 
 def along(contour: Contour, top: float, bottom: float, angle: float) -> Descent:
-    """Down along a pass: round and round a closed one, to and fro on an open one; it ends where the pass begins.
-
-    The slope that it leaves is taken away by the pass itself, which comes next.
-    """
+    """Down along a pass: round and round, or to and fro on an open one; ends where the pass begins, which clears the slope."""
     slope = math.tan(math.radians(angle))
     rounds = max(1, math.ceil(abs(top - bottom) / (contour.length * slope) - DRIFT)) if top != bottom else 0
     if contour.closed:

@@ -89,10 +89,7 @@ def rough(
     clearing: Clearing, levels: Sequence[float], *, surface: float, clearance: float, down: Down, feeds: Feeds,
     departure: float, side: int, end: float | None = None,
 ) -> Iterator[Step]:  # fmt: skip
-    """Every layer from the `surface` down; `departure` is the radius off the wall, on the left of it for `side` 1.
-
-    The tool lifts by the clearance after each of them, after the last one to the height `end` if that is given.
-    """
+    """Every layer, off the wall on a radius `departure` (`side` 1: to its left), and up, at last to the height `end` if given."""
     top = surface
     for name, level in zip(numbered("layer", len(levels)), levels, strict=True):
         yield from clear(name, clearing, down(top, level), feeds, departure, side)
@@ -135,10 +132,7 @@ def finish_walls(wall: Contour, arcs: Sequence[Contour], work: Work, above: floa
 def finish_floor(
     clearing: Clearing, work: Work, down: Down, departure: float, end: float | None = None
 ) -> Iterator[Step]:
-    """From what roughing has left to the floor; then outwards, the last round along the finished wall.
-
-    At the end the tool lifts by the clearance, or to the height `end`.
-    """
+    """From what roughing has left to the floor, outwards, along the finished wall, and up, to the height `end` if given."""
     name = "floor finishing"
     for level in work.floor:
         yield Go(f"{name}, to the clearance level", work.left_over + work.lift)

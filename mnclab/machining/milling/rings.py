@@ -52,10 +52,7 @@ def rings(
 
 
 def rounded(loop: Contour, radius: float) -> Contour:
-    """A closed contour with an arc of this radius, touching both sides, in place of every corner to the left.
-
-    A corner stays sharp where the arc does not fit between its neighbours.
-    """
+    """A closed contour with an arc in place of every corner to the left in which an arc of this radius fits."""
     turns, curves, sweeps, lengths = loop.turns(), loop.curves, loop.sweeps, loop.lengths
     ahead = loop.tangents()[0]
     taken = np.zeros((2, len(lengths)))  # of each element, at its start and at its end

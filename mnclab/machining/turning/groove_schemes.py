@@ -145,10 +145,7 @@ class _Blade(Pen):
 
 
 def scheme_1(groove: Groove, tool: float) -> Plan:
-    """Corner groove: one plunge with a tool of its profile; else beside the shoulder, on the cylinder side, along the bottom.
-
-    The shoulder stands on the left.
-    """
+    """Corner groove, shoulder on the left: a plunge of its width, or one at the shoulder, one beside it, and along the bottom."""
     pen = _Blade(groove, tool, groove.left)
     if abs(tool - groove.width) > SAME:
         pen.check()
