@@ -47,9 +47,6 @@ class Piece:
         spot = begin(self.passes[k])[None]
         return any(contour.distance(spot)[0] < 1e-3 for contour in self.passes[:k])
 
-    def rest_from(self, k: int) -> Piece:
-        return self if not k else Piece(self.centres, self.passes[k:], self.linked[k:], self.labels[k:])
-
     def reversed(self) -> Piece:
         """The same passes in the opposite order and sense; their names stay with them."""
         backwards = tuple(contour.reversed() for contour in self.passes[::-1])

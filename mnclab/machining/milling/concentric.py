@@ -34,7 +34,7 @@ def steps(way: float, stepover: float, most: int = MOST) -> int:
 
 
 def rectangle(
-    length: float, width: float, radius: float, stepover: float, *, corner: float = 0.0, allowance: float = 0.0,
+    length: float, width: float, radius: float, stepover: float, allowance: float = 0.0, *, corner: float = 0.0,
     climb: bool = True, centre: ArrayLike = (0, 0), angle: float = 0.0, begin: int | None = None,
 ) -> Clearing:  # fmt: skip
     """A rectangular pocket on rectangles; the first one is a line there and back if the sides differ.
@@ -61,7 +61,7 @@ def rectangle(
 
 
 def circle(
-    diameter: float, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
+    diameter: float, radius: float, stepover: float, allowance: float = 0.0, *, climb: bool = True,
     centre: ArrayLike = (0, 0), angle: float = 0.0,
 ) -> Clearing:  # fmt: skip
     """A circular pocket on full circles, each begun at `angle`; no pass where the tool fills the pocket."""

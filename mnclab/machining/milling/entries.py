@@ -44,8 +44,7 @@ class Descent(NamedTuple):
 class Entry:
     """How to go down: `kind` is "vertical", "helix" or "ramp"; `angle` the steepest plunge in degrees.
 
-    `size` is the radius of the helix, the tool radius if None, or the shortest stroke of the ramp, twice the tool
-    diameter if None.
+    `size`: the radius of the helix (None: of the tool), or the shortest stroke of the ramp (None: two tool diameters).
     """
 
     kind: str = "vertical"
@@ -141,8 +140,7 @@ def pendulum(
 ) -> Descent:
     """To and fro along a direction (rad) with the middle of the stroke at the centre, begun and ended there.
 
-    The stroke is as long as one drop needs, at least `least` and at most `room`. Raises ValueError where `room` is
-    shorter than `least`.
+    The stroke is as long as one drop needs, at least `least` and at most `room`; a ValueError where that is too short.
     """
     if room < least - DRIFT:
         raise ValueError(f"there is no room for a ramp: {room:g} is less than {least:g}")
@@ -193,14 +191,12 @@ def descent(
 ) -> Descent:
     """The way down to a pass of a piece (the first, or that of a `number`) as wished for, ending near its start.
 
-    Where the pass begins on an earlier one the tool goes straight down, where a helix or a ramp has no room along the
-    pass itself.
+    Straight where the pass begins on an earlier one; along the pass where a helix or a ramp has no room.
     """
+    place = begin(piece.passes[number]) if number else piece.entry
     straight = entry.kind == "vertical" or entry.angle == 90 or top <= bottom
     if straight or (number and piece.begins_cleared(number)):
-        return vertical(begin(piece.passes[number]) if number else piece.entry, top, bottom)
-    piece = piece.rest_from(number)
-    place = piece.entry
+        return vertical(place, top, bottom)
     if entry.kind == "helix":
         wish = radius if entry.size is None else entry.size
         room = float(piece.centres.distance([place])[0]) if piece.centres.contains([place])[0] else 0.0
@@ -212,9 +208,9 @@ def descent(
             reach = least / 2 * np.array([np.cos(way), np.sin(way)])
             if piece.centres.holds(place - reach, place + reach):
                 return pendulum(place, float(way), top, bottom, entry.angle, least=least, room=least)
-    if not piece.passes or piece.passes[0].length <= 0:
+    if not piece.passes or piece.passes[number].length <= 0:
         return vertical(place, top, bottom)
-    return along(piece.passes[0], top, bottom, entry.angle)
+    return along(piece.passes[number], top, bottom, entry.angle)
 
 
 # ---- beneath ----
@@ -224,7 +220,7 @@ def _to_and_fro(line: Contour, count: int) -> Contour:
     """So many strokes along an open contour, from its start."""
     parts = [line if k % 2 == 0 else line.reversed() for k in range(count)]
     points = np.vstack([*(part.points[:-1] for part in parts), parts[-1].points[-1:]])
-    return Contour(points, np.concatenate([*(part.bulge[:-1] for part in parts), np.zeros(1)]), closed=False)
+    return Contour(points, np.append(np.concatenate([part.bulge[:-1] for part in parts]), 0.0), closed=False)
 
 
 def _sloping(way: Contour, top: float, bottom: float, label: str) -> Descent:

@@ -77,13 +77,9 @@ def rounded(loop: Contour, radius: float) -> Contour:
     kept = np.tan(sweeps * np.clip(1 - taken.sum(axis=0) / lengths, 0, 1) / 4)
     points, bulge = [], []
     for i, corner in enumerate(loop.points):
-        if i in arcs:
-            first, last, bent = arcs[i]
-            points += [first, last]
-            bulge += [bent, kept[i]]
-        else:
-            points.append(corner)
-            bulge.append(kept[i])
+        first, last, bent = arcs.get(i, (corner, corner, 0.0))
+        points += [first, last]
+        bulge += [bent, kept[i]]
     full = Contour(points, bulge)
     some = full.lengths > SHARP  # two arcs may use up what was between them
     return Contour(full.points[some], full.bulge[some])
