@@ -39,11 +39,6 @@ class Figure(NamedTuple):
     steps: Iterable[Step]
 
 
-def in_program_coordinates(c: AnyFigure, m: Machine) -> Place:
-    """`about` of all of them: the steps of a figure are moved to their place."""
-    return 0.0, 0.0
-
-
 def edges(tool: Tool) -> float:
     """LCUTS; a tool without has edges all along."""
     return tool.cutting_length if tool.cutting_length > 0 else math.inf

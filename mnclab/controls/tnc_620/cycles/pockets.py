@@ -16,7 +16,7 @@ from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.addresses import choice, distance, length
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, at_most
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, tool
@@ -43,7 +43,7 @@ class RectangularPocket(AtSurface):
     """Mills a rectangular pocket: roughing in layers from the centre outwards, then its walls, then its floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
 
     machining_operation: float = addresses.operation()
     first_side_length: float = distance("Q218", "first side length", example=80)
@@ -104,7 +104,7 @@ class CircularPocket(AtSurface):
     """Mills a circular pocket about the tool position: roughing in layers outwards, then its wall, then its floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
     contradictions = milling.contradictions
 
     machining_operation: float = addresses.operation()

@@ -17,7 +17,7 @@ from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.cycles.faults import Fault, at_least
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds, slopes
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
@@ -48,7 +48,7 @@ class StraightSlot(AtSurface):
     """Mills a straight slot: roughing in layers, to and fro on a ramp, then its side, then its floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
     contradictions = milling.contradictions
 
     machining_operation: float = addresses.operation()
@@ -104,7 +104,7 @@ class CircularSlot(AtSurface):
     """Mills slots on a pitch circle: each roughed in layers, to and fro on a ramp, then its side, then its floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
     contradictions = milling.contradictions
 
     machining_operation: float = addresses.operation()

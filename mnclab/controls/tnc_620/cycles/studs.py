@@ -19,7 +19,7 @@ from mnclab.controls.tnc_620.cycles.addresses import choice, length, number
 from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, at_most
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
@@ -43,7 +43,7 @@ class RectangularStud(AtSurface):
     """Mills a rectangular stud free: roughing in layers from the blank inwards, then its side, then the floor about it."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
     contradictions = milling.contradictions
 
     first_side_length: float = length("Q218", "first side length", example=60)
@@ -117,7 +117,7 @@ class CircularStud(AtSurface):
     """Mills a circular stud about the tool position free: on a spiral from the blank inwards, then its side and the floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
 
     finished_diameter: float = length("Q223", "diameter of the finished stud", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="at least Q223", example=80)
@@ -179,7 +179,7 @@ class PolygonStud(AtSurface):
     """Mills a regular polygon about the tool position free: on a spiral from the round blank inwards, then side and floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
     contradictions = milling.contradictions
 
     reference_circle: float = choice("Q573", "reference circle", CIRCLES, example=0)

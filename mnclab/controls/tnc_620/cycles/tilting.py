@@ -13,6 +13,8 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.cycles.addresses import angle, distance, feed
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import tilting
 from mnclab.geometry.frames import Matrix
@@ -49,6 +51,8 @@ class WorkingPlane(Cycle):
     the function is off.
     """
 
+    about = in_program_coordinates
+
     angle_a: float | None = tilt("A", "tilt angle A")
     angle_b: float | None = tilt("B", "tilt angle B")
     angle_c: float | None = tilt("C", "tilt angle C")
@@ -77,23 +81,19 @@ class WorkingPlane(Cycle):
         """Whether the function is switched off: no word was written."""
         return self.angle_a is None
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if m.side:
             yield "", "cannot tilt the plane under radius compensation: write R0 before"
         if (self.rotary_feed is None) != (self.set_up_clearance is None):
             name = "rotary_feed" if self.rotary_feed is None else "set_up_clearance"
             yield name, "is missing: to position the rotary axes both F and ABST are needed"
-        if self.rotary_feed == 0:
-            yield "rotary_feed", "must be greater than 0 to position the rotary axes, got 0"
+        yield from not_zero(self, "rotary_feed", purpose="to position the rotary axes")
         pair: str = m.settings["rotary_axes"]
         if m.settings["tilt_angles"] == "axes":
             for axis, angle in self.angles.items():
                 if angle and axis not in pair:
                     there = f"the rotary axes are {' and '.join(sorted(pair))}"
                     yield f"angle_{axis.lower()}", f"must be 0, got {angle:g}: {there}"
-
-    def about(self, m: Machine) -> tuple[float, float]:
-        return 0.0, 0.0
 
     def moves(self, m: Machine) -> Iterator[Step]:
         if self.off:

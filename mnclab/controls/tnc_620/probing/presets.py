@@ -10,6 +10,8 @@ from collections.abc import Generator, Iterator
 from typing import Any
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, distance
+from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
@@ -24,6 +26,8 @@ TRANSFER: dict[float, str] = {-1: "do not use", 0: "datum table", 1: "preset tab
 class PresetInOneAxis(Cycle):
     """One touch along an axis; the touched point gets the coordinate Q333."""
 
+    about = in_program_coordinates
+
     x: float = coordinate("Q263", "first touch point, reference axis", example=20)
     y: float = coordinate("Q264", "first touch point, minor axis", example=10)
     z: float = coordinate("Q261", "measuring height of the ball's centre", example=-5)
@@ -35,7 +39,7 @@ class PresetInOneAxis(Cycle):
     datum: float = coordinate("Q333", "new coordinate of the touched point", default=0)
     transfer: float = choice("Q303", "measured value transfer", TRANSFER, example=1)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if not m.tool.number:
             yield "", "needs a tool call before it, which names the probe and its axis"
         active = [name for name, _ in m.frames if name != "preset" and name in m.frames]
@@ -43,9 +47,6 @@ class PresetInOneAxis(Cycle):
             yield "", f"cannot run while a {active[0]} is active"
         if self.transfer == -1 and self.row:
             yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
-
-    def about(self, m: Machine) -> tuple[float, float]:
-        return 0.0, 0.0
 
     def moves(self, m: Machine) -> Generator[Step, Any, None]:
         k, ball, probe = int(self.axis) - 1, m.radius, m.setup.probe
