@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import partial
-from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, count
+from mnclab.controls.tnc_620.cycles.chain import Given, Values
+from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.controls.tnc_620.tables.datum_tables import row_of
 from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.machining.steps import Step, Write
-from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 AXES = "xyzabc"
-
-
 linear = partial(coordinate, default=None, default_means="as it is")
 rotary = partial(linear, unit="deg")
 
@@ -42,9 +40,7 @@ class DatumShift(Cycle):
     )
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         for name, before in zip(AXES, (*chain.shift_of(m), *chain.rotary(m)[0]), strict=True):
             if name in given and given[name].incremental:
                 values[name] += before
@@ -55,7 +51,7 @@ class DatumShift(Cycle):
         """The axes that are named, with their values."""
         return {axis: value for axis in AXES if (value := getattr(self, axis)) is not None}
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if not self.written and self.datum_number is None:
             yield "", "needs an axis, for example CYCL DEF 7.1 X+60"
         if self.written and self.datum_number is not None:
@@ -80,7 +76,7 @@ class Presetting(Cycle):
 
     preset_number: float = count("Q339", "number of the preset", at_most=65535, note="0: the one set by hand", example=0)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         row = int(self.preset_number)
         if row and row not in m.tables.presets:
             known = ", ".join(map(str, sorted(m.tables.presets))) or "none but 0"

@@ -63,10 +63,6 @@ class InnerThreadMilling(AtSurface):
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
 
-    @property
-    def way(self) -> Way:
-        return Way(inside(self.milling_type), int(self.threads_per_step))
-
     def check(self, m: Machine) -> Iterator[Fault]:
         if self.thread_depth:
             yield from check(self, m, milling_feed=True)
@@ -105,10 +101,6 @@ class ThreadMillingCountersinking(AtSurface):
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
 
-    @property
-    def way(self) -> Way:
-        return Way(inside(self.milling_type))
-
     def check(self, m: Machine) -> Iterator[Fault]:
         sinks = bool(self.countersinking_depth or self.depth_at_front)
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=sinks)
@@ -126,7 +118,7 @@ class ThreadMillingCountersinking(AtSurface):
                 yield Go("to the countersinking depth", level, feed)
             lead = abs(self.pitch)
             radius = (self.nominal_diameter - CORE * lead) / 2 - m.radius - self.side_clearance
-            yield from chamfer(radius, lead, sense=self.way.rotation, feed=feed, position_feed=position)
+            yield from chamfer(radius, lead, sense=way(self).rotation, feed=feed, position_feed=position)
         yield from front(self, m, feed)
         yield from thread(self, m)
         yield from self.leave()
@@ -153,11 +145,6 @@ class OutsideThreadMilling(AtSurface):
     countersinking_feed: float = addresses.countersinking_feed()
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
-
-    @property
-    def way(self) -> Way:
-        """Outside, climb milling turns clockwise."""
-        return Way(-inside(self.milling_type), int(self.threads_per_step), external=True)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         sinks = bool(self.depth_at_front)
@@ -198,10 +185,6 @@ class ThreadDrillingMilling(AtSurface):
     plunging_feed: float = addresses.plunge_feed(example=150)
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
-
-    @property
-    def way(self) -> Way:
-        return Way(inside(self.milling_type))
 
     def check(self, m: Machine) -> Iterator[Fault]:
         drills, mills = bool(self.total_hole_depth), bool(self.thread_depth or self.depth_at_front)
@@ -250,11 +233,6 @@ class HelicalThreadMilling(AtSurface):
     countersinking_feed: float = addresses.countersinking_feed()
     milling_feed: float = addresses.edge_feed()
 
-    @property
-    def way(self) -> Way:
-        """One continuous helix, always downwards: the hand of the thread alone says which way round."""
-        return Way(-hand(self), 1, either_way=True)
-
     def check(self, m: Machine) -> Iterator[Fault]:
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=bool(self.depth_at_front))
 
@@ -278,9 +256,17 @@ AnyThread: TypeAlias = InnerThreadMilling | Countersunk
 # --- what all share --------------------------------------------------------------------------------------------------
 
 
-def inside(milling_type: float) -> int:
-    """The rotation inside a thread: climb milling runs counter-clockwise there."""
-    return -1 if milling_type < 0 else 1
+def way(c: AnyThread) -> Way:
+    """Climb milling runs counter-clockwise inside a thread, clockwise outside.
+
+    265 mills one continuous helix, always downwards: the hand of the thread alone says which way round.
+    """
+    if isinstance(c, HelicalThreadMilling):
+        return Way(-hand(c), 1, either_way=True)
+    inside = -1 if c.milling_type < 0 else 1
+    if isinstance(c, OutsideThreadMilling):
+        return Way(-inside, int(c.threads_per_step), external=True)
+    return Way(inside, int(c.threads_per_step) if isinstance(c, InnerThreadMilling) else 0)
 
 
 def hand(c: AnyThread) -> int:
@@ -290,15 +276,15 @@ def hand(c: AnyThread) -> int:
 
 def path(c: AnyThread, m: Machine) -> Path:
     """Where the tool centre runs."""
-    return path_of(c.nominal_diameter, m.radius, abs(c.pitch), c.way.external)
+    return path_of(c.nominal_diameter, m.radius, abs(c.pitch), way(c).external)
 
 
 def passes(c: AnyThread) -> list[tuple[float, float]]:
     """Start and end levels of the helices; a thread upwards is one downwards turned over at its end."""
-    bottom, upwards, lead = c.surface + c.thread_depth, hand(c) * c.way.rotation > 0, abs(c.pitch)
+    bottom, upwards, lead = c.surface + c.thread_depth, hand(c) * way(c).rotation > 0, abs(c.pitch)
     if c.thread_depth < 0:
-        return helices(-c.thread_depth, lead, bottom, upwards, c.way.a_step)
-    found = helices(c.thread_depth, lead, 0.0, not upwards, c.way.a_step)
+        return helices(-c.thread_depth, lead, bottom, upwards, way(c).a_step)
+    found = helices(c.thread_depth, lead, 0.0, not upwards, way(c).a_step)
     return [(bottom - begin, bottom - end) for begin, end in found]
 
 
@@ -307,9 +293,9 @@ def check(c: AnyThread, m: Machine, **feeds: bool) -> Iterator[Fault]:
     if not any(c.depths().values()):
         every = " and ".join(address(c, name) for name in c.depths())
         yield next(iter(c.depths())), f"leaves nothing to do: {every} are 0"
-    if c.way.either_way and not m.turning:
+    if way(c).either_way and not m.turning:
         yield "", "needs a turning spindle: write M3 or M4 before"
-    if not c.way.either_way and m.turning != 1:
+    if not way(c).either_way and m.turning != 1:
         yield "", "needs a tool that turns right: write M3 before"
     yield from with_radius(m)
     if c.pitch == 0:
@@ -317,7 +303,7 @@ def check(c: AnyThread, m: Machine, **feeds: bool) -> Iterator[Fault]:
     yield from not_zero(c, "nominal_diameter")
     yield from c.signs(m)
     yield from not_zero(c, "prepositioning_feed", *(name for name, used in feeds.items() if used))
-    if c.thread_depth and not c.way.external and 2 * m.radius >= c.nominal_diameter:
+    if c.thread_depth and not way(c).external and 2 * m.radius >= c.nominal_diameter:
         yield "nominal_diameter", f"must be greater than the tool, {2 * m.radius:g}, got {c.nominal_diameter:g}"
     if c.thread_depth:
         yield from too_many("pitch", lambda: passes(c))
@@ -341,10 +327,10 @@ def thread(c: AnyThread, m: Machine) -> Iterator[Step]:
     """Every helix with its approach and departure; nothing without a depth."""
     if c.thread_depth:
         slow = getattr(c, "approach_feed", 0.0) or c.milling_feed  # cycle 265 has no Q512
-        of_centre = partial(centre_feed, nominal=c.nominal_diameter, tool_radius=m.radius, external=c.way.external)
+        of_centre = partial(centre_feed, nominal=c.nominal_diameter, tool_radius=m.radius, external=way(c).external)
         yield from mill_thread(
-            path(c, m), passes(c), pitch=abs(c.pitch), sense=c.way.rotation, feed=of_centre(c.milling_feed),
-            approach_feed=of_centre(slow), position_feed=rate(c.prepositioning_feed), external=c.way.external,
+            path(c, m), passes(c), pitch=abs(c.pitch), sense=way(c).rotation, feed=of_centre(c.milling_feed),
+            approach_feed=of_centre(slow), position_feed=rate(c.prepositioning_feed), external=way(c).external,
         )  # fmt: skip
 
 
@@ -353,4 +339,4 @@ def front(c: Countersunk, m: Machine, feed: float, plunge: float | None = None) 
     if c.depth_at_front:
         down = rate(c.prepositioning_feed) if plunge is None else plunge
         yield Go("to the depth at front", c.surface + c.depth_at_front, down)
-        yield from countersink(path(c, m), c.offset_at_front, sense=c.way.rotation, feed=feed, external=c.way.external)
+        yield from countersink(path(c, m), c.offset_at_front, sense=way(c).rotation, feed=feed, external=way(c).external)

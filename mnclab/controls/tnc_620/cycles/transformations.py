@@ -7,17 +7,17 @@ contour on which it was. The chain of the transformations is in `controls.tnc_62
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import partial
-from typing import Any
 
 from mnclab.controls.tnc_620.cycles import addresses, chain
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, ratio
+from mnclab.controls.tnc_620.cycles.chain import Given, Values
+from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Step, Write
-from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 NOT_BUILT = "UVW"  # secondary axes
@@ -32,7 +32,7 @@ class Mirroring(Cycle):
         modal=True, note="letters: X, Y, X Y; not the tool axis",
     )  # fmt: skip
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         named = self.mirrored_axes or ()
         if len(named) > 3:
             yield "mirrored_axes", f"must be at most three, got {' '.join(named)}"
@@ -57,9 +57,7 @@ class Rotation(Cycle):
     angle: float = addresses.angle("ROT", "rotation angle", note="IROT adds to the active angle", example=30)
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """An increment within its range is added to the active angle; the sum has no limit and counts modulo a whole turn."""
         if "angle" in given and given["angle"].incremental and abs(values["angle"]) <= 360:
             values["angle"] = math.fmod(chain.angle_of(m) + values["angle"], 360)
@@ -102,9 +100,7 @@ class AxisScaling(Cycle):
     centre_z: float | None = centre("CCZ", "centre of the scaling along Z")
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         chain.absolute(m, cls.code, given)
         if not {"x", "y", "z"} & given.keys():
             m.alarm(f"{cls.code} needs an axis and its factor, for example CYCL DEF 26.1 X 1.4 Y 0.6", None)

@@ -74,8 +74,6 @@ class WalledFaceMilling(AtSurface):
     finishing_infeed: float = addresses.finishing_infeed(example=4)
     surface_position: float = choice("Q367", "surface position", POSITION, default=-1, example=-1)
 
-    # --- what is done ------------------------------------------------------------------------------------------------
-
     @property
     def roughs(self) -> bool:
         return self.machining_operation != 2
@@ -87,8 +85,6 @@ class WalledFaceMilling(AtSurface):
     @property
     def finishes_side(self) -> bool:
         return self.machining_operation != 1 and self.side_allowance > 0 and bool(self.walled.walls)
-
-    # --- heights -----------------------------------------------------------------------------------------------------
 
     def depths(self) -> dict[str, float]:
         return {"end_tool_axis": self.end_tool_axis - self.surface}
@@ -118,8 +114,6 @@ class WalledFaceMilling(AtSurface):
             for what, top, heights, feed in parts
             for each in zip(numbered(what, len(heights)), heights, (top, *heights))
         ]
-
-    # --- where -------------------------------------------------------------------------------------------------------
 
     @property
     def walled(self) -> Walled:
@@ -152,8 +146,6 @@ class WalledFaceMilling(AtSurface):
         beyond = [radius, radius]
         beyond[int(self.milling_direction) - 1] += self.side_clearance
         return self.walled.along(radius, outside=(beyond[0], beyond[1]), allowance=allowance)
-
-    # --- checks ------------------------------------------------------------------------------------------------------
 
     def contradictions(self) -> Iterator[Fault]:
         for name in ("limit_1", "limit_2", "limit_3"):
@@ -196,8 +188,6 @@ class WalledFaceMilling(AtSurface):
                 found = f"{widest:g} to fit between the limits, got {self.corner_radius:g}"
                 yield "corner_radius", f"must be at most {found}"
                 return
-
-    # --- steps -------------------------------------------------------------------------------------------------------
 
     def about(self, m: Machine) -> tuple[float, float]:
         half = np.array([self.first_side_length, self.second_side_length]) / 2
