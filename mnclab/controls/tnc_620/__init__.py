@@ -12,7 +12,6 @@ from mnclab.controls.tnc_620 import later
 from mnclab.controls.tnc_620.cycles import (
     boring,
     contours,
-    datums,
     defaults,
     drilling,
     engraving,
@@ -50,7 +49,6 @@ from mnclab.controls.tnc_620.language import (
     program,
     tools,
 )
-from mnclab.controls.tnc_620.later_parameters import strange_parameters
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -110,7 +108,7 @@ for chapter in (
     point_patterns,
     pockets, slots, studs, walled_faces,
     contours,
-    transformations, datums, tilting,
+    transformations, tilting,
     special, engraving, face_milling,
     presets,
     program_call,
@@ -162,7 +160,7 @@ CONTROL = Control(
     start=program.start,
     looks_like=lambda text: _KLARTEXT.search(text) is not None,
     refused=later.REFUSED,
-    together=strange_parameters(CYCLES),
+    together=later.strange_parameters(CYCLES),
     meanings=MEANINGS,
     told=motion.turning_sense,
     names=ISO_NAMES,

@@ -147,7 +147,6 @@ class RoughOut(Cycle):
 
     does = MILLS
     about = in_program_coordinates
-
     infeed: float = increment("Q10", "infeed per cut", example=5)
     plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
     feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=500)

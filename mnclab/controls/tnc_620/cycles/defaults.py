@@ -41,7 +41,6 @@ class General(Defaults):
     """Clearances and feeds for the cycles 2xx."""
 
     serves = range(200, 300)
-
     clearance: float = addresses.clearance()
     second_clearance: float = addresses.second_clearance()
     positioning_feed: float | str = addresses.feed("Q253", "feed rate for positioning", also=POSITIONING, example=750)
@@ -53,7 +52,6 @@ class Drilling(Defaults):
     """Chip breaking and dwells for drilling, tapping and thread milling."""
 
     serves = (*range(200, 210), 240, 241, *range(262, 268))
-
     break_retract: float = distance("Q256", "retraction for chip breaking", example=0.2)
     dwell_bottom: float = addresses.dwell_bottom()
     dwell_top: float = seconds("Q210", "dwell at the set-up clearance", example=0)
@@ -64,7 +62,6 @@ class PocketMilling(Defaults):
     """How pockets, slots and studs are milled."""
 
     serves = range(251, 259)
-
     overlap: float = ratio("Q370", "path overlap factor", at_most=1.9999, example=1)
     climb: float = choice("Q351", "sense of milling", CLIMB)
     plunging_type: float = choice("Q366", "plunging strategy", addresses.PLUNGE)
@@ -75,7 +72,6 @@ class ContourMilling(Defaults):
     """How the contours of the SL cycles are milled."""
 
     serves = range(20, 26)
-
     clearance: float = distance("Q6", "set-up clearance", example=2)
     height: float = coordinate("Q7", "clearance height", example=50)
     overlap: float = ratio("Q2", "path overlap factor", at_most=1.9999, example=1)
@@ -87,7 +83,6 @@ class Probing(Defaults):
     """Clearances of the touch probe for the cycles 4xx."""
 
     serves = range(400, 500)
-
     clearance: float = distance("Q320", "set-up clearance", example=2)
     height: float = coordinate("Q260", "clearance height", example=20)
     move_to_clearance_height: float = choice("Q301", "height between measuring points", MEASURING)

@@ -41,7 +41,6 @@ class Engraving(AtSurface):
     """
 
     does = MILLS
-
     text: str | TextFormula = param(("Q500", "QS500"), "text", "text", modal=True, type="text")
     character_height: float = addresses.length("Q513", "character height", note="0: as the length Q574 asks", example=10)
     spacing_factor: float = ratio(

@@ -29,7 +29,6 @@ class FaceMilling(Cycle):
 
     does = MILLS
     about = in_program_coordinates
-
     strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
     start_1st_axis: float = coordinate("Q225", "starting point, first axis", example=10)
     start_2nd_axis: float = coordinate("Q226", "starting point, second axis", example=12)

@@ -44,7 +44,6 @@ class RectangularPocket(AtSurface):
 
     does = MILLS
     about = in_program_coordinates
-
     machining_operation: float = addresses.operation()
     first_side_length: float = distance("Q218", "first side length", example=80)
     second_side_length: float = distance("Q219", "second side length", example=60)
@@ -106,7 +105,6 @@ class CircularPocket(AtSurface):
     does = MILLS
     about = in_program_coordinates
     contradictions = milling.contradictions
-
     machining_operation: float = addresses.operation()
     circle_diameter: float = length("Q223", "circle diameter", example=60)
     side_allowance: float = addresses.side_allowance()

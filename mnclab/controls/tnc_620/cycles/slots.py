@@ -50,7 +50,6 @@ class StraightSlot(AtSurface):
     does = MILLS
     about = in_program_coordinates
     contradictions = milling.contradictions
-
     machining_operation: float = addresses.operation()
     slot_length: float = length("Q218", "slot length", note="over all", example=80)
     slot_width: float = addresses.slot_width()
@@ -106,7 +105,6 @@ class CircularSlot(AtSurface):
     does = MILLS
     about = in_program_coordinates
     contradictions = milling.contradictions
-
     machining_operation: float = addresses.operation()
     slot_width: float = addresses.slot_width()
     side_allowance: float = addresses.side_allowance()

@@ -88,7 +88,6 @@ class ThreadCutting(Cycle):
 
     own_spindle = True
     does = TAPS
-
     thread_depth: float = increment(
         "DEPTH", "depth of the thread from where the tool stands", at_least=-99999, at_most=99999, example=-20
     )

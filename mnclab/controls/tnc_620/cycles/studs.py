@@ -45,7 +45,6 @@ class RectangularStud(AtSurface):
     does = MILLS
     about = in_program_coordinates
     contradictions = milling.contradictions
-
     first_side_length: float = length("Q218", "first side length", example=60)
     blank_side_1: float = length("Q424", "first side of the blank", note="at least Q218", example=74)
     second_side_length: float = length("Q219", "second side length", example=40)
@@ -118,7 +117,6 @@ class CircularStud(AtSurface):
 
     does = MILLS
     about = in_program_coordinates
-
     finished_diameter: float = length("Q223", "diameter of the finished stud", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="at least Q223", example=80)
     side_allowance: float = addresses.side_allowance()
@@ -181,7 +179,6 @@ class PolygonStud(AtSurface):
     does = MILLS
     about = in_program_coordinates
     contradictions = milling.contradictions
-
     reference_circle: float = choice("Q573", "reference circle", CIRCLES, example=0)
     reference_diameter: float = length("Q571", "diameter of the reference circle", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="greater than Q571", example=80)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, increment
@@ -50,7 +50,6 @@ class InnerThreadMilling(AtSurface):
 
     does = MILLS_THREADS
     works = ("thread_depth",)
-
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-20)
@@ -82,7 +81,6 @@ class ThreadMillingCountersinking(AtSurface):
 
     does = MILLS_THREADS
     works = ("thread_depth", "countersinking_depth", "depth_at_front")
-
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-16)
@@ -106,7 +104,7 @@ class ThreadMillingCountersinking(AtSurface):
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=sinks)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        yield from remark_on_the_end(self, m, "countersinking_depth")
+        yield from remark_on_the_end(self, m, self.countersinking_depth)
         yield Go("to the set-up clearance", self.above)
         feed, position = self.countersinking_feed, rate(self.prepositioning_feed)
         if self.countersinking_depth:
@@ -130,7 +128,6 @@ class OutsideThreadMilling(AtSurface):
 
     does = MILLS_THREADS
     works = ("thread_depth", "depth_at_front")
-
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-20)
@@ -166,7 +163,6 @@ class ThreadDrillingMilling(AtSurface):
 
     does = MILLS_THREADS
     works = ("thread_depth", "total_hole_depth", "depth_at_front")
-
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-16)
@@ -199,7 +195,7 @@ class ThreadDrillingMilling(AtSurface):
         return infeeds(self.surface, self.surface + self.total_hole_depth, self.infeed)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        yield from remark_on_the_end(self, m, "total_hole_depth")
+        yield from remark_on_the_end(self, m, self.total_hole_depth)
         yield Go("to the set-up clearance", self.above)
         if self.total_hole_depth:
             every = self.chip_breaking_depth
@@ -219,7 +215,6 @@ class HelicalThreadMilling(AtSurface):
 
     does = MILLS_THREADS
     works = ("thread_depth", "depth_at_front")
-
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-16)
@@ -248,10 +243,8 @@ class HelicalThreadMilling(AtSurface):
         yield from self.leave()
 
 
-Countersunk: TypeAlias = (
-    ThreadMillingCountersinking | OutsideThreadMilling | ThreadDrillingMilling | HelicalThreadMilling
-)
-AnyThread: TypeAlias = InnerThreadMilling | Countersunk
+Countersunk = ThreadMillingCountersinking | OutsideThreadMilling | ThreadDrillingMilling | HelicalThreadMilling
+AnyThread = InnerThreadMilling | Countersunk
 
 # --- what all share --------------------------------------------------------------------------------------------------
 
@@ -291,8 +284,8 @@ def passes(c: AnyThread) -> list[tuple[float, float]]:
 def check(c: AnyThread, m: Machine, **feeds: bool) -> Iterator[Fault]:
     """Spindle, tool, pitch, signs, room for the tool, and the `feeds` that the cycle runs at where something is not 0."""
     if not any(c.depths().values()):
-        every = " and ".join(address(c, name) for name in c.depths())
-        yield next(iter(c.depths())), f"leaves nothing to do: {every} are 0"
+        every = " and ".join(p.address for p in c.parameters() if p.name in c.works)
+        yield c.works[0], f"leaves nothing to do: {every} are 0"
     if way(c).either_way and not m.turning:
         yield "", "needs a turning spindle: write M3 or M4 before"
     if not way(c).either_way and m.turning != 1:
@@ -309,16 +302,10 @@ def check(c: AnyThread, m: Machine, **feeds: bool) -> Iterator[Fault]:
         yield from too_many("pitch", lambda: passes(c))
 
 
-def address(c: AnyThread, name: str) -> str:
-    """Of a parameter."""
-    return next(p.address for p in c.parameters() if p.name == name)
-
-
-def remark_on_the_end(c: AnyThread, m: Machine, name: str) -> Iterator[Say]:
+def remark_on_the_end(c: AnyThread, m: Machine, end: float) -> Iterator[Say]:
     """The thread ends a third of a pitch above the end of the hole or of the countersink, or there is a warning."""
-    depth = abs(getattr(c, name))
-    if c.thread_depth and depth and abs(c.thread_depth) > depth - abs(c.pitch) / 3 + 1e-9:
-        least = f"at least a third of the pitch less deep than {address(c, name)} = {getattr(c, name):g}"
+    if c.thread_depth and end and abs(c.thread_depth) > abs(end) - abs(c.pitch) / 3 + 1e-9:
+        least = f"at least a third of the pitch less deep than Q356 = {end:g}"
         word = m.cycle.words.get("thread_depth") if m.cycle else None
         yield Say(f"Q201 (thread depth) should be {least}, got {c.thread_depth:g}", word=word)
 

@@ -50,7 +50,6 @@ class WorkingPlane(Cycle):
     """
 
     about = in_program_coordinates
-
     angle_a: float | None = tilt("A", "tilt angle A")
     angle_b: float | None = tilt("B", "tilt angle B")
     angle_c: float | None = tilt("C", "tilt angle C")

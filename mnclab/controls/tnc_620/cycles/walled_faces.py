@@ -49,7 +49,6 @@ class WalledFaceMilling(AtSurface):
     """Mills a level surface that up to three walls may bound: levels in equal infeeds, a last one finishes, then the walls."""
 
     does = MILLS
-
     machining_operation: float = addresses.operation()
     strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
     milling_direction: float = choice("Q350", "milling direction", DIRECTIONS, example=1)

@@ -27,7 +27,6 @@ class PresetInOneAxis(Cycle):
     """One touch along an axis; the touched point gets the coordinate Q333."""
 
     about = in_program_coordinates
-
     x: float = coordinate("Q263", "first touch point, reference axis", example=20)
     y: float = coordinate("Q264", "first touch point, minor axis", example=10)
     z: float = coordinate("Q261", "measuring height of the ball's centre", example=-5)
