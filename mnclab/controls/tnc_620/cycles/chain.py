@@ -24,7 +24,6 @@ TILT = "tilt"
 TILTED = " (tilted)"
 ALSO = " (before)"  # what outlived its tilt, beside one of its kind
 
-
 Values: TypeAlias = dict[str, Any]  # of `Cycle.prepare`, by name of the parameter, as the words are
 Given: TypeAlias = Mapping[str, Word]
 

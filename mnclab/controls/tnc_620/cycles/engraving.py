@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from mnclab.controls.tnc_620 import engraved_text
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, ratio
-from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
+from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
@@ -78,7 +78,7 @@ class Engraving(AtSurface):
             yield "text", str(error)
             return
         long, most = length(cells(found, self.spacing_factor)) * height, self.maximum_text_length
-        if most and long > most + 1e-9:
+        if most and long > most + SAME:
             yield "maximum_text_length", f"is {most:g}, the text is {long:.3f} long"
 
     def tokens(self, m: Machine) -> list[str]:

@@ -44,6 +44,7 @@ class RectangularPocket(AtSurface):
 
     does = MILLS
     about = in_program_coordinates
+    check = milling.check
     machining_operation: float = addresses.operation()
     first_side_length: float = distance("Q218", "first side length", example=80)
     second_side_length: float = distance("Q219", "second side length", example=60)
@@ -72,10 +73,7 @@ class RectangularPocket(AtSurface):
             half = min(self.first_side_length, self.second_side_length) / 2
             yield from at_most(self, "corner_radius", half, "half the shorter side")
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
+    def fits(self, m: Machine) -> Iterator[Fault]:
         least = 2 * (m.radius + self.side_allowance)
         for name in ("first_side_length", "second_side_length"):
             yield from at_least(self, name, least, "the tool diameter and twice Q368")
@@ -104,6 +102,7 @@ class CircularPocket(AtSurface):
 
     does = MILLS
     about = in_program_coordinates
+    check = milling.check
     contradictions = milling.contradictions
     machining_operation: float = addresses.operation()
     circle_diameter: float = length("Q223", "circle diameter", example=60)
@@ -123,10 +122,7 @@ class CircularPocket(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
+    def fits(self, m: Machine) -> Iterator[Fault]:
         least = 2 * (m.radius + self.side_allowance)
         yield from at_least(self, "circle_diameter", least, "the tool diameter and twice Q368")
         yield from check_pocket(self, m, self.pocket(m))

@@ -49,6 +49,7 @@ class StraightSlot(AtSurface):
 
     does = MILLS
     about = in_program_coordinates
+    check = milling.check
     contradictions = milling.contradictions
     machining_operation: float = addresses.operation()
     slot_length: float = length("Q218", "slot length", note="over all", example=80)
@@ -70,10 +71,7 @@ class StraightSlot(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
+    def fits(self, m: Machine) -> Iterator[Fault]:
         yield from at_least(self, "slot_length", self.slot_width, "the width Q219")
         yield from check_slot(self, m, self.line(), self.line_length)
 
@@ -104,6 +102,7 @@ class CircularSlot(AtSurface):
 
     does = MILLS
     about = in_program_coordinates
+    check = milling.check
     contradictions = milling.contradictions
     machining_operation: float = addresses.operation()
     slot_width: float = addresses.slot_width()
@@ -130,10 +129,7 @@ class CircularSlot(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
+    def fits(self, m: Machine) -> Iterator[Fault]:
         if self.pitch_circle_diameter <= self.slot_width + NOTHING:
             found = f"{self.slot_width:g}, got {self.pitch_circle_diameter:g}"
             yield "pitch_circle_diameter", f"must be greater than the slot width Q219, {found}"
