@@ -63,6 +63,11 @@ class Setting(NamedTuple):
         return value
 
 
+def one_of(name: str, meaning: str, source: str = "", /, **choices: str) -> Setting:
+    """A setting with choices, of which the first is the default."""
+    return Setting(name, next(iter(choices)), meaning, source, choices)
+
+
 #: What every control has, unless it declares the same name itself.
 EVERY = (
     Setting(
