@@ -16,6 +16,7 @@ import numpy as np
 
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
+from mnclab.show.export_gcode import number
 from mnclab.text.given import choice
 
 MARGIN = 2.0  # mm
@@ -96,9 +97,3 @@ def turns(path: Toolpath, row: int, right: int, up: int, along: int) -> Iterator
             to = path.end[row, [right, up]]
         # a flag of 0 turns counter-clockwise on paper, where the vertical axis is turned over
         yield f"A{number(radius)} {number(radius)} 0 0 {0 if sweep > 0 else 1} {number(to[0])} {number(-to[1])}"
-
-
-def number(value: float) -> str:
-    """A coordinate with six decimals at most."""
-    text = f"{value:.6f}".rstrip("0").rstrip(".")
-    return "0" if text in ("-0", "") else text

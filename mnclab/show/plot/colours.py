@@ -25,14 +25,8 @@ class Line(NamedTuple):
 
     def style(self) -> dict[str, Any]:
         """Arguments for a matplotlib line."""
-        return {
-            "color": self.colour,
-            "linestyle": self.dashes,
-            "linewidth": self.width,
-            "solid_capstyle": "butt",
-            "zorder": self.order,
-            "label": self.name,
-        }
+        look = {"color": self.colour, "linestyle": self.dashes, "linewidth": self.width, "solid_capstyle": "butt"}
+        return look | {"zorder": self.order, "label": self.name}
 
 
 class Mark(NamedTuple):
@@ -47,16 +41,9 @@ class Mark(NamedTuple):
 
     def style(self) -> dict[str, Any]:
         """Arguments for a matplotlib line that is only marks."""
-        return {
-            "color": self.colour,
-            "linestyle": "none",
-            "marker": self.marker,
-            "markersize": self.size,
-            "markerfacecolor": self.colour if self.filled else "none",
-            "markeredgewidth": 1.4,
-            "zorder": self.order,
-            "label": self.name,
-        }
+        look = {"color": self.colour, "linestyle": "none", "marker": self.marker, "markersize": self.size}
+        look |= {"markerfacecolor": self.colour if self.filled else "none", "markeredgewidth": 1.4}
+        return look | {"zorder": self.order, "label": self.name}
 
 
 #: Rapids are thinner than cuts and lie above them: where both run on one line (pecking), both are seen.
