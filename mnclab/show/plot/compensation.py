@@ -174,9 +174,8 @@ def _picture(panels: Sequence[Panel], discs: Any, vectors: bool, names: bool, si
     above = 0.06 + ROW * math.ceil(len(words) / columns(words, width))
     total = above + bottom + lines * (TITLE + height) + (lines - 1) * GAP
     picture = Picture((width, total), _in_words(panels))
-    titles = [panel.title for panel in panels]
-    for panel, ax in zip(panels, grid(picture, titles, count, left, above, GAP, (box, height))):
-        dress(ax, panel.view, (box, height))
+    titles, views = [panel.title for panel in panels], [panel.view for panel in panels]
+    for panel, ax in zip(panels, grid(picture, titles, views, count, left, above, GAP, (box, height))):
         _limit(ax, panel.view, low, high, (box, height))
         ax.apply_aspect()
         write(ax, panel, draw(ax, panel, discs, vectors), names)
