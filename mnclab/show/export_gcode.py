@@ -128,7 +128,6 @@ class Writer:
         return "" if code == before else code
 
     def axes(self, end: list[float], rotary: list[float]) -> str:
-        """The coordinates that change."""
         words = []
         for letters, kept, values in (("XYZ", self.at, end), ("ABC", self.rotary, rotary)):
             for k, value in enumerate(values):

@@ -80,7 +80,6 @@ class Gltf:
             self.meshes.append({"name": name, "primitives": [part | {"material": self.material(name, colour)}]})
 
     def body(self, name: str, body: Body, colour: tuple[float, float, float], alpha: float = 1.0) -> None:
-        """A closed surface."""
         part = {"attributes": {"POSITION": self.array(body.points, "VEC3", 34962)}, "mode": 4}
         part["indices"] = self.array(body.triangles.ravel(), "SCALAR", 34963)
         self.meshes.append({"name": name, "primitives": [part | {"material": self.material(name, colour, alpha)}]})

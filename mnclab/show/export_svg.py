@@ -1,8 +1,7 @@
 """A path as an SVG drawing in true size: one millimetre of the path is one millimetre on paper, arcs stay arcs.
 
-`run.save("part.svg")` is the figure with its axes; `run.save("part.svg", true_size=True)` is this drawing, for a
-plotter, a laser or an overlay. Seen from above (XY); on a lathe Z goes to the right and the radius X up. Coordinates of
-the file are millimetres, and because SVG counts downwards the vertical ones are negative.
+`run.save("part.svg", true_size=True)` is this drawing, for a plotter, a laser or an overlay. Seen from above (XY); on a
+lathe Z goes to the right and the radius X up. Because SVG counts downwards, vertical coordinates are negative.
 """
 
 from __future__ import annotations

@@ -48,7 +48,6 @@ class Report:
 
     @property
     def programs(self) -> list[tuple[str, Listing]]:
-        """Every listing with its heading, the main program first."""
         return [("Program", self.listing), *((f"Program {name}", lines) for name, lines in self.called)]
 
 

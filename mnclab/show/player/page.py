@@ -61,7 +61,6 @@ class Player:
 
     @property
     def name(self) -> str:
-        """What the program is called, without its folders."""
         return whole(self.run.program.title)
 
     @cached_property

@@ -1,7 +1,6 @@
 """The tool path seen from above and from the front; on a lathe Z to the right and the diameter X up.
 
-Each class of moves is *one* line, broken by nan where the class changes, so that a million moves cost about what one
-line of a million points costs. Arcs are cut finely enough for the size of the picture.
+Each class of moves is *one* line, broken by nan (see `strokes`), so that a million moves cost what a million points cost.
 """
 
 from __future__ import annotations
