@@ -62,14 +62,9 @@ def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
         remark(m, words)
         m.change("exact", words.code == "G61")
 
-    @table(
-        "G40 G41 G42",
-        COMPENSATION,
-        group="compensation",
-        phase="compensation",
-        power_on="G40",
-        source=of["compensation"],
-    )
+    side = of["compensation"]
+
+    @table("G40 G41 G42", COMPENSATION, group="compensation", phase="compensation", power_on="G40", source=side)
     def compensation(m: Machine, words: Words) -> None:
         """Takes effect with the next straight line in the plane: entry, change of side, exit."""
         remark(m, words)
