@@ -91,8 +91,6 @@ CONTROL = Control(
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=lambda m: not lengths.pending(m) and {"G2", "G3"} <= memory(m).undescribed,
-        absolute=lambda m: m.modal["dimension"] == "G90",
-        tolerance=lambda m: float(m.settings["arc_tolerance"]),
         helices=more_helices,
     ),
     trial=trial_program,

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.mnc import auxiliary, language, polar, transforms
-from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared, tapping
+from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.state import Memory
 from mnclab.controls.word_address.motion import more_helices
@@ -78,7 +78,7 @@ CONTROL = Control(
     suffixes=(".mnc",),
     read=reader("mnc"),
     functions=FUNCTIONS,
-    cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | tapping.CYCLES | milling.CYCLES | pockets.CYCLES,
+    cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | prepared.CYCLES | milling.CYCLES | pockets.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),
@@ -95,7 +95,6 @@ CONTROL = Control(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=lambda m: m.modal.get("motion") in ("G0", "G1", "G2", "G3"),
         absolute=language.absolute,
-        tolerance=lambda m: float(m.settings["arc_tolerance"]),
         helices=more_helices,
         straight_arcs=True,
     ),
