@@ -124,8 +124,7 @@ def reference(m: Machine, words: Words) -> None:
     if to := targets(m, words):
         m.rapid(**to)
     home = m.to_program((0.0, 0.0, -m.tool.effective_length))
-    axes = [k for k, axis in enumerate(AXES) if axis.lower() in to or not to]
-    m.rapid(**{AXES[k].lower(): home[k] for k in axes})
+    m.rapid(**{axis: home[k] for k, axis in enumerate(AXES.lower()) if axis in to or not to})
 
 
 FUNCTIONS("F", "Feed", phase="feed", source="7.1, example")(motion.feed)

@@ -10,6 +10,7 @@ from typing import Any
 
 from mnclab.controls.jnc_t01.feeds import cutting_feed, follow_speed, need_cutting_speed
 from mnclab.controls.jnc_t01.state import memory
+from mnclab.controls.word_address.functions import ARCS
 from mnclab.controls.word_address.motion import first_word
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
@@ -19,6 +20,9 @@ from mnclab.machining.turning.threading import lead_along
 FUNCTIONS = FunctionTable()
 AXES = {"X": 0, "Z": 2}
 ONCE = "08"
+CORNERS = {"G12": "Straight line with fillet of 90 degrees", "G14": "Straight line with chamfer of 45 degrees"}
+SIZES = {"G12": "fillet radius", "G14": "chamfer size"}
+HOME = {"M60": "Home X and Z", "M61": "Home X", "M63": "Home Z"}
 
 
 def scale(m: Machine, address: str) -> float:
@@ -54,9 +58,6 @@ def line(m: Machine, words: Words) -> None:
         m.line(**to, f=cutting_feed(m, first_word(words)), word=first_word(words))
 
 
-ARCS = {"G2": "Circular interpolation clockwise", "G3": "Circular interpolation counter-clockwise"}
-
-
 @FUNCTIONS("G2 G3", ARCS, group="motion", takes="X Z R I K", moves=True, source="8.3, 8.4")
 def arc(m: Machine, words: Words) -> None:
     """To X, Z about the centre I, K from the start, or with the radius R (negative: more than half a circle).
@@ -84,10 +85,6 @@ def arc(m: Machine, words: Words) -> None:
         return
     centre = {k: m.programmed[k] + (m.value(words[c]) if c in words else 0.0) for c, k in (("I", 0), ("K", 2))}
     m.arc(**to, sense=sense, centre=centre, f=feed, word=head, tolerance=tolerance)
-
-
-CORNERS = {"G12": "Straight line with fillet of 90 degrees", "G14": "Straight line with chamfer of 45 degrees"}
-SIZES = {"G12": "fillet radius", "G14": "chamfer size"}
 
 
 @FUNCTIONS("G12 G14", CORNERS, group=ONCE, modal=False, moves=True, owns=True, takes="X Z R", source="8.6, 8.7")
@@ -201,9 +198,6 @@ def use_corrector(m: Machine) -> None:
         row = m.tables.correctors.get(number)
         shift = frames.shift(row.x, 0.0, row.z) if row and (row.x or row.z) else None
         m.set_frame("corrector", shift, "programmed")
-
-
-HOME = {"M60": "Home X and Z", "M61": "Home X", "M63": "Home Z"}
 
 
 @FUNCTIONS("M60 M61 M63", HOME, modal=False, still=True, source="9.29 to 9.31")

@@ -10,6 +10,7 @@ from mnclab.machine.control import Words
 from mnclab.machine.machine import Machine
 
 ISO = "ISO 6983"
+SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
 
 
 def unlisted(m: Machine, words: Words, more: str = "") -> None:
@@ -48,9 +49,6 @@ def tool_change(m: Machine, words: Words) -> None:
         unlisted(m, words, "; T itself changes the tool")
     else:
         motion.change_tool(m, words)
-
-
-SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
 
 
 @FUNCTIONS("S", "Spindle speed", phase="spindle", source="1.2")

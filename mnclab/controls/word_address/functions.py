@@ -91,11 +91,11 @@ def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
         remark(m, words)
         m.ended = True
 
+    @table("M9", COOLANT, group="coolant", phase="end", power_on="M9", source=source)
+    @table("M7 M8", COOLANT, group="coolant", phase="auxiliary", source=source)
     def coolant(m: Machine, words: Words) -> None:
         """On before the motion of the block, off after it."""
         remark(m, words)
         m.coolant()
 
-    table("M7 M8", COOLANT, group="coolant", phase="auxiliary", source=source)(coolant)
-    table("M9", COOLANT, group="coolant", phase="end", power_on="M9", source=source)(coolant)
     return table

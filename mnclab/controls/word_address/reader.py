@@ -183,9 +183,6 @@ def _skip_blanks(text: str, at: int, stop: int) -> int:
     return at
 
 
-FOREIGN_COMMENTS = "(;'"  # how comments begin on other controls
-
-
 def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks) -> None:
     """The fault at a character that is no part of a good word, with the repair where the mistake is known."""
     c = text[at]
@@ -207,7 +204,7 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks)
         builder.alarm(f"{c!r} needs an address letter before it", at, hint="a blank inside a number splits it")
     else:
         pattern = mark.comment.pattern
-        foreign = f"a comment begins with {pattern if len(pattern) == 1 else '//'}" if c in FOREIGN_COMMENTS else ""
+        foreign = f"a comment begins with {pattern if len(pattern) == 1 else '//'}" if c in "(;'" else ""
         builder.alarm(f"{c!r} has no meaning here", at, hint=foreign)
 
 
@@ -224,15 +221,10 @@ def _digit_meant(text: str, at: int, stop: int) -> str:
             begin = at + 1
             c = text[at + 1 : stop].lstrip(" \t")[:1]
             c = c if c in "Oo" else ""  # the others may begin the next word
-    begin = text.find(c, begin, stop) if c else stop
-    rest = text[begin:stop].lstrip(f"{c}0123456789.")
-    if rest[:1].isalpha() and not re.match(r"[-+.\d]", rest[1:]):
+    rest = text[text.find(c, begin, stop) : stop].lstrip(f"{c}0123456789.")
+    if c not in DIGITS or (rest[:1].isalpha() and not re.match(r"[-+.\d]", rest[1:])):
         return ""
-    return (
-        f"the letter {c.upper() if c in 'Oo' else c} stands where the digit {DIGITS[c]} was meant"
-        if c in DIGITS
-        else ""
-    )
+    return f"the letter {c.upper() if c in 'Oo' else c} stands where the digit {DIGITS[c]} was meant"
 
 
 def _check_labels(builder: ProgramBuilder, labels: list[tuple[int, int]]) -> None:
