@@ -1,7 +1,4 @@
-"""Functions that milling controls of G words have alike.
-
-Planes, dimensions, feed, blending, compensation, the end of fixed cycles, stops, coolant.
-"""
+"""What milling controls of G words have alike: planes, dimensions, feed, blending, compensation, end of cycles, M functions."""
 
 from __future__ import annotations
 

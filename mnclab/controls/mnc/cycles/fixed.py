@@ -1,8 +1,4 @@
-"""Fixed cycles (MNC, 9.1 to 9.3): G83, G84 and G85 run at each following position, until G80.
-
-The hole lies along Z whatever the plane. z_init is the level where the tool stood at the first call, z_R level R, z_b the
-bottom.
-"""
+"""Fixed cycles (MNC, 9.1 to 9.3): G83, G84, G85 run at each position until G80; holes lie along Z whatever the plane."""
 
 from __future__ import annotations
 

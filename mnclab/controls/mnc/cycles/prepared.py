@@ -1,7 +1,6 @@
 """Cycles prepared by a block of their own and called by M99 (MNC, 9.4 to 9.12): the call, what they share, and tapping.
 
-z0 is the level where the tool stands at the call, z_s the surface, z_q = z_s + Q the clearance level, z_b the bottom. Every
-cycle ends at z_end = max(z0, z_q).
+Every cycle ends where it began, or at the clearance level, Q above the surface, where that is higher.
 """
 
 from __future__ import annotations
@@ -51,7 +50,6 @@ class PreparedCycle(Cycle):
 
     @property
     def level(self) -> float:
-        """z_q, the clearance level."""
         return self.surface + self.clearance
 
 
