@@ -3,7 +3,7 @@
 Of this chapter the source has only the title. The cycles are those that ISO controls have under these codes: over the
 hole, at rapid to level R, the work down to Z, and back to the initial level (G98) or to level R (G99). Under G91, R counts
 from the initial level and Z from level R. Z, R, F, and Q and P where they mean the same, hold from one cycle to the next
-until G80, and so does the initial level. The steps are those of the cycles of other controls.
+until G80, and so does the initial level.
 """
 
 from __future__ import annotations

@@ -33,10 +33,8 @@ FUNCTIONS = functions(
 @FUNCTIONS("T", "Tool call", phase="tool", source="5.1")
 def tool(m: Machine, words: Words) -> None:
     """The tool from the table is active at once, no axis moves; by the setting tool_change it waits for M6."""
-    if m.settings["tool_change"] == "T":
-        motion.tool(m, words)
-    else:
-        motion.choose_tool(m, words)
+    obey = motion.tool if m.settings["tool_change"] == "T" else motion.choose_tool
+    obey(m, words)
 
 
 FUNCTIONS("D", "Tool corrector", phase="corrector", source="1.2")(motion.corrector)

@@ -79,10 +79,9 @@ def conditional_move(m: Machine, words: Words) -> None:
         m.alarm(f"{words.code} needs X, Z or M", head, "tie their frames to it with the mark *")
     refuse_rapid(m, [*words.words[1:]], words.code)
     notes = notes_of(head, bits)
-    m.label = f"{words.code} {', '.join(notes)}" if notes else words.code
     m.exact_here = bool(bits & 1)
-    move(m, words, bool(head.flag & RAPID_MARK))
-    m.label = ""
+    with m.within(label=f"{words.code} {', '.join(notes)}" if notes else words.code):
+        move(m, words, bool(head.flag & RAPID_MARK))
     if "M" in words:
         auxiliary(m, Words((words["M"],), "M"))
 

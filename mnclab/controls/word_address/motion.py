@@ -86,8 +86,7 @@ def _helix(m: Machine) -> str:
 
 
 def more_helices(m: Machine, count: int) -> bool:
-    """Whether helices go on without a word of their own, since they are allowed or enough of them were named; then
-    `count` more are counted."""
+    """Whether helices need no word of their own, being allowed, or named often enough: then `count` more are counted."""
     choice, told = m.settings.get("helix", "warn"), m.alarms.warned(_helix(m), m.program)
     if choice == "warn" and told and len(told.places) >= PLACES:
         told.count += count
