@@ -7,10 +7,9 @@ from functools import partial
 from typing import Any, ClassVar
 
 from mnclab.controls.word_address import holes
-from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS, depth_scale
-from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, ream
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Step
@@ -36,7 +35,7 @@ dwell = partial(param, "P", "dwell at the bottom", "s", default=0, at_least=0, e
 class FixedCycle(holes.AtHole, Cycle):
     """A cycle at a hole whose levels may be increments."""
 
-    peck_depth: float | None = None
+    pecks = "peck_depth"
 
     @classmethod
     def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
@@ -68,13 +67,6 @@ class FixedCycle(holes.AtHole, Cycle):
             values["depth_from_r"] = None
         holes.take_feed(m, values, given)
         return values
-
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        yield from super().contradictions()
-        yield from too_many("peck_depth", self.levels)
-
-    def levels(self) -> tuple[float, ...]:
-        return infeeds(self.r_level, self.bottom, self.peck_depth)
 
 
 @CYCLES("G83", "Deep-hole drilling", runs="position", source="MNC 9.1", triggers=POSITION)
