@@ -77,14 +77,11 @@ def arc(m: Machine, words: Words) -> None:
     to, sense, tolerance = targets(m, words), 1 if words.code == "G3" else -1, m.settings["arc_tolerance"]
     head = words["R"] if "R" in words else offsets[0]
     feed = cutting_feed(m, first_word(words))
-    if "R" in words:
-        radius = m.value(head)
-        if radius == 0:
-            m.alarm(f"{words.code} R (radius) must not be 0", head)
-        m.arc(**to, sense=sense, radius=radius, f=feed, word=head, tolerance=tolerance)
-        return
-    centre = {k: m.programmed[k] + (m.value(words[c]) if c in words else 0.0) for c, k in (("I", 0), ("K", 2))}
-    m.arc(**to, sense=sense, centre=centre, f=feed, word=head, tolerance=tolerance)
+    radius = m.value(head) if "R" in words else None
+    if radius == 0:
+        m.alarm(f"{words.code} R (radius) must not be 0", head)
+    about = {k: m.programmed[k] + (m.value(words[c]) if c in words else 0.0) for c, k in (("I", 0), ("K", 2))}
+    m.arc(**to, sense=sense, centre=about if offsets else None, radius=radius, f=feed, word=head, tolerance=tolerance)
 
 
 @FUNCTIONS("G12 G14", CORNERS, **ONCE, moves=True, takes="X Z R", source="8.6, 8.7")

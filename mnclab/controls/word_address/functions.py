@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 
-from mnclab.controls.word_address.motion import first_word
+from mnclab.controls.word_address.motion import first_word, refuse_change
 from mnclab.machine.control import FunctionTable, Obey, Words
 from mnclab.machine.machine import Machine
 
@@ -34,8 +34,8 @@ def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
         plane = {"G17": "XY", "G19": "YZ"}.get(words.code) or m.settings.get("g18_axes", "ZX")
         if m.pole is not None and plane != m.plane:
             m.alarm("the plane cannot change while polar coordinates are on", head, hint="write G15 first")
-        if m.side and plane != m.plane:
-            m.alarm("the plane cannot change while radius compensation is active", head, hint="write G40 first")
+        if plane != m.plane:
+            refuse_change(m, "plane", head)
         m.change("plane", plane)
 
     @table("G90 G91", DIMENSIONS, group="dimension", phase="plane", power_on="G90", source=of["dimension"])

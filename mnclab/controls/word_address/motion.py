@@ -65,14 +65,12 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
         if m.settings.get("arc_by_both") == "refuse":
             m.alarm(both, words["R"], hint="keep one of them")
         m.warn(f"{both}: {'R counts' if by_radius else 'I J K count'}", words["R"])
-    if by_radius:
-        radius = m.value(words["R"])
-        if radius == 0:
-            m.alarm("R must not be 0", words["R"])
-        m.arc(**to, sense=sense, radius=radius, word=words["R"], tolerance=tolerance)
-        return
-    centre = {k: m.programmed[k] + m.value(word) for k, word in offsets.items()}
-    m.arc(**to, sense=sense, centre=centre, word=next(iter(offsets.values())), tolerance=tolerance)
+    head = words["R"] if by_radius else next(iter(offsets.values()))
+    radius = m.value(head) if by_radius else None
+    if radius == 0:
+        m.alarm("R must not be 0", head)
+    centre = None if by_radius else {k: m.programmed[k] + m.value(word) for k, word in offsets.items()}
+    m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance)
 
 
 def helix(m: Machine, words: Words) -> None:
