@@ -12,6 +12,8 @@ from typing import Any
 
 from mnclab.machine.cycle import param
 
+ONE_PASS = {"default": None, "default_means": "one pass"}
+
 
 def kind(unit: str = "mm", **alike: Any) -> Callable[..., Any]:
     """Declares addresses of one kind by their letter, meaning and example; more may be said of each."""

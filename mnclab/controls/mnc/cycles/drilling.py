@@ -19,7 +19,6 @@ CYCLES = CycleTable()
 TO: dict[float, str] = {0: "to the depth H", 1: "to the diameter D"}
 EVERY = "0: the tool is withdrawn after every infeed"
 ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: "stopped (M5)"}
-ONE_PASS = {"default": None, "default_means": "one pass"}
 AS_F = {"default": None, "default_means": "F"}
 NO_LIMIT = {"default": None, "default_means": "no limit", "note": "needed where K is greater than 0"}
 TURNING = {3: 1, 4: -1, 5: 0}
@@ -31,7 +30,7 @@ class Drilling(PreparedCycle):
 
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
-    infeed: float | None = addresses.distance("P", "depth of each infeed", 5, **ONE_PASS)
+    infeed: float | None = addresses.distance("P", "depth of each infeed", 5, **addresses.ONE_PASS)
     surface: float = addresses.surface()
     feed: float | None = addresses.feed("plunging feed")
     dwell_top: float = addresses.dwell_top()
@@ -57,7 +56,7 @@ class UniversalDrilling(PreparedCycle):
 
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
-    infeed: float | None = addresses.distance("P", "depth of the first infeed", 6, **ONE_PASS)
+    infeed: float | None = addresses.distance("P", "depth of the first infeed", 6, **addresses.ONE_PASS)
     surface: float = addresses.surface()
     min_infeed: float | None = addresses.distance("M", "least infeed", 2, **NO_LIMIT)
     feed: float | None = addresses.feed("drilling feed")

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 from typing import Any, ClassVar
 
+from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.word_address import holes
 from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param
 from mnclab.machine.machine import Machine
@@ -80,9 +81,7 @@ class DeepHoleDrilling(FixedCycle):
     bottom: float = holes.bottom(instead="depth_from_r")
     depth_from_r: float | None = depth_from_r()
     r_level: float = holes.r_level()
-    peck_depth: float | None = param(
-        "K", "depth of one peck", default=None, default_means="one pass", above=0, incremental=True, example=5
-    )
+    peck_depth: float | None = addresses.distance("K", "depth of one peck", 5, **addresses.ONE_PASS)
     dwell: float = dwell()
     feed: float | None = holes.feed()
 
