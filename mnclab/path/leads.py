@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.vectors import cross, dot, left
-from mnclab.path.columns import COLUMNS
+from mnclab.path.columns import gathered
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind
 from mnclab.path.plane import PlaneView
@@ -52,12 +52,10 @@ class Lead(NamedTuple):
 
     @property
     def label(self) -> str:
-        """What its rows are called."""
         return "departure" if self.departs else "approach"
 
     @property
     def name(self) -> str:
-        """How the program writes it."""
         return f"{'DEP' if self.departs else 'APPR'} {self.form}"
 
 
@@ -100,11 +98,8 @@ def _line_and_arc(lead: Lead, start: Point, to: Point, t: Point) -> Way:
     distance = float(np.hypot(*away))
     if distance < lead.radius - NEAR:
         outside = "ends" if lead.departs else "begins"
-        raise PathFault(
-            f"{lead.name} {outside} inside of its arc of R{lead.radius:g}: no line touches the arc from there",
-            lead.step,
-            "take a smaller radius, or a point farther away",
-        )
+        message = f"{lead.name} {outside} inside of its arc of R{lead.radius:g}: no line touches the arc from there"
+        raise PathFault(message, lead.step, "take a smaller radius, or a point farther away")
     # the line has the centre at the distance R beside it
     heading = _turned(away / distance, -sense * math.asin(min(1.0, lead.radius / distance)))
     by = start + math.sqrt(max(0.0, (distance - lead.radius) * (distance + lead.radius))) * heading
@@ -132,9 +127,7 @@ def apply(path: Toolpath, contour: Toolpath, unfinished: bool = False) -> Toolpa
     made: dict[int, list[_Part]] = {}
     for row in rows:
         lead, here = _joint(path, row), at[int(path.joint[row])]
-        next_to = (
-            np.searchsorted(elements, here, "left") - 1 if lead.departs else np.searchsorted(elements, here, "right")
-        )
+        next_to = int(np.searchsorted(elements, here, "left" if lead.departs else "right")) - lead.departs
         lonely = not 0 <= next_to < len(elements)
         if lonely and unfinished:
             return _expanded(path[:row], made, view)
@@ -198,12 +191,8 @@ def _departure(view: PlaneView, row: int, lead: Lead, t: Point) -> list[_Part]:
 
 def _moving(start: Point, first: _Part, last: _Part) -> list[_Part]:
     """Those of two rows that move; the last one if none does."""
-    kept = [
-        part
-        for begin, part in ((start, first), (first.end, last))
-        if part.sweep or float(np.abs(part.end - begin).max()) > NEAR
-    ]
-    return kept or [last]
+    both = ((start, first), (first.end, last))
+    return [part for begin, part in both if part.sweep or float(np.abs(part.end - begin).max()) > NEAR] or [last]
 
 
 def _expanded(path: Toolpath, made: dict[int, list[_Part]], view: PlaneView) -> Toolpath:
@@ -212,30 +201,17 @@ def _expanded(path: Toolpath, made: dict[int, list[_Part]], view: PlaneView) -> 
     for row, parts in made.items():
         count[row] = len(parts)
     source = np.repeat(np.arange(len(path)), count)
-    columns = {
-        name: _spread(np.asarray(getattr(path, name)), source, name in CHANGED)
-        for name in COLUMNS
-        if name not in ("start", "end")
-    }
+    columns = {name: gathered(column, source) for name, column in path.all_but_ends().items()}
+    columns |= {name: np.array(columns[name]) for name in CHANGED}
     ends, first = path.end[source], np.cumsum(count) - count
     labels = list(dict.fromkeys([*path.labels, *(_joint(path, row).label for row in made)]))
     for row, parts in made.items():
         for k, part in enumerate(parts, int(first[row])):
             feed = path.feed[row] if math.isnan(part.feed) else part.feed
             straight = Kind.LINE if math.isfinite(feed) else Kind.RAPID
-            at, which = part.end, np.array([row])
-            ends[k] = view.to_space(which, at[None])[0]
-            columns["kind"][k] = straight if part.centre is None else Kind.ARC
             centre = np.full(3, np.nan) if part.centre is None else part.centre
-            columns["centre"][k] = view.to_space(which, centre[None])[0]
+            ends[k], columns["centre"][k] = view.to_space(np.array([row, row]), np.stack([part.end, centre]))
+            columns["kind"][k] = straight if part.centre is None else Kind.ARC
             columns["sweep"][k], columns["feed"][k] = part.sweep, feed
             columns["label"][k], columns["joint"][k] = labels.index(_joint(path, row).label), -1
-    vertices = np.concatenate([path.start[:1], ends])
-    return Toolpath.chain(vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe)
-
-
-def _spread(column: NDArray[Any], source: NDArray[np.int64], changes: bool) -> NDArray[Any]:
-    """A column gathered from its old rows; a constant one stays so unless rows of it change."""
-    if changes or column.strides[0] or not len(column):
-        return column[source]
-    return np.broadcast_to(column[0], (len(source), *column.shape[1:]))
+    return path.through(np.concatenate([path.start[:1], ends]), columns, *labels)

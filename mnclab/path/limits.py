@@ -62,9 +62,9 @@ class Limits:
     def __post_init__(self) -> None:
         for name in ("rapid", "acceleration", "jerk", "spindle", "spindle_acceleration"):
             if getattr(self, name) is not None or name not in ("jerk", "spindle_acceleration"):
-                self._check(name, above=True)
+                self._check(name, LEAST)
         for name in ("corner_tolerance", "corner_jump", "tool_change"):
-            self._check(name, above=False)
+            self._check(name, 0)
         for name, known in (("corner_speed", (*CORNERS,)), ("rapid_motion", (*RAPIDS, None))):
             value = getattr(self, name)
             if not isinstance(value, str | None) or value not in known:
@@ -75,21 +75,16 @@ class Limits:
         for each in fields(self):
             object.__setattr__(self, each.name, plain(getattr(self, each.name)))
 
-    def _check(self, name: str, above: bool) -> None:
-        """An Alarm unless each value is a number greater than 0, or not below it."""
+    def _check(self, name: str, least: float) -> None:
         value = getattr(self, name)
-        many = name in ("rapid", "acceleration", "jerk", "corner_jump")
-        values = tuple(value) if many and isinstance(value, tuple | list) else (value,)
-        if len(values) not in ((1, 3) if many else (1,)) and many:
-            raise Alarm(f"limit {name} takes one number or three (X Y Z), got {len(values)}")
-        for each in values:
-            if above:
-                check_number(each, f"limit {name}", above=0, at_least=LEAST, at_most=MOST, endless=name == "spindle")
-            else:
-                check_number(each, f"limit {name}", at_least=0, at_most=MOST)
+        many = name in ("rapid", "acceleration", "jerk", "corner_jump") and isinstance(value, tuple | list)
+        if many and len(value) not in (1, 3):
+            raise Alarm(f"limit {name} takes one number or three (X Y Z), got {len(value)}")
+        for each in value if many else (value,):
+            above, endless = 0 if least else None, name == "spindle"
+            check_number(each, f"limit {name}", above=above, at_least=least, at_most=MOST, endless=endless)
 
     def _check_travel(self, travel: Any) -> None:
-        """An Alarm unless each axis has a lower position and a higher one."""
         if not isinstance(travel, tuple | list) or len(travel) != 3:
             raise Alarm(f"limit travel takes a pair for each of X, Y and Z, got {shown(travel)}", hint=TRAVEL)
         for axis, pair in zip("XYZ", travel):

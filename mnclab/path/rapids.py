@@ -12,7 +12,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import PerAxis
 from mnclab.path.toolpath import Toolpath
@@ -40,8 +39,6 @@ def broken(path: Toolpath, speed: PerAxis) -> Toolpath:
 
     where = np.concatenate([np.flatnonzero(first_stop), np.flatnonzero(second_stop)])
     places = np.concatenate([points(first_stop, arrival[:, 0]), points(second_stop, arrival[:, 1])])
-    columns = {name: getattr(path, name) for name in COLUMNS if name not in ("start", "end")}
-    columns = {name: np.insert(column, where, column[where], axis=0) for name, column in columns.items()}
+    columns = {name: np.insert(each, where, each[where], axis=0) for name, each in path.all_but_ends().items()}
     vertices = np.concatenate([path.start[:1], np.insert(path.end, where, places, axis=0)])
-    more = {"labels": path.labels, "joints": path.joints, "origin": path.origin, "lathe": path.lathe}
-    return Toolpath.chain(vertices, columns, **more)
+    return path.through(vertices, columns)

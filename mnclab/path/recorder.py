@@ -91,7 +91,6 @@ class Recorder:
 
     @property
     def made(self) -> int:
-        """All rows so far."""
         return self.taken + self._count + len(self.rows) // len(ROW)
 
     def copy(self) -> Recorder:
@@ -131,7 +130,6 @@ class Recorder:
         return self._vertices[self._count : needed]
 
     def state(self, state: State) -> int:
-        """The index of a state."""
         index = self._state_index.get(state)
         if index is None:
             index = self._state_index[state] = len(self.states)
@@ -139,11 +137,7 @@ class Recorder:
         return index
 
     def label(self, text: str) -> int:
-        """The index of a label."""
-        index = self.labels.get(text)
-        if index is None:
-            index = self.labels[text] = len(self.labels)
-        return index
+        return self.labels.setdefault(text, len(self.labels))
 
     def add(self, row: tuple[Any, ...]) -> None:
         """One row, the values in the order of `ROW`."""
@@ -251,12 +245,9 @@ class Recorder:
     def _path(self, columns: dict[str, NDArray[Any]], vertices: NDArray[np.float64]) -> Toolpath:
         if columns:
             which = columns.pop("state")
-            constant = which.strides[0] == 0
+            used = self.states if which.strides[0] else [self.states[int(which[0])]]
             for name in State._fields:
-                if constant:
-                    columns[name] = COLUMNS[name].of(len(which), getattr(self.states[int(which[0])], name))
-                    continue
-                values = np.array([getattr(state, name) for state in self.states], dtype=COLUMNS[name].dtype)
+                values = np.array([getattr(state, name) for state in used], dtype=COLUMNS[name].dtype)
                 same = bool((values == values[:1]).all() or (values != values).all())  # equal, or nothing but nan
                 columns[name] = COLUMNS[name].of(len(which), values[0]) if same else values[which]
             if not np.isnan(columns["per_rev"]).all():  # what does not cut at a feed has none per revolution

@@ -20,14 +20,12 @@ SIZES = ("radius", "corner", "teeth", "cutting_length", "width", "number", "angl
 
 @dataclass(frozen=True)
 class Tool:
-    """Dimensions in mm, angles in degrees.
+    """Dimensions in mm, angles in degrees; `kind` is one of `KINDS`, "" where it does not matter.
 
     `angle` is the point angle, `plunge_angle` the steepest plunge, `dl` and `dr` are deltas added to length and
     radius, `corner` is the corner radius, `cutting_length` the length of the edges, `pitch` that of a tap.
     Of a lathe tool `main_angle` and `auxiliary_angle` lie between the cutting edges and the axis (0: not given),
     `width` is that of a grooving tool, whose tip is its left corner, and `corner` the nose radius.
-
-    `kind` is one of `KINDS`, "" where it does not matter.
 
     An Alarm names a dimension that makes no sense. Negative may be the deltas, and the length against a zero tool; a
     radius below 0 is written as a negative `dr`.

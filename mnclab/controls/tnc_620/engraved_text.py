@@ -50,24 +50,19 @@ def tokens(text: str, now: datetime, counter: int) -> list[str]:
             piece, at = _named(text, at, now, counter)
             found += piece
         elif sign == "\\":
-            if text[at : at + 1] not in FORMATTING or at >= len(text):
-                raise Fault(f"has an incomplete \\{text[at : at + 1]}: \\n, \\t, \\v and \\\\ are allowed")
-            found.append(FORMATTING[text[at]])
-            at += 1
+            sign, at = text[at : at + 1], at + 1
+            if sign not in FORMATTING:
+                raise Fault(f"has an incomplete \\{sign}: \\n, \\t, \\v and \\\\ are allowed")
+            found.append(FORMATTING[sign])
         elif sign in ALLOWED:
             found.append(sign)
         else:
-            raise Fault(f"has the character {sign!r}, which cannot be engraved{_instead(sign)}")
+            instead = next((f": write %{name}" for name, character in NAMED.items() if character == sign), "")
+            raise Fault(f"has the character {sign!r}, which cannot be engraved{instead}")
     return found
 
 
-def _instead(sign: str) -> str:
-    """How a character is written that only % gives."""
-    return next((f": write %{name}" for name, character in NAMED.items() if character == sign), "")
-
-
 def _named(text: str, at: int, now: datetime, counter: int) -> tuple[str, int]:
-    """What stands behind %, and where it ends."""
     if found := _TIME.match(text, at):
         if (number := int(found.group(1))) >= len(TIMES):
             raise Fault(f"has %time{number}: %time00 to %time15 are allowed")

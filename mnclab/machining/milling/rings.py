@@ -19,7 +19,7 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import cross, left
 from mnclab.geometry.whole_curves import Curve
-from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise, room_for
+from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise
 
 MOST_RINGS = 2000
 SHARP = 1e-6  # rad and mm, the least turn of a corner and the shortest element
@@ -46,8 +46,9 @@ def rings(
     """
     if corner_radius < 0:
         raise ValueError(f"the corner radius must not be negative, got {corner_radius:g}")
-    centres = room_for(region, radius, stepover, allowance)
-    return piecewise(centres, radius, lambda part: _piece(part, radius, stepover, climb, corner_radius))
+    return piecewise(
+        region, radius, stepover, allowance, lambda part: _piece(part, radius, stepover, climb, corner_radius)
+    )
 
 
 def rounded(loop: Contour, radius: float) -> Contour:

@@ -20,12 +20,8 @@ from mnclab.machining.milling.spirals import spiral
 from mnclab.machining.milling.trochoids import trochoidal
 
 STRATEGIES: dict[str, Callable[..., Clearing]] = {
-    "rings": rings,
-    "spiral": spiral,
-    "zigzag": zigzag,
-    "one way": one_way,
-    "trochoidal": trochoidal,
-}
+    "rings": rings, "spiral": spiral, "zigzag": zigzag, "one way": one_way, "trochoidal": trochoidal,
+}  # fmt: skip
 LEAST = 1e-3  # of the tool radius: what is narrower and still stands counts as nothing
 ROUNDS = 4
 

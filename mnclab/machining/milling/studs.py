@@ -19,10 +19,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import placed
-from mnclab.machining.milling.clearing import Clearing, numbered
-from mnclab.machining.milling.concentric import DRIFT, joined, steps
+from mnclab.machining.milling.clearing import Clearing, joined, numbered
+from mnclab.machining.milling.concentric import DRIFT, steps
 from mnclab.machining.milling.spirals import half_circles
 
 ACROSS = 1.96  # times R, the longest step across a corner
@@ -86,7 +85,7 @@ def rectangle(
         ring = ring.started_at(ring.nearest((2 * first.reach[1], 0.0)))
         ring = Contour(placed(ring.points, centre, angle), ring.bulge)
         passes.append(ring.reversed() if climb else ring)
-    return joined(passes, numbered("ring", len(passes)), radius, Region(), passes[0].points[0])
+    return joined(passes, numbered("ring", len(passes)), radius)
 
 
 def circle(
@@ -101,9 +100,9 @@ def circle(
     n = steps(spare, stepover)
     ring = Contour.circle(centre, last, angle, clockwise=climb)
     if not n:
-        return joined([ring], ("last circle",), radius, Region(), ring.points[0])
+        return joined([ring], ("last circle",), radius)
     spiral = half_circles(centre, last + spare, last, 2 * n, angle, clockwise=climb)
-    return joined([spiral, ring], ("spiral", "last circle"), radius, Region(), spiral.points[0])
+    return joined([spiral, ring], ("spiral", "last circle"), radius)
 
 
 def polygon(
@@ -201,7 +200,7 @@ def _spiral(
     ways = [slice(0, cut + 1), slice(cut, None)] if turns else [slice(0, None)]
     passes = [_open(points[way], bulges[way], centre, angle) for way in ways]
     labels = ("spiral", "last ring") if turns else ("last ring",)
-    return joined(passes, labels, radius, Region(), passes[0].points[0])
+    return joined(passes, labels, radius)
 
 
 def _open(points: Floats, bulges: Floats, centre: ArrayLike, angle: float) -> Contour:

@@ -1,8 +1,8 @@
 """Grooves by the seven schemes of the textbook (NC-31, 3.20.8): strokes of a grooving tool of width B.
 
 A groove lies between z `right` and `right - width` at its bottom; its rim is the radius of the blank. The tip is the left
-corner of the tool, so that at the right wall it stands at right - B. Coordinates (z, r), mm; a face groove is the same
-plan with both exchanged (`Plan.mapped`). The strokes were drawn in a figure that is missing: for schemes 1 to 4 and 7 the
+corner of the tool, so that at the right wall it stands at right - B. Coordinates (z, r), mm; for a face groove both are
+exchanged. The strokes were drawn in a figure that is missing: for schemes 1 to 4 and 7 the
 source gives no more than their number and the tools, and the order of strokes is the reading adopted.
 
     1 corner groove for a grinding wheel: 1 or 3      4 sloping walls, face grooves: 3

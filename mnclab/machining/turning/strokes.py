@@ -60,17 +60,6 @@ class Plan:
         """Length of the strokes of some roles, or of all but rapids."""
         return sum(way.length for stroke, way in self.ways if stroke.role in (roles or ROLES[1:]))
 
-    def mapped(self, swap: bool = False, mirror: bool = False) -> Plan:
-        """The plan with z and r exchanged (for a face), or with r turned over (for a bore: the caller shifts it)."""
-        sign = -1.0 if mirror else 1.0
-
-        def place(z: float, r: float) -> tuple[float, float]:
-            return (sign * r, z) if swap else (z, sign * r)
-
-        turned = -1.0 if swap != mirror else 1.0
-        moved = (Stroke(*place(s.z, s.r), s.role, turned * s.bulge, s.number, s.tool) for s in self.strokes)
-        return Plan(self.name, place(*self.start), tuple(moved))
-
     def __repr__(self) -> str:
         lines = [f"start R{self.start[1]:g} Z{self.start[0]:g}"]
         lines += [f"{'rapid' if s.role == RAPID else 'feed'} R{s.r:.6g} Z{s.z:.6g}  {s.role}" for s in self.strokes]

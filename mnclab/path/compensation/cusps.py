@@ -72,12 +72,9 @@ def in_a_cusp(el: Elements, c: Index, R: Array, s: Array) -> Array:
     found, least = np.full(P.shape, np.nan), np.full(len(c), np.inf)
     for p in meetings(el.offset(c, True, R, s), el.offset(d, False, R, s)):
         with np.errstate(invalid="ignore"):
-            beside = np.ones(len(c), dtype=bool)
-            for k in (c, d):
-                where = share(p, el.curves(k))
-                beside &= (where >= 0) & (where <= 1)
+            before, after = share(p, el.curves(c)), share(p, el.curves(d))
             away = np.hypot(*(p - P).T)
-            better = beside & (away < least)
+            better = (before >= 0) & (before <= 1) & (after >= 0) & (after <= 1) & (away < least)
         found[better], least[better] = p[better], away[better]
     return found
 

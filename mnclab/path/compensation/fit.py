@@ -15,8 +15,7 @@ own, each from a closed form or, for elements between two corners, from narrowin
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +25,7 @@ from mnclab.geometry.curves import Curves, distance
 from mnclab.geometry.offsets import beside
 from mnclab.path.compensation import neighbours
 from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import at_height, meet
 from mnclab.path.compensation.joining import ends, remaining
 from mnclab.path.compensation.passes import crossed, given_up, run_past
@@ -35,9 +35,6 @@ from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Rule
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
-
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
 
 EXACT = 1e-9  # mm
 HINT = "take a smaller tool"
@@ -62,8 +59,7 @@ def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, repor
     """Which elements (n,) cut into the contour. PathFault at the first, unless `gouge` is "mark"."""
     el = found.el
     marked = np.zeros(len(el.rows), dtype=bool)
-    # one number from each entry or change to the next
-    contour = np.cumsum(el.entry | el.change | el.exit, dtype=np.int64)
+    contour = np.cumsum(el.lead | el.exit, dtype=np.int64)  # one number from each entry or change to the next
     places = _places(found, contour)
     if not places:
         return marked
@@ -100,11 +96,8 @@ def _least(found: Equidistant, contour: Index, places: list[Places]) -> Array:
         before = least.copy()
         for place in places:
             np.minimum.at(least, contour[place.other], place.largest)
-        if (
-            (np.isinf(before) == np.isinf(least)).all()
-            and (least >= before - EXACT)[np.isfinite(least)].all()
-            or not (found.rule == Rule.OUTSIDE_STRAIGHT).any()
-        ):
+        settled = (np.isinf(before) == np.isinf(least)).all() and (least >= before - EXACT)[np.isfinite(least)].all()
+        if settled or not (found.rule == Rule.OUTSIDE_STRAIGHT).any():
             break
         el = found.el
         found = type(found)(el._replace(R=np.minimum(el.R, least[contour])), found.rules)
@@ -126,41 +119,28 @@ def _worded(place: Places, m: int, k: int, el: Elements, path: Toolpath, view: P
     )  # fmt: skip
 
 
-# --- elements and their neighbours ------------------------------------------------------------------------------------
-
-
 def _local(found: Equidistant) -> list[Places]:
     """Arcs that are too small, and elements that their corners use up."""
     el = found.el
-    wall = el.wall
-    curve = np.where(el.arc, el.r, np.inf)
-    toward = el.arc & (el.s * el.sweep > 0)
-    small = np.flatnonzero(wall & toward & (curve - el.R <= EXACT))
-    bound = np.where(el.arc, -1e-12, -EXACT)
+    curve = np.where(el.arc & (el.s * el.sweep > 0), el.r, np.inf)
+    small = np.flatnonzero(el.wall & (curve - el.R <= EXACT))
     lost = found.apart.copy()
     lost[:-1] |= found.apart[1:]
-    used_up = wall & (lost | ~(found.left_over > bound))
+    used_up = el.wall & (lost | ~(found.left_over > np.where(el.arc, -1e-12, -EXACT)))
     used_up[small] = False
-    short = np.flatnonzero(used_up)
-    result = [
-        Places(
-            "arc", small, small, el.r[small], el.R[small] - el.r[small], el.r[small],
-            "the inside arc of radius {r:.4g} is not greater than the tool radius {R:.4g}",
-        )
-    ]  # fmt: skip
+    short, r = np.flatnonzero(used_up), el.r[small]
+    message = "the inside arc of radius {r:.4g} is not greater than the tool radius {R:.4g}"
+    result = [Places("arc", small, small, r, el.R[small] - r, r, message)]
     if len(short):
         largest = narrowed(lambda at, R: _fits(el, short[at], R, found.rules), el.R[short])
         per_mm = np.where(el.arc[short], el.r[short], 1.0)
         lack = -np.nan_to_num(found.left_over[short], posinf=0.0, neginf=0.0) * per_mm
         missing = np.where(lack > EXACT, lack, el.R[short] - largest)
-        length = np.where(
-            el.arc[short], np.abs(el.sweep[short]) * el.r[short], np.hypot(*(el.end[short] - el.start[short]).T)
-        )
         message = (
             "the element is too short for the tool radius {R:.4g}: the offsets of its neighbours do not meet on it"
         )
         hint = "take a smaller tool, or lengthen the element"
-        result.append(Places("element", short, short, length, missing, largest, message, hint))
+        result.append(Places("element", short, short, el.length(short), missing, largest, message, hint))
     return result
 
 
@@ -212,9 +192,6 @@ def narrowed(fits: Callable[[Index, Array], Mask], radius: Array, parts: int = 1
     return low
 
 
-# --- entry and exit ---------------------------------------------------------------------------------------------------
-
-
 def _leads(el: Elements) -> list[Places]:
     """Where the tool stands before it enters and after it left, it must be clear of the end of the contour."""
     n, result = len(el.rows), []
@@ -234,9 +211,6 @@ def _leads(el: Elements) -> list[Places]:
     return result
 
 
-# --- any number of blocks apart ---------------------------------------------------------------------------------------
-
-
 def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     """Bottlenecks, ends and straight corners."""
     el = found.el
@@ -248,16 +222,11 @@ def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     joined = np.concatenate([[False], group[1:] == group[:-1]])
     n_in = beside(np.zeros((1, 2)), el.t_in[run], s)
     n_out = beside(np.zeros((1, 2)), el.t_out[run], s) if el.arc.any() else n_in
-    curves = Curves(el.start[run], el.end[run], el.centre[run], el.r[run], el.sweep[run])
-    walls = Walls(curves, n_in, n_out, joined, s, group)
+    walls = Walls(el.curves(run), n_in, n_out, joined, s, group)
     coarse = chunks(walls)
-    return [
-        _bottlenecks(found, contour, k, walls, coarse),
-        _crossed(found, contour),
-        *_ends(found, contour, k, walls, coarse),
-        *_rolled(found, contour, k, coarse),
-        *_tips(found, contour),
-    ]
+    facing_and_crossed = [_bottlenecks(found, contour, k, walls, coarse), _crossed(found, contour)]
+    leads = [*_ends(found, contour, k, walls, coarse), *_rolled(found, contour, k, coarse)]
+    return [*facing_and_crossed, *leads, *_tips(found, contour)]
 
 
 def _bottlenecks(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> Places:
@@ -328,27 +297,25 @@ def _ends(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: Ch
             group = group[at_height(el, float(height), k[group])]
             if not len(group):
                 continue
-            c = walls.curves.take(group)
-            allowed = EXACT + slack[k[e]] + slack[k[group]]
+            around_it, allowed = walls.curves.take(group), EXACT + slack[k[e]] + slack[k[group]]
 
-            def clear(radius: Array, which: Index, c: Curves = c, P: Array = P, normal: Array = normal) -> Array:
+            def clear(
+                which: Index, radius: Array, c: Curves = around_it, P: Array = P, normal: Array = normal
+            ) -> Array:
                 return distance(P + radius[:, None] * normal, c.take(which)) - radius
 
-            bad = np.flatnonzero(clear(np.full(len(group), R), np.arange(len(group))) < -allowed)
-            if len(bad):
-                off = run_past(el, np.full(len(bad), k[e]), k[group[bad]])
-                off |= given_up(found, contour, np.full(len(bad), k[e]), k[group[bad]])
-                bad = bad[~off]
+            bad = np.flatnonzero(clear(np.arange(len(group)), np.full(len(group), R)) < -allowed)
+            one, other = np.full(len(bad), k[e]), k[group[bad]]
+            bad = bad[~run_past(el, one, other) & ~given_up(found, contour, one, other)]
             if not len(bad):
                 continue
-            largest = narrowed(partial(_clears, clear, bad, allowed[bad]), np.full(len(bad), R))
-            worst = int(np.argmin(largest))
-            width = R + clear(np.array([R]), bad[[worst]])
-            one = np.array([k[e]])
+            room = -allowed[bad]
+            largest = narrowed(lambda m, radius: clear(bad[m], radius) >= room[m], np.full(len(bad), R))  # noqa: B023
+            worst = [int(np.argmin(largest))]
+            width = R + clear(bad[worst], np.array([R]))
             verb = "leaves" if at_end else "arrives at"
             message = f"where the tool of radius {{R:.4g}} {verb} the contour, the element of line {{other}} is {{r:.6g}} mm away"
-            other = k[group[bad[[worst]]]]
-            places.append(Places("end", one, other, width, R - width, largest[[worst]], message))
+            places.append(Places("end", k[[e]], k[group[bad[worst]]], width, R - width, largest[worst], message))
     return places
 
 
@@ -357,10 +324,8 @@ def _rolled(found: Equidistant, contour: Index, k: Index, coarse: Chunks) -> lis
     el, rules, slack, places = found.el, found.rules, _misfit(found.el), []
     c = np.flatnonzero(found.insert[1:] & (el.lead[:-1] | el.exit[1:]))
     near = [k[around(coarse, el.end[one], 2 * float(el.R[one]), len(k))] for one in c]
-    near = [
-        w[(contour[w] == contour[one]) & at_height(el, float(el.from_height[one + 1]), w)]
-        for one, w in zip(c, near, strict=True)
-    ]
+    here = zip(c, near, strict=True)
+    near = [w[(contour[w] == contour[one]) & at_height(el, float(el.from_height[one + 1]), w)] for one, w in here]
     if not near:
         return []
     every, wall = np.repeat(c, [len(w) for w in near]), np.concatenate(near)
@@ -381,15 +346,9 @@ def _rolled(found: Equidistant, contour: Index, k: Index, coarse: Chunks) -> lis
         def clear(which: Index, radius: Array, look: neighbours.Pairs = look, room: Array = room) -> Mask:
             return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
 
-        verb = "onto" if step else "off"
         through = "the contour through the element of line {other}, {r:.6g} mm from its centre"
-        message = f"the tool of radius {{R:.4g}} rolls {verb} {through}"
+        message = f"the tool of radius {{R:.4g}} rolls {'onto' if step else 'off'} {through}"
         hint = f"let the {kind} {'come from' if step else 'lead to'} the side of the tool"
-        places.append(
-            Places(kind, look.k + 1 - step, look.wall, width, R - width, narrowed(clear, R, parts=4), message, hint)
-        )
+        largest = narrowed(clear, R, parts=4)
+        places.append(Places(kind, look.k + 1 - step, look.wall, width, R - width, largest, message, hint))
     return places
-
-
-def _clears(clear: Callable[[Array, Index], Array], of: Index, allowed: Array, which: Index, radius: Array) -> Mask:
-    return clear(radius, of[which]) >= -allowed[which]

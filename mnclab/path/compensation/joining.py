@@ -31,9 +31,7 @@ class Corners(NamedTuple):
 def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = None) -> Corners:
     """The corners c (m,) between elements c and c + 1, for the radii of the elements or others (m,)."""
     d = c + 1
-    run = len(c) > 1 and bool(
-        (c[1:] - c[:-1] == 1).all()
-    )  # corners that follow each other are not gathered but cut out
+    run = len(c) > 1 and bool((np.diff(c) == 1).all())  # corners that follow each other are not gathered but cut out
     b, a = (slice(c[0], c[-1] + 1), slice(d[0], d[-1] + 1)) if run else (c, d)  # before, after
     on = el.on[b]
     s = np.where(on, el.s[b], el.s[a])
@@ -67,13 +65,8 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
         S[to_first] = beside(P[to_first], t1[to_first], shift[to_first])
 
     corner = el.corner[a]
-    straight = (
-        outside
-        & ~reversal
-        & (s * across < 0)
-        & (corner != ROUND)
-        & ((corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN)))
-    )
+    straight = outside & ~reversal & (s * across < 0) & (corner != ROUND)
+    straight &= (corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN))
     inside = bent & ~out & ~change & ~lead & ~leave
     apart = np.zeros(len(c), dtype=bool)
     for which, code in ((straight, Rule.OUTSIDE_STRAIGHT), (inside, Rule.INSIDE)):

@@ -76,9 +76,8 @@ def peak(length: Array, v0: Array, v1: Array, cap: Array, a: Array, j: Array) ->
         go_on = np.abs(new - x) > 1e-15 * most
         found[open_] = new
         open_ = open_[go_on]
-        low, other, length, a, j, x, most, least = (
-            each[go_on] for each in (low, other, length, a, j, new, most, least)
-        )
+        still_open = (low, other, length, a, j, new, most, least)
+        low, other, length, a, j, x, most, least = (each[go_on] for each in still_open)
     return found
 
 

@@ -41,9 +41,8 @@ class Rapids:
         seconds[moves] = ramps.phases(flat[moves], still, still, above, a[moves], j[moves])
         #: Seconds (m, 3, 7) of the phases of each axis.
         self.phases = seconds.reshape(-1, 3, 7)
-        self._starts = [
-            each.reshape(-1, 3, 7) for each in ramps.starts(seconds, np.zeros(len(flat)), np.where(flat > 0, a, 0.0), j)
-        ]
+        begin = ramps.starts(seconds, np.zeros(len(flat)), np.where(flat > 0, a, 0.0), j)
+        self._starts = [each.reshape(-1, 3, 7) for each in begin]
         self.seconds = self.phases.sum(axis=2).max(axis=1)
 
     def breaks(self) -> Array:
@@ -57,14 +56,11 @@ class Rapids:
 
     def state(self, which: NDArray[np.int64], t: Array) -> tuple[Array, Array, Array, Array]:
         """Place, velocity, acceleration and jerk (q, 3) of some of the rows, `t` (q,) seconds after their start."""
-        begin = np.cumsum(self.phases[which], axis=2)
-        phase = (begin <= t[:, None, None]).sum(axis=2)  # 7: the axis has arrived
+        ends = np.cumsum(self.phases[which], axis=2)
+        phase = (ends <= t[:, None, None]).sum(axis=2)  # 7: the axis has arrived
         done = phase == 7
         phase = np.minimum(phase, 6)[:, :, None]
-        dt = (
-            t[:, None]
-            - (np.take_along_axis(begin, phase, 2) - np.take_along_axis(self.phases[which], phase, 2))[..., 0]
-        )
+        dt = t[:, None] - np.take_along_axis(ends - self.phases[which], phase, 2)[..., 0]
         s, v, a, j = (np.take_along_axis(each[which], phase, 2)[..., 0] for each in self._starts)
         sign, distance = np.sign(self.travel[which]), np.abs(self.travel[which])
         place = np.where(done, distance, s + dt * (v + dt * (a / 2 + dt * j / 6)))

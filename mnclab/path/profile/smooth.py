@@ -76,9 +76,7 @@ class Groups:
         used = seconds > 0
         phase = np.flatnonzero(used)  # of all phases of all groups, in order
         first = self.knots[:-1]
-        inside = np.ones(len(self.group), dtype=bool)
-        inside[first] = False
-        inside = np.flatnonzero(inside)  # rows that begin within a group
+        inside = np.delete(np.arange(len(self.group)), first)  # rows that begin within a group
         at = np.concatenate([begins.ravel()[phase], self.since[inside]])
         group = np.concatenate([phase // 7, self.group[inside]])
         which = np.concatenate([phase, np.full(len(inside), -1)])
@@ -126,9 +124,7 @@ def smooth(rows: Rows, w: Array) -> tuple[Array, Array, Array, Groups]:
         return v, groups.top, whole, groups
     nodes = np.zeros(n + 1)
     nodes[knots] = v
-    inside = np.ones(n + 1, dtype=bool)
-    inside[knots] = False
-    at = np.flatnonzero(inside)
+    at = np.delete(np.arange(n + 1), knots)
     groups.since[at], nodes[at] = _when(groups, groups.group[at], behind[at] - behind[first[groups.group[at]]])
     end = np.append(groups.since[1:], 0.0)
     end[knots[1:] - 1] = whole
@@ -153,15 +149,10 @@ def _knots(rows: Rows, w: Array) -> Index:
     chosen |= rows.corner == 0
     corner, cap = rows.corner, rows.cap
     chosen[1:n] |= np.minimum(cap[1:], cap[:-1]) < SHARP * np.maximum(cap[1:], cap[:-1])
-    inner = corner[1:n]
-    around = np.maximum(corner[:-2], corner[2:])
-    chosen[1:n] |= (inner < SHARP * around) & (inner <= w[1:n])
-    still = rows.length == 0  # an event is a group of its own
-    chosen[:-1] |= still
-    chosen[1:] |= still
-    long = share >= 1.0
-    chosen[:-1] |= long
-    chosen[1:] |= long
+    chosen[1:n] |= (corner[1:n] < SHARP * np.maximum(corner[:-2], corner[2:])) & (corner[1:n] <= w[1:n])
+    alone = (share >= 1.0) | (rows.length == 0)  # an event is a group of its own
+    chosen[:-1] |= alone
+    chosen[1:] |= alone
     return np.flatnonzero(chosen)
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
-from mnclab.controls.tnc_620.cycles.addresses import FAR
+from mnclab.controls.tnc_620.cycles.addresses import coordinate, count
 from mnclab.controls.tnc_620.tables.datum_tables import row_of
 from mnclab.geometry import frames
-from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.machining.steps import Step, Write
@@ -19,12 +20,8 @@ CYCLES = CycleTable()
 AXES = "xyzabc"
 
 
-def axis_shift(address: str) -> Any:
-    """The shift of one axis."""
-    return param(
-        address, f"datum shift along {address}" if address in "XYZ" else f"datum shift of {address}",
-        "mm" if address in "XYZ" else "deg", default=None, default_means="as it is", at_least=-FAR, at_most=FAR, modal=True,
-    )  # fmt: skip
+linear = partial(coordinate, default=None, default_means="as it is")
+rotary = partial(linear, unit="deg")
 
 
 @CYCLES("CYCL DEF 7", "Datum shift", runs="definition", source="11.2")
@@ -34,22 +31,20 @@ class DatumShift(Cycle):
     `#5` takes the shift from a row of the active datum table; an empty field there leaves its axis as it is.
     """
 
-    x: float | None = axis_shift("X")
-    y: float | None = axis_shift("Y")
-    z: float | None = axis_shift("Z")
-    a: float | None = axis_shift("A")
-    b: float | None = axis_shift("B")
-    c: float | None = axis_shift("C")
-    datum_number: float | None = param(
-        "#", "row of the datum table", "count", default=None, default_means="the shift is written", at_least=0,
-        at_most=9999, modal=True, type="integer",
-    )  # fmt: skip
+    x: float | None = linear("X", "datum shift along X")
+    y: float | None = linear("Y", "datum shift along Y")
+    z: float | None = linear("Z", "datum shift along Z")
+    a: float | None = rotary("A", "datum shift of A")
+    b: float | None = rotary("B", "datum shift of B")
+    c: float | None = rotary("C", "datum shift of C")
+    datum_number: float | None = count(
+        "#", "row of the datum table", at_most=9999, default=None, default_means="the shift is written"
+    )
 
     @classmethod
     def prepare(
         cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
     ) -> dict[str, Any]:
-        """Increments are added to the shift as it is."""
         for name, before in zip(AXES, (*chain.shift_of(m), *chain.rotary(m)[0]), strict=True):
             if name in given and given[name].incremental:
                 values[name] += before
@@ -61,7 +56,6 @@ class DatumShift(Cycle):
         return {axis: value for axis in AXES if (value := getattr(self, axis)) is not None}
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Either axes or the row of a table."""
         if not self.written and self.datum_number is None:
             yield "", "needs an axis, for example CYCL DEF 7.1 X+60"
         if self.written and self.datum_number is not None:
@@ -73,7 +67,6 @@ class DatumShift(Cycle):
                 yield "datum_number", str(error.args[0])
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion: the register is read anew from where the tip stands."""
         new = self.written if self.datum_number is None else row_of(m, int(self.datum_number))
         x, y, z = (new.get(axis, before) for axis, before in zip("xyz", chain.shift_of(m), strict=True))
         turned = tuple(new.get(axis, before) for axis, before in zip("abc", chain.rotary(m)[0], strict=True))
@@ -85,13 +78,9 @@ class DatumShift(Cycle):
 class Presetting(Cycle):
     """Makes a row of the preset table the datum of the program; cycles 7, 8, 10, 11 and 26 are over, a tilt stays."""
 
-    preset_number: float = param(
-        "Q339", "number of the preset", "count", at_least=0, at_most=65535, modal=True, type="integer",
-        example=0, note="0: the one set by hand",
-    )  # fmt: skip
+    preset_number: float = count("Q339", "number of the preset", at_most=65535, note="0: the one set by hand", example=0)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A row of the table; row 0 is always there."""
         row = int(self.preset_number)
         if row and row not in m.tables.presets:
             known = ", ".join(map(str, sorted(m.tables.presets))) or "none but 0"
@@ -101,7 +90,6 @@ class Presetting(Cycle):
             yield "preset_number", f"names row {row}, which carries a rotation: that is not built yet"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion: the register is read anew from where the tip stands."""
         row = int(self.preset_number)
         yield from chain.reset(m)
         yield Write("memory", row, "preset")

@@ -7,6 +7,7 @@ depth works upwards from A = S - Q200, where the setting "depth_error" allows it
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import ClassVar
 
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
@@ -21,9 +22,12 @@ class AtSurface(Cycle):
     second_clearance: float
     depth: float
 
+    works: ClassVar[tuple[str, ...]] = ("depth",)
+    """Its depths, in the order in which their signs are evaluated."""
+
     def depths(self) -> dict[str, float]:
-        """The depths by name, in the order in which their signs are evaluated; 0 leaves a step out."""
-        return {"depth": self.depth}
+        """The depths by name; 0 leaves a step out."""
+        return {name: getattr(self, name) for name in self.works}
 
     @property
     def down(self) -> float:

@@ -1,4 +1,4 @@
-"""Thread milling (chapter 5.5 to 5.10): 262, 263 and 267, and what 264 and 265, which begin in solid material, share with them.
+"""Thread milling (chapter 5.5 to 5.10): cycles 262, 263 and 267; 264 and 265, which begin in solid material.
 
 The geometry is that of `machining.holes.thread_milling`. Readings where the manual is silent: feeds of the thread,
 that of the approach among them, are those of the cutting edge; a depth of 0 leaves its step out, and a cycle whose depths
@@ -9,19 +9,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, TypeAlias
+from functools import partial
+from typing import NamedTuple, TypeAlias
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, increment
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS_THREADS
+from mnclab.machining.depths import MOST, infeeds
+from mnclab.machining.holes.drilling import drill
 from mnclab.machining.holes.thread_milling import Path, centre_feed, chamfer, countersink, helices, mill_thread, path_of
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()
 
+ORDER: dict[float, str] = {0: "before thread milling", 1: "after thread milling"}
 CORE = 5 / 8 * math.sqrt(3)  # pitches by which the core of an ISO metric nut is narrower than its nominal diameter
 
 
@@ -38,11 +44,12 @@ class Way(NamedTuple):
     either_way: bool = False
 
 
-@CYCLES("CYCL DEF 262", "Thread milling", runs="call", source="5.6")
+@CYCLES("CYCL DEF 262", "Thread milling", source="5.6")
 class InnerThreadMilling(AtSurface):
     """Mills a thread in a hole: one turn, a continuous helix, or several single turns."""
 
-    does: ClassVar[str] = MILLS_THREADS
+    does = MILLS_THREADS
+    works = ("thread_depth",)
 
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
@@ -56,21 +63,15 @@ class InnerThreadMilling(AtSurface):
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
 
-    def depths(self) -> dict[str, float]:
-        return {"thread_depth": self.thread_depth}
-
     @property
     def way(self) -> Way:
-        """Q355 threads per step."""
         return Way(inside(self.milling_type), int(self.threads_per_step))
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Nothing where the depth is 0, for then nothing is done."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         if self.thread_depth:
             yield from check(self, m, milling_feed=True)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """The thread alone; nothing with a depth of 0."""
         if not self.down:
             yield self.left_out
             return
@@ -79,23 +80,22 @@ class InnerThreadMilling(AtSurface):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 263", "Thread milling with countersinking", runs="call", source="5.7")
+@CYCLES("CYCL DEF 263", "Thread milling with countersinking", source="5.7")
 class ThreadMillingCountersinking(AtSurface):
     """Countersinks a hole with the side of the tool or with its end, and mills a thread in it in one turn."""
 
-    does: ClassVar[str] = MILLS_THREADS
+    does = MILLS_THREADS
+    works = ("thread_depth", "countersinking_depth", "depth_at_front")
 
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-16)
-    countersinking_depth: float = addresses.coordinate(
-        "Q356", "countersinking depth", incremental=True, note="of the tool tip; 0: none", example=-20
-    )
+    countersinking_depth: float = increment("Q356", "countersinking depth", note="of the tool tip; 0: none", example=-20)
     prepositioning_feed: float | str = addresses.positioning_feed()
     milling_type: float = addresses.climb()
     clearance: float = addresses.clearance()
-    side_clearance: float = addresses.length(
-        "Q357", "set-up clearance at the side", incremental=True, note="from the tooth to the wall", example=0.2
+    side_clearance: float = addresses.side_clearance(
+        meaning="set-up clearance at the side", note="from the tooth to the wall", example=0.2
     )
     depth_at_front: float = addresses.front_depth()
     offset_at_front: float = addresses.front_offset()
@@ -105,20 +105,15 @@ class ThreadMillingCountersinking(AtSurface):
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
 
-    def depths(self) -> dict[str, float]:
-        names = ("thread_depth", "countersinking_depth", "depth_at_front")
-        return {name: getattr(self, name) for name in names}
-
     @property
     def way(self) -> Way:
         return Way(inside(self.milling_type))
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         sinks = bool(self.countersinking_depth or self.depth_at_front)
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=sinks)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Countersink, countersink at front, thread."""
         yield from remark_on_the_end(self, m, "countersinking_depth")
         yield Go("to the set-up clearance", self.above)
         feed, position = self.countersinking_feed, rate(self.prepositioning_feed)
@@ -137,11 +132,12 @@ class ThreadMillingCountersinking(AtSurface):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 267", "Outside thread milling", runs="call", source="5.10")
+@CYCLES("CYCL DEF 267", "Outside thread milling", source="5.10")
 class OutsideThreadMilling(AtSurface):
     """Countersinks the end of a stud and mills a thread on it; the tool ends beside the stud, on the first axis."""
 
-    does: ClassVar[str] = MILLS_THREADS
+    does = MILLS_THREADS
+    works = ("thread_depth", "depth_at_front")
 
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
@@ -158,23 +154,18 @@ class OutsideThreadMilling(AtSurface):
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
 
-    def depths(self) -> dict[str, float]:
-        return {"thread_depth": self.thread_depth, "depth_at_front": self.depth_at_front}
-
     @property
     def way(self) -> Way:
         """Outside, climb milling turns clockwise."""
         return Way(-inside(self.milling_type), int(self.threads_per_step), external=True)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The tool does not plunge into the stud."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         sinks = bool(self.depth_at_front)
         yield from check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=sinks)
         if sinks and self.offset_at_front == 0:
             yield "offset_at_front", "must be greater than 0 with Q358: the tool would go into the stud"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Beside the stud at rapid; countersink at front, thread."""
         yield Go("to the set-up clearance", self.above)
         yield Go("to the start point beside the stud", x=path(self, m).start, y=0.0)
         yield from front(self, m, self.countersinking_feed)
@@ -182,13 +173,107 @@ class OutsideThreadMilling(AtSurface):
         yield from self.leave()
 
 
-if TYPE_CHECKING:
-    from mnclab.controls.tnc_620.cycles.thread_drilling import HelicalThreadMilling, ThreadDrillingMilling
+@CYCLES("CYCL DEF 264", "Thread drilling and milling", source="5.8")
+class ThreadDrillingMilling(AtSurface):
+    """Drills a hole in infeeds, countersinks it with the end of the tool, and mills a thread in it in one turn."""
+
+    does = MILLS_THREADS
+    works = ("thread_depth", "total_hole_depth", "depth_at_front")
+
+    nominal_diameter: float = addresses.nominal_diameter()
+    pitch: float = addresses.pitch()
+    thread_depth: float = addresses.thread_depth(example=-16)
+    total_hole_depth: float = increment("Q356", "total hole depth", note="0: no drilling", example=-20)
+    prepositioning_feed: float | str = addresses.positioning_feed()
+    milling_type: float = addresses.climb()
+    infeed: float = addresses.infeed(note="the whole depth at once where it is as great", example=5)
+    upper_advanced_stop_distance: float = addresses.first_stop(note="above the last depth", example=0.2)
+    chip_breaking_depth: float = addresses.break_every(note="0: out of the hole")
+    chip_breaking_retract: float = addresses.break_retract(meaning="retraction for chip breaking")
+    depth_at_front: float = addresses.front_depth()
+    offset_at_front: float = addresses.front_offset()
+    clearance: float = addresses.clearance()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(example=50)
+    plunging_feed: float = addresses.plunge_feed(example=150)
+    milling_feed: float = addresses.edge_feed()
+    approach_feed: float = addresses.approach_feed()
+
+    @property
+    def way(self) -> Way:
+        return Way(inside(self.milling_type))
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        drills, mills = bool(self.total_hole_depth), bool(self.thread_depth or self.depth_at_front)
+        yield from check(self, m, plunging_feed=drills, milling_feed=mills)
+        if drills:
+            breaks = partial(infeeds, 0.0, self.total_hole_depth, self.chip_breaking_depth)
+            yield from not_zero(self, "infeed", purpose="to drill with")
+            yield from too_many("infeed", self.levels)
+            yield from too_many("chip_breaking_depth", breaks)
+
+    def levels(self) -> tuple[float, ...]:
+        return infeeds(self.surface, self.surface + self.total_hole_depth, self.infeed)
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        yield from remark_on_the_end(self, m, "total_hole_depth")
+        yield Go("to the set-up clearance", self.above)
+        if self.total_hole_depth:
+            every = self.chip_breaking_depth
+            yield from drill(
+                self.levels(), above=self.above, feed=self.plunging_feed, reenter=self.upper_advanced_stop_distance,
+                breaks=MOST if every else 0, break_every=every, back=self.chip_breaking_retract, approach=self.plunging_feed,
+                start=self.surface,
+            )  # fmt: skip
+        yield from front(self, m, self.milling_feed)
+        yield from thread(self, m)
+        yield from self.leave()
+
+
+@CYCLES("CYCL DEF 265", "Helical thread drilling and milling", source="5.9")
+class HelicalThreadMilling(AtSurface):
+    """Mills a thread into solid material in one continuous helix downwards; a countersink before it or after it."""
+
+    does = MILLS_THREADS
+    works = ("thread_depth", "depth_at_front")
+
+    nominal_diameter: float = addresses.nominal_diameter()
+    pitch: float = addresses.pitch()
+    thread_depth: float = addresses.thread_depth(example=-16)
+    prepositioning_feed: float | str = addresses.positioning_feed()
+    depth_at_front: float = addresses.front_depth()
+    offset_at_front: float = addresses.front_offset()
+    countersink_order: float = choice("Q360", "when the countersink is made", ORDER, example=0)
+    clearance: float = addresses.clearance()
+    surface: float = addresses.surface()
+    second_clearance: float = addresses.second_clearance(example=50)
+    countersinking_feed: float = addresses.countersinking_feed()
+    milling_feed: float = addresses.edge_feed()
+
+    @property
+    def way(self) -> Way:
+        """One continuous helix, always downwards: the hand of the thread alone says which way round."""
+        return Way(-hand(self), 1, either_way=True)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=bool(self.depth_at_front))
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """Before the thread the tool countersinks on its way down, after it on its way up."""
+        feed = self.countersinking_feed
+        yield Go("to the set-up clearance", self.above)
+        if self.countersink_order == 0:
+            yield from front(self, m, feed, feed)
+        yield from thread(self, m)
+        if self.countersink_order == 1:
+            yield from front(self, m, feed)
+        yield from self.leave()
+
 
 Countersunk: TypeAlias = (
-    "ThreadMillingCountersinking | OutsideThreadMilling | ThreadDrillingMilling | HelicalThreadMilling"
+    ThreadMillingCountersinking | OutsideThreadMilling | ThreadDrillingMilling | HelicalThreadMilling
 )
-AnyThread: TypeAlias = "InnerThreadMilling | Countersunk"
+AnyThread: TypeAlias = InnerThreadMilling | Countersunk
 
 # --- what all share --------------------------------------------------------------------------------------------------
 
@@ -217,7 +302,7 @@ def passes(c: AnyThread) -> list[tuple[float, float]]:
     return [(bottom - begin, bottom - end) for begin, end in found]
 
 
-def check(c: AnyThread, m: Machine, **feeds: bool) -> Iterator[tuple[str, str]]:
+def check(c: AnyThread, m: Machine, **feeds: bool) -> Iterator[Fault]:
     """Spindle, tool, pitch, signs, room for the tool, and the `feeds` that the cycle runs at where something is not 0."""
     if not any(c.depths().values()):
         every = " and ".join(address(c, name) for name in c.depths())
@@ -226,16 +311,12 @@ def check(c: AnyThread, m: Machine, **feeds: bool) -> Iterator[tuple[str, str]]:
         yield "", "needs a turning spindle: write M3 or M4 before"
     if not c.way.either_way and m.turning != 1:
         yield "", "needs a tool that turns right: write M3 before"
-    if m.radius <= 0:
-        yield "", f"needs a tool with a radius, got {m.radius:g}"
+    yield from with_radius(m)
     if c.pitch == 0:
         yield "pitch", "must not be 0"
-    if c.nominal_diameter == 0:
-        yield "nominal_diameter", "must be greater than 0, got 0"
+    yield from not_zero(c, "nominal_diameter")
     yield from c.signs(m)
-    for name, used in {"prepositioning_feed": True, **feeds}.items():
-        if used and getattr(c, name) == 0:
-            yield name, "must be greater than 0, got 0"
+    yield from not_zero(c, "prepositioning_feed", *(name for name, used in feeds.items() if used))
     if c.thread_depth and not c.way.external and 2 * m.radius >= c.nominal_diameter:
         yield "nominal_diameter", f"must be greater than the tool, {2 * m.radius:g}, got {c.nominal_diameter:g}"
     if c.thread_depth:
@@ -260,12 +341,10 @@ def thread(c: AnyThread, m: Machine) -> Iterator[Step]:
     """Every helix with its approach and departure; nothing without a depth."""
     if c.thread_depth:
         slow = getattr(c, "approach_feed", 0.0) or c.milling_feed  # cycle 265 has no Q512
-        feed, approach = (
-            centre_feed(edge, c.nominal_diameter, m.radius, c.way.external) for edge in (c.milling_feed, slow)
-        )
+        of_centre = partial(centre_feed, nominal=c.nominal_diameter, tool_radius=m.radius, external=c.way.external)
         yield from mill_thread(
-            path(c, m), passes(c), pitch=abs(c.pitch), sense=c.way.rotation, feed=feed, approach_feed=approach,
-            position_feed=rate(c.prepositioning_feed), external=c.way.external,
+            path(c, m), passes(c), pitch=abs(c.pitch), sense=c.way.rotation, feed=of_centre(c.milling_feed),
+            approach_feed=of_centre(slow), position_feed=rate(c.prepositioning_feed), external=c.way.external,
         )  # fmt: skip
 
 

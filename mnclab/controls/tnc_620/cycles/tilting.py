@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
-from mnclab.controls.tnc_620.cycles.addresses import FAR, FAST, angle
+from mnclab.controls.tnc_620.cycles.addresses import angle, distance, feed
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import tilting
 from mnclab.geometry.frames import Matrix
-from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
 from mnclab.machining.steps import Go, Say, Step, Swivel, Write
@@ -36,9 +37,8 @@ AXES = "ABC"
 RESULTS = {"A": "Q120", "B": "Q121", "C": "Q122"}
 
 
-def tilt(axis: str) -> Any:
-    """The angle of an axis."""
-    return angle(axis, f"tilt angle {axis}", default=None, default_means="as it is")
+STILL: dict[str, Any] = {"default": None, "default_means": "they are not moved"}
+tilt = partial(angle, default=None, default_means="as it is")
 
 
 @CYCLES("CYCL DEF 19", "Working plane", runs="definition", source="11.9")
@@ -49,17 +49,13 @@ class WorkingPlane(Cycle):
     the function is off.
     """
 
-    angle_a: float | None = tilt("A")
-    angle_b: float | None = tilt("B")
-    angle_c: float | None = tilt("C")
-    rotary_feed: float | None = param(
-        "F", "feed of the rotary axes", "mm/min", default=None, default_means="they are not moved", at_least=0,
-        at_most=FAST, modal=True, note="degrees a minute",
-    )  # fmt: skip
-    set_up_clearance: float | None = param(
-        "ABST", "set-up clearance", default=None, default_means="they are not moved", at_least=0, at_most=FAR,
-        modal=True, incremental=True, note="how far below the tip the point is that stands still",
-    )  # fmt: skip
+    angle_a: float | None = tilt("A", "tilt angle A")
+    angle_b: float | None = tilt("B", "tilt angle B")
+    angle_c: float | None = tilt("C", "tilt angle C")
+    rotary_feed: float | None = feed("F", "feed of the rotary axes", **STILL, note="degrees a minute")
+    set_up_clearance: float | None = distance(
+        "ABST", "set-up clearance", **STILL, note="how far below the tip the point is that stands still"
+    )
 
     @classmethod
     def prepare(
@@ -74,7 +70,6 @@ class WorkingPlane(Cycle):
 
     @property
     def angles(self) -> dict[str, float]:
-        """A, B and C, degrees."""
         return {"A": self.angle_a or 0.0, "B": self.angle_b or 0.0, "C": self.angle_c or 0.0}
 
     @property
@@ -83,7 +78,6 @@ class WorkingPlane(Cycle):
         return self.angle_a is None
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """No compensation, both words of the positioning or none, and only axes that are there."""
         if m.side:
             yield "", "cannot tilt the plane under radius compensation: write R0 before"
         if (self.rotary_feed is None) != (self.set_up_clearance is None):
@@ -99,11 +93,9 @@ class WorkingPlane(Cycle):
                     yield f"angle_{axis.lower()}", f"must be 0, got {angle:g}: {there}"
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """Where the tip goes is told in coordinates of the program."""
         return 0.0, 0.0
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """The frame, the results, and the motion of the rotary axes where it is asked for."""
         if self.off:
             yield Write("memory", {}, "tilt_angles")
             if chain.TILT in m.frames and (left := (yield from chain.untilt(m))):

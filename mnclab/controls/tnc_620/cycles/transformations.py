@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import Any
 
-from mnclab.controls.tnc_620.cycles import chain
-from mnclab.controls.tnc_620.cycles.addresses import FAR
+from mnclab.controls.tnc_620.cycles import addresses, chain
+from mnclab.controls.tnc_620.cycles.addresses import coordinate, ratio
 from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
@@ -19,7 +20,6 @@ from mnclab.machining.steps import Step, Write
 from mnclab.text.program import Word
 
 CYCLES = CycleTable()
-SMALLEST, LARGEST = 0.000001, 99.999999  # of a factor
 NOT_BUILT = "UVW"  # secondary axes
 
 
@@ -28,12 +28,11 @@ class Mirroring(Cycle):
     """Coordinates of the named axes change their sign about the active datum; without an axis the mirror image is over."""
 
     mirrored_axes: tuple[str, ...] | None = param(
-        "axes", "mirrored axes", "text", default=None, default_means="none: no mirror image", modal=True, type="text",
-        several=True, note="letters: X, Y, X Y; not the tool axis",
+        "axes", "mirrored axes", "text", type="text", several=True, default=None, default_means="none: no mirror image",
+        modal=True, note="letters: X, Y, X Y; not the tool axis",
     )  # fmt: skip
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """At most three, each once, not the tool axis while a tool is called, and only those that are there."""
         named = self.mirrored_axes or ()
         if len(named) > 3:
             yield "mirrored_axes", f"must be at most three, got {' '.join(named)}"
@@ -45,7 +44,6 @@ class Mirroring(Cycle):
             yield "mirrored_axes", f"cannot be {absent}: this axis is not built yet"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion; an arc turns the other way and RL becomes RR where one axis of the plane is mirrored."""
         named = self.mirrored_axes or ()
         linear = "".join(axis for axis in named if axis in "XYZ")
         yield Write("memory", "".join(axis for axis in named if axis in "ABC"), "rotary_mirror")
@@ -56,9 +54,7 @@ class Mirroring(Cycle):
 class Rotation(Cycle):
     """Turns the coordinates of the working plane about the active datum; cancels a radius compensation."""
 
-    angle: float = param(
-        "ROT", "rotation angle", "deg", at_least=-360, at_most=360, modal=True, example=30, note="IROT adds to the active angle"
-    )
+    angle: float = addresses.angle("ROT", "rotation angle", note="IROT adds to the active angle", example=30)
 
     @classmethod
     def prepare(
@@ -70,15 +66,14 @@ class Rotation(Cycle):
         return values
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion: the register is read anew from where the tip stands."""
         yield Write("side", 0)
         yield from chain.remember_angle(m, self.angle)
         yield from chain.define(m, chain.ROTATION, frames.turn(math.radians(self.angle)) if self.angle % 360 else None)
 
 
-def factor(address: str, meaning: str, **more: Any) -> Any:
-    """A factor of enlargement or reduction."""
-    return param(address, meaning, "ratio", at_least=SMALLEST, at_most=LARGEST, modal=True, **more)
+#: A factor of enlargement or reduction.
+factor = partial(ratio, at_least=0.000001, at_most=99.999999)
+centre = partial(coordinate, default=None, default_means="the active datum")
 
 
 @CYCLES("CYCL DEF 11", "Scaling", runs="definition", source="11.7")
@@ -91,17 +86,8 @@ class Scaling(Cycle):
     scaling_factor: float = factor("SCL", "scaling factor", example=0.5)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion."""
         s = self.scaling_factor
         yield from chain.define(m, chain.SCALE, frames.scale(s, s, s) if s != 1 else None)
-
-
-def centre(address: str) -> Any:
-    """CCX, CCY, CCZ."""
-    return param(
-        address, f"centre of the scaling along {address[-1]}", default=None, default_means="the active datum",
-        at_least=-FAR, at_most=FAR, modal=True,
-    )  # fmt: skip
 
 
 @CYCLES("CYCL DEF 26", "Axis-specific scaling", runs="definition", source="11.8")
@@ -111,21 +97,19 @@ class AxisScaling(Cycle):
     x: float = factor("X", "factor along X", default=1, example=1.4)
     y: float = factor("Y", "factor along Y", default=1)
     z: float = factor("Z", "factor along Z", default=1)
-    centre_x: float | None = centre("CCX")
-    centre_y: float | None = centre("CCY")
-    centre_z: float | None = centre("CCZ")
+    centre_x: float | None = centre("CCX", "centre of the scaling along X")
+    centre_y: float | None = centre("CCY", "centre of the scaling along Y")
+    centre_z: float | None = centre("CCZ", "centre of the scaling along Z")
 
     @classmethod
     def prepare(
         cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
     ) -> dict[str, Any]:
-        """Factors and centre are absolute; at least one axis is named."""
         chain.absolute(m, cls.code, given)
         if not {"x", "y", "z"} & given.keys():
             m.alarm(f"{cls.code} needs an axis and its factor, for example CYCL DEF 26.1 X 1.4 Y 0.6", None)
         return values
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion."""
         scales, about = (self.x, self.y, self.z), (self.centre_x or 0.0, self.centre_y or 0.0, self.centre_z or 0.0)
         yield from chain.define(m, chain.FACTORS, frames.scale(*scales, about) if scales != (1, 1, 1) else None)

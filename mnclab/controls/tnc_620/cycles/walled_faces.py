@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
-from typing import ClassVar
 
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.milling import edges
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
@@ -57,21 +57,21 @@ POSITION: dict[float, str] = {
 INTO = "the sign points into the surface"
 
 
-@CYCLES("CYCL DEF 233", "Face milling with side walls", runs="call", source="6.9")
+@CYCLES("CYCL DEF 233", "Face milling with side walls", source="6.9")
 class WalledFaceMilling(AtSurface):
     """Mills a level surface that up to three walls may bound: levels in equal infeeds, a last one finishes, then the walls."""
 
-    does: ClassVar[str] = MILLS
+    does = MILLS
 
     machining_operation: float = addresses.operation()
-    strategy: float = addresses.choice("Q389", "machining strategy", STRATEGIES, example=2)
-    milling_direction: float = addresses.choice("Q350", "milling direction", DIRECTIONS, example=1)
-    first_side_length: float = addresses.side("Q218", "first side length", note=INTO, example=120)
-    second_side_length: float = addresses.side("Q219", "second side length", note=INTO, example=80)
-    surface: float = addresses.coordinate("Q227", "coordinate of the surface", example=0)
-    end_tool_axis: float = addresses.coordinate("Q386", "coordinate to mill down to", example=-6)
+    strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
+    milling_direction: float = choice("Q350", "milling direction", DIRECTIONS, example=1)
+    first_side_length: float = increment("Q218", "first side length", note=INTO, example=120)
+    second_side_length: float = increment("Q219", "second side length", note=INTO, example=80)
+    surface: float = coordinate("Q227", "coordinate of the surface", example=0)
+    end_tool_axis: float = coordinate("Q386", "coordinate to mill down to", example=-6)
     floor_allowance: float = addresses.floor_allowance(note="the last infeed", example=0.2)
-    max_plunging_depth: float = addresses.length("Q202", "greatest infeed", incremental=True, example=3)
+    max_plunging_depth: float = addresses.greatest_infeed(example=3)
     overlap: float = addresses.overlap(at_least=0.1, predef=False)
     milling_feed: float = addresses.milling_feed()
     finishing_feed: float = addresses.finishing_feed(at_most=addresses.FAR, example=400)
@@ -79,13 +79,13 @@ class WalledFaceMilling(AtSurface):
     side_clearance: float = addresses.side_clearance()
     clearance: float = addresses.clearance(predef=True, example=3)
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
-    limit_1: float = addresses.choice("Q347", "first limit", WALLS, example=2)
-    limit_2: float = addresses.choice("Q348", "second limit", WALLS, default=0, example=1)
-    limit_3: float = addresses.choice("Q349", "third limit", WALLS, default=0, example=0)
-    corner_radius: float = addresses.length("Q220", "corner radius between limits", example=8)
+    limit_1: float = choice("Q347", "first limit", WALLS, example=2)
+    limit_2: float = choice("Q348", "second limit", WALLS, default=0, example=1)
+    limit_3: float = choice("Q349", "third limit", WALLS, default=0, example=0)
+    corner_radius: float = length("Q220", "corner radius between limits", example=8)
     side_allowance: float = addresses.side_allowance(example=0.3)
     finishing_infeed: float = addresses.finishing_infeed(example=4)
-    surface_position: float = addresses.choice("Q367", "surface position", POSITION, default=-1, example=-1)
+    surface_position: float = choice("Q367", "surface position", POSITION, default=-1, example=-1)
 
     # --- what is done ------------------------------------------------------------------------------------------------
 
@@ -104,7 +104,6 @@ class WalledFaceMilling(AtSurface):
     # --- heights -----------------------------------------------------------------------------------------------------
 
     def depths(self) -> dict[str, float]:
-        """From the surface to the end."""
         return {"end_tool_axis": self.end_tool_axis - self.surface}
 
     @property
@@ -113,11 +112,9 @@ class WalledFaceMilling(AtSurface):
         return self.end_tool_axis + self.down * self.floor_allowance
 
     def rough_levels(self, tool: Tool) -> tuple[float, ...]:
-        """Equal infeeds."""
         return rows(self.surface, self.left_over, min(self.max_plunging_depth, edges(tool)))[1:]
 
     def wall_levels(self, tool: Tool) -> tuple[float, ...]:
-        """Of the walls."""
         infeed = min(self.finishing_infeed or math.inf, edges(tool))
         return infeeds(self.surface, self.end_tool_axis, infeed if infeed < math.inf else 0.0)
 
@@ -139,7 +136,6 @@ class WalledFaceMilling(AtSurface):
 
     @property
     def walled(self) -> Walled:
-        """The surface and its walls."""
         walls = frozenset(int(limit) for limit in (self.limit_1, self.limit_2, self.limit_3) if limit)
         return Walled(abs(self.first_side_length), abs(self.second_side_length), walls, self.corner_radius)
 
@@ -174,7 +170,6 @@ class WalledFaceMilling(AtSurface):
     # --- checks ------------------------------------------------------------------------------------------------------
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """No walls round a spiral; an infeed; not all of the depth is allowance."""
         for name in ("limit_1", "limit_2", "limit_3"):
             if (limit := getattr(self, name)) and self.strategy == 4:
                 yield name, f"must be 0 in spiral machining (Q389 = 4), got {limit:g}"
@@ -187,7 +182,6 @@ class WalledFaceMilling(AtSurface):
             yield "floor_allowance", f"must be less than the depth {depth:g}, got {self.floor_allowance:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Downwards, a tool that fits between the walls, feeds for all that is done, a number of lines to wait for."""
         if self.down == 0:
             return
         if self.down < 0 and m.settings["depth_error"]:
@@ -212,7 +206,6 @@ class WalledFaceMilling(AtSurface):
         yield from few_passes("max_plunging_depth", len(self.rough_levels(tool(m))), 1 + int(across / step))
 
     def check_walls(self, radius: float) -> Iterator[tuple[str, str]]:
-        """The tool and its allowance between opposite walls, their corners."""
         walled, least = self.walled, 2 * (radius + self.side_allowance)
         sizes = (("first_side_length", walled.length), ("second_side_length", walled.width))
         for axis, (name, size) in enumerate(sizes, 1):
@@ -228,14 +221,12 @@ class WalledFaceMilling(AtSurface):
     # --- steps -------------------------------------------------------------------------------------------------------
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """The middle of the surface."""
         half = np.array([self.first_side_length, self.second_side_length]) / 2
         away = half if self.surface_position < 0 else np.abs(half) * SIGNS[int(self.surface_position)]
         x, y = (np.array(m.programmed[:2]) + away).tolist()
         return x, y
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """To the start, over all levels, along the walls, to the second set-up clearance."""
         if not self.down:
             yield self.left_out
             return

@@ -1,13 +1,12 @@
-"""Calls of a defined cycle: CYCL CALL, CYCL CALL POS, M99, M89 (3.1; catalogue: cycle call).
-
-CYCL CALL PAT is in `controls.tnc_620.language.pattern_calls`.
-"""
+"""Calls of a defined cycle: CYCL CALL, CYCL CALL POS, M99, M89 (3.1; catalogue: cycle call); PAT is in `pattern_calls`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from mnclab.controls.tnc_620.language.motion import coordinates, feed
+from mnclab.controls.tnc_620.language.checks import first
+from mnclab.controls.tnc_620.language.feeds import FORMS, feed
+from mnclab.controls.tnc_620.language.motion import coordinates
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import Definition
@@ -28,30 +27,25 @@ PLACES = frozenset("X Y Z U V W A B C PR PA".split())
 PLACED_BY_DATUM = frozenset(f"CYCL DEF {n}" for n in (12, *range(21, 26), 27, 28, 29, 39, 275, 276))
 
 
-@FUNCTIONS("CYCL CALL,", "Cycle call", group="call", modal=False, phase="call", takes="F FMAX FAUTO", source="3.1")
+@FUNCTIONS("CYCL CALL,", "Cycle call", group="call", modal=False, phase="call", takes=FORMS, source="3.1")
 def cycle_call(m: Machine, words: Words) -> None:
     """Runs the cycle defined last where the tool stands; F sets the feed of the following blocks, not that of the cycle."""
     feed(m, words)
-    run_cycle(m, ready(m, "CYCL CALL", None))
+    run_cycle(m, ready(m, "CYCL CALL"))
 
 
 @FUNCTIONS("M99", "Cycle call in its block", group="call", modal=False, phase="call", source="3.1")
 def call_here(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at the end of the block; ends M89."""
     run_cycle(m, ready(m, "M99", words.words[0]))
-    end_modal_call(m)
+    if m.modal.get("call"):
+        m.set_modal("call", "")
 
 
 @FUNCTIONS("M89", "Cycle call in every positioning block", group="call", phase="call", source="3.1")
 def call_everywhere(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at the end of this and of each positioning block, until M99 or a new cycle."""
-    run_cycle(m, ready(m, "M89", words.words[0] if words.words else None))
-
-
-def end_modal_call(m: Machine) -> None:
-    """M89 is over."""
-    if m.modal.get("call"):
-        m.set_modal("call", "")
+    run_cycle(m, ready(m, "M89", first(words)))
 
 
 def calls_again(keyword: str, words: Sequence[Word]) -> bool:
@@ -63,15 +57,12 @@ def calls_again(keyword: str, words: Sequence[Word]) -> bool:
     return keyword in POSITIONING and (keyword[0] == "C" or any(word.address in PLACES for word in words))
 
 
-def ready(m: Machine, code: str, word: Word | None) -> Definition:
-    """The defined cycle; an alarm or a warning about what the manual requires before a call."""
+def ready(m: Machine, code: str, word: Word | None = None) -> Definition:
     if m.cycle is None:
         m.alarm(f"{code} has no cycle to call", word, hint="define one before, for example CYCL DEF 200")
     if m.side:
         m.alarm(
-            f"{code}: a cycle is called at a position without radius compensation",
-            word,
-            hint="write R0 in the block before",
+            f"{code}: a cycle is called at a position without radius compensation", word, "write R0 in the block before"
         )
     if m.tool.number == 0:
         m.warn(f"{code}: no tool was called", word)
@@ -81,26 +72,25 @@ def ready(m: Machine, code: str, word: Word | None) -> Definition:
     return m.cycle
 
 
-# --- at a place -------------------------------------------------------------------------------------------------------
-
-
 @FUNCTIONS(
-    "CYCL CALL POS,", "Cycle call at a position", group="call", modal=False, phase="call", takes="X Y Z F FMAX FAUTO",
-    source="3.1",
+    "CYCL CALL POS,", "Cycle call at a position", group="call", modal=False, phase="call", takes=f"X Y Z {FORMS}", source="3.1"
 )  # fmt: skip
 def cycle_call_at(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at X Y, its surface shifted by Z; F is the feed of the approach alone."""
-    definition = ready(m, "CYCL CALL POS", None)
+    definition = ready(m, "CYCL CALL POS")
     for axis in "XYZ":
         if axis not in words:
-            m.alarm(f"CYCL CALL POS {axis} is missing: all three coordinates are programmed", None)
+            m.alarm(f"CYCL CALL POS {axis} is missing: all three coordinates are programmed")
     to = coordinates(m, words)
     x, y, z = to["x"], to["y"], to["z"]
     kept = m.feed, m.per_rev
     f = feed(m, words)
-    surface, first, second = planes(m, definition)
+    surface, clearance, second = planes(m, definition)
     over, label = m.programmed[2] > surface + z, "to the position"
-    across, down = Go(label, x=x, y=y, feed=f), Go(label, surface + z + (first if over else max(first, second)), f)
+    across, down = (
+        Go(label, x=x, y=y, feed=f),
+        Go(label, surface + z + (clearance if over else max(clearance, second)), f),
+    )
     perform(m, "CYCL CALL POS", (across, down) if over else (down, across), about=(0.0, 0.0))
     m.change("feed", kept[0])
     m.change("per_rev", kept[1])
@@ -116,10 +106,10 @@ def planes(m: Machine, definition: Definition) -> tuple[float, float, float]:
     cycle = instance(as_it_stands(m, definition))
     found = {p.address: getattr(cycle, p.name) for p in cycle.parameters()}
     if definition.cycle.code in PLACED_BY_DATUM:
-        surface, first, height = (m.variables.get(q, 0.0) * m.variable_unit for q in ("Q5", "Q6", "Q7"))
-        return surface, first, height - surface
-    surface, first, second = (float(found.get(q) or 0.0) for q in ("Q203", "Q200", "Q204"))
-    return float(found.get("Q227", surface)), first, second
+        surface, clearance, height = (m.variables.get(q, 0.0) * m.variable_unit for q in ("Q5", "Q6", "Q7"))
+        return surface, clearance, height - surface
+    surface, clearance, second = (float(found.get(q) or 0.0) for q in ("Q203", "Q200", "Q204"))
+    return float(found.get("Q227", surface)), clearance, second
 
 
 def call_at(definition: Definition, x: float, y: float, z: float, **instead: float) -> Iterator[Step]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from mnclab.controls.tnc_620.language.checks import above_zero
 from mnclab.controls.tnc_620.language.motion import scaled
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -28,22 +29,15 @@ def size(m: Machine, words: Words, address: str, meaning: str) -> float:
     """The radius or the length, mm on the machine."""
     shown = f"{words.code} {address}" if address.isupper() else words.code
     if address not in words:
-        m.alarm(f"{words.code} needs the {'radius R' if address == 'R' else meaning}", None)
-    value = m.value(words[address])
-    if value <= 0:
-        m.alarm(f"{shown} ({meaning}) must be greater than 0, got {value:g}", words[address])
-    return scaled(m, value)
+        m.alarm(f"{words.code} needs the {'radius R' if address == 'R' else meaning}")
+    return scaled(m, above_zero(m, words[address], f"{shown} ({meaning})"))
 
 
 def own_feed(m: Machine, words: Words) -> float:
     """The feed of the corner alone, mm/min; nan if it has none of its own."""
-    own = m.value(words["F"]) if "F" in words else math.nan
-    if own <= 0:
-        m.alarm(f"{words.code} F (feed rate) must be greater than 0, got {own:g}", words["F"])
-    return own
+    return above_zero(m, words["F"], f"{words.code} F (feed rate)") if "F" in words else math.nan
 
 
 def mark(m: Machine, words: Words, joint: Rounding | Chamfer, address: str) -> None:
-    """Put the joint on the last element."""
     if not m.mark_joint(joint):
         m.alarm(f"{words.code} needs a path element directly before it", words[address])

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from mnclab.controls.tnc_620.language.checks import whole
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -38,7 +39,6 @@ def text(m: Machine, word: Word) -> str:
 
 
 def give(m: Machine, word: Word, value: float | str) -> None:
-    """A parameter takes a value; what the control itself keeps there cannot be assigned."""
     name = str(word.value)
     if name in PREASSIGNED:
         m.alarm(
@@ -52,8 +52,8 @@ def assign(m: Machine, words: Words) -> None:
     """A Q parameter takes the value of its formula, with the variables as they stand; SET UNDEFINED takes it away."""
     if "undefined" in words:
         m.variables.forget(str(words["target"].value))
-        return
-    give(m, words["target"], m.value(words["value"]))
+    else:
+        give(m, words["target"], m.value(words["value"]))
 
 
 @FUNCTIONS("QS, DECLARE STRING", "Text", takes="target value", source="12.6")
@@ -80,13 +80,8 @@ def angle(m: Machine, words: Words) -> None:
 @FUNCTIONS("FN 14,", "Error", takes="number", source="Klartext, not described")
 def error(m: Machine, words: Words) -> None:
     """The program itself finds something wrong and stops."""
-    number = m.value(words["number"])
-    if number != int(number) or not 0 <= number <= 1199:
-        m.alarm(f"FN 14 ERROR must be a whole number from 0 to 1199, got {number:g}", words["number"])
-    m.alarm(f"FN 14: the program stops with error {number:g}", words["number"])
-
-
-# --- what the control keeps -----------------------------------------------------------------------------------------
+    number = whole(m, words["number"], "FN 14 ERROR", 0, 1199)
+    m.alarm(f"FN 14: the program stops with error {number}", words["number"])
 
 
 def spindle_status(m: Machine) -> float:
@@ -99,7 +94,6 @@ def spindle_status(m: Machine) -> float:
 
 
 def coolant_status(m: Machine) -> float:
-    """1 while the coolant flows."""
     return 0.0 if m.modal.get("coolant", "M9") == "M9" else 1.0
 
 
@@ -126,21 +120,17 @@ PREASSIGNED: dict[str, Callable[[Machine], float | None]] = {
 NAMES = re.compile(r"(?:Q1?\d{1,3}|Q[LR][1-4]?\d{1,2}|QS1?\d{1,3})")
 
 
-def _is_number(value: object) -> bool:
-    return type(value) in (int, float) and math.isfinite(value)  # type: ignore[arg-type]
-
-
 def start(m: Machine) -> None:
     """The values that were there before the program; QL parameters belong to a program and have none."""
     for name, value in m.setup.variables.items():
-        fits = isinstance(value, str) if name.startswith("QS") else _is_number(value)
+        if name.startswith("QS"):
+            fits = isinstance(value, str)
+        else:
+            fits = type(value) in (int, float) and math.isfinite(value)  # type: ignore[arg-type]
         if not NAMES.fullmatch(name) or not fits:
             m.alarm(f"Setup(variables=…): {name} cannot be {value!r}", hint="numbers in Q and QR, texts in QS")
         if name not in PREASSIGNED and not name.startswith("QL"):
             m.variables[name] = value if isinstance(value, str) else float(value)
-
-
-# --- system data ------------------------------------------------------------------------------------------------------
 
 
 def scale(m: Machine, index: float) -> float | None:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.language.calls import PLACED_BY_DATUM, call_at, planes, ready
-from mnclab.controls.tnc_620.language.motion import feed
+from mnclab.controls.tnc_620.language.feeds import FORMS, feed
 from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
@@ -29,19 +29,16 @@ CODE = "CYCL CALL PAT"
 Floats = NDArray[np.float64]
 
 
-@FUNCTIONS(
-    f"{CODE},", "Cycle call at a pattern", group="call", modal=False, phase="call", takes="F FMAX FAUTO", source="3.1"
-)
+@FUNCTIONS(f"{CODE},", "Cycle call at a pattern", group="call", modal=False, phase="call", takes=FORMS, source="3.1")
 def cycle_call_pattern(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at every point of the pattern; F is the feed from point to point."""
-    definition = ready(m, CODE, None)
+    definition = ready(m, CODE)
     pattern = memory(m).pattern
     if pattern is None:
-        m.alarm(f"{CODE} has no pattern", None, hint="write PATTERN DEF or SEL PATTERN before it")
+        m.alarm(f"{CODE} has no pattern", hint="write PATTERN DEF or SEL PATTERN before it")
     if m.plane != "XY":
-        m.alarm(f"{CODE}: the points of a pattern lie in X and Y, the tool axis must be Z", None)
-    f = feed(m, words)
-    perform(m, CODE, at_points(m, definition, pattern, f), about=(0.0, 0.0))
+        m.alarm(f"{CODE}: the points of a pattern lie in X and Y, the tool axis must be Z")
+    perform(m, CODE, at_points(m, definition, pattern, feed(m, words)), about=(0.0, 0.0))
 
 
 def at_points(m: Machine, definition: Definition, pattern: Pattern, f: float | None) -> Iterator[Step]:

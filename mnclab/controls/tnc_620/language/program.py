@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from mnclab.controls.tnc_620.cycles.chain import cancel
 from mnclab.controls.tnc_620.language import parameters
+from mnclab.controls.tnc_620.language.checks import counted, first
 from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
@@ -80,7 +81,7 @@ def finish(m: Machine) -> None:
 def least_corner(m: Machine, words: Words) -> None:
     """Tool axis and the corner with the least coordinates; for pictures only, no motion."""
     if "axis" not in words:
-        m.alarm("BLK FORM 0.1 needs the tool axis", None, hint="for example BLK FORM 0.1 Z X+0 Y+0 Z-20")
+        m.alarm("BLK FORM 0.1 needs the tool axis", hint="for example BLK FORM 0.1 Z X+0 Y+0 Z-20")
     if (blank := memory(m).stock) is not None and blank.maximum is None:
         m.alarm("BLK FORM 0.1 stands twice: BLK FORM 0.2 belongs behind the first", words["axis"])
     axis = str(words["axis"].value)
@@ -94,7 +95,7 @@ def greatest_corner(m: Machine, words: Words) -> None:
     """The corner with the greatest coordinates; IX IY IZ count from the least corner."""
     blank = memory(m).stock
     if blank is None or blank.maximum is not None:
-        m.alarm("BLK FORM 0.2 needs BLK FORM 0.1 before it", words.words[0] if len(words) else None)
+        m.alarm("BLK FORM 0.2 needs BLK FORM 0.1 before it", first(words))
     greatest = corner(m, words, blank.minimum)
     for axis, low, high in zip("XYZ", blank.minimum, greatest, strict=True):
         if not high > low:
@@ -103,37 +104,27 @@ def greatest_corner(m: Machine, words: Words) -> None:
 
 
 def corner(m: Machine, words: Words, least: Corner | None) -> Corner:
-    """The three coordinates of a corner."""
-    found = []
-    for k, axis in enumerate("XYZ"):
+    for axis in "XYZ":
+        what = f"{words.code} {axis} (coordinate of the corner)"
         if axis not in words:
-            m.alarm(
-                f"{words.code} {axis} (coordinate of the corner) is missing", words.words[0] if len(words) else None
-            )
-        value = m.value(words[axis])
-        if words[axis].incremental:
-            if least is None:
-                m.alarm(f"{words.code} {axis} (coordinate of the corner) must be absolute", words[axis])
-            value += least[k]
-        found.append(value)
-    return found[0], found[1], found[2]
+            m.alarm(f"{what} is missing", first(words))
+        if words[axis].incremental and least is None:
+            m.alarm(f"{what} must be absolute", words[axis])
+    x, y, z = (counted(m, words[axis], at) for axis, at in zip("XYZ", least or (0.0, 0.0, 0.0), strict=True))
+    return x, y, z
 
 
 def keep(m: Machine, blank: Blank) -> None:
-    """Remember the blank."""
     memory(m).stock = blank
     m.log("stock", blank)
 
 
 @FUNCTIONS("STOP", "Program stop", phase="end", source="Klartext, not described")
+@FUNCTIONS(
+    "M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="Klartext, not described"
+)
 def stop(m: Machine, words: Words) -> None:
-    """Wait for the operator."""
-    m.stop()
-
-
-@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="Klartext, not described")
-def program_stop(m: Machine, words: Words) -> None:
-    """Wait for the operator after the motion of the block."""
+    """Wait for the operator, after the motion of the block."""
     m.stop()
 
 
@@ -141,8 +132,6 @@ def program_stop(m: Machine, words: Words) -> None:
 def program_end(m: Machine, words: Words) -> None:
     """The run ends after this block; subprograms may follow it."""
     if m.flow.called:
-        m.alarm(
-            f"{words.code} ends the run and cannot stand in a program that was called", words.words[0],
-            "a called program ends with END PGM",
-        )  # fmt: skip
+        what = f"{words.code} ends the run and cannot stand in a program that was called"
+        m.alarm(what, words.words[0], "a called program ends with END PGM")
     finish(m)

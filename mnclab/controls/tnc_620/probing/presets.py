@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Generator, Iterator
 from typing import Any
 
-from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, distance
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
@@ -17,6 +17,7 @@ from mnclab.machine.setup import Datum
 from mnclab.machining.steps import Go, Step, Touch, Write
 
 CYCLES = CycleTable()
+TRANSFER: dict[float, str] = {-1: "do not use", 0: "datum table", 1: "preset table"}
 
 
 @CYCLES("TCH PROBE 419", "Preset in one axis", runs="definition", source="15.13")
@@ -26,18 +27,15 @@ class PresetInOneAxis(Cycle):
     x: float = coordinate("Q263", "first touch point, reference axis", example=20)
     y: float = coordinate("Q264", "first touch point, minor axis", example=10)
     z: float = coordinate("Q261", "measuring height of the ball's centre", example=-5)
-    clearance: float = length("Q320", "set-up clearance", incremental=True, example=2)
+    clearance: float = distance("Q320", "set-up clearance", example=2)
     height: float = coordinate("Q260", "clearance height", example=20)
     axis: float = choice("Q272", "measuring axis", {1: "reference axis", 2: "minor axis", 3: "touch probe axis"})
     direction: float = choice("Q267", "traverse direction", {-1: "negative", 1: "positive"})
-    row: float = count("Q305", "number in table", 9999, example=0)
+    row: float = count("Q305", "number in table", at_most=9999, example=0)
     datum: float = coordinate("Q333", "new coordinate of the touched point", default=0)
-    transfer: float = choice(
-        "Q303", "measured value transfer", {-1: "do not use", 0: "datum table", 1: "preset table"}, example=1
-    )
+    transfer: float = choice("Q303", "measured value transfer", TRANSFER, example=1)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A probe in the spindle, no transformation, a table to write to."""
         if not m.tool.number:
             yield "", "needs a tool call before it, which names the probe and its axis"
         active = [name for name, _ in m.frames if name != "preset" and name in m.frames]
@@ -47,11 +45,9 @@ class PresetInOneAxis(Cycle):
             yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """Where to touch is told in coordinates of the program."""
         return 0.0, 0.0
 
     def moves(self, m: Machine) -> Generator[Step, Any, None]:
-        """Position, touch, back, up; then the preset."""
         k, ball, probe = int(self.axis) - 1, m.radius, m.setup.probe
         away = probe.clearance + self.clearance + ball
         start = [self.x, self.y, self.z]  # of the ball's centre

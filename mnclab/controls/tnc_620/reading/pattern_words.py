@@ -40,7 +40,6 @@ class PatternWords:
         self.pending: tuple[str, int, int] | None = None  # an address without its number: name, offset, flag
 
     def __call__(self, cursor: Cursor) -> None:
-        """The words of one line."""
         while not cursor.done:
             begin = cursor.at
             if self.pending:
@@ -58,7 +57,6 @@ class PatternWords:
                 self.address(cursor)
 
     def head(self, cursor: Cursor) -> None:
-        """The form of an element and its number."""
         begin = cursor.at
         found = cursor.match(_FORM)
         if found is None:
@@ -84,7 +82,6 @@ class PatternWords:
             self.number(cursor, same_line=True)
 
     def number(self, cursor: Cursor, same_line: bool = False) -> None:
-        """The number of the address read last."""
         assert self.pending is not None
         address, begin, flag = self.pending
         value = cursor.value()

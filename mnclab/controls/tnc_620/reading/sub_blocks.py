@@ -8,11 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import replace
 
-from mnclab.controls.tnc_620.reading.words import FLAGS, INCH, Cursor, Fault
-
-Read = Callable[[Cursor], None]
+from mnclab.controls.tnc_620.reading.words import FLAGS, Cursor, Read, from_inches
 
 _LETTER = re.compile(r"[ \t]*([XYZUVWABC])(?![A-Z\d])", FLAGS)
 _CENTRE = re.compile(r"I?CC", FLAGS)
@@ -33,26 +30,25 @@ def mirrored(cursor: Cursor) -> None:
         cursor.add("axes", found.group(1).upper(), begin)
 
 
-def factors(cursor: Cursor) -> None:
-    """26.1: a factor for each axis, which has no unit, and the coordinates of the centre."""
-    inch = cursor.inch
-    try:
-        while not cursor.done:
-            cursor.inch = inch and _CENTRE.match(cursor.text, cursor.at, cursor.stop) is not None
-            cursor.word("", False)
-    finally:
-        cursor.inch = inch
+def of_two_units(is_length: Callable[[Cursor], bool]) -> Read:
+    """Words of which only some are in the unit of the program."""
+
+    def read(cursor: Cursor) -> None:
+        inch = cursor.inch
+        try:
+            while not cursor.done:
+                cursor.inch = inch and is_length(cursor)
+                cursor.word()
+        finally:
+            cursor.inch = inch
+
+    return read
 
 
-def tilting(cursor: Cursor) -> None:
-    """19.1: angles, the feed of the rotary axes in degrees a minute, and a length."""
-    inch = cursor.inch
-    try:
-        while not cursor.done:
-            cursor.inch = inch and cursor.text[cursor.at] not in "Ff"
-            cursor.word("", False)
-    finally:
-        cursor.inch = inch
+#: 26.1: a factor for each axis, which has no unit, and the coordinates of the centre.
+factors = of_two_units(lambda cursor: _CENTRE.match(cursor.text, cursor.at, cursor.stop) is not None)
+#: 19.1: angles, the feed of the rotary axes in degrees a minute, and a length.
+tilting = of_two_units(lambda cursor: cursor.text[cursor.at] not in "Ff")
 
 
 def after_dialog(address: str, meaning: str) -> Read:
@@ -62,9 +58,7 @@ def after_dialog(address: str, meaning: str) -> Read:
         begin = cursor.blanks()
         cursor.match(_DIALOG)
         cursor.match(_EQUALS)
-        value = cursor.value()
-        if value is None:
-            raise Fault(f"a number is missing: the {meaning}", begin, max(1, cursor.at - begin))
+        value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, cursor.at - begin))
         cursor.add(address, value, begin)
         if not cursor.done:
             raise cursor.unexpected()
@@ -79,12 +73,8 @@ def tolerance(cursor: Cursor) -> None:
         return
     if cursor.match(_TOLERANCE) is None:
         raise cursor.unexpected("T, the tolerance, stands here")
-    value = cursor.value()
-    if value is None:
-        raise Fault("T needs a number", begin)
-    if cursor.inch:
-        value = value * INCH if isinstance(value, float) else replace(value, scale=INCH)
-    cursor.add("T", value, begin)
+    value = cursor.needed("T needs a number", begin)
+    cursor.add("T", from_inches(value) if cursor.inch else value, begin)
 
 
 def filters(cursor: Cursor) -> None:
@@ -97,10 +87,7 @@ def filters(cursor: Cursor) -> None:
             address = "TA"
         else:
             raise cursor.unexpected("HSC-MODE:0 or 1 and TA stand here")
-        value = cursor.value()
-        if value is None:
-            raise Fault(f"{address} needs a number", begin, cursor.at - begin)
-        cursor.add(address, value, begin)
+        cursor.add(address, cursor.needed(f"{address} needs a number", begin, cursor.at - begin), begin)
 
 
 #: By cycle, or by cycle and number of the sub-block.
