@@ -154,9 +154,6 @@ def clear(
         yield from along(f"{name}, off the wall", off, feeds.level, feeds.edge, side)
 
 
-# ---- beneath ----
-
-
 def _back(name: str, height: float) -> Iterator[Step]:
     yield Go(f"{name}, lift", height)
     yield Go(f"{name}, to the centre", x=0.0, y=0.0)
