@@ -42,8 +42,7 @@ def clear(
 def _completed(piece: Piece, radius: float, stepover: float) -> Piece:
     """A piece with a pass through everything that the tool can reach and has left standing.
 
-    With a stepover above the tool radius cores and slivers stand between two passes, where they turn. They are narrower
-    than the tool, so a pass along their longest axis takes them.
+    Cores and slivers between passes more than a tool radius apart: narrower than the tool, so one pass along them does.
     """
     if not piece.centres.loops:
         return piece
