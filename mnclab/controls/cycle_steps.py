@@ -1,8 +1,8 @@
 """A cycle looked at without a program: its steps in a table.
 
-The cycle is bound as a program would bind it, and its steps are carried out on a machine that nobody else has; so the table
-shows where each of them ends. What the cycle asks of the machine (a tool, a spindle that turns or stands) is looked for among
-the tools of the setup; a touch finds the part where it is aimed at; what needs a program is an Alarm.
+The cycle is bound as a program would bind it, and its steps are carried out on a machine that nobody else has; so the
+table shows where each of them ends. What the cycle asks of the machine (a tool, a spindle that turns or stands) is looked
+for among the tools of the setup; a touch finds the part where it is aimed at; what needs a program is an Alarm.
 """
 
 from __future__ import annotations
@@ -19,25 +19,6 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
 from mnclab.machine.touching import Contact
 from mnclab.machine.true_size import MILLS
-from mnclab.machining.steps import (
-    Along,
-    Blocks,
-    Call,
-    Coolant,
-    Each,
-    Go,
-    Orient,
-    Record,
-    Say,
-    Spin,
-    Step,
-    Swivel,
-    Thread,
-    Touch,
-    Turn,
-    Wait,
-    Write,
-)  # fmt: skip
 from mnclab.path.listing import figure
 from mnclab.running.binding import store, value_of
 from mnclab.running.interpreter import Interpreter
@@ -47,6 +28,10 @@ from mnclab.text.given import plain, shown
 from mnclab.text.nearest import hint
 from mnclab.text.program import Word, place_of
 from mnclab.text.tables import html_table, text_table
+
+from mnclab.machining.steps import (  # isort: skip
+    Along, Blocks, Call, Coolant, Each, Go, Orient, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
+)  # fmt: skip
 
 HEAD = ("step", "label", "x", "y", "z", "feed", "")
 SPINDLE = {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}
@@ -74,17 +59,14 @@ class CycleSteps(Sequence[Step]):
 
     @property
     def title(self) -> str:
-        """The cycle and its values."""
-        given = (
-            f"{address}={value if isinstance(value, str) else shown(value)}" for address, value in self.values.items()
-        )
-        return " ".join((f"{self.cycle.code} {self.cycle.title}:", *given))
+        given = {address: v if isinstance(v, str) else shown(v) for address, v in self.values.items()}
+        return " ".join((f"{self.cycle.code} {self.cycle.title}:", *map("=".join, given.items())))
 
     def cells(self) -> Iterator[tuple[str, ...]]:
-        """The table as texts, a row a step."""
         for step, end, feed in self.rows:
             places = ("", "", "") if end is None else map(figure, end)
-            yield type(step).__name__.lower(), step.label, *places, feed, details(step)
+            detail = DETAILS[type(step)](step) if type(step) in DETAILS else ""
+            yield type(step).__name__.lower(), step.label, *places, feed, detail
 
     def __str__(self) -> str:
         return f"{self.title}\n{text_table(HEAD, self.cells())}"
@@ -95,29 +77,18 @@ class CycleSteps(Sequence[Step]):
         return f"<p>{self.title}</p>{html_table(HEAD, self.cells(), numbers=(2, 3, 4, 5))}"
 
 
-def details(step: Step) -> str:
-    """What a step does beside going to its end."""
-    match step:
-        case Turn():
-            return f"{figure(math.degrees(step.angle))}°"
-        case Thread():
-            return f"{figure(step.pitch)} mm/rev"
-        case Wait():
-            return f"{figure(step.seconds)} s"
-        case Spin():
-            return SPINDLE[step.turning] + (f", {figure(step.speed)} rev/min" if step.turning and step.speed else "")
-        case Orient():
-            return f"at {figure(step.angle)}°"
-        case Coolant():
-            return "on" if step.on else "off"
-        case Swivel():
-            return " ".join(f"{axis}{figure(angle)}°" for axis, angle in zip("ABC", step.angles, strict=True))
-        case Say():
-            return step.text
-        case Write():
-            return f"{step.what} {'' if step.key is None else step.key} = {shown(step.value)}"
-        case _:
-            return ""
+#: What a step does beside going to its end.
+DETAILS: dict[type[Step], Callable[[Any], str]] = {
+    Turn: lambda step: f"{figure(math.degrees(step.angle))}°",
+    Thread: lambda step: f"{figure(step.pitch)} mm/rev",
+    Wait: lambda step: f"{figure(step.seconds)} s",
+    Spin: lambda s: SPINDLE[s.turning] + (f", {figure(s.speed)} rev/min" if s.turning and s.speed else ""),
+    Orient: lambda step: f"at {figure(step.angle)}°",
+    Coolant: lambda step: "on" if step.on else "off",
+    Swivel: lambda step: " ".join(f"{axis}{figure(angle)}°" for axis, angle in zip("ABC", step.angles, strict=True)),
+    Say: lambda step: step.text,
+    Write: lambda step: f"{step.what} {'' if step.key is None else step.key} = {shown(step.value)}",
+}
 
 
 def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any) -> CycleSteps:
@@ -186,7 +157,6 @@ def situations(control: Control, cycle: type[Cycle], setup: Setup) -> Iterator[M
 
 
 def define(m: Machine, cycle: type[Cycle], given: dict[str, Any]) -> Definition:
-    """A cycle as a program would define it."""
     parameters = {p.name: p for p in cycle.parameters()}
     words = {name: word_of(parameters[name], value) for name, value in given.items()}
     values = {name: read(m, parameters[name], cycle, word) for name, word in words.items()}
@@ -198,12 +168,10 @@ def define(m: Machine, cycle: type[Cycle], given: dict[str, Any]) -> Definition:
 
 
 def word_of(parameter: Parameter, value: Any) -> Word:
-    """The word of a value."""
     return Word(parameter.address, float(value) if isinstance(value, int) else value, place_of(1, 1, 1))
 
 
 def read(m: Machine, parameter: Parameter, cycle: type[Cycle], word: Word) -> Any:
-    """The value of a word; of several, if the address may be repeated."""
     if not parameter.several:
         return value_of(m, parameter, cycle.code, word, cycle.in_variables)
     several = word.value if isinstance(word.value, tuple) else (word.value,)

@@ -7,36 +7,23 @@ declaration, or guessed from what a parameter means and allows; they are a start
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle, Parameter
 from mnclab.path.listing import figure
 
+TrialWords = Sequence[tuple[str, Any]]  # address and value
+
 #: A piece of a meaning -> a first value, mm where it is a length; the first that fits and is allowed counts.
 FIRST = (
-    ("diameter of the finished", 30.0),
-    ("end of the passes", -20.0),
-    ("stock removed", 2.0),
-    ("position along X", 20.0),
-    ("position along Y", 10.0),
-    ("along X", 20.0),
-    ("along Y", 10.0),
-    ("second set-up clearance", 20.0),
-    ("2nd set-up clearance", 20.0),
-    ("clearance", 2.0),
-    ("peck", 5.0),
-    ("infeed", 5.0),
-    ("plunging depth", 5.0),
-    ("depth", -20.0),
-    ("depth", 20.0),
-    ("surface", 0.0),
-    ("level", 2.0),
-    ("bottom", -20.0),
-    ("", 0.0),
-    ("", 5.0),
-    ("", -5.0),
-)
+    ("diameter of the finished", 30.0), ("end of the passes", -20.0), ("stock removed", 2.0),
+    ("position along x", 20.0), ("position along y", 10.0), ("along x", 20.0), ("along y", 10.0),
+    ("second set-up clearance", 20.0), ("2nd set-up clearance", 20.0), ("clearance", 2.0),
+    ("peck", 5.0), ("infeed", 5.0), ("plunging depth", 5.0), ("depth", -20.0), ("depth", 20.0),
+    ("surface", 0.0), ("level", 2.0), ("bottom", -20.0), ("", 0.0), ("", 5.0), ("", -5.0),
+)  # fmt: skip
 #: What may be left out, but is worth seeing at first.
 WRITTEN = ("position along", "peck", "infeed")
 BY_UNIT = {"mm/min": 120.0, "s": 0.0, "rev/min": 1000.0, "0.0001 mm/rev": 2000.0}
@@ -46,6 +33,11 @@ SCALE = {"0.01 mm": 100.0}
 def number(value: float) -> str:
     """A number as programs write it: without exponent and trailing zeros."""
     return figure(value, 6)
+
+
+def in_block(cycle: type[Cycle], words: TrialWords) -> str:
+    """A block of the code of a cycle and its words."""
+    return " ".join([cycle.code, *(address + number(value) for address, value in words)])
 
 
 def is_text(parameter: Parameter) -> bool:
@@ -65,7 +57,7 @@ def first_value(parameter: Parameter) -> float | str:
         return float(next(iter(parameter.choices)))
     meaning, scale = parameter.meaning.lower(), SCALE.get(parameter.unit, 1.0)
     likely = [BY_UNIT[parameter.unit]] if parameter.unit in BY_UNIT else []
-    likely += [value * scale for piece, value in FIRST if piece.lower() in meaning]
+    likely += [value * scale for piece, value in FIRST if piece in meaning]
     return next((value for value in likely if not parameter.refuses(value)), 0.0)
 
 

@@ -73,7 +73,6 @@ class Loops:
     otherwise: int = -1  # the step of the last decision that read a variable and compared nothing
 
     def ask(self, step: int, values: Iterable[Any]) -> None:
-        """A decision where to go reads these values of words."""
         for value in values:
             if isinstance(value, Expression):
                 self.asked.update((token.text, step) for token in value.tokens if token.kind == "variable")
@@ -96,7 +95,6 @@ class Loops:
             now.rounds = last.rounds + 1 if even and now.growth * difference > 0 else 0
 
     def asked_since(self, step: int) -> list[str]:
-        """The variables that decided something after a step."""
         return [name for name, last in self.asked.items() if last > step]
 
     def back(self, m: Machine, key: tuple[int, int, int], span: Span) -> None:
@@ -106,19 +104,13 @@ class Loops:
             self.seen[key] = _Seen(m.step, passes, dict(m.variables), m.step)
             return
         if self._decided(m, seen.step) or (seen.values == m.variables and m.variables.state_read <= seen.kept):
-            raise Alarm(
-                "the program never gets out of this loop: nothing that decides where it goes on changes from one round to "
-                "the next",
-                span,
-                hint="change in the loop what its condition reads, or repeat it with a count",
-            )
+            why = "nothing that decides where it goes on changes from one round to the next"
+            hint = "change in the loop what its condition reads, or repeat it with a count"
+            raise Alarm(f"the program never gets out of this loop: {why}", span, hint=hint)
         if seen.count >= ROUNDS and self._runs_away(seen.step):
-            raise Alarm(
-                f"the program does not get out of this loop: in {seen.count} rounds its conditions moved away from being met "
-                "otherwise",
-                span,
-                hint="the count runs the wrong way, or the condition asks for the opposite",
-            )
+            why = f"in {seen.count} rounds its conditions moved away from being met otherwise"
+            hint = "the count runs the wrong way, or the condition asks for the opposite"
+            raise Alarm(f"the program does not get out of this loop: {why}", span, hint=hint)
         seen.step, seen.count = m.step, seen.count + 1
         if seen.count == seen.next_kept:  # ever further apart: values that come again after many rounds are found, too
             seen.values, seen.kept, seen.next_kept = dict(m.variables), m.step, 2 * seen.count

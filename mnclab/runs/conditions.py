@@ -27,27 +27,17 @@ Array = NDArray[Any]
 
 _TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d*)?|\.\d+)|([A-Za-z_#]\w*)|(<=|>=|==|!=|[-+*/^()<>=]))", re.ASCII)
 FUNCTIONS: dict[str, Callable[[Array], Array]] = {
-    "abs": np.abs,
-    "sqrt": np.sqrt,
-    "sin": lambda a: np.sin(np.radians(a)),
-    "cos": lambda a: np.cos(np.radians(a)),
-    "tan": lambda a: np.tan(np.radians(a)),
-}
+    "abs": np.abs, "sqrt": np.sqrt, "sin": lambda a: np.sin(np.radians(a)),
+    "cos": lambda a: np.cos(np.radians(a)), "tan": lambda a: np.tan(np.radians(a)),
+}  # fmt: skip
 COMPARISONS: dict[str, Callable[[Array], Array]] = {
-    "<": lambda gap: gap < -SAME,
-    "<=": lambda gap: gap <= SAME,
-    ">": lambda gap: gap > SAME,
-    ">=": lambda gap: gap >= -SAME,
-    "==": lambda gap: np.abs(gap) <= SAME,
-    "!=": lambda gap: np.abs(gap) > SAME,
-}
+    "<": lambda gap: gap < -SAME, "<=": lambda gap: gap <= SAME, "==": lambda gap: np.abs(gap) <= SAME,
+    ">": lambda gap: gap > SAME, ">=": lambda gap: gap >= -SAME, "!=": lambda gap: np.abs(gap) > SAME,
+}  # fmt: skip
 ARITHMETIC: dict[str, Callable[[Array, Array], Array]] = {
-    "+": np.add,
-    "-": np.subtract,
-    "*": np.multiply,
+    "+": np.add, "-": np.subtract, "*": np.multiply, "^": np.power,
     "/": lambda a, b: np.where(b == 0, np.nan, np.divide(a, b)),
-    "^": np.power,
-}
+}  # fmt: skip
 OR, AND, NOT, COMPARISON, SUM, PRODUCT, POWER = range(7)
 LEVELS = {
     "or": OR, "and": AND, "=": COMPARISON, **dict.fromkeys(COMPARISONS, COMPARISON),
@@ -73,7 +63,6 @@ class Node:
     name: str = ""
 
     def value(self, values: Values) -> Array:
-        """The number at every place."""
         if self.what == "number":
             return np.float64(self.number)  # type: ignore[return-value]
         if self.what == "name":
@@ -83,12 +72,10 @@ class Node:
             return FUNCTIONS[self.name](*numbers) if self.what == "function" else ARITHMETIC[self.name](*numbers)
 
     def truth(self, values: Values) -> Truth:
-        """Where the condition is true and where it is false."""
         if self.what == "comparison":
             with np.errstate(all="ignore"):
                 gap = np.asarray(self.gap(values))
-            known = ~np.isnan(gap)
-            found = COMPARISONS[self.name](gap)
+            known, found = ~np.isnan(gap), COMPARISONS[self.name](gap)
             return Truth(found & known, ~found & known)
         one, *others = [part.truth(values) for part in self.parts]
         for other in others:
@@ -99,7 +86,6 @@ class Node:
         return Truth(one.false, one.true) if self.what == "not" else one
 
     def gap(self, values: Values) -> Array:
-        """Left side less right side of a comparison."""
         return self.parts[0].value(values) - self.parts[1].value(values)
 
     def degree(self, names: Collection[str]) -> float:
@@ -114,7 +100,6 @@ class Node:
         return (degrees[0] if self.name == "/" and not degrees[1] else np.inf) if any(degrees) else 0.0
 
     def walk(self) -> Iterator[Node]:
-        """This part and all parts in it."""
         yield self
         for part in self.parts:
             yield from part.walk()
@@ -130,7 +115,6 @@ class Condition:
 
     @property
     def comparisons(self) -> list[Node]:
-        """Every comparison in it."""
         return [node for node in self.tree.walk() if node.what == "comparison"]
 
     def truth(self, values: Values) -> Truth:
@@ -265,12 +249,11 @@ class _Reader(Climber[Node]):
         self.at += 1
         return Node("function", (self.numeric(inner, place),), name=function) if function else inner
 
-    def logical(self, node: Node, place: int) -> Node:
-        if not node.logical:
-            raise Alarm("a comparison was expected here", self.tokens[place].span)
+    def logical(self, node: Node, place: int, wanted: bool = True) -> Node:
+        if node.logical != wanted:
+            expected = "a comparison was expected here" if wanted else "a number was expected here, not a comparison"
+            raise Alarm(expected, self.tokens[place].span)
         return node
 
     def numeric(self, node: Node, place: int) -> Node:
-        if node.logical:
-            raise Alarm("a number was expected here, not a comparison", self.tokens[place].span)
-        return node
+        return self.logical(node, place, wanted=False)

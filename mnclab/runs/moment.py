@@ -36,7 +36,6 @@ class Moment(NamedTuple):
     point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def page(self) -> list[tuple[str, str]]:
-        """What is shown: a title and its value."""
         first, stop = self.rows.start, self.rows.stop
         rows = "none" if first == stop else f"{first}" if stop == first + 1 else f"{first} to {stop - 1}"
         inside = f", {100 * self.share:.4g} % of row {self.row}" if self.share != 1 else ""
@@ -53,7 +52,9 @@ class Moment(NamedTuple):
         wide = max(len(title) for title, _ in page) + 4
         lines = [f"line {self.line}: {self.block}"]
         for title, value in page:
-            lines += wrap(value or "nothing", WIDTH, initial_indent=f"  {title}".ljust(wide), subsequent_indent=" " * wide)
+            lines += wrap(
+                value or "nothing", WIDTH, initial_indent=f"  {title:{wide - 2}}", subsequent_indent=" " * wide
+            )
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:

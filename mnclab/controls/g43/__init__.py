@@ -10,13 +10,14 @@ import re
 
 from mnclab.controls.g43 import cycles, language, lengths
 from mnclab.controls.g43.state import Memory, memory
-from mnclab.controls.g43.trial import trial_program
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
-from mnclab.machine.control import Control
+from mnclab.machine.control import Control, FunctionTable
+from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
+from mnclab.machine.settings import Setting, one_of
 from mnclab.machine.setup import Datum
+from mnclab.machine.trial import TrialWords, in_block
 from mnclab.path.compensation import Compensation
 from mnclab.running.bulk import PlainWords
 
@@ -28,17 +29,13 @@ PHASES = (
 
 SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "ISO 6983"),
-    Setting(
-        "undescribed", "warn", "codes of chapters that the source does not have", "other chapters",
-        {"warn": "their ISO meaning, with a warning", "accept": "their ISO meaning, without a word", "refuse": "an alarm"},
-    ),
+    one_of("undescribed", "codes of chapters that the source does not have", "other chapters",
+           warn="their ISO meaning, with a warning", accept="their ISO meaning, without a word", refuse="an alarm"),
     Setting("peck_clearance", 1.0, "where G83 returns to above the last depth, and how far G73 lifts", "", {}, "mm", 0),
     Setting("arc_tolerance", 0.01, "difference of the radii at start and end of an arc", "", {}, "mm", 0),
-    Setting(
-        "gouge", "refuse", "what happens where a compensated tool does not fit", "",
-        {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
-    ),
-    Setting("bulk", True, "obey long runs of plain blocks at once", ""),
+    one_of("gouge", "what happens where a compensated tool does not fit",
+           refuse="an alarm, before the tool goes there", mark="it cuts anyway: marked rows and warnings"),
+    Setting("bulk", True, "obey long runs of plain blocks at once"),
 )  # fmt: skip
 
 _NO_SYNTAX = "the source does not say how this control writes it"
@@ -64,7 +61,15 @@ def start(m: Machine) -> None:
     lengths.place(m, "tip")
 
 
-FUNCTIONS = language.FUNCTIONS | lengths.FUNCTIONS
+def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
+    """A cycle in one block, and its end."""
+    return f"T2 M6\nG43 G0 X0 Y0 Z20 S1000 M3\n{in_block(cycle, words)}\nG80\n"
+
+
+#: What help lists, and hints name, before the others.
+FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 F S G94 G95 G61 G64"
+_ALL = language.FUNCTIONS | lengths.FUNCTIONS
+FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
 CONTROL = Control(
     name="g43",
@@ -86,8 +91,6 @@ CONTROL = Control(
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=lambda m: not lengths.pending(m) and {"G2", "G3"} <= memory(m).undescribed,
-        absolute=lambda m: m.modal["dimension"] == "G90",
-        tolerance=lambda m: float(m.settings["arc_tolerance"]),
         helices=more_helices,
     ),
     trial=trial_program,

@@ -22,6 +22,7 @@ from mnclab.text.program import Word, digits
 FUNCTIONS = FunctionTable()
 ISO = "ISO 6983, not described"
 DATUMS = {f"G{n}": n - 53 for n in range(54, 60)}
+SHIFTS = {"G52": "Local shift", "G92": "Set position"}
 LENGTHS = ("G43", "G44", "G49")
 
 
@@ -42,7 +43,7 @@ def undescribed(m: Machine, words: Words) -> None:
     if words.code not in told:
         told.add(words.code)
         sentence = f"{words.code}: not described in the manual; it is taken in its ISO meaning"
-        motion.remark(m, "undescribed", sentence, words)
+        motion.remark(m, "undescribed", sentence, first_word(words))
 
 
 def remark(m: Machine, words: Words) -> None:
@@ -81,12 +82,7 @@ def arc(m: Machine, words: Words) -> None:
     motion.arc(m, words, -1 if words.code == "G2" else 1, m.modal["dimension"] == "G90")
 
 
-# --- datums --------------------------------------------------------------------------------------------------------------
-
-
-@FUNCTIONS(
-    "G54 G55 G56 G57 G58 G59", "Work offset", group="datum", phase="frames", power_on="G54", source="7.1, example"
-)
+@FUNCTIONS(" ".join(DATUMS), "Work offset", group="datum", phase="frames", power_on="G54", source="7.1, example")
 def work_offset(m: Machine, words: Words) -> None:
     """Rows 1 to 6 of the datum table; a row that is not there is the machine's zero."""
     if m.side:
@@ -103,10 +99,7 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     m.set_frame("length", frames.shift(z=-m.tool.effective_length))
 
 
-@FUNCTIONS(
-    "G52 G92", {"G52": "Local shift", "G92": "Set position"},
-    phase="local", takes="X Y Z", still=True, modal=False, source=ISO,
-)  # fmt: skip
+@FUNCTIONS("G52 G92", SHIFTS, phase="local", takes="X Y Z", still=True, modal=False, source=ISO)
 def shift(m: Machine, words: Words) -> None:
     """G52 moves the origin from that of the work offset; G92 gives the present point new coordinates. No motion."""
     undescribed(m, words)
@@ -127,11 +120,8 @@ def reference(m: Machine, words: Words) -> None:
     if to := targets(m, words):
         m.rapid(**to)
     home = m.to_program((0.0, 0.0, -m.tool.effective_length))
-    axes = [k for k, axis in enumerate(AXES) if axis.lower() in to or not to]
-    m.rapid(**{AXES[k].lower(): home[k] for k in axes})
+    m.rapid(**{axis: home[k] for k, axis in enumerate(AXES.lower()) if axis in to or not to})
 
-
-# --- feed, spindle, auxiliary functions -----------------------------------------------------------------------------------
 
 FUNCTIONS("F", "Feed", phase="feed", source="7.1, example")(motion.feed)
 FUNCTIONS("S", "Spindle speed", phase="spindle", source=ISO)(motion.spindle_speed)
@@ -150,13 +140,5 @@ def dwell(m: Machine, words: Words) -> None:
     m.dwell(value if word.address == "X" else value / 1000)
 
 
-@FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source=ISO)
-def spindle(m: Machine, words: Words) -> None:
-    """M3 and M4 before the motion of the block, M5 after it."""
-    if words.code == "M5":
-        m.at_block_end(lambda: m.spindle(turning=0))
-    else:
-        m.spindle(turning=1 if words.code == "M3" else -1)
-
-
+FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source=ISO)(motion.spindle)
 FUNCTIONS |= functions(remark, ISO, plane="7.1, example")

@@ -5,16 +5,18 @@ from __future__ import annotations
 from mnclab.controls.mnc.state import memory
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.functions import SPINDLE, functions
-from mnclab.controls.word_address.motion import remark
+from mnclab.controls.word_address.motion import first_word, remark
 from mnclab.machine.control import Words
 from mnclab.machine.machine import Machine
 
 ISO = "ISO 6983"
+SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
 
 
 def unlisted(m: Machine, words: Words, more: str = "") -> None:
     """Say that the manual knows nothing of this M function."""
-    remark(m, "unlisted_m", f"{words.code}: the manual does not list it; it is taken in its ISO meaning{more}", words)
+    sentence = f"{words.code}: the manual does not list it; it is taken in its ISO meaning{more}"
+    remark(m, "unlisted_m", sentence, first_word(words))
 
 
 def remark_m(m: Machine, words: Words) -> None:
@@ -28,16 +30,11 @@ FUNCTIONS = functions(
 )
 
 
-# --- tool ----------------------------------------------------------------------------------------------------------------
-
-
 @FUNCTIONS("T", "Tool call", phase="tool", source="5.1")
 def tool(m: Machine, words: Words) -> None:
     """The tool from the table is active at once, no axis moves; by the setting tool_change it waits for M6."""
-    if m.settings["tool_change"] == "T":
-        motion.tool(m, words)
-    else:
-        motion.choose_tool(m, words)
+    obey = motion.tool if m.settings["tool_change"] == "T" else motion.choose_tool
+    obey(m, words)
 
 
 FUNCTIONS("D", "Tool corrector", phase="corrector", source="1.2")(motion.corrector)
@@ -52,11 +49,6 @@ def tool_change(m: Machine, words: Words) -> None:
         motion.change_tool(m, words)
 
 
-# --- spindle -------------------------------------------------------------------------------------------------------------
-
-SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
-
-
 @FUNCTIONS("S", "Spindle speed", phase="spindle", source="1.2")
 def spindle_speed(m: Machine, words: Words) -> None:
     """The speed of M3 and M4, kept while the spindle stands."""
@@ -68,11 +60,11 @@ def spindle_speed(m: Machine, words: Words) -> None:
 @FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source="9")
 def spindle(m: Machine, words: Words) -> None:
     """M3 and M4 before the motion of the block, M5 after it; by the setting spindle_stop before it too."""
-    if words.code == "M5" and m.settings["spindle_stop"] == "after":
-        m.at_block_end(lambda: m.spindle(turning=0))
-        return
     before = m.spindle_speed
-    m.spindle(turning={"M3": 1, "M4": -1, "M5": 0}[words.code])
+    if words.code == "M5" and m.settings["spindle_stop"] == "before":
+        m.spindle(turning=0)
+    else:
+        motion.spindle(m, words)
     run_up(m, before)
 
 

@@ -14,15 +14,18 @@ from mnclab.text.program import INCREMENTAL, RAPID_MARK, Program, Word
 
 FUNCTIONS = FunctionTable()
 OUTSIDE = "the source does not describe it; it is taken in its usual meaning"
+SPINDLE = {"M3": "Spindle clockwise", "M4": "Spindle counter-clockwise", "M5": "Spindle stop"}
+CONDITIONS = ("exact stop check", "Stop key blocked", "synchronised start")  # bits 1, 2, 4 of the second digit
+CONDITIONAL = {
+    f"G{60 + bits}": "Conditional move: " + ", ".join(c for k, c in enumerate(CONDITIONS) if bits >> k & 1)
+    for bits in range(1, 8)
+}
 
 
 def power_on(m: Machine) -> None:
     """A lathe: the plane of X and Z, feeds per revolution."""
     m.change("plane", "ZX")
     m.change("per_rev", True)
-
-
-# --- motion ----------------------------------------------------------------------------------------------------------
 
 
 def targets(m: Machine, words: Words) -> dict[str, float]:
@@ -51,22 +54,17 @@ def refuse_rapid(m: Machine, words: list[Word], code: str) -> None:
             m.alarm(f"the mark ~ has no meaning on {word} in a group with {code}", word, f"write it on {code}")
 
 
-ENDS = {"X": "Straight move", "Z": "Straight move"}  # their words say in which axes
-
-
+@FUNCTIONS("Z", "Straight move", takes="X", source="3.20.2")
+@FUNCTIONS("X", "Straight move", takes="Z", source="3.20.2")
 def straight_move(m: Machine, words: Words) -> None:
     """At the modal feed; at rapid when a frame of the move has the mark ~. With @ the value is an increment."""
     move(m, words, any(word.flag & RAPID_MARK for word in words.words))
 
 
-FUNCTIONS("X", ENDS, takes="Z", source="3.20.2")(straight_move)
-FUNCTIONS("Z", ENDS, takes="X", source="3.20.2")(straight_move)
-
-CONDITIONS = ("exact stop check", "Stop key blocked", "synchronised start")  # bits 1, 2, 4 of the second digit
-CONDITIONAL = {
-    f"G{60 + bits}": "Conditional move: " + ", ".join(c for k, c in enumerate(CONDITIONS) if bits >> k & 1)
-    for bits in range(1, 8)
-}
+def notes_of(head: Word, bits: int) -> list[str]:
+    """What a conditional move has beside the exact stop."""
+    notes = [condition for k, condition in enumerate(CONDITIONS) if k and bits >> k & 1]
+    return [*notes, "separate in single-block mode"] if head.flag & INCREMENTAL else notes
 
 
 @FUNCTIONS(" ".join(CONDITIONAL), CONDITIONAL, takes="X Z M", modal=False, source="3.20.15")
@@ -80,17 +78,12 @@ def conditional_move(m: Machine, words: Words) -> None:
     if len(words.words) == 1:
         m.alarm(f"{words.code} needs X, Z or M", head, "tie their frames to it with the mark *")
     refuse_rapid(m, [*words.words[1:]], words.code)
-    notes = [c for k, c in enumerate(CONDITIONS) if k and bits >> k & 1]
-    notes += ["separate in single-block mode"] if head.flag & INCREMENTAL else []
-    m.label = f"{words.code} {', '.join(notes)}" if notes else words.code
+    notes = notes_of(head, bits)
     m.exact_here = bool(bits & 1)
-    move(m, words, bool(head.flag & RAPID_MARK))
-    m.label = ""
+    with m.within(label=f"{words.code} {', '.join(notes)}" if notes else words.code):
+        move(m, words, bool(head.flag & RAPID_MARK))
     if "M" in words:
         auxiliary(m, Words((words["M"],), "M"))
-
-
-# --- the course of the program ---------------------------------------------------------------------------------------
 
 
 @FUNCTIONS("G25", "Repetition of frames", takes="P*", modal=False, source="3.20.15, example")
@@ -138,9 +131,8 @@ def frame_range(m: Machine, word: Word) -> tuple[int, int]:
 def frames_of(m: Machine, program: Program) -> dict[int, list[int]]:
     """Numbers of the frames of each block, worked out once in a run."""
     frames = memory(m).frames
-    if not frames:
-        for number, block in program.labels.items():
-            frames.setdefault(block, []).append(int(number))
+    for number, block in () if frames else program.labels.items():
+        frames.setdefault(block, []).append(int(number))
     return frames
 
 
@@ -149,9 +141,6 @@ def parameter(m: Machine, words: Words) -> None:
     """Only inside a group: P1, P2, P3 of a cycle are its first, second and third P frame."""
     word = words.words[0]
     m.alarm(f"{word} stands alone: P belongs to a group that begins with G", word, "the frame before it has no mark *")
-
-
-# --- feed, spindle, auxiliary functions ------------------------------------------------------------------------------
 
 
 @FUNCTIONS("F", "Feed, modal", source="3.20.15, example")
@@ -170,9 +159,6 @@ def spindle_speed(m: Machine, words: Words) -> None:
     if value < 0:
         m.alarm(f"S (spindle speed, rev/min) must be at least 0, got {value:g}", words["S"])
     m.spindle(speed=value, turning=None if "spindle" in m.modal else 1)
-
-
-SPINDLE = {"M3": "Spindle clockwise", "M4": "Spindle counter-clockwise", "M5": "Spindle stop"}
 
 
 @FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", source="outside")

@@ -45,13 +45,11 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
     """
     to = coordinates(m, words, absolute)
     offsets = {k: words[c] for k, c in enumerate(CENTRE) if c in words}
-    if not to and not offsets and "R" not in words:
-        return
-    head = first_word(words)
     if not offsets and "R" not in words:
-        if not line_without_centre:
-            m.alarm("an arc needs R or I J K", head)
-        m.line(**to, word=head)
+        if to and not line_without_centre:
+            m.alarm("an arc needs R or I J K", first_word(words))
+        if to:
+            m.line(**to, word=first_word(words))
         return
     first, second, normal = PLANES[m.plane]
     if normal in offsets:
@@ -67,19 +65,17 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
         if m.settings.get("arc_by_both") == "refuse":
             m.alarm(both, words["R"], hint="keep one of them")
         m.warn(f"{both}: {'R counts' if by_radius else 'I J K count'}", words["R"])
-    if by_radius:
-        radius = m.value(words["R"])
-        if radius == 0:
-            m.alarm("R must not be 0", words["R"])
-        m.arc(**to, sense=sense, radius=radius, word=words["R"], tolerance=tolerance)
-        return
-    centre = {k: m.programmed[k] + m.value(word) for k, word in offsets.items()}
-    m.arc(**to, sense=sense, centre=centre, word=next(iter(offsets.values())), tolerance=tolerance)
+    head = words["R"] if by_radius else next(iter(offsets.values()))
+    radius = m.value(head) if by_radius else None
+    if radius == 0:
+        m.alarm("R must not be 0", head)
+    centre = None if by_radius else {k: m.programmed[k] + m.value(word) for k, word in offsets.items()}
+    m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance)
 
 
 def helix(m: Machine, words: Words) -> None:
     """Say that an arc with a word of the third axis is a helix."""
-    remark(m, "helix", _helix(m), words, AXES[PLANES[m.plane][2]])
+    remark(m, "helix", _helix(m), words[AXES[PLANES[m.plane][2]]])
 
 
 def _helix(m: Machine) -> str:
@@ -88,8 +84,7 @@ def _helix(m: Machine) -> str:
 
 
 def more_helices(m: Machine, count: int) -> bool:
-    """Whether helices go on without a word of their own, since they are allowed or enough of them were named; then
-    `count` more are counted."""
+    """Whether helices need no word of their own, being allowed, or named often enough: then `count` more are counted."""
     choice, told = m.settings.get("helix", "warn"), m.alarms.warned(_helix(m), m.program)
     if choice == "warn" and told and len(told.places) >= PLACES:
         told.count += count
@@ -98,13 +93,8 @@ def more_helices(m: Machine, count: int) -> bool:
     return choice not in ("warn", "refuse")
 
 
-def remark(m: Machine, setting: str, sentence: str, words: Words, address: str = "") -> None:
+def remark(m: Machine, setting: str, sentence: str, word: Word | None) -> None:
     """What a manual does not describe: a warning, an alarm, or nothing, as a setting wants it."""
-    remark_at(m, setting, sentence, words[address] if address else first_word(words))
-
-
-def remark_at(m: Machine, setting: str, sentence: str, word: Word | None) -> None:
-    """The same at a word."""
     choice = m.settings.get(setting, "warn")
     if choice == "refuse":
         m.alarm(sentence, word, hint=f"setting {setting}")
@@ -126,6 +116,14 @@ def spindle_speed(m: Machine, words: Words) -> None:
     if value < 0:
         m.alarm(f"S (spindle speed) must be at least 0, got {value:g}", words["S"])
     m.spindle(speed=value)
+
+
+def spindle(m: Machine, words: Words) -> None:
+    """M3 and M4 before the motion of the block, M5 after it."""
+    if words.code == "M5":
+        m.at_block_end(lambda: m.spindle(turning=0))
+    else:
+        m.spindle(turning=1 if words.code == "M3" else -1)
 
 
 def tool(m: Machine, words: Words) -> None:
@@ -157,19 +155,13 @@ def corrector(m: Machine, words: Words) -> None:
     """
     row = tool_row(m, words["D"], "corrector")
     refuse_change(m, "corrector", words["D"])
-    own = m.tables.tools[m.tool.number]
-    other = replace(corrected(own, row), dl=row.dl)
+    other = replace(m.tables.tools[m.tool.number].of_radius(row.radius, row.dr), dl=row.dl)
     if m.settings.get("corrector_length"):
         other = replace(other, length=row.length)
     if other.effective_length != m.tool.effective_length:
         m.change_tool(other)
     else:
         m.change("tool", other)
-
-
-def corrected(tool: Tool, row: Tool) -> Tool:
-    """A tool with the radius of another row of the table."""
-    return tool.of_radius(row.radius, row.dr)
 
 
 def tool_row(m: Machine, word: Word, name: str) -> Tool:

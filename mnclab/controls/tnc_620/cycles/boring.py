@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import chain
-from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import distance, increment, length, seconds
 from mnclab.controls.tnc_620.cycles.chain import MIRROR
-from mnclab.controls.tnc_620.cycles.holes import Hole, moving, oriented, rate
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, oriented
+from mnclab.controls.tnc_620.cycles.holes import Hole, rate
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, SHIFTS, tool, with_the_spindle
@@ -32,7 +33,7 @@ def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
     return with_the_spindle(m, steps, plain.matrix)
 
 
-@CYCLES("CYCL DEF 202", "Boring", runs="call", source="4.5")
+@CYCLES("CYCL DEF 202", "Boring", source="4.5")
 class Boring(Hole):
     """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws; ends on the axis of the hole."""
 
@@ -46,13 +47,11 @@ class Boring(Hole):
     disengage: float = addresses.disengage()
     spindle_angle: float = addresses.spindle_angle()
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A spindle that stops at an angle; those of every hole."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from oriented(m)
         yield from super().check(m)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Down, dwell, off the wall, to the set-up plane, end plane, axis."""
         yield Write("memory", self.spindle_angle, "orientation")
         bored = bore(
             self.bottom(m), above=self.above, feed=self.feed, retract=rate(self.retract_feed, self.feed),
@@ -61,33 +60,24 @@ class Boring(Hole):
         yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
 
 
-@CYCLES("CYCL DEF 204", "Back boring", runs="call", source="4.7")
+@CYCLES("CYCL DEF 204", "Back boring", source="4.7")
 class BackBoring(Hole):
     """Counterbores from below, with a bar that goes through the hole off its axis.
 
     Levels count for the lower end of the bar; its edge is Q252 above that.
     """
 
-    does: ClassVar[str] = SHIFTS
-
+    does = SHIFTS
     clearance: float = addresses.clearance()
-    counterbore_depth: float = addresses.coordinate(
-        "Q249", "depth of the counterbore", incremental=True, note="from the lower surface; positive is up", example=5
+    counterbore_depth: float = increment(
+        "Q249", "depth of the counterbore", note="from the lower surface; positive is up", example=5
     )
-    thickness: float = addresses.length(
-        "Q250", "thickness of the workpiece", at_least=0.0001, incremental=True, example=20
-    )
-    eccentricity: float = addresses.length(
-        "Q251", "off-centre distance of the bar", at_least=0.0001, incremental=True, example=3.5
-    )
-    edge_height: float = addresses.length(
-        "Q252", "height of the edge above the end of the bar", at_least=0.0001, incremental=True, example=15
-    )
+    thickness: float = distance("Q250", "thickness of the workpiece", at_least=0.0001, example=20)
+    eccentricity: float = distance("Q251", "off-centre distance of the bar", at_least=0.0001, example=3.5)
+    edge_height: float = distance("Q252", "height of the edge above the end of the bar", at_least=0.0001, example=15)
     positioning_feed: float | str = addresses.positioning_feed()
-    feed: float = addresses.feed(
-        "Q254", "feed rate for counterboring", ("FAUTO", "FU"), at_most=addresses.FAR, example=200
-    )
-    dwell_bottom: float = addresses.seconds("Q255", "dwell at the bottom of the counterbore", example=0.5)
+    feed: float = addresses.countersinking_feed(meaning="feed rate for counterboring", example=200)
+    dwell_bottom: float = seconds("Q255", "dwell at the bottom of the counterbore", example=0.5)
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
     disengage: float = addresses.disengage(shift=True)
@@ -97,18 +87,16 @@ class BackBoring(Hole):
         """The counterbore goes up from below, but the bar comes from above as in every hole."""
         return {"counterbore_depth": -self.counterbore_depth}
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A spindle that stops at an angle; a counterbore upwards that stays inside the workpiece; feeds."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from oriented(m)
         if self.counterbore_depth < 0:
             yield "counterbore_depth", f"must not be negative, got {self.counterbore_depth:g}"
         if self.counterbore_depth >= self.thickness:
             yield "counterbore_depth", f"must be less than Q250 = {self.thickness:g}, got {self.counterbore_depth:g}"
-        yield from moving("feed", self.feed, "to bore with")
-        yield from moving("positioning_feed", self.positioning_feed, "to position with")
+        yield from not_zero(self, "feed", purpose="to bore with")
+        yield from not_zero(self, "positioning_feed", purpose="to position with")
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Shifted through the hole, counterbore from below, shifted out; end plane, axis."""
         yield Write("memory", self.spindle_angle, "orientation")
         lower = self.surface - self.thickness - self.edge_height
         bored = back_bore(
@@ -120,7 +108,7 @@ class BackBoring(Hole):
         yield from as_if_not_mirrored(m, chain(bored, back_to_axis(self.end, m.turning)))
 
 
-@CYCLES("CYCL DEF 208", "Bore milling", runs="call", source="4.9")
+@CYCLES("CYCL DEF 208", "Bore milling", source="4.9")
 class BoreMilling(Hole):
     """Mills a hole on a helix from the set-up plane, with a full circle at the bottom; as wide as the tool it drills it.
 
@@ -128,22 +116,20 @@ class BoreMilling(Hole):
     climb into up-cut milling.
     """
 
-    does: ClassVar[str] = MILLS
-
+    does = MILLS
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
     feed: float = addresses.plunge_feed(also=("FAUTO", "FU", "FZ"))
-    pitch: float = addresses.length("Q334", "infeed per turn of the helix", incremental=True, example=1.5)
+    pitch: float = distance("Q334", "infeed per turn of the helix", example=1.5)
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
-    diameter: float = addresses.length("Q335", "diameter of the bore", example=14)
-    roughing_diameter: float = addresses.length(
+    diameter: float = length("Q335", "diameter of the bore", example=14)
+    roughing_diameter: float = length(
         "Q342", "diameter roughed before", note="above 0 the bore may be wider than twice the tool", example=0
     )
     climb: float = addresses.climb(example=1)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A bore as wide as the tool, and at most twice as wide if no other came before; a helix that goes down."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         size = 2 * m.radius
         if self.radius(m) < 0:
@@ -151,7 +137,7 @@ class BoreMilling(Hole):
         if not self.roughing_diameter and self.diameter > 2 * size + DRIFT:
             yield "diameter", f"must be at most twice the tool diameter {size:g} while Q342 is 0, got {self.diameter:g}"
         if self.radius(m):
-            yield from moving("pitch", self.pitch, "to mill with")
+            yield from not_zero(self, "pitch", purpose="to mill with")
             yield from too_many("pitch", lambda: turns(self.clearance + abs(self.depth), self.pitch_on(m)))
 
     def radius(self, m: Machine) -> float:
@@ -164,7 +150,6 @@ class BoreMilling(Hole):
         return min(self.pitch, steepest_pitch(self.radius(m), tool(m).plunge_angle))
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """To the wall, helix, circle, back to the axis; end plane."""
         pitch, sense = self.pitch_on(m), -1 if self.climb < 0 else 1
         if pitch < self.pitch and self.radius(m):
             allowed = f"the plunge angle {m.tool.plunge_angle:g} of tool {m.tool.number} allows {pitch:.4g}"

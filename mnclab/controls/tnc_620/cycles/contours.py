@@ -7,15 +7,17 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
 from dataclasses import replace
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, length
+from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, count, distance, increment, length, ratio
+from mnclab.controls.tnc_620.cycles.faults import Fault, with_radius
 from mnclab.controls.tnc_620.cycles.holes import rate
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.machine.cycle import Cycle, CycleTable, param
+from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.flow import Recording
 from mnclab.machine.machine import INF, Machine
 from mnclab.machine.true_size import MILLS, remark
@@ -27,7 +29,6 @@ from mnclab.path.outline import outline
 from mnclab.running.binding import unit_of
 
 CYCLES = CycleTable()
-FEEDS = ("FAUTO", "FU", "FZ")
 STRATEGIES: dict[float, str] = {0: "along the contour at depth", 1: "retract between the areas"}
 MOST_LABELS = 12
 
@@ -44,13 +45,11 @@ class Labels(NamedTuple):
 class ContourGeometry(Cycle):
     """The labels whose contours together are the pocket; no motion."""
 
-    labels: tuple[float, ...] = param(
-        "LBL", "label numbers of the contour", "count", type="integer", several=True, at_least=1, at_most=65535, modal=True,
-        note="1/2/3, up to 12", example=1,
-    )  # fmt: skip
+    labels: tuple[float, ...] = addresses.number(
+        "LBL", "label numbers of the contour", at_most=65535, several=True, note="1/2/3, up to 12", example=1
+    )
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Numbers that are labels of the program."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         if len(self.labels) > MOST_LABELS:
             yield "labels", f"must be at most {MOST_LABELS} labels, got {len(self.labels)}"
         for number in self.labels:
@@ -58,7 +57,6 @@ class ContourGeometry(Cycle):
                 yield "labels", f"names label {number:g}, which does not exist"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Keep the list until the next one."""
         names = tuple(f"{number:g}" for number in self.labels)
         yield Write("memory", Labels(names, m.program, m.variable_unit), "contour_labels")
 
@@ -67,18 +65,17 @@ class ContourGeometry(Cycle):
 class ContourData(Cycle):
     """Depths, allowances and the sense of milling for the cycles that follow; no motion."""
 
-    depth: float = coordinate("Q1", "milling depth from the surface to the floor", incremental=True, example=-20)
-    overlap: float = param("Q2", "path overlap factor", "ratio", at_least=0.0001, at_most=1.9999, modal=True, example=1)
-    side_allowance: float = coordinate("Q3", "finishing allowance for side", incremental=True, example=0.2)
-    floor_allowance: float = coordinate("Q4", "finishing allowance for floor", incremental=True, example=0.1)
+    depth: float = increment("Q1", "milling depth from the surface to the floor", example=-20)
+    overlap: float = ratio("Q2", "path overlap factor", at_most=1.9999, example=1)
+    side_allowance: float = increment("Q3", "finishing allowance for side", example=0.2)
+    floor_allowance: float = increment("Q4", "finishing allowance for floor", example=0.1)
     surface: float = coordinate("Q5", "coordinate of the workpiece surface", example=0)
-    clearance: float = length("Q6", "set-up clearance", incremental=True, example=2)
+    clearance: float = distance("Q6", "set-up clearance", example=2)
     height: float = coordinate("Q7", "clearance height", example=50)
     corner: float = length("Q8", "radius at inside corners", example=0.5)
     sense: float = choice("Q9", "direction of machining", {-1: "up-cut milling", 1: "climb milling"})
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The floor lies below its allowance, the clearance height above the set-up clearance."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         if abs(self.depth) < self.floor_allowance:
             yield "depth", f"must be at least Q4 = {self.floor_allowance:g} deep, got {self.depth:g}"
         if self.height < self.surface + self.clearance:
@@ -144,30 +141,22 @@ def united(pockets: Sequence[tuple[Contour, tuple[float, float]]], islands: Sequ
     return region
 
 
-@CYCLES("CYCL DEF 22", "Rough-out", runs="call", source="8.6")
+@CYCLES("CYCL DEF 22", "Rough-out", source="8.6")
 class RoughOut(Cycle):
     """Clears the contour level by level, each from the inside outward, islands first; a mirror image keeps its climb (8.3)."""
 
-    does: ClassVar[str] = MILLS
-
-    infeed: float = coordinate("Q10", "infeed per cut", incremental=True, example=5)
-    plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", FEEDS, at_most=FAR, example=150)
-    feed: float = addresses.feed("Q12", "feed rate for roughing", FEEDS, at_most=FAR, example=500)
-    coarse_tool: float = param(
-        ("Q18", "QS18"), "coarse roughing tool", "count", default=0, at_least=0, at_most=99999, type="text", modal=True
-    )
-    swing_feed: float = addresses.feed("Q19", "feed rate for reciprocation", FEEDS, at_most=FAR, example=0)
-    retract_feed: float | str = param(
-        "Q208", "retraction feed rate", "mm/min", default=INF, default_means="FMAX", at_least=0, also=("FMAX", "FAUTO"),
-        modal=True,
-    )  # fmt: skip
-    factor: float = param(
-        "Q401", "feed rate factor at full engagement", "ratio", default=100, at_least=0.0001, at_most=100, modal=True
-    )
+    does = MILLS
+    about = in_program_coordinates
+    infeed: float = increment("Q10", "infeed per cut", example=5)
+    plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
+    feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=500)
+    coarse_tool: float = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0)
+    swing_feed: float = addresses.feed("Q19", "feed rate for reciprocation", also=addresses.PLANE, at_most=FAR, example=0)
+    retract_feed: float | str = addresses.retract_feed(at_most=None, default=INF, default_means="FMAX", note="", example=None)
+    factor: float = ratio("Q401", "feed rate factor at full engagement", at_most=100, default=100)
     fine_strategy: float = choice("Q404", "fine roughing strategy", STRATEGIES, default=0)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Contour and data are there, the infeed is not zero; what is not built is refused."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         if memory(m).contour_labels is None:
             yield "", "needs a contour: CYCL DEF 14 comes before it"
         if memory(m).contour_data is None:
@@ -184,15 +173,9 @@ class RoughOut(Cycle):
             yield "swing_feed", "needs the plunge angle (ANGLE) of the tool in its table"
         if self.swing_feed and m.tool.plunge_angle != 90:
             yield "swing_feed", "other than 0, a helical or reciprocating plunge, is not built yet"
-        if m.radius <= 0:
-            yield "", f"needs a tool with a radius, got {m.radius:g}"
-
-    def about(self, m: Machine) -> tuple[float, float]:
-        """Contours are told in coordinates of the program."""
-        return 0.0, 0.0
+        yield from with_radius(m)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Every level, every piece of the area, every ring."""
         data = contour_data(m)
         region = yield from contour_region(m)
         down = -1 if data.depth < 0 else 1

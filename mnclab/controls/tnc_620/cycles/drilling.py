@@ -6,11 +6,12 @@ import math
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.holes import Hole, moving, point_angle, point_length, rate
-from mnclab.machine.cycle import CycleTable, too_many
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_angle
+from mnclab.controls.tnc_620.cycles.holes import Hole, point_length, rate
+from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import is_round, tool
-from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, ream
 from mnclab.machining.steps import Go, Say, Step, Wait
 
@@ -19,16 +20,14 @@ CYCLES = CycleTable()
 CENTRED: dict[float, str] = {0: "to the depth Q201", 1: "to the diameter Q344"}
 
 
-@CYCLES("CYCL DEF 240", "Centering", runs="call", source="4.2")
+@CYCLES("CYCL DEF 240", "Centering", source="4.2")
 class Centering(Hole):
     """Centres to a depth, or so deep that the point of the tool leaves a cone of a diameter on the surface."""
 
     clearance: float = addresses.clearance()
-    mode: float = addresses.choice("Q343", "what the centring goes to", CENTRED, example=0)
+    mode: float = choice("Q343", "what the centring goes to", CENTRED, example=0)
     depth: float = addresses.depth(example=-3)
-    diameter: float = addresses.coordinate(
-        "Q344", "diameter of the centring", note="negative is down; counts with Q343=1", example=-9
-    )
+    diameter: float = coordinate("Q344", "diameter of the centring", note="negative is down; counts with Q343=1", example=-9)
     feed: float = addresses.plunge_feed()
     dwell_bottom: float = addresses.dwell_bottom()
     surface: float = addresses.surface()
@@ -39,35 +38,31 @@ class Centering(Hole):
         return {"diameter": self.diameter} if self.mode else {"depth": self.depth}
 
     def reach(self, m: Machine) -> float:
-        """The depth, or that of a cone of the diameter."""
         if not self.mode:
             return self.depth
         return math.copysign(point_length(abs(self.diameter) / 2, tool(m).angle), self.diameter)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The sign of what Q343 chooses, the point angle for a diameter, a feed."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from self.signs(m)
         if self.mode:
-            yield from point_angle(m, "mode")
+            yield from with_angle(m, "mode")
             if not is_round(m):
                 yield "mode", "1 cannot run under unequal scales of the plane: a diameter would be two"
-        yield from moving("feed", self.feed, "to drill with")
+        yield from not_zero(self, "feed", purpose="to drill with")
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """As every hole; a cone is not wider than the tool."""
         if self.mode and abs(self.diameter) > 2 * m.radius > 0:
-            sentence = f"is wider than the tool, {2 * m.radius:.10g}: the cone ends at the tool's diameter"
-            yield Say(f"Q344={self.diameter:.10g} {sentence}")
+            wider = f"wider than the tool, {2 * m.radius:.10g}: the cone ends at the tool's diameter"
+            yield Say(f"Q344={self.diameter:.10g} is {wider}")
         yield from super().moves(m)
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Down, dwell, out."""
         yield Go("centre", self.bottom(m), self.feed)
         yield Wait("dwell at the bottom", self.dwell_bottom)
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 200", "Drilling", runs="call", source="4.3")
+@CYCLES("CYCL DEF 200", "Drilling", source="4.3")
 class Drilling(Hole):
     """Drills in infeeds with full retraction to the set-up plane, a dwell after each infeed, and a rapid to the end plane."""
 
@@ -81,17 +76,7 @@ class Drilling(Hole):
     dwell_bottom: float = addresses.dwell_bottom()
     reference: float = addresses.reference()
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Those of every hole; no more infeeds than one can have."""
-        yield from super().check(m)
-        yield from too_many("infeed", lambda: self.levels(m))
-
-    def levels(self, m: Machine) -> tuple[float, ...]:
-        """Infeeds count from the surface."""
-        return infeeds(self.surface, self.bottom(m), self.infeed)
-
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Infeed, dwell, set-up plane, dwell, back above the last depth; end plane."""
         yield from drill(
             self.levels(m), above=self.above, feed=self.feed, reenter=self.clearance, dwell_top=self.dwell_top,
             dwell_each=self.dwell_bottom, dwell_bottom=self.dwell_bottom,
@@ -99,7 +84,7 @@ class Drilling(Hole):
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 201", "Reaming", runs="call", source="4.4")
+@CYCLES("CYCL DEF 201", "Reaming", source="4.4")
 class Reaming(Hole):
     """In and out at feed: a reamer does not leave its hole at rapid."""
 
@@ -112,13 +97,12 @@ class Reaming(Hole):
     second_clearance: float = addresses.second_clearance()
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Down, dwell, to the set-up plane; end plane."""
         out = rate(self.retract_feed, self.feed)
         yield from ream(self.bottom(m), above=self.above, feed=self.feed, retract=out, dwell=self.dwell_bottom)
         yield from self.leave()
 
 
-@CYCLES("CYCL DEF 203", "Universal drilling", runs="call", source="4.6")
+@CYCLES("CYCL DEF 203", "Universal drilling", source="4.6")
 class UniversalDrilling(Hole):
     """Drills with infeeds that may shrink; breaks the chip Q213 times before each full retraction.
 
@@ -134,24 +118,14 @@ class UniversalDrilling(Hole):
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
     decrement: float = addresses.decrement()
-    chip_breaks: float = addresses.count("Q213", "chip breaks before each retraction", 99999, example=1)
+    chip_breaks: float = count("Q213", "chip breaks before each retraction", example=1)
     min_infeed: float = addresses.min_infeed()
     dwell_bottom: float = addresses.dwell_bottom()
     retract_feed: float | str = addresses.retract_feed()
     break_retract: float = addresses.break_retract()
     reference: float = addresses.reference()
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Those of every hole; no more infeeds than one can have."""
-        yield from super().check(m)
-        yield from too_many("infeed", lambda: self.levels(m))
-
-    def levels(self, m: Machine) -> tuple[float, ...]:
-        """Infeeds count from the surface."""
-        return infeeds(self.surface, self.bottom(m), self.infeed, self.decrement, self.min_infeed)
-
     def steps(self, m: Machine) -> Iterator[Step]:
-        """Infeeds with chip breaks and retractions at Q208, dwell, end plane at rapid."""
         yield from drill(
             self.levels(m), above=self.above, feed=self.feed, reenter=self.break_retract or self.clearance,
             withdraw=rate(self.retract_feed, self.feed), dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from datetime import UTC, datetime
-from typing import ClassVar
 
 from mnclab.controls.tnc_620 import engraved_text
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, ratio
+from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
@@ -32,26 +33,22 @@ REFERENCES: dict[float, str] = {
 }  # fmt: skip
 
 
-@CYCLES("CYCL DEF 225", "Engraving", runs="call", source="12.6")
+@CYCLES("CYCL DEF 225", "Engraving", source="12.6")
 class Engraving(AtSurface):
     """Engraves a text, stroke by stroke; the tool stands at its reference point at the call.
 
     The letters are single strokes with the widths of DejaVu Sans. Behind % stand umlauts, time and counter; \\n is a new line.
     """
 
-    does: ClassVar[str] = MILLS
-
+    does = MILLS
     text: str | TextFormula = param(("Q500", "QS500"), "text", "text", modal=True, type="text")
-    character_height: float = addresses.length(
-        "Q513", "character height", note="0: as the length Q574 asks", example=10
+    character_height: float = addresses.length("Q513", "character height", note="0: as the length Q574 asks", example=10)
+    spacing_factor: float = ratio(
+        "Q514", "spacing factor", at_least=0, at_most=9.9999, note="0: as the letters have it", example=0
     )
-    spacing_factor: float = param(
-        "Q514", "spacing factor", "ratio", at_least=0, at_most=9.9999, modal=True, note="0: as the letters have it",
-        example=0,
-    )  # fmt: skip
-    font: float = addresses.choice("Q515", "font", FONTS, default=0, note="its widths; the strokes are our own")
-    text_layout: float = addresses.choice("Q516", "text layout", LAYOUTS, example=0)
-    angle: float = addresses.angle("Q374", "angle of rotation", note="on an arc that of the reference point", example=0)
+    font: float = choice("Q515", "font", FONTS, default=0, note="its widths; the strokes are our own")
+    text_layout: float = choice("Q516", "text layout", LAYOUTS, example=0)
+    angle: float = addresses.rotation("Q374", note="on an arc that of the reference point", example=0)
     arc_radius: float = addresses.length("Q517", "radius of the arc", example=50)
     feed: float = addresses.milling_feed(example=750)
     depth: float = addresses.depth(example=-0.5)
@@ -59,24 +56,20 @@ class Engraving(AtSurface):
     clearance: float = addresses.clearance(predef=True)
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
-    text_position: float = addresses.choice("Q367", "text position", REFERENCES, default=0, example=1)
+    text_position: float = choice("Q367", "text position", REFERENCES, default=0, example=1)
     maximum_text_length: float = addresses.length("Q574", "greatest text length", default=0, note="0: no limit")
 
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        """A radius for an arc, and a height."""
+    def contradictions(self) -> Iterator[Fault]:
         if self.text_layout and not self.arc_radius:
             yield "arc_radius", "must be greater than 0 for a text on an arc, got 0"
         if not self.character_height and not self.maximum_text_length:
             yield "character_height", "and Q574 are both 0: one of them says how large the text is"
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A text that can be engraved, in its length; feeds."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         if not isinstance(self.text, str | TextFormula):
             yield "text", "must be a text in quotes or a QS parameter"
             return
-        for name in ("feed", "plunge_feed"):
-            if getattr(self, name) == 0:
-                yield name, "must be greater than 0, got 0"
+        yield from not_zero(self, "feed", "plunge_feed")
         try:
             found = self.tokens(m)
             height = self.height(found)
@@ -85,11 +78,10 @@ class Engraving(AtSurface):
             yield "text", str(error)
             return
         long, most = length(cells(found, self.spacing_factor)) * height, self.maximum_text_length
-        if most and long > most + 1e-9:
+        if most and long > most + SAME:
             yield "maximum_text_length", f"is {most:g}, the text is {long:.3f} long"
 
     def tokens(self, m: Machine) -> list[str]:
-        """The characters of the text as they are now."""
         clock = m.settings["clock"]
         try:
             now = datetime.fromtimestamp(clock, UTC) if clock else datetime.now()
@@ -107,7 +99,6 @@ class Engraving(AtSurface):
         return self.maximum_text_length / long
 
     def glyphs(self, found: list[str], height: float) -> list[Glyph]:
-        """Every character in its place, from where the tool stands."""
         row, angle, reference = cells(found, self.spacing_factor), math.radians(self.angle), int(self.text_position)
         if self.text_layout == 0:
             return on_line(row, height, reference, angle)
@@ -115,7 +106,6 @@ class Engraving(AtSurface):
         return on_arc(row, height, reference, angle, self.arc_radius, sense)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Stroke by stroke; nothing where the depth is 0."""
         if not self.down:
             yield self.left_out
             return

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS
@@ -18,34 +20,28 @@ from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()
 MOST = 20_000  # lines of one cycle, all its levels together
-STRATEGIES: dict[float, str] = {
-    0: "meander, stepover outside the surface",
-    1: "meander, stepover at its edge",
-    2: "one way, retraction and back at the positioning feed",
-}
+STRATEGIES = addresses.MEANDER | {2: "one way, retraction and back at the positioning feed"}
 
 
-@CYCLES("CYCL DEF 232", "Face milling", runs="call", source="12.7")
+@CYCLES("CYCL DEF 232", "Face milling", source="12.7")
 class FaceMilling(Cycle):
     """Mills a level surface in several infeeds, each level backwards over the one before; the last one finishes."""
 
-    does: ClassVar[str] = MILLS
-
-    strategy: float = addresses.choice("Q389", "machining strategy", STRATEGIES, example=2)
-    start_1st_axis: float = addresses.coordinate("Q225", "starting point, first axis", example=10)
-    start_2nd_axis: float = addresses.coordinate("Q226", "starting point, second axis", example=12)
-    start_3rd_axis: float = addresses.coordinate("Q227", "coordinate of the surface", example=2.5)
-    end_3rd_axis: float = addresses.coordinate("Q386", "coordinate to mill down to", example=-3)
-    first_side_length: float = addresses.side(
+    does = MILLS
+    about = in_program_coordinates
+    strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
+    start_1st_axis: float = coordinate("Q225", "starting point, first axis", example=10)
+    start_2nd_axis: float = coordinate("Q226", "starting point, second axis", example=12)
+    start_3rd_axis: float = coordinate("Q227", "coordinate of the surface", example=2.5)
+    end_3rd_axis: float = coordinate("Q386", "coordinate to mill down to", example=-3)
+    first_side_length: float = increment(
         "Q218", "first side length", note="the sign is the direction of the first line", example=150
     )
-    second_side_length: float = addresses.side(
+    second_side_length: float = increment(
         "Q219", "second side length", note="the sign is the direction of the first stepover", example=75
     )
-    maximum_plunging_depth: float = addresses.length("Q202", "greatest infeed", incremental=True, example=2)
-    floor_allowance: float = addresses.length(
-        "Q369", "finishing allowance for the floor", incremental=True, note="the last infeed", example=0.5
-    )
+    maximum_plunging_depth: float = addresses.greatest_infeed(example=2)
+    floor_allowance: float = distance("Q369", "finishing allowance for the floor", note="the last infeed", example=0.5)
     maximum_overlap: float = addresses.overlap(
         meaning="greatest path overlap factor", at_least=0.1, predef=False, note="times the tool radius is the stepover"
     )
@@ -56,24 +52,19 @@ class FaceMilling(Cycle):
     side_clearance: float = addresses.side_clearance()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
 
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        """Downwards."""
+    def contradictions(self) -> Iterator[Fault]:
         if self.end_3rd_axis > self.start_3rd_axis:
             yield "end_3rd_axis", f"must not lie above Q227 = {self.start_3rd_axis:g}, got {self.end_3rd_axis:g}"
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """An infeed, a tool that is flat below; nothing where nothing is milled."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         if self.height == 0:
             return
-        if self.maximum_plunging_depth == 0 and self.roughing > DRIFT:
-            yield "maximum_plunging_depth", "must be greater than 0, got 0"
-        if not m.radius > 0:
-            yield "", f"needs a tool with a radius, got {m.radius:g}"
+        if self.roughing > DRIFT:
+            yield from not_zero(self, "maximum_plunging_depth")
+        yield from with_radius(m)
         if self.flat(m) <= 0:
             yield "", f"needs a tool that is flat below, got R {m.radius * m.scale:g} and R2 {m.tool.corner:g}"
-        for name in ("feed", "finishing_feed", "prepositioning_feed"):
-            if getattr(self, name) == 0:
-                yield name, "must be greater than 0, got 0"
+        yield from not_zero(self, "feed", "finishing_feed", "prepositioning_feed")
         yield from too_many("maximum_plunging_depth", self.levels)
         yield from too_many("maximum_overlap", lambda: self.across(self.flat(m)))
         if len(self.levels()) * len(self.across(self.flat(m))) > MOST:
@@ -96,11 +87,11 @@ class FaceMilling(Cycle):
 
     def levels(self) -> tuple[float, ...]:
         """Equal infeeds down to the allowance, and then the allowance."""
-        last = self.end_3rd_axis
-        rough: tuple[float, ...] = ()
-        if self.roughing > DRIFT:
-            rough = rows(self.start_3rd_axis, last + self.floor_allowance, self.maximum_plunging_depth)[1:]
-        return (*rough, last) if self.floor_allowance else rough
+        last = (self.end_3rd_axis,) if self.floor_allowance else ()
+        if self.roughing <= DRIFT:
+            return last
+        rough_end = self.end_3rd_axis + self.floor_allowance
+        return rows(self.start_3rd_axis, rough_end, self.maximum_plunging_depth)[1:] + last
 
     def across(self, flat: float) -> tuple[float, ...]:
         """Where the lines lie: the first on the edge or, with an overlap over 1, inside; the edge of the last on the far edge."""
@@ -109,7 +100,6 @@ class FaceMilling(Cycle):
         return tuple(self.start_2nd_axis + math.copysign(place, self.second_side_length) for place in places)
 
     def lines(self, m: Machine) -> Clearing:
-        """The lines of the first level."""
         ahead, near = math.copysign(1.0, self.first_side_length), self.start_1st_axis
         far, outside = near + self.first_side_length, ahead * (m.radius + self.side_clearance)
         edges = (near, far) if self.strategy == 1 else None
@@ -128,12 +118,7 @@ class FaceMilling(Cycle):
             way = passes.reversed() if k % 2 else passes
             yield Layer("finishing" if finishing else name, level, way, feed, link, self.prepositioning_feed)
 
-    def about(self, m: Machine) -> tuple[float, float]:
-        """Places are coordinates of the program."""
-        return 0.0, 0.0
-
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 9 of the manual."""
         if self.height == 0:
             yield Say("Q386 makes a depth of 0: the cycle is not executed")
             return

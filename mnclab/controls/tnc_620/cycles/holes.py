@@ -6,9 +6,12 @@ import math
 from abc import abstractmethod
 from collections.abc import Iterable, Iterator
 
+from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero, with_angle
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import tool
+from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import RAPID, Go, Step
 
 
@@ -17,6 +20,10 @@ class Hole(AtSurface):
 
     depth: float
     feed: float
+    infeed: float | None = 0.0
+    decrement = 0.0
+    min_infeed = 0.0
+    start_depth = 0.0
     reference = 0.0
 
     def reach(self, m: Machine) -> float:
@@ -32,15 +39,27 @@ class Hole(AtSurface):
         point = point_length(tool(m).effective_radius, tool(m).angle) if self.reference == 1 else 0.0
         return self.surface + self.reach(m) - self.down * point
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The sign of the depth, the point angle for Q395 = 1, a feed."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from self.signs(m)
         if self.reference == 1:
-            yield from point_angle(m, "reference")
-        yield from moving("feed", self.feed, "to drill with")
+            yield from with_angle(m, "reference")
+        yield from not_zero(self, "feed", purpose="to drill with")
+        if self.depth:
+            yield from less_than_depth(self, "start_depth", self.depth)
+        if self.start_depth:
+            yield from not_zero(self, "positioning_feed", purpose="to reach the starting point")
+        yield from too_many("infeed", lambda: self.levels(m))
+
+    @property
+    def begin(self) -> float:
+        """Where infeeds count from."""
+        return self.surface - self.down * self.start_depth
+
+    def levels(self, m: Machine) -> tuple[float, ...]:
+        """The depths of the infeeds."""
+        return infeeds(self.begin, self.bottom(m), self.infeed, self.decrement, self.min_infeed)
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """To the set-up plane and then what the cycle does, with spindle and coolant as at the call."""
         return [Go("to the set-up clearance", self.above), *self.steps(m)] if self.down else [self.left_out]
 
 
@@ -51,24 +70,6 @@ def point_length(radius: float, angle: float) -> float:
     1.3856
     """
     return radius / math.tan(math.radians(angle / 2))
-
-
-def point_angle(m: Machine, name: str) -> Iterator[tuple[str, str]]:
-    """What a parameter asks for needs the point angle of the tool."""
-    if not 0 < m.tool.angle < 180:
-        yield name, f"needs the point angle of tool {m.tool.number} (T-ANGLE of the tool table)"
-
-
-def oriented(m: Machine) -> Iterator[tuple[str, str]]:
-    """A spindle that can stop at an angle."""
-    if not m.settings["controlled_spindle"]:
-        yield "", "needs a controlled spindle, which this machine does not have (setting controlled_spindle)"
-
-
-def moving(name: str, feed: float | str, purpose: str) -> Iterator[tuple[str, str]]:
-    """A feed of 0 would never arrive."""
-    if feed == 0:
-        yield name, f"must be greater than 0 {purpose}, got 0"
 
 
 def rate(feed: float | str, otherwise: float = RAPID) -> float:

@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero, with_radius
 from mnclab.machine.cycle import too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import tool
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 AnyFigure: TypeAlias = "AnyPocket | AnySlot | AnyStud"
 
 Place = tuple[float, float]
-Fault = tuple[str, str]
+STUDS = ("CYCL DEF 256", "CYCL DEF 257", "CYCL DEF 258")
 
 
 class Figure(NamedTuple):
@@ -37,11 +38,6 @@ class Figure(NamedTuple):
     start: Place
     centre: Place
     steps: Iterable[Step]
-
-
-def in_program_coordinates(c: AnyFigure, m: Machine) -> Place:
-    """`about` of all of them: the steps of a figure are moved to their place."""
-    return 0.0, 0.0
 
 
 def edges(tool: Tool) -> float:
@@ -68,44 +64,40 @@ def work(c: AnyFigure, m: Machine, feeds: tuple[Feeds, Feeds, Feeds]) -> Work:
     """What is done of the cycle; Q351 = 0 is climb milling too."""
     roughs, finishes = c.machining_operation != 2, c.machining_operation != 1
     return Work(
-        surface=c.surface,
-        left_over=left_over(c),
-        above=c.above,
-        lift=c.down * c.clearance,
-        allowance=c.side_allowance,
-        layers=levels(c, m) if roughs else (),
-        walls=wall_levels(c) if finishes and c.side_allowance > 0 else (),
-        floor=(c.surface + c.depth,) if finishes and c.floor_allowance > 0 else (),
-        feeds=feeds,
+        surface=c.surface, left_over=left_over(c), above=c.above, lift=c.down * c.clearance, allowance=c.side_allowance,
+        layers=levels(c, m) if roughs else (), walls=wall_levels(c) if finishes and c.side_allowance > 0 else (),
+        floor=(c.surface + c.depth,) if finishes and c.floor_allowance > 0 else (), feeds=feeds,
         side=1 if c.milling_type >= 0 else -1,
-    )
+    )  # fmt: skip
 
 
 def contradictions(c: AnyFigure) -> Iterator[Fault]:
     """An infeed; not all of the depth is allowance. A depth of 0 is not executed, so nothing of it can be wrong."""
     if c.depth == 0:
         return
-    if c.infeed == 0:
-        yield "infeed", "must be greater than 0, got 0"
-    if c.floor_allowance >= abs(c.depth):
-        yield "floor_allowance", f"must be less than the depth {abs(c.depth):g}, got {c.floor_allowance:g}"
+    yield from not_zero(c, "infeed")
+    yield from less_than_depth(c, "floor_allowance", c.depth)
     yield from too_many("finishing_infeed", lambda: wall_levels(c))
 
 
-def check(c: AnyFigure, m: Machine, finishing_feed: float) -> Iterator[Fault]:
-    """The sign of the depth, a tool with a radius, feeds for all that is done, a number of levels to wait for."""
+def finishing_feed(c: AnyFigure) -> float:
+    """Q385, which came later than the studs: 0 is the milling feed there."""
+    return float(c.finishing_feed or (c.milling_feed if c.code in STUDS else 0.0))
+
+
+def check(c: AnyFigure, m: Machine) -> Iterator[Fault]:
+    """The sign of the depth, a tool with a radius, feeds for all that is done, a number of levels to wait for; its shape."""
+    if c.depth == 0:
+        return
     yield from c.signs(m)
-    if m.radius <= 0:
-        yield "", f"needs a tool with a radius, got {m.radius:g}"
+    yield from with_radius(m)
     finishes = c.machining_operation != 1 and (c.side_allowance > 0 or c.floor_allowance > 0)
-    for name, feed, needed in (
-        ("milling_feed", c.milling_feed, c.machining_operation != 2),
-        ("plunging_feed", c.plunging_feed, True),
-        ("finishing_feed", finishing_feed, finishes),
-    ):
-        if needed and feed == 0:
-            yield name, "must be greater than 0 to mill with, got 0"
+    used = {
+        "milling_feed": c.machining_operation != 2, "plunging_feed": True, "finishing_feed": finishes and not finishing_feed(c),
+    }  # fmt: skip
+    yield from not_zero(c, *(name for name, needed in used.items() if needed), purpose="to mill with")
     yield from too_many("infeed", lambda: levels(c, m))
+    yield from c.fits(m)
 
 
 def mill(
@@ -131,6 +123,12 @@ def mill(
         yield from c.leave()
         high = c.end
     yield from last
+
+
+def turned(u: float, v: float, angle: float) -> Place:
+    """A place turned by an angle, degrees."""
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    return c * u - s * v, s * u + c * v
 
 
 def back(place: Place) -> Go:

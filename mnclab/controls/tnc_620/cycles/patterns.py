@@ -18,7 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length, number
+from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
+from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import faults, is_round
 from mnclab.machining import patterns
@@ -34,71 +37,53 @@ WAY: dict[float, str] = {0: "straight", 1: "on the pitch circle"}
 Floats = NDArray[np.float64]
 
 
-class PointPattern(Cycle, ABC):
+class PointPattern(AtSurface, ABC):
     """What both have in common: heights, the machining cycle, the way from point to point."""
 
+    about = in_program_coordinates
+    works = ()
     combines: ClassVar[frozenset[str]] = frozenset(f"CYCL DEF {n}" for n in _BOTH)
-    clearance: float
-    surface: float
-    second_clearance: float
     move_to_clearance: float
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A machining cycle that may be combined, a tool position without compensation."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         if m.cycle is None:
             yield "", "has no machining cycle to run: define one before it, for example CYCL DEF 200"
             return
-        if m.cycle.cycle.code not in self.combines:
-            sentence = f"cannot be combined with {m.cycle.cycle.code} ({m.cycle.cycle.title})"
-            if m.settings["pattern_cycles"] == "refuse" or m.cycle.cycle.code == "CYCL DEF 254":
+        run = m.cycle.cycle
+        if run.code not in self.combines:
+            sentence = f"cannot be combined with {run.code} ({run.title})"
+            if m.settings["pattern_cycles"] == "refuse" or run.code == "CYCL DEF 254":
                 yield "", sentence
             else:
                 m.warn(f"{self.code} {sentence}")
-        for sentence in faults(m.cycle.cycle.does, m):
-            yield "", f"cannot run {m.cycle.cycle.code} here, which {sentence}"
+        for sentence in faults(run.does, m):
+            yield "", f"cannot run {run.code} here, which {sentence}"
         if m.side:
             yield "", "cannot run under radius compensation: write R0 before it"
 
     @property
     def between(self) -> float:
         """The level from point to point."""
-        return self.above if self.move_to_clearance == 0 else self.high
-
-    @property
-    def above(self) -> float:
-        """The set-up clearance."""
-        return self.surface + self.clearance
-
-    @property
-    def high(self) -> float:
-        """The second set-up clearance, where it is the greater one."""
-        return self.surface + max(self.clearance, self.second_clearance)
+        return self.above if self.move_to_clearance == 0 else self.end
 
     @abstractmethod
     def points(self) -> Floats:
         """Where the cycle runs, (n, 2)."""
 
-    def about(self, m: Machine) -> tuple[float, float]:
-        """Points are told in coordinates of the program."""
-        return 0.0, 0.0
-
     def moves(self, m: Machine) -> Iterator[Step]:
-        """At the second set-up clearance over the first of the points; then the cycle at each."""
         points = self.points()
         (x, y), others = points[0].tolist(), points[1:]
-        yield Go("to the second set-up clearance", self.high)
+        yield Go("to the second set-up clearance", self.end)
         yield Go("to the first point", x=x, y=y)
         yield from self.work(last=not len(others))
         yield from self.others(m, others)
 
     def others(self, m: Machine, points: Floats) -> Iterator[Step]:
-        """All points but the first, on straight lines."""
         yield Each(points[:-1], self.visit)
         for x, y in points[-1:].tolist():
             yield from self.visit(x, y, last=True)
 
     def visit(self, x: float, y: float, last: bool = False) -> Iterator[Step]:
-        """One of the points, from the one before."""
         yield Go("to the level between the points", self.between)
         yield Go("to the next point", x=x, y=y)
         yield from self.work(last)
@@ -106,30 +91,29 @@ class PointPattern(Cycle, ABC):
     def work(self, last: bool) -> Iterator[Step]:
         """At a point: to the set-up clearance, and the machining cycle; it ends at the level between the points."""
         yield Go("to the set-up clearance", self.above)
-        yield Call({"second_clearance": (self.high if last else self.between) - self.surface})
+        yield Call({"second_clearance": (self.end if last else self.between) - self.surface})
 
 
 @CYCLES("CYCL DEF 220", "Polar pattern", runs="definition", source="7.2")
 class PolarPattern(PointPattern):
     """Runs the cycle defined last at points on a circle or an arc."""
 
-    center_in_1st_axis: float = addresses.coordinate("Q216", "centre along the first axis", example=50)
-    center_in_2nd_axis: float = addresses.coordinate("Q217", "centre along the second axis", example=50)
-    pitch_circle_diameter: float = addresses.length("Q244", "diameter of the pitch circle", example=80)
+    center_in_1st_axis: float = coordinate("Q216", "centre along the first axis", example=50)
+    center_in_2nd_axis: float = coordinate("Q217", "centre along the second axis", example=50)
+    pitch_circle_diameter: float = length("Q244", "diameter of the pitch circle", example=80)
     starting_angle: float = addresses.angle("Q245", "starting angle", example=0)
     stopping_angle: float = addresses.angle("Q246", "stopping angle", example=360, note="where Q247 is 0")
     stepping_angle: float = addresses.angle(
-        "Q247", "stepping angle", incremental=True, example=0, note="0: from the other angles and the number"
+        "Q247", "stepping angle", incremental=True, note="0: from the other angles and the number", example=0
     )
-    nr_of_repetitions: float = addresses.number("Q241", "number of operations", example=8)
+    nr_of_repetitions: float = number("Q241", "number of operations", example=8)
     clearance: float = addresses.clearance()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
-    move_to_clearance: float = addresses.choice("Q301", "level between the points", TRAVERSE)
-    type_of_traverse: float = addresses.choice("Q365", "way between the points", WAY)
+    move_to_clearance: float = choice("Q301", "level between the points", TRAVERSE)
+    type_of_traverse: float = choice("Q365", "way between the points", WAY)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As both; and an arc to divide."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         if self.type_of_traverse == 1 and not is_round(m):
             yield "type_of_traverse", "must be 0 under unequal scales of the plane, got 1: the way would be an ellipse"
@@ -148,11 +132,9 @@ class PolarPattern(PointPattern):
         return patterns.step_between(start, end, int(self.nr_of_repetitions), closed)
 
     def centre(self) -> tuple[float, float]:
-        """Of the pitch circle."""
         return self.center_in_1st_axis, self.center_in_2nd_axis
 
     def points(self) -> Floats:
-        """On the circle, from the starting angle."""
         start, radius = math.radians(self.starting_angle), self.pitch_circle_diameter / 2
         return patterns.circle(self.centre(), radius, start, self.step(), int(self.nr_of_repetitions))
 
@@ -162,11 +144,11 @@ class PolarPattern(PointPattern):
             yield from super().others(m, points)
             return
         rapid = float(np.min(m.setup.limits.rapid))
-        for number in range(len(points)):
+        for k in range(len(points)):
             yield Go("to the level between the points", self.between)
             if self.pitch_circle_diameter:
                 yield Turn("along the pitch circle", self.step(), feed=rapid, centre=self.centre())
-            yield from self.work(last=number == len(points) - 1)
+            yield from self.work(last=k == len(points) - 1)
 
 
 @CYCLES("CYCL DEF 221", "Cartesian pattern", runs="definition", source="7.3")
@@ -175,32 +157,27 @@ class CartesianPattern(PointPattern):
 
     combines = PointPattern.combines | {"CYCL DEF 254"}
 
-    starting_point_1st_axis: float = addresses.coordinate("Q225", "starting point along the first axis", example=15)
-    starting_point_2nd_axis: float = addresses.coordinate("Q226", "starting point along the second axis", example=15)
-    spacing_in_1st_axis: float = addresses.coordinate("Q237", "spacing along a line", example=10, incremental=True)
-    spacing_in_2nd_axis: float = addresses.coordinate("Q238", "spacing of the lines", example=8, incremental=True)
-    number_of_columns: float = addresses.number("Q242", "number of operations on a line", example=6)
-    number_of_lines: float = addresses.number("Q243", "number of lines", example=4)
+    starting_point_1st_axis: float = coordinate("Q225", "starting point along the first axis", example=15)
+    starting_point_2nd_axis: float = coordinate("Q226", "starting point along the second axis", example=15)
+    spacing_in_1st_axis: float = increment("Q237", "spacing along a line", example=10)
+    spacing_in_2nd_axis: float = increment("Q238", "spacing of the lines", example=8)
+    number_of_columns: float = number("Q242", "number of operations on a line", example=6)
+    number_of_lines: float = number("Q243", "number of lines", example=4)
     angle_of_rotation: float = addresses.angle("Q224", "rotation about the starting point", example=15)
     clearance: float = addresses.clearance()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance()
-    move_to_clearance: float = addresses.choice("Q301", "level between the points", TRAVERSE)
+    move_to_clearance: float = choice("Q301", "level between the points", TRAVERSE)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As both; a circular slot must have a place in the pattern (Q367); no more points than any plate has."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         if m.cycle is not None and m.cycle.cycle.code == "CYCL DEF 254" and m.variables.get("Q367") == 0:
             yield "", "cannot be combined with CYCL DEF 254 and Q367 = 0"
-        if self.number_of_columns * self.number_of_lines > MOST:
-            many = self.number_of_columns * self.number_of_lines
+        if (many := self.number_of_columns * self.number_of_lines) > MOST:
             yield "number_of_lines", f"makes {many:g} points, more than {MOST}"
 
     def points(self) -> Floats:
-        """Line by line, to and fro."""
-        return patterns.grid(
-            (self.starting_point_1st_axis, self.starting_point_2nd_axis),
-            (self.spacing_in_1st_axis, self.spacing_in_2nd_axis),
-            (int(self.number_of_columns), int(self.number_of_lines)),
-            math.radians(self.angle_of_rotation),
-        )
+        start = self.starting_point_1st_axis, self.starting_point_2nd_axis
+        spacing = self.spacing_in_1st_axis, self.spacing_in_2nd_axis
+        count = int(self.number_of_columns), int(self.number_of_lines)
+        return patterns.grid(start, spacing, count, math.radians(self.angle_of_rotation))

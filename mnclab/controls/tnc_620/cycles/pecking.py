@@ -6,11 +6,12 @@ Both may begin in a hole that is there already, Q379 deep: a long drill stays in
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
-from mnclab.controls.tnc_620.cycles.holes import Hole, moving, rate
-from mnclab.machine.cycle import CycleTable, param, too_many
+from mnclab.controls.tnc_620.cycles.addresses import choice, count, distance, ratio
+from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero
+from mnclab.controls.tnc_620.cycles.holes import Hole, rate
+from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import advanced_stops, infeeds
 from mnclab.machining.holes.drilling import Guided, drill, guided, gun_drill
@@ -22,40 +23,13 @@ ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: 
 TURNING = {3: 1, 4: -1, 5: 0}
 
 
-class DeepHole(Hole):
-    """A hole that may begin below the surface."""
-
-    infeed: float | None
-    decrement: float
-    min_infeed: float
-    start_depth: float
-    positioning_feed: float | str
-    retract_feed: float | str
-
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Those of every hole; something left to drill; no more infeeds than a hole can have."""
-        yield from super().check(m)
-        if self.depth and self.start_depth >= abs(self.depth):
-            yield "start_depth", f"must be less than the depth {abs(self.depth):g}, got {self.start_depth:g}"
-        if self.start_depth:
-            yield from moving("positioning_feed", self.positioning_feed, "to reach the starting point")
-        yield from too_many("infeed", lambda: self.levels(m))
-
-    def guide(self, m: Machine) -> Guided:
-        """Where drilling begins, and where chips are cleared."""
-        return guided(self.surface, self.start_depth, self.clearance, self.down)
-
-    def begin(self, m: Machine) -> float:
-        """Where infeeds count from."""
-        return self.surface - self.down * self.start_depth
-
-    def levels(self, m: Machine) -> tuple[float, ...]:
-        """The depths of the infeeds."""
-        return infeeds(self.begin(m), self.bottom(m), self.infeed, self.decrement, self.min_infeed)
+def guide(c: Hole) -> Guided:
+    """Where drilling begins, and where chips are cleared."""
+    return guided(c.surface, c.start_depth, c.clearance, c.down)
 
 
-@CYCLES("CYCL DEF 205", "Universal pecking", runs="call", source="4.8")
-class UniversalPecking(DeepHole):
+@CYCLES("CYCL DEF 205", "Universal pecking", source="4.8")
+class UniversalPecking(Hole):
     """Drills in infeeds that may shrink, breaks the chip every Q257 within each, and clears the chips after it.
 
     Back in the hole the rapid stops above the last depth: by Q258 the first time, by Q259 the last, evenly between.
@@ -69,11 +43,9 @@ class UniversalPecking(DeepHole):
     second_clearance: float = addresses.second_clearance()
     decrement: float = addresses.decrement()
     min_infeed: float = addresses.min_infeed()
-    first_stop: float = addresses.length("Q258", "upper advanced stop distance", incremental=True, example=0.5)
-    last_stop: float = addresses.length("Q259", "lower advanced stop distance", incremental=True, example=1)
-    break_every: float = addresses.length(
-        "Q257", "infeed between chip breaks", incremental=True, note="0: no chip breaks", example=2
-    )
+    first_stop: float = addresses.first_stop(example=0.5)
+    last_stop: float = distance("Q259", "lower advanced stop distance", example=1)
+    break_every: float = addresses.break_every(meaning="infeed between chip breaks", note="0: no chip breaks", example=2)
     break_retract: float = addresses.break_retract()
     dwell_bottom: float = addresses.dwell_bottom()
     start_depth: float = addresses.start_depth()
@@ -81,34 +53,31 @@ class UniversalPecking(DeepHole):
     retract_feed: float | str = addresses.retract_feed(at_most=addresses.FAR)
     reference: float = addresses.reference()
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Those of deep holes; a feed back to the depth after a chip break, and not too many of those."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         if self.break_every and self.break_retract:
-            yield from moving("positioning_feed", self.positioning_feed, "to return after a chip break")
-        yield from too_many("break_every", lambda: infeeds(self.begin(m), self.bottom(m), self.break_every))
+            yield from not_zero(self, "positioning_feed", purpose="to return after a chip break")
+        yield from too_many("break_every", lambda: infeeds(self.begin, self.bottom(m), self.break_every))
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """To the start of the drilling, infeeds, dwell; out at Q208 all the way to the end plane."""
-        levels, guide, out = self.levels(m), self.guide(m), rate(self.retract_feed, self.feed)
-        yield Go("to the start of the drilling", guide.start, rate(self.positioning_feed))
+        levels, way, out = self.levels(m), guide(self), rate(self.retract_feed, self.feed)
+        yield Go("to the start of the drilling", way.start, rate(self.positioning_feed))
         yield from drill(
-            levels, above=guide.clear, start=self.begin(m), feed=self.feed, dwell_bottom=self.dwell_bottom,
+            levels, above=way.clear, start=self.begin, feed=self.feed, dwell_bottom=self.dwell_bottom,
             reenter=advanced_stops(self.first_stop, self.last_stop, len(levels) - 1), break_every=self.break_every,
             back=self.break_retract, back_feed=out, approach=rate(self.positioning_feed),
         )  # fmt: skip
         yield from self.leave(out)
 
 
-@CYCLES("CYCL DEF 241", "Single-lip deep-hole drilling", runs="call", source="4.10")
-class SingleLipDrilling(DeepHole):
+@CYCLES("CYCL DEF 241", "Single-lip deep-hole drilling", source="4.10")
+class SingleLipDrilling(Hole):
     """Drills deep with a single-lip drill: slow in and out, fast and with coolant while it cuts, no retraction between.
 
     The spindle is left as it turns on the way out. A dwell on the way lasts as long as the one at the bottom.
     """
 
-    own_spindle: ClassVar[bool] = True
-
+    own_spindle = True
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
     feed: float = addresses.plunge_feed()
@@ -118,45 +87,36 @@ class SingleLipDrilling(DeepHole):
     start_depth: float = addresses.start_depth()
     positioning_feed: float | str = addresses.positioning_feed()
     retract_feed: float | str = addresses.retract_feed()
-    spindle_direction: float = addresses.choice("Q426", "spindle when entering and leaving", ENTRY, example=3)
-    entry_speed: float = addresses.count("Q427", "speed when entering and leaving", 99999, "rev/min", example=25)
-    drilling_speed: float = addresses.count("Q428", "speed when drilling", 99999, "rev/min", example=500)
-    coolant_on: float = addresses.count("Q429", "M function for coolant on", 999, "choice", note="0: none", example=8)
-    coolant_off: float = addresses.count("Q430", "M function for coolant off", 999, "choice", note="0: none", example=9)
-    dwell_depth: float = addresses.length(
-        "Q435", "depth of a dwell on the way", incremental=True, default=0, note="0: none", example=10
-    )
-    factor: float = param(
-        "Q401", "feed rate factor after the dwell", "ratio", default=100, at_least=0, at_most=100, modal=True, example=50
-    )
+    spindle_direction: float = choice("Q426", "spindle when entering and leaving", ENTRY, example=3)
+    entry_speed: float = count("Q427", "speed when entering and leaving", unit="rev/min", example=25)
+    drilling_speed: float = count("Q428", "speed when drilling", unit="rev/min", example=500)
+    coolant_on: float = count("Q429", "M function for coolant on", at_most=999, unit="choice", note="0: none", example=8)
+    coolant_off: float = count("Q430", "M function for coolant off", at_most=999, unit="choice", note="0: none", example=9)
+    dwell_depth: float = distance("Q435", "depth of a dwell on the way", default=0, note="0: none", example=10)
+    factor: float = ratio("Q401", "feed rate factor after the dwell", at_least=0, at_most=100, default=100, example=50)
     infeed: float | None = addresses.infeed(default=None, default_means="one pass")
     decrement: float = addresses.decrement(default=0)
     min_infeed: float = addresses.min_infeed(default=0)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Those of deep holes; a dwell below the start and above the bottom; M functions that switch the coolant."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
+        known = [code for code, function in m.control.functions.items() if function.group == "coolant"]
         for name, number in (("coolant_on", self.coolant_on), ("coolant_off", self.coolant_off)):
-            function = m.control.functions.get(f"M{number:g}")
-            if number and (function is None or function.group != "coolant"):
-                known = ", ".join(code for code, f in m.control.functions.items() if f.group == "coolant")
-                yield name, f"must switch the coolant ({known}) or be 0, got {number:g}"
-        yield from moving("drilling_speed", self.drilling_speed, "to drill with")
-        if not self.dwell_depth or not self.depth:
-            return
-        if self.dwell_depth >= abs(self.depth):
-            yield "dwell_depth", f"must be less than the depth {abs(self.depth):g}, got {self.dwell_depth:g}"
-        start = self.down * (self.surface - self.guide(m).start)
-        if self.dwell_depth <= start:
-            yield "dwell_depth", f"must be more than {start:g}, where the drilling begins, got {self.dwell_depth:g}"
-        yield from moving("factor", self.factor, "to drill on with")
+            if number and f"M{number:g}" not in known:
+                yield name, f"must switch the coolant ({', '.join(known)}) or be 0, got {number:g}"
+        yield from not_zero(self, "drilling_speed", purpose="to drill with")
+        if self.dwell_depth and self.depth:
+            yield from less_than_depth(self, "dwell_depth", self.depth)
+            start = self.down * (self.surface - guide(self).start)
+            if self.dwell_depth <= start:
+                yield "dwell_depth", f"must be more than {start:g}, where the drilling begins, got {self.dwell_depth:g}"
+            yield from not_zero(self, "factor", purpose="to drill on with")
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        """To the start of the drilling, infeeds with dwells, out past the place of the chips; end plane."""
-        guide, out = self.guide(m), rate(self.retract_feed, self.feed)
+        way, out = guide(self), rate(self.retract_feed, self.feed)
         on, off = (f"coolant M{code:g}" if code else "" for code in (self.coolant_on, self.coolant_off))
         yield from gun_drill(
-            self.levels(m), above=guide.clear, start=guide.start, feed=self.feed, approach=rate(self.positioning_feed),
+            self.levels(m), above=way.clear, start=way.start, feed=self.feed, approach=rate(self.positioning_feed),
             retract=out, entry=(TURNING[int(self.spindle_direction)], self.entry_speed), speed=self.drilling_speed,
             dwell=self.dwell_bottom, pause=self.surface - self.down * self.dwell_depth if self.dwell_depth else None,
             feed_after=self.feed * self.factor / 100, coolant=(on, off), cool_until_slow=True,
@@ -165,7 +125,6 @@ class SingleLipDrilling(DeepHole):
         yield from self.leave()
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """As every hole; then spindle and coolant are what their M functions say."""
         yield from super().moves(m)
         if self.depth:
             yield Write("modal", f"M{self.spindle_direction:g}", "spindle")

@@ -7,23 +7,33 @@ depth works upwards from A = S - Q200, where the setting "depth_error" allows it
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import ClassVar
 
+from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import RAPID, Go, Say
 
 
+def in_program_coordinates(c: Cycle, m: Machine) -> tuple[float, float]:
+    """`about` of the cycles whose steps stand where the program says, not about the tool."""
+    return 0.0, 0.0
+
+
 class AtSurface(Cycle):
-    """What a cycle at a surface shares; who inherits declares the parameters."""
+    """What cycles at a surface share; who inherits declares the parameters."""
 
     clearance: float
     surface: float
     second_clearance: float
     depth: float
 
+    works: ClassVar[tuple[str, ...]] = ("depth",)
+    """Its depths, in the order in which their signs are evaluated."""
+
     def depths(self) -> dict[str, float]:
-        """The depths by name, in the order in which their signs are evaluated; 0 leaves a step out."""
-        return {"depth": self.depth}
+        """The depths by name; 0 leaves a step out."""
+        return {name: getattr(self, name) for name in self.works}
 
     @property
     def down(self) -> float:
@@ -49,7 +59,7 @@ class AtSurface(Cycle):
         """E, the plane at the end of the cycle: nothing stands in the way there."""
         return self.surface + max(self.second_clearance, self.clearance)
 
-    def signs(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def signs(self, m: Machine) -> Iterator[Fault]:
         """The first depth that is not 0 sets the direction (displayDepthErr: downwards); the others follow it."""
         worked = {name: depth for name, depth in self.depths().items() if depth}
         for number, (name, depth) in enumerate(worked.items()):

@@ -8,13 +8,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, milling
-from mnclab.controls.tnc_620.cycles.milling import Fault, Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.addresses import choice, distance, length
+from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, at_most
+from mnclab.controls.tnc_620.cycles.milling import Figure, Place
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, tool
@@ -31,32 +33,25 @@ if TYPE_CHECKING:
 CYCLES = CycleTable()
 
 ENTRIES = ("vertical", "helix", "ramp")
-PLUNGE: dict[float, str] = {0: "vertical", 1: "helical", 2: "reciprocating"}
-CORNER: dict[float, str] = {
-    0: "the tool is at the centre",
-    1: "at the lower left corner",
-    2: "at the lower right corner",
-    3: "at the upper right corner",
-    4: "at the upper left corner",
-}
+CORNER = {0: "the tool is at the centre"} | addresses.CORNERS
 SIGNS = ((0, 0), (1, 1), (-1, 1), (-1, -1), (1, -1))  # from the tool to the centre, in half sides
 CORNERS = 1.4  # times R, the widest step between two rectangles with sharp corners that leaves nothing between them
 
 
-@CYCLES("CYCL DEF 251", "Rectangular pocket", runs="call", source="6.2")
+@CYCLES("CYCL DEF 251", "Rectangular pocket", source="6.2")
 class RectangularPocket(AtSurface):
     """Mills a rectangular pocket: roughing in layers from the centre outwards, then its walls, then its floor."""
 
-    does: ClassVar[str] = MILLS
-    about = milling.in_program_coordinates
-
+    does = MILLS
+    about = in_program_coordinates
+    check = milling.check
     machining_operation: float = addresses.operation()
-    first_side_length: float = addresses.length("Q218", "first side length", incremental=True, example=80)
-    second_side_length: float = addresses.length("Q219", "second side length", incremental=True, example=60)
-    corner_radius: float = addresses.length("Q220", "corner radius", note="0: the tool radius", example=8)
+    first_side_length: float = distance("Q218", "first side length", example=80)
+    second_side_length: float = distance("Q219", "second side length", example=60)
+    corner_radius: float = length("Q220", "corner radius", note="0: the tool radius", example=8)
     side_allowance: float = addresses.side_allowance()
     rotation_angle: float = addresses.rotation("Q224")
-    pocket_position: float = addresses.choice("Q367", "pocket position", CORNER, example=0)
+    pocket_position: float = choice("Q367", "pocket position", CORNER, example=0)
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
     depth: float = addresses.depth()
@@ -68,26 +63,21 @@ class RectangularPocket(AtSurface):
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
     overlap: float = addresses.overlap(at_least=0.0001)
-    plunging_strategy: float = addresses.plunging(PLUNGE)
+    plunging_strategy: float = addresses.plunging(addresses.PLUNGE)
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
     def contradictions(self) -> Iterator[Fault]:
         yield from milling.contradictions(self)
-        half = min(self.first_side_length, self.second_side_length) / 2
-        if self.depth and self.corner_radius > half:
-            yield "corner_radius", f"must be at most half the shorter side, {half:g}, got {self.corner_radius:g}"
+        if self.depth:
+            half = min(self.first_side_length, self.second_side_length) / 2
+            yield from at_most(self, "corner_radius", half, "half the shorter side")
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        """Both sides hold tool and allowances, the corners the tool."""
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
+    def fits(self, m: Machine) -> Iterator[Fault]:
         least = 2 * (m.radius + self.side_allowance)
         for name in ("first_side_length", "second_side_length"):
-            if (length := getattr(self, name)) < least - 1e-9:
-                yield name, f"must be at least the tool diameter and twice Q368, {least:g}, got {length:g}"
-        if 0 < self.corner_radius < m.radius - 1e-9:
+            yield from at_least(self, name, least, "the tool diameter and twice Q368")
+        if 0 < self.corner_radius < m.radius - SAME:
             yield "corner_radius", f"must be 0 or at least the tool radius, {m.radius:g}, got {self.corner_radius:g}"
         yield from check_pocket(self, m, self.pocket(m))
 
@@ -100,21 +90,22 @@ class RectangularPocket(AtSurface):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """C lies half the sides away from the tool, turned about the tool."""
-        u, v = np.array(SIGNS[int(self.pocket_position)]) * (self.first_side_length, self.second_side_length) / 2
+        sides = self.first_side_length, self.second_side_length
+        u, v = (np.array(SIGNS[int(self.pocket_position)]) * sides / 2).tolist()
         c, s = math.cos(math.radians(self.rotation_angle)), math.sin(math.radians(self.rotation_angle))
-        x, y = float(m.programmed[0] + c * u - s * v), float(m.programmed[1] + s * u + c * v)
-        return mill(self, m, self.pocket(m), (x, y))
+        return mill(self, m, self.pocket(m), (m.programmed[0] + c * u - s * v, m.programmed[1] + s * u + c * v))
 
 
-@CYCLES("CYCL DEF 252", "Circular pocket", runs="call", source="6.3")
+@CYCLES("CYCL DEF 252", "Circular pocket", source="6.3")
 class CircularPocket(AtSurface):
     """Mills a circular pocket about the tool position: roughing in layers outwards, then its wall, then its floor."""
 
-    does: ClassVar[str] = MILLS
-    about = milling.in_program_coordinates
-
+    does = MILLS
+    about = in_program_coordinates
+    check = milling.check
+    contradictions = milling.contradictions
     machining_operation: float = addresses.operation()
-    circle_diameter: float = addresses.length("Q223", "circle diameter", example=60)
+    circle_diameter: float = length("Q223", "circle diameter", example=60)
     side_allowance: float = addresses.side_allowance()
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
@@ -131,17 +122,9 @@ class CircularPocket(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def contradictions(self) -> Iterator[Fault]:
-        return milling.contradictions(self)
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        """The tool and its allowance fit; straight down goes a tool whose plunge angle allows it."""
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
-        if self.circle_diameter < (least := 2 * (m.radius + self.side_allowance)) - 1e-9:
-            found = f"{least:g}, got {self.circle_diameter:g}"
-            yield "circle_diameter", f"must be at least the tool diameter and twice Q368, {found}"
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        least = 2 * (m.radius + self.side_allowance)
+        yield from at_least(self, "circle_diameter", least, "the tool diameter and twice Q368")
         yield from check_pocket(self, m, self.pocket(m))
         if not self.plunging_strategy and m.tool.plunge_angle not in (0, 90):
             angle = f"the plunge angle (ANGLE) of tool {m.tool.number} to be 0 or 90, it is {m.tool.plunge_angle:g}"
@@ -170,10 +153,10 @@ def check_pocket(c: AnyPocket, m: Machine, pocket: Pocket) -> Iterator[Fault]:
     if c.machining_operation == 2:
         return
     if c.plunging_strategy == 1 and slopes(c, m) and m.settings["plunge_error"]:
-        if room.half_width < m.radius - 1e-9:
+        if room.half_width < m.radius - SAME:
             widest, least = 2 * (room.half_width + m.radius), 4 * m.radius
             yield "plunging_strategy", f"1 has a helix {widest:g} wide: at least twice the tool diameter, {least:g}"
-    if c.plunging_strategy == 2 and slopes(c, m) and room.half_length < 2 * m.radius - 1e-9:
+    if c.plunging_strategy == 2 and slopes(c, m) and room.half_length < 2 * m.radius - SAME:
         found = f"{2 * room.half_length:g} is less than twice the tool diameter, {4 * m.radius:g}"
         yield "plunging_strategy", f"2 has no room for a ramp: {found}"
     yield from too_many("plunging_strategy", lambda: way_in(c, m, room)(0.0, levels[0] - c.surface))

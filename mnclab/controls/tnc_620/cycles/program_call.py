@@ -14,19 +14,17 @@ from mnclab.text.alarm import Alarm
 CYCLES = CycleTable()
 
 
-@CYCLES("CYCL DEF 12", "Program call", runs="call", source="12.3")
+@CYCLES("CYCL DEF 12", "Program call", source="12.3")
 class ProgramCall(Cycle):
     """Makes a program the cycle that CYCL CALL and M99 run; Q parameters count for both programs."""
 
     program_name: str = param("PGM", "name of the program", "text", type="text", modal=True)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """There is a program of this name."""
         try:
             files.called(m, self.program_name, self.code)
         except Alarm as missing:
             yield "program_name", missing.message.removeprefix(f"{self.code} ")
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Those of the program, from where the tool stands."""
         yield Blocks(lambda: call_program(m, self.program_name, self.code, None))

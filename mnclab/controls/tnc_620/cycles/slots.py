@@ -9,13 +9,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import ClassVar, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, milling
-from mnclab.controls.tnc_620.cycles.milling import Fault, Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
+from mnclab.controls.tnc_620.cycles.faults import Fault, at_least
+from mnclab.controls.tnc_620.cycles.milling import Figure, Place
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds, slopes
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
@@ -32,34 +34,29 @@ CYCLES = CycleTable()
 
 PLUNGE: dict[float, str] = {0: "vertical", 1: "reciprocating", 2: "reciprocating"}
 LENGTHWISE: dict[float, str] = {
-    0: "the tool is at the centre of the slot",
-    1: "at its left end",
-    2: "at the centre of the left arc",
-    3: "at the centre of the right arc",
-    4: "at its right end",
-}
+    0: "the tool is at the centre of the slot", 1: "at its left end", 2: "at the centre of the left arc",
+    3: "at the centre of the right arc", 4: "at its right end",
+}  # fmt: skip
 ON_CIRCLE: dict[float, str] = {
-    0: "centre and starting angle say where the slot lies",
-    1: "the tool is at the centre of the left arc",
-    2: "in the middle of the centre line",
-    3: "at the centre of the right arc",
-}
-SAME = 1e-9
+    0: "centre and starting angle say where the slot lies", 1: "the tool is at the centre of the left arc",
+    2: "in the middle of the centre line", 3: "at the centre of the right arc",
+}  # fmt: skip
 
 
-@CYCLES("CYCL DEF 253", "Slot milling", runs="call", source="6.4")
+@CYCLES("CYCL DEF 253", "Slot milling", source="6.4")
 class StraightSlot(AtSurface):
     """Mills a straight slot: roughing in layers, to and fro on a ramp, then its side, then its floor."""
 
-    does: ClassVar[str] = MILLS
-    about = milling.in_program_coordinates
-
+    does = MILLS
+    about = in_program_coordinates
+    check = milling.check
+    contradictions = milling.contradictions
     machining_operation: float = addresses.operation()
-    slot_length: float = addresses.length("Q218", "slot length", note="over all", example=80)
+    slot_length: float = length("Q218", "slot length", note="over all", example=80)
     slot_width: float = addresses.slot_width()
     side_allowance: float = addresses.side_allowance()
     rotation_angle: float = addresses.rotation("Q374")
-    slot_position: float = addresses.choice("Q367", "slot position", LENGTHWISE, example=0)
+    slot_position: float = choice("Q367", "slot position", LENGTHWISE, example=0)
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
     depth: float = addresses.depth()
@@ -74,16 +71,8 @@ class StraightSlot(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def contradictions(self) -> Iterator[Fault]:
-        return milling.contradictions(self)
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        """Longer than wide."""
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
-        if self.slot_length < self.slot_width - SAME:
-            yield "slot_length", f"must be at least the width Q219, {self.slot_width:g}, got {self.slot_length:g}"
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from at_least(self, "slot_length", self.slot_width, "the width Q219")
         yield from check_slot(self, m, self.line(), self.line_length)
 
     @property
@@ -94,10 +83,9 @@ class StraightSlot(AtSurface):
     @property
     def ahead(self) -> np.ndarray:
         """From the left to the right."""
-        return np.array([math.cos(math.radians(self.rotation_angle)), math.sin(math.radians(self.rotation_angle))])
+        return np.array(milling.turned(1.0, 0.0, self.rotation_angle))
 
     def line(self) -> Contour:
-        """From the left arc to the right one."""
         return Contour(np.outer([0.0, self.line_length], self.ahead), closed=False)
 
     def moves(self, m: Machine) -> Iterator[Step]:
@@ -108,26 +96,25 @@ class StraightSlot(AtSurface):
         return mill(self, m, [((x, y), self.line())], None if self.slot_position else m.programmed[:2])
 
 
-@CYCLES("CYCL DEF 254", "Circular slot", runs="call", source="6.5")
+@CYCLES("CYCL DEF 254", "Circular slot", source="6.5")
 class CircularSlot(AtSurface):
     """Mills slots on a pitch circle: each roughed in layers, to and fro on a ramp, then its side, then its floor."""
 
-    does: ClassVar[str] = MILLS
-    about = milling.in_program_coordinates
-
+    does = MILLS
+    about = in_program_coordinates
+    check = milling.check
+    contradictions = milling.contradictions
     machining_operation: float = addresses.operation()
     slot_width: float = addresses.slot_width()
     side_allowance: float = addresses.side_allowance()
-    pitch_circle_diameter: float = addresses.length("Q375", "pitch circle diameter", example=80)
-    slot_position: float = addresses.choice("Q367", "reference of the slot position", ON_CIRCLE, example=0)
-    centre_x: float = addresses.coordinate("Q216", "centre in the first axis", note="only with Q367 = 0", example=50)
-    centre_y: float = addresses.coordinate("Q217", "centre in the second axis", note="only with Q367 = 0", example=50)
+    pitch_circle_diameter: float = length("Q375", "pitch circle diameter", example=80)
+    slot_position: float = choice("Q367", "reference of the slot position", ON_CIRCLE, example=0)
+    centre_x: float = coordinate("Q216", "centre in the first axis", note="only with Q367 = 0", example=50)
+    centre_y: float = coordinate("Q217", "centre in the second axis", note="only with Q367 = 0", example=50)
     starting_angle: float = addresses.angle("Q376", "starting angle", note="polar", example=45)
-    angular_length: float = addresses.angle(
-        "Q248", "opening angle of the slot", at_least=0, incremental=True, example=90
-    )
+    angular_length: float = addresses.angle("Q248", "opening angle of the slot", at_least=0, incremental=True, example=90)
     stepping_angle: float = addresses.angle("Q378", "stepping angle", incremental=True, example=180)
-    repetitions: float = addresses.count("Q377", "number of slots", 99999, at_least=1, example=2)
+    repetitions: float = count("Q377", "number of slots", at_least=1, example=2)
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
     depth: float = addresses.depth()
@@ -142,14 +129,7 @@ class CircularSlot(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def contradictions(self) -> Iterator[Fault]:
-        return milling.contradictions(self)
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        """The centre of the pitch circle lies outside of the slots."""
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
+    def fits(self, m: Machine) -> Iterator[Fault]:
         if self.pitch_circle_diameter <= self.slot_width + NOTHING:
             found = f"{self.slot_width:g}, got {self.pitch_circle_diameter:g}"
             yield "pitch_circle_diameter", f"must be greater than the slot width Q219, {found}"
@@ -161,8 +141,8 @@ class CircularSlot(AtSurface):
         """Of the pitch circle: as it is written, or from the tool, which stands on the circle."""
         if not self.slot_position:
             return self.centre_x, self.centre_y
-        radius, angle = self.pitch_circle_diameter / 2, math.radians(self.starting_angle)
-        return m.programmed[0] - radius * math.cos(angle), m.programmed[1] - radius * math.sin(angle)
+        dx, dy = milling.turned(self.pitch_circle_diameter / 2, 0.0, self.starting_angle)
+        return m.programmed[0] - dx, m.programmed[1] - dy
 
     def places(self, m: Machine) -> Iterator[tuple[Place, Contour]]:
         """Slot after slot, each turned on by the stepping angle; Q376 is where the tool stands on the first one."""
@@ -192,9 +172,9 @@ def slot(c: AnySlot, m: Machine, line: Contour) -> Slot:
 def check_slot(c: AnySlot, m: Machine, line: Contour, length: float, count: int = 1) -> Iterator[Fault]:
     """The tool fits, and gets down; no more passes than somebody would wait for."""
     shape = slot(c, m, line)
-    for least, what in ((2 * m.radius, ""), (2 * m.radius + 2 * c.side_allowance, " and twice Q368")):
-        if c.slot_width < least - SAME and not shape.is_full:
-            yield "slot_width", f"must be at least the tool diameter{what}, {least:g}, got {c.slot_width:g}"
+    if not shape.is_full:
+        yield from at_least(c, "slot_width", 2 * m.radius, "the tool diameter")
+        yield from at_least(c, "slot_width", 2 * m.radius + 2 * c.side_allowance, "the tool diameter and twice Q368")
     yield from check_angle(c, m)
     levels = milling.levels(c, m)
     if c.plunging_strategy and slopes(c, m) and c.machining_operation != 2:

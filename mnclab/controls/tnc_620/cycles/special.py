@@ -5,11 +5,11 @@ Engraving and face milling have files of their own.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, increment, length, seconds
+from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS
@@ -26,10 +26,9 @@ LOADS: dict[float, str] = {0: "forget the values found before", 1: "weigh: the a
 class DwellTime(Cycle):
     """The program waits; the spindle turns on."""
 
-    dwell_time: float = param("DWELL", "dwell", "s", at_least=0, at_most=addresses.LONG, example=2)
+    dwell_time: float = seconds("DWELL", "dwell", modal=False, example=2)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """One wait."""
         yield Wait("dwell", self.dwell_time)
 
 
@@ -37,10 +36,9 @@ class DwellTime(Cycle):
 class SpindleOrientation(Cycle):
     """Stores the angle at which M19 or M20 stops the spindle; cycles 202, 204 and 209 overwrite it."""
 
-    orientation_angle: float = param("ANGLE", "angle of the spindle", "deg", at_least=0, at_most=360, modal=True, example=90)
+    orientation_angle: float = addresses.angle("ANGLE", "angle of the spindle", at_least=0, example=90)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion."""
         yield Write("memory", self.orientation_angle, "orientation")
         yield Write("history", self.orientation_angle, "orientation")
 
@@ -52,48 +50,35 @@ class Tolerance(Cycle):
     Without T, or with 0, the tolerance is that of the machine. Filter and tolerance of rotary axes are kept in the history.
     """
 
-    tolerance: float | None = param(
-        "T", "permissible contour deviation", default=None, default_means="that of the machine", at_least=0, at_most=10,
-        modal=True, note="0: that of the machine",
+    tolerance: float | None = length(
+        "T", "permissible contour deviation", at_most=10, default=None, default_means="that of the machine",
+        note="0: that of the machine",
     )  # fmt: skip
-    hsc_mode: float = param("HSC-MODE", "filter", "choice", choices=FILTERS, default=0, modal=True)
-    rotary_axis_tolerance: float = param(
-        "TA", "permissible deviation of rotary axes", "deg", default=0, at_least=0, at_most=10, modal=True,
-        note="with M128; 0: that of the machine",
-    )  # fmt: skip
+    hsc_mode: float = choice("HSC-MODE", "filter", FILTERS, default=0)
+    rotary_axis_tolerance: float = addresses.angle(
+        "TA", "permissible deviation of rotary axes", at_least=0, at_most=10, default=0, note="with M128; 0: that of the machine"
+    )
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No motion."""
         yield Write("tolerance", self.tolerance or NAN)
         yield Write("history", self.tolerance or 0.0, "tolerance")
         yield Write("history", FILTERS[self.hsc_mode], "filter")
         yield Write("history", self.rotary_axis_tolerance, "tolerance of rotary axes")
 
 
-def hobbing_tolerance(contact_length: float, rotary_tolerance: float) -> float:
-    """T (mm) that TA (degrees) costs an end mill whose flank cuts over a contact length, mm (12.5): K L TA, K = 0.0175."""
-    return 0.0175 * contact_length * rotary_tolerance
-
-
-def toroid_rotary_tolerance(major_radius: float, tolerance: float) -> float:
-    """The angle (degrees) that a tolerance T (mm) allows a toroid cutter of a major radius, mm (12.5): 180 T / (π R)."""
-    return math.degrees(tolerance / major_radius)
-
-
 @CYCLES("CYCL DEF 239", "Ascertaining the load", runs="definition", source="12.8")
 class LoadAscertaining(Cycle):
     """Finds what the load of the table weighs, or forgets it. How the axes move for that only the machine knows: no path."""
 
-    load: float = param("Q570", "what to do", "choice", choices=LOADS, modal=True)
+    load: float = choice("Q570", "what to do", LOADS)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """No path; a message where the axes would move."""
         yield Write("history", LOADS[self.load], "load")
         if self.load:
             yield Say("has no path: the axes would move to weigh the load, as the machine tool builder has set")
 
 
-@CYCLES("CYCL DEF 18", "Thread cutting", runs="call", source="12.9")
+@CYCLES("CYCL DEF 18", "Thread cutting", source="12.9")
 class ThreadCutting(Cycle):
     """Cuts a thread from where the tool stands with the spindle locked to the feed; the tool stays at the bottom.
 
@@ -101,29 +86,25 @@ class ThreadCutting(Cycle):
     call with the depth reversed runs the thread back.
     """
 
-    thread_depth: float = addresses.coordinate(
-        "DEPTH", "depth of the thread from where the tool stands", at_least=-99999, at_most=99999, incremental=True, example=-20
+    own_spindle = True
+    does = TAPS
+    thread_depth: float = increment(
+        "DEPTH", "depth of the thread from where the tool stands", at_least=-99999, at_most=99999, example=-20
     )
-    thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, example=1.5, note="positive: a right-hand thread")
+    thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, note="positive: a right-hand thread", example=1.5)
 
-    own_spindle: ClassVar[bool] = True
-    does: ClassVar[str] = TAPS
-
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        """A pitch, within what the control can hold."""
+    def contradictions(self) -> Iterator[Fault]:
         if self.thread_pitch == 0 or abs(self.thread_pitch) > addresses.FAR:
-            allowed = f"must be at most {addresses.FAR:.10g} either way and not 0"
-            yield "thread_pitch", f"{allowed}, got {self.thread_pitch:g}"
+            most = f"{addresses.FAR:.10g} either way and not 0"
+            yield "thread_pitch", f"must be at most {most}, got {self.thread_pitch:g}"
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A spindle that stands still and has a speed."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         if m.turning:
             yield "", "needs a spindle that stands still: it would stop it and cut with no rotation; write M5 before"
         if not m.speed:
             yield "", "needs a spindle speed: write S in TOOL CALL"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """On, into the thread, off; a wait where the machine has one. Nothing where the depth is 0."""
         if not self.thread_depth:
             return
         opposite = (self.thread_pitch > 0) != (self.thread_depth > 0)

@@ -1,8 +1,7 @@
 """Studs: cycles 256 (rectangular, 6.6), 257 (circular, 6.7) and 258 (polygon, 6.8).
 
 C is the centre of the stud, R the tool radius, S the start beside the blank: the edge of the tool is 2 mm away from it, so
-there must be room for the tool diameter and 2 mm. On S the tool goes down, and to it it comes back from every level. A
-finishing feed of 0 is the milling feed: Q385 came later than the cycles.
+there must be room for the tool diameter and 2 mm. On S the tool goes down, and to it it comes back from every level.
 """
 
 from __future__ import annotations
@@ -10,14 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from functools import partial
-from typing import ClassVar, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses, milling
+from mnclab.controls.tnc_620.cycles.addresses import choice, length, number
+from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, at_most
 from mnclab.controls.tnc_620.cycles.holes import rate
-from mnclab.controls.tnc_620.cycles.milling import Fault, Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.milling import Figure, Place
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
@@ -31,32 +32,27 @@ from mnclab.machining.steps import Step
 CYCLES = CycleTable()
 
 ASIDE = 2.0  # mm, from the blank to the edge of the tool at the start, and off the stud after a pass
-APPROACH: dict[float, str] = {
-    0: "on the right of the stud",
-    1: "at the lower left corner",
-    2: "at the lower right corner",
-    3: "at the upper right corner",
-    4: "at the upper left corner",
-}
+APPROACH = {0: "on the right of the stud"} | addresses.CORNERS
 CIRCLES: dict[float, str] = {0: "the size is that of the inscribed circle", 1: "of the circumscribed circle"}
 PLUNGE = ("FMAX", *addresses.PLANE)
 
 
-@CYCLES("CYCL DEF 256", "Rectangular stud", runs="call", source="6.6")
+@CYCLES("CYCL DEF 256", "Rectangular stud", source="6.6")
 class RectangularStud(AtSurface):
     """Mills a rectangular stud free: roughing in layers from the blank inwards, then its side, then the floor about it."""
 
-    does: ClassVar[str] = MILLS
-    about = milling.in_program_coordinates
-
-    first_side_length: float = addresses.length("Q218", "first side length", example=60)
-    blank_side_1: float = addresses.length("Q424", "first side of the blank", note="at least Q218", example=74)
-    second_side_length: float = addresses.length("Q219", "second side length", example=40)
-    blank_side_2: float = addresses.length("Q425", "second side of the blank", note="at least Q219", example=60)
+    does = MILLS
+    about = in_program_coordinates
+    check = milling.check
+    contradictions = milling.contradictions
+    first_side_length: float = length("Q218", "first side length", example=60)
+    blank_side_1: float = length("Q424", "first side of the blank", note="at least Q218", example=74)
+    second_side_length: float = length("Q219", "second side length", example=40)
+    blank_side_2: float = length("Q425", "second side of the blank", note="at least Q219", example=60)
     corner_radius_or_chamfer: float = addresses.corner(example=5)
     side_allowance: float = addresses.side_allowance()
     rotation_angle: float = addresses.rotation("Q224")
-    stud_position: float = addresses.choice("Q367", "stud position", CORNER, example=0)
+    stud_position: float = choice("Q367", "stud position", CORNER, example=0)
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
     depth: float = addresses.depth()
@@ -66,25 +62,15 @@ class RectangularStud(AtSurface):
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
     overlap: float = addresses.overlap(at_least=0.1)
-    approach_position: float = addresses.choice("Q437", "approach position", APPROACH, default=0, example=0)
+    approach_position: float = choice("Q437", "approach position", APPROACH, default=0, example=0)
     machining_operation: float = addresses.operation(default=1)
     floor_allowance: float = addresses.floor_allowance(default=0)
     finishing_infeed: float = addresses.finishing_infeed(default=0)
     finishing_feed: float = addresses.finishing_feed(default=0, example=800)
 
-    def contradictions(self) -> Iterator[Fault]:
-        return milling.contradictions(self)
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        """Both sides of the blank, and the corners."""
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, finishing_feed(self))
-        for name, address, (side, blank) in zip(
-            ("blank_side_1", "blank_side_2"), ("Q218", "Q219"), self.sides, strict=True
-        ):
-            if blank < side:
-                yield name, f"must be at least the side of the stud {address}, {side:g}, got {blank:g}"
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from at_least(self, "blank_side_1", self.first_side_length, "the side of the stud Q218", 0.0)
+        yield from at_least(self, "blank_side_2", self.second_side_length, "the side of the stud Q219", 0.0)
         half = min(self.first_side_length, self.second_side_length) / 2
         if abs(self.corner_radius_or_chamfer) > half:
             found = f"{half:g}, got {self.corner_radius_or_chamfer:g}"
@@ -111,31 +97,26 @@ class RectangularStud(AtSurface):
         aside = ASIDE / m.scale
         u, v = (max(blank / 2 + aside, side / 2 + self.side_allowance) + m.radius for side, blank in self.sides)
         if not self.approach_position:
-            return Stud(partial(self.clearing, m.radius), self.turned(u, 0.0))
+            return Stud(partial(self.clearing, m.radius), milling.turned(u, 0.0, self.rotation_angle))
         x, y = SIGNS[int(self.approach_position)]
-        return Stud(partial(self.clearing, m.radius), self.turned(-x * u, -y * v), aside)
-
-    def turned(self, u: float, v: float) -> Place:
-        """A place by the angle of rotation."""
-        c, s = math.cos(math.radians(self.rotation_angle)), math.sin(math.radians(self.rotation_angle))
-        return c * u - s * v, s * u + c * v
+        return Stud(partial(self.clearing, m.radius), milling.turned(-x * u, -y * v, self.rotation_angle), aside)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """C lies half the sides away from the tool, turned about the tool."""
         u, v = SIGNS[int(self.stud_position)]
-        x, y = self.turned(u * self.first_side_length / 2, v * self.second_side_length / 2)
+        x, y = milling.turned(u * self.first_side_length / 2, v * self.second_side_length / 2, self.rotation_angle)
         return mill(self, m, (m.programmed[0] + x, m.programmed[1] + y))
 
 
-@CYCLES("CYCL DEF 257", "Circular stud", runs="call", source="6.7")
+@CYCLES("CYCL DEF 257", "Circular stud", source="6.7")
 class CircularStud(AtSurface):
     """Mills a circular stud about the tool position free: on a spiral from the blank inwards, then its side and the floor."""
 
-    does: ClassVar[str] = MILLS
-    about = milling.in_program_coordinates
-
-    finished_diameter: float = addresses.length("Q223", "diameter of the finished stud", example=50)
-    blank_diameter: float = addresses.length("Q222", "diameter of the blank", note="at least Q223", example=80)
+    does = MILLS
+    about = in_program_coordinates
+    check = milling.check
+    finished_diameter: float = length("Q223", "diameter of the finished stud", example=50)
+    blank_diameter: float = length("Q222", "diameter of the blank", note="at least Q223", example=80)
     side_allowance: float = addresses.side_allowance()
     milling_feed: float = addresses.milling_feed()
     milling_type: float = addresses.climb(predef=True)
@@ -160,50 +141,44 @@ class CircularStud(AtSurface):
         if -1 < self.starting_angle < 0:
             yield "starting_angle", f"must be -1 or at least 0, got {self.starting_angle:g}"
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, finishing_feed(self))
-        if self.blank_diameter < self.finished_diameter:
-            found = f"{self.finished_diameter:g}, got {self.blank_diameter:g}"
-            yield "blank_diameter", f"must be at least the diameter of the stud Q223, {found}"
+    def fits(self, m: Machine) -> Iterator[Fault]:
+        yield from at_least(self, "blank_diameter", self.finished_diameter, "the diameter of the stud Q223", 0.0)
         yield from check_passes(self, m)
 
     @property
     def angle(self) -> float:
-        """Q376 in rad; where the control may choose, it chooses 0."""
-        return math.radians(max(self.starting_angle, 0.0))
+        """Q376, degrees; where the control may choose, it chooses 0."""
+        return max(self.starting_angle, 0.0)
 
     def clearing(self, radius: float, allowance: float, blank: bool) -> Clearing:
-        """A spiral and a circle."""
         stock = max(self.blank_diameter if blank else 0.0, self.finished_diameter + 2 * allowance)
         return studs.circle(
             self.finished_diameter, stock, radius, self.overlap * radius, allowance=allowance,
-            climb=self.milling_type >= 0, angle=self.angle,
+            climb=self.milling_type >= 0, angle=math.radians(self.angle),
         )  # fmt: skip
 
     def stud(self, m: Machine) -> Stud:
         """S on the ray of the starting angle."""
         aside = ASIDE / m.scale
         away = max(self.blank_diameter / 2 + aside, self.finished_diameter / 2 + self.side_allowance) + m.radius
-        return Stud(partial(self.clearing, m.radius), on_ray(away, self.angle), aside)
+        return Stud(partial(self.clearing, m.radius), milling.turned(away, 0.0, self.angle), aside)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Back over the stud at the end."""
         return mill(self, m, m.programmed[:2], [milling.back(m.programmed[:2])])
 
 
-@CYCLES("CYCL DEF 258", "Polygon stud", runs="call", source="6.8")
+@CYCLES("CYCL DEF 258", "Polygon stud", source="6.8")
 class PolygonStud(AtSurface):
     """Mills a regular polygon about the tool position free: on a spiral from the round blank inwards, then side and floor."""
 
-    does: ClassVar[str] = MILLS
-    about = milling.in_program_coordinates
-
-    reference_circle: float = addresses.choice("Q573", "reference circle", CIRCLES, example=0)
-    reference_diameter: float = addresses.length("Q571", "diameter of the reference circle", example=50)
-    blank_diameter: float = addresses.length("Q222", "diameter of the blank", note="greater than Q571", example=80)
-    corners: float = addresses.number("Q572", "number of corners", at_least=3, at_most=30, example=6)
+    does = MILLS
+    about = in_program_coordinates
+    check = milling.check
+    contradictions = milling.contradictions
+    reference_circle: float = choice("Q573", "reference circle", CIRCLES, example=0)
+    reference_diameter: float = length("Q571", "diameter of the reference circle", example=50)
+    blank_diameter: float = length("Q222", "diameter of the blank", note="greater than Q571", example=80)
+    corners: float = number("Q572", "number of corners", at_least=3, at_most=30, example=6)
     rotation_angle: float = addresses.angle("Q224", "angle of the first corner", example=15)
     corner_radius_or_chamfer: float = addresses.corner(example=2)
     side_allowance: float = addresses.side_allowance(at_least=-addresses.FAR, note="negative: so much smaller")
@@ -221,21 +196,12 @@ class PolygonStud(AtSurface):
     finishing_infeed: float = addresses.finishing_infeed()
     finishing_feed: float = addresses.finishing_feed(example=800)
 
-    def contradictions(self) -> Iterator[Fault]:
-        return milling.contradictions(self)
-
-    def check(self, m: Machine) -> Iterator[Fault]:
-        """The blank, the corners, and that something stays."""
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, finishing_feed(self))
+    def fits(self, m: Machine) -> Iterator[Fault]:
         if self.blank_diameter <= self.reference_diameter:
             found = f"{self.reference_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be greater than the reference circle Q571, {found}"
         corner, bevel = self.corner_radius_or_chamfer, self.inscribed * math.tan(math.pi / self.corners)
-        if corner > self.inscribed:
-            found = f"{self.inscribed:g}, got {corner:g}"
-            yield "corner_radius_or_chamfer", f"must be at most the radius of the inscribed circle, {found}"
+        yield from at_most(self, "corner_radius_or_chamfer", self.inscribed, "the radius of the inscribed circle")
         if -corner > bevel:
             yield "corner_radius_or_chamfer", f"must be a bevel of at most half a side, {bevel:g}, got {-corner:g}"
         if self.inscribed + self.side_allowance <= 0:
@@ -250,7 +216,6 @@ class PolygonStud(AtSurface):
         return self.reference_diameter / 2 * half
 
     def clearing(self, radius: float, allowance: float, blank: bool) -> Clearing:
-        """A spiral and a polygon."""
         stock = max(self.blank_diameter if blank else 0.0, 2 * (self.inscribed + allowance))
         return studs.polygon(
             int(self.corners), self.inscribed, stock, radius, self.overlap * radius, corner=self.corner_radius_or_chamfer,
@@ -262,7 +227,7 @@ class PolygonStud(AtSurface):
         aside = ASIDE / m.scale
         apex = self.clearing(m.radius, max(self.side_allowance, 0.0), False).passes[0].points[0]
         away = max(self.blank_diameter / 2 + m.radius, float(np.hypot(*apex))) + aside
-        start = on_ray(away, math.radians(self.rotation_angle))
+        start = milling.turned(away, 0.0, self.rotation_angle)
         return Stud(partial(self.clearing, m.radius), start, aside, self.end)
 
     def moves(self, m: Machine) -> Iterator[Step]:
@@ -272,16 +237,6 @@ class PolygonStud(AtSurface):
 AnyStud: TypeAlias = RectangularStud | CircularStud | PolygonStud
 
 # --- what they share ------------------------------------------------------------------------------------------------
-
-
-def on_ray(away: float, angle: float) -> Place:
-    """A place so far from C in a direction."""
-    return away * math.cos(angle), away * math.sin(angle)
-
-
-def finishing_feed(c: AnyStud) -> float:
-    """As in roughing where none is given."""
-    return float(c.finishing_feed or c.milling_feed)
 
 
 def check_passes(c: AnyStud, m: Machine) -> Iterator[Fault]:
@@ -294,7 +249,7 @@ def check_passes(c: AnyStud, m: Machine) -> Iterator[Fault]:
 def mill(c: AnyStud, m: Machine, centre: Place, last: Iterable[Step] = ()) -> Iterator[Step]:
     """To S, and from there roughing in layers, the side in infeeds, the floor; at the end the tool stays above S."""
     plunge = rate(c.plunging_feed)
-    finishing = Feeds(finishing_feed(c), plunge)
+    finishing = Feeds(milling.finishing_feed(c), plunge)
     work = milling.work(c, m, (Feeds(c.milling_feed, plunge), finishing, finishing))
 
     def figures() -> Iterator[Figure]:  # a stud has none where its depth is 0, and its sizes anything

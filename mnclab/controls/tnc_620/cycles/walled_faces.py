@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
-from typing import ClassVar
 
 import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses
+from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length
+from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.milling import edges
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
@@ -31,47 +32,32 @@ from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.tool import Tool
 
 CYCLES = CycleTable()
-STRATEGIES: dict[float, str] = {
-    0: "meander, stepover outside the surface",
-    1: "meander, stepover at its edge",
-    2: "line by line, ends outside the surface",
-    3: "line by line, ends at its edge",
-    4: "spiral from the outside inwards",
-}
+STRATEGIES = addresses.MEANDER | {
+    2: "line by line, ends outside the surface", 3: "line by line, ends at its edge", 4: "spiral from the outside inwards",
+}  # fmt: skip
 DIRECTIONS: dict[float, str] = {1: "along the reference axis", 2: "along the minor axis"}
 WALLS: dict[float, str] = {
-    0: "no limit",
-    -1: "a wall in the negative reference axis",
-    1: "in the positive reference axis",
-    -2: "in the negative minor axis",
-    2: "in the positive minor axis",
-}
-POSITION: dict[float, str] = {
-    -1: "the tool is at the starting corner",
-    0: "at the centre of the surface",
-    1: "at the lower left corner",
-    2: "at the lower right corner",
-    3: "at the upper right corner",
-    4: "at the upper left corner",
-}
+    0: "no limit", -1: "a wall in the negative reference axis", 1: "in the positive reference axis",
+    -2: "in the negative minor axis", 2: "in the positive minor axis",
+}  # fmt: skip
+POSITION = {-1: "the tool is at the starting corner", 0: "at the centre of the surface"} | addresses.CORNERS
 INTO = "the sign points into the surface"
 
 
-@CYCLES("CYCL DEF 233", "Face milling with side walls", runs="call", source="6.9")
+@CYCLES("CYCL DEF 233", "Face milling with side walls", source="6.9")
 class WalledFaceMilling(AtSurface):
     """Mills a level surface that up to three walls may bound: levels in equal infeeds, a last one finishes, then the walls."""
 
-    does: ClassVar[str] = MILLS
-
+    does = MILLS
     machining_operation: float = addresses.operation()
-    strategy: float = addresses.choice("Q389", "machining strategy", STRATEGIES, example=2)
-    milling_direction: float = addresses.choice("Q350", "milling direction", DIRECTIONS, example=1)
-    first_side_length: float = addresses.side("Q218", "first side length", note=INTO, example=120)
-    second_side_length: float = addresses.side("Q219", "second side length", note=INTO, example=80)
-    surface: float = addresses.coordinate("Q227", "coordinate of the surface", example=0)
-    end_tool_axis: float = addresses.coordinate("Q386", "coordinate to mill down to", example=-6)
+    strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
+    milling_direction: float = choice("Q350", "milling direction", DIRECTIONS, example=1)
+    first_side_length: float = increment("Q218", "first side length", note=INTO, example=120)
+    second_side_length: float = increment("Q219", "second side length", note=INTO, example=80)
+    surface: float = coordinate("Q227", "coordinate of the surface", example=0)
+    end_tool_axis: float = coordinate("Q386", "coordinate to mill down to", example=-6)
     floor_allowance: float = addresses.floor_allowance(note="the last infeed", example=0.2)
-    max_plunging_depth: float = addresses.length("Q202", "greatest infeed", incremental=True, example=3)
+    max_plunging_depth: float = addresses.greatest_infeed(example=3)
     overlap: float = addresses.overlap(at_least=0.1, predef=False)
     milling_feed: float = addresses.milling_feed()
     finishing_feed: float = addresses.finishing_feed(at_most=addresses.FAR, example=400)
@@ -79,15 +65,13 @@ class WalledFaceMilling(AtSurface):
     side_clearance: float = addresses.side_clearance()
     clearance: float = addresses.clearance(predef=True, example=3)
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
-    limit_1: float = addresses.choice("Q347", "first limit", WALLS, example=2)
-    limit_2: float = addresses.choice("Q348", "second limit", WALLS, default=0, example=1)
-    limit_3: float = addresses.choice("Q349", "third limit", WALLS, default=0, example=0)
-    corner_radius: float = addresses.length("Q220", "corner radius between limits", example=8)
+    limit_1: float = choice("Q347", "first limit", WALLS, example=2)
+    limit_2: float = choice("Q348", "second limit", WALLS, default=0, example=1)
+    limit_3: float = choice("Q349", "third limit", WALLS, default=0, example=0)
+    corner_radius: float = length("Q220", "corner radius between limits", example=8)
     side_allowance: float = addresses.side_allowance(example=0.3)
     finishing_infeed: float = addresses.finishing_infeed(example=4)
-    surface_position: float = addresses.choice("Q367", "surface position", POSITION, default=-1, example=-1)
-
-    # --- what is done ------------------------------------------------------------------------------------------------
+    surface_position: float = choice("Q367", "surface position", POSITION, default=-1, example=-1)
 
     @property
     def roughs(self) -> bool:
@@ -101,10 +85,7 @@ class WalledFaceMilling(AtSurface):
     def finishes_side(self) -> bool:
         return self.machining_operation != 1 and self.side_allowance > 0 and bool(self.walled.walls)
 
-    # --- heights -----------------------------------------------------------------------------------------------------
-
     def depths(self) -> dict[str, float]:
-        """From the surface to the end."""
         return {"end_tool_axis": self.end_tool_axis - self.surface}
 
     @property
@@ -113,11 +94,9 @@ class WalledFaceMilling(AtSurface):
         return self.end_tool_axis + self.down * self.floor_allowance
 
     def rough_levels(self, tool: Tool) -> tuple[float, ...]:
-        """Equal infeeds."""
         return rows(self.surface, self.left_over, min(self.max_plunging_depth, edges(tool)))[1:]
 
     def wall_levels(self, tool: Tool) -> tuple[float, ...]:
-        """Of the walls."""
         infeed = min(self.finishing_infeed or math.inf, edges(tool))
         return infeeds(self.surface, self.end_tool_axis, infeed if infeed < math.inf else 0.0)
 
@@ -129,17 +108,14 @@ class WalledFaceMilling(AtSurface):
         if self.finishes_floor:
             last = rows(self.left_over, self.end_tool_axis, min(self.floor_allowance, edges(tool)))[1:]
             parts.append(("floor finishing", self.left_over, last, self.finishing_feed))
-        found = []
-        for what, top, heights, feed in parts:
-            tops = (top, *heights)
-            found += [Level(*each, feed) for each in zip(numbered(what, len(heights)), heights, tops)]
-        return found
-
-    # --- where -------------------------------------------------------------------------------------------------------
+        return [
+            Level(*each, feed)
+            for what, top, heights, feed in parts
+            for each in zip(numbered(what, len(heights)), heights, (top, *heights))
+        ]
 
     @property
     def walled(self) -> Walled:
-        """The surface and its walls."""
         walls = frozenset(int(limit) for limit in (self.limit_1, self.limit_2, self.limit_3) if limit)
         return Walled(abs(self.first_side_length), abs(self.second_side_length), walls, self.corner_radius)
 
@@ -160,8 +136,7 @@ class WalledFaceMilling(AtSurface):
             over=outside if self.strategy in (0, 2) else self.side_clearance, first=max(0.0, self.overlap - 1) * radius,
             allowance=self.side_allowance, one_way=self.strategy in (2, 3),
         )  # fmt: skip
-        bounded = bool(walled.walls & {axis, -axis})
-        along = self.along(radius, self.side_allowance) if bounded else ()
+        along = self.along(radius, self.side_allowance) if walled.walls & {axis, -axis} else ()
         clear = not {axis, -axis} <= walled.walls
         return Passes(lines[0].begin, clear, lines, self.strategy in (2, 3), along)
 
@@ -171,38 +146,27 @@ class WalledFaceMilling(AtSurface):
         beyond[int(self.milling_direction) - 1] += self.side_clearance
         return self.walled.along(radius, outside=(beyond[0], beyond[1]), allowance=allowance)
 
-    # --- checks ------------------------------------------------------------------------------------------------------
-
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        """No walls round a spiral; an infeed; not all of the depth is allowance."""
+    def contradictions(self) -> Iterator[Fault]:
         for name in ("limit_1", "limit_2", "limit_3"):
             if (limit := getattr(self, name)) and self.strategy == 4:
                 yield name, f"must be 0 in spiral machining (Q389 = 4), got {limit:g}"
-        depth = abs(self.end_tool_axis - self.surface)
-        if depth == 0:
-            return
-        if self.max_plunging_depth == 0:
-            yield "max_plunging_depth", "must be greater than 0, got 0"
-        if self.floor_allowance >= depth:
-            yield "floor_allowance", f"must be less than the depth {depth:g}, got {self.floor_allowance:g}"
+        if depth := self.end_tool_axis - self.surface:
+            yield from not_zero(self, "max_plunging_depth")
+            yield from less_than_depth(self, "floor_allowance", depth)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Downwards, a tool that fits between the walls, feeds for all that is done, a number of lines to wait for."""
+    def check(self, m: Machine) -> Iterator[Fault]:
         if self.down == 0:
             return
         if self.down < 0 and m.settings["depth_error"]:
             found = f"{self.surface:g}, got {self.end_tool_axis:g}: it works upwards"
             yield "end_tool_axis", f"must lie below Q227 = {found}"
-        if m.radius <= 0:
-            yield "", f"needs a tool with a radius, got {m.radius:g}"
-            return
+        yield from with_radius(m)
         for name in ("first_side_length", "second_side_length"):
             if getattr(self, name) == 0:
                 yield name, "must not be 0"
         finishes = self.finishes_side or self.finishes_floor
         used = {"milling_feed": self.roughs, "finishing_feed": finishes, "prepositioning_feed": True}
-        for name in (name for name, needed in used.items() if needed and getattr(self, name) == 0):
-            yield name, "must be greater than 0 to mill with, got 0"
+        yield from not_zero(self, *(name for name, needed in used.items() if needed), purpose="to mill with")
         yield from self.check_walls(m.radius)
         yield from too_many("max_plunging_depth", partial(self.rough_levels, tool(m)))
         yield from too_many("finishing_infeed", partial(self.wall_levels, tool(m)))
@@ -211,8 +175,7 @@ class WalledFaceMilling(AtSurface):
         yield from too_many("overlap", lambda: rows(0, min(length, width) if self.strategy == 4 else across, step))
         yield from few_passes("max_plunging_depth", len(self.rough_levels(tool(m))), 1 + int(across / step))
 
-    def check_walls(self, radius: float) -> Iterator[tuple[str, str]]:
-        """The tool and its allowance between opposite walls, their corners."""
+    def check_walls(self, radius: float) -> Iterator[Fault]:
         walled, least = self.walled, 2 * (radius + self.side_allowance)
         sizes = (("first_side_length", walled.length), ("second_side_length", walled.width))
         for axis, (name, size) in enumerate(sizes, 1):
@@ -225,17 +188,13 @@ class WalledFaceMilling(AtSurface):
                 yield "corner_radius", f"must be at most {found}"
                 return
 
-    # --- steps -------------------------------------------------------------------------------------------------------
-
     def about(self, m: Machine) -> tuple[float, float]:
-        """The middle of the surface."""
         half = np.array([self.first_side_length, self.second_side_length]) / 2
         away = half if self.surface_position < 0 else np.abs(half) * SIGNS[int(self.surface_position)]
         x, y = (np.array(m.programmed[:2]) + away).tolist()
         return x, y
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """To the start, over all levels, along the walls, to the second set-up clearance."""
         if not self.down:
             yield self.left_out
             return
@@ -247,11 +206,9 @@ class WalledFaceMilling(AtSurface):
         if self.walled.has_corners and self.corner_radius < m.radius:
             yield Say(f"Q220={self.corner_radius:g}: the corners get the radius of the tool, {m.radius:g}{remark(m)}")
         if (scrapes := passes.scrapes(levels, self.clearance)) > 1e-9:
-            yield Say(
-                f"Q200={self.clearance:g}: the rapid way back to the next line passes {scrapes:.10g} mm below what that line "
-                "has still to take away",
-                hint="choose Q200 not smaller than the infeed",
-            )
+            below = f"{scrapes:.10g} mm below what that line has still to take away"
+            sentence = f"Q200={self.clearance:g}: the rapid way back to the next line passes {below}"
+            yield Say(sentence, hint="choose Q200 not smaller than the infeed")
         x, y = passes.start if levels else begin(walls[0]).tolist()
         yield Go("to the second set-up clearance", max(m.programmed[2], self.end))
         yield Go("over the start", x=x, y=y)
