@@ -45,8 +45,7 @@ def path_of(nominal: float, tool_radius: float, pitch: float, external: bool = F
 def helices(depth: float, pitch: float, bottom: float, upwards: bool, a_step: int = 0) -> list[tuple[float, float]]:
     """Start and end levels of the helices that make a thread of a `depth` over `bottom`.
 
-    `a_step` 0: one turn at the bottom; 1: one helix of whole turns over the depth; more: single turns, so many pitches
-    apart.
+    `a_step` 0: one turn at the bottom; 1: one helix over the depth; more: single turns, so many pitches apart.
 
     >>> helices(20, 1.5, 10, True, 4)
     [(10.0, 11.5), (16.0, 17.5), (22.0, 23.5), (28.0, 29.5)]
@@ -102,10 +101,7 @@ def countersink(path: Path, offset: float, *, sense: int, feed: float, external:
 
 
 def chamfer(radius: float, pitch: float, *, sense: int, feed: float, position_feed: float) -> Iterator[Step]:
-    """A full circle of a radius of the tool centre at its level, from the axis and back, approached as a thread is.
-
-    A narrow tool is brought to two pitches from the circle first; no circle where the tool fills the hole.
-    """
+    """A full circle of the tool centre from the axis and back, approached as a thread is; none where it fills the hole."""
     if radius <= DRIFT:
         return
     start = radius - 2 * min(radius / 2, pitch)

@@ -88,9 +88,6 @@ def slot(
     return joined(passes, ("centre line", *numbered("ring", n)), radius, Region(tuple(rounds[-1:])))
 
 
-# ---- beneath ----
-
-
 def _must_fit(room: float, radius: float, allowance: float, what: str) -> None:
     if not radius > 0:
         raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")

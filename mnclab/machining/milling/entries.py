@@ -213,9 +213,6 @@ def descent(
     return along(piece.passes[number], top, bottom, entry.angle)
 
 
-# ---- beneath ----
-
-
 def _to_and_fro(line: Contour, count: int) -> Contour:
     """So many strokes along an open contour, from its start."""
     parts = [line if k % 2 == 0 else line.reversed() for k in range(count)]

@@ -7,8 +7,9 @@ row: "entry helix", "ring 3 of 7", "link", "lift".
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import product
 
-from mnclab.machining.milling.clearing import Clearing, Piece, begin
+from mnclab.machining.milling.clearing import Clearing, begin
 from mnclab.machining.milling.entries import VERTICAL, Entry, descent
 from mnclab.machining.steps import RAPID, Along, Go, Step
 from mnclab.machining.tracing import traced
@@ -26,26 +27,17 @@ def toolpath(
     above = surface + clearance
 
     def steps() -> Iterator[Step]:
-        for top, level in zip((surface, *levels), levels):
-            for piece in pieces:
-                yield from _piece(piece, clearing.radius, (above, top, level), entry, (feed, plunge_feed), climb)
+        for (top, level), piece in product(zip((surface, *levels), levels), pieces):
+            for k in range(max(1, len(piece.passes))):
+                if not k or not piece.linked[k - 1]:
+                    down = descent(piece, entry, clearing.radius, top, level, climb, k)
+                    yield Go("lift", above)
+                    yield Go("to the entry", None, RAPID, *begin(down.contour).tolist())
+                    yield Go(down.label, top, plunge_feed)
+                    yield Along(down.label, down.contour, plunge_feed, down.heights.tolist())
+                if piece.passes:
+                    yield Go("link", level, feed, *begin(piece.passes[k]).tolist())
+                    yield Along(piece.labels[k], piece.passes[k], feed)
+            yield Go("lift", above)
 
     return traced(steps(), (*pieces[0].entry.tolist(), above), clearing.radius)
-
-
-def _piece(
-    piece: Piece, radius: float, heights: tuple[float, float, float], entry: Entry, feeds: tuple[float, float], climb: bool
-) -> Iterator[Step]:  # fmt: skip
-    above, top, level = heights
-    feed, plunge = feeds
-    for k in range(max(1, len(piece.passes))):
-        if not k or not piece.linked[k - 1]:
-            down = descent(piece, entry, radius, top, level, climb, k)
-            yield Go("lift", above)
-            yield Go("to the entry", None, RAPID, *begin(down.contour).tolist())
-            yield Go(down.label, top, plunge)
-            yield Along(down.label, down.contour, plunge, down.heights.tolist())
-        if piece.passes:
-            yield Go("link", level, feed, *begin(piece.passes[k]).tolist())
-            yield Along(piece.labels[k], piece.passes[k], feed)
-    yield Go("lift", above)

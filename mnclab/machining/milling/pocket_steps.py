@@ -33,10 +33,7 @@ class Room(NamedTuple):
 
 
 class Feeds(NamedTuple):
-    """Feeds on a level and down to it; None is the one that is active.
-
-    With `edge`, the radius of the tool, the feed of closed passes and of the arcs up to the wall counts at the cutting edge.
-    """
+    """Feeds on a level and down to it; None is the one that is active. With `edge`, the tool radius, closed ones count there."""
 
     level: float | None
     plunge: float | None
@@ -152,9 +149,6 @@ def clear(
     if clearing.passes and clearing.passes[-1].closed and departure > LEAST:
         off = leaving(clearing.passes[-1], departure, side)
         yield from along(f"{name}, off the wall", off, feeds.level, feeds.edge, side)
-
-
-# ---- beneath ----
 
 
 def _back(name: str, height: float) -> Iterator[Step]:

@@ -40,9 +40,8 @@ def rings(
 ) -> Clearing:  # fmt: skip
     """Passes that clear `region` with a tool of `radius`, leaving `allowance` at its walls.
 
-    Rings round islands come first, then those along the walls, both from the inside out. In climb milling,
-    the spindle turning clockwise, walls are followed counter-clockwise and islands clockwise. `corner_radius`
-    rounds the inside corners of the passes along the final contour, as measured on the tool centre.
+    Rings round islands come first, then those along the walls. In climb milling, the spindle turning clockwise, walls are
+    followed counter-clockwise. `corner_radius` rounds the inside corners of the last passes, as measured on the tool centre.
     """
     if corner_radius < 0:
         raise ValueError(f"the corner radius must not be negative, got {corner_radius:g}")
@@ -102,36 +101,12 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool, corner_
 
 
 def rings_in_order(centres: Region, radius: float, stepover: float, corner_radius: float = 0.0) -> Iterator[Ring]:
-    """The rings of one connected piece of the tool-centre area, islands first, each from the inside out."""
-    return _ordered(list(_rings(centres, radius, stepover, corner_radius)))
-
-
-def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[Ring]:
-    """The rings of a piece, with a core ring wherever one more step would leave a core standing."""
-    if np.ptp(centres.loops[0].bounds, axis=0).min() / 2 > MOST_RINGS * stepover:
-        raise ValueError(f"a stepover of {stepover:g} makes more than {MOST_RINGS} rings")
-    level, here = 0, centres
-    while here.loops:
-        for loop in here.loops:
-            face = rounded(loop, corner_radius) if level == 0 else loop
-            yield Ring(level, loop.area < 0, face)
-        level += 1
-        deeper = centres.inset(level * stepover)
-        if stepover > radius:
-            cores = centres.inset((level - 1) * stepover + radius).parts
-            for core in cores:
-                if not any(core.contains(loop.points[:1])[0] for loop in deeper.loops):
-                    for loop in core.loops:
-                        yield Ring(level - 1 + radius / stepover, loop.area < 0, loop)
-        here = deeper
-
-
-def _ordered(todo: list[Ring]) -> Iterator[Ring]:
-    """Rings from the inside out, each begun where it comes nearest to the end of the one before.
+    """The rings of a connected piece of the tool-centre area from the inside out, each begun nearest to the end of the last.
 
     A ring round an island waits for the deeper rings about it; a ring along a wall for all islands and for
     the deeper rings within it. Of those that need not wait the nearest comes next: one branch at a time.
     """
+    todo = list(_rings(centres, radius, stepover, corner_radius))
     starts = np.array([ring.contour.points[0] for ring in todo])
     level = np.array([ring.level for ring in todo])
     island = np.array([ring.island for ring in todo])
@@ -144,14 +119,28 @@ def _ordered(todo: list[Ring]) -> Iterator[Ring]:
         free = np.flatnonzero(left_over & ~(waits & left_over).any(axis=1))
         if here is None:
             k = free[np.argmax(level[free])]
-            contour = todo[k].contour
-            way = contour.lengths[: int(contour.lengths.argmax())].sum() + contour.lengths.max() / 2
+            lengths = todo[k].contour.lengths
+            way = float(lengths[: int(lengths.argmax())].sum() + lengths.max() / 2)
         else:
-            spot = here
-            k = min(free, key=lambda k: float(todo[k].contour.distance(spot)[0]))
-            contour = todo[k].contour
-            way = contour.nearest(spot)
+            k = free[np.argmin([float(todo[k].contour.distance(here)[0]) for k in free])]
+            way = todo[k].contour.nearest(here)
         left_over[k] = False
-        ring = replace(todo[k], contour=contour.started_at(way))
+        ring = replace(todo[k], contour=todo[k].contour.started_at(way))
         here = ring.contour.points[0]
         yield ring
+
+
+def _rings(centres: Region, radius: float, stepover: float, corner_radius: float) -> Iterator[Ring]:
+    """The rings of a piece, with a core ring wherever one more step would leave a core standing."""
+    if np.ptp(centres.loops[0].bounds, axis=0).min() / 2 > MOST_RINGS * stepover:
+        raise ValueError(f"a stepover of {stepover:g} makes more than {MOST_RINGS} rings")
+    level, here = 0, centres
+    while here.loops:
+        for loop in here.loops:
+            yield Ring(level, loop.area < 0, loop if level else rounded(loop, corner_radius))
+        level += 1
+        deeper = centres.inset(level * stepover)
+        for core in centres.inset((level - 1) * stepover + radius).parts if stepover > radius else ():
+            if not any(core.contains(loop.points[:1])[0] for loop in deeper.loops):
+                yield from (Ring(level - 1 + radius / stepover, loop.area < 0, loop) for loop in core.loops)
+        here = deeper

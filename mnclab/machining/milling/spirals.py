@@ -70,9 +70,9 @@ def _without_needless(points: Floats) -> Floats:
 def spiral(region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True) -> Clearing:
     """An area cleared on spirals that grow from an innermost ring into the wall, without a step from ring to ring.
 
-    A round area is one spiral of true arcs. Elsewhere one turn of straight lines leads from each ring to the next one
-    outside it, and the last ring is run as it is, arcs and all. Where rings divide, or a turn would leave the area, one
-    spiral ends and another begins; where spirals would leave something standing, the rings are run as they are.
+    A round area is one spiral of true arcs. Elsewhere a turn of straight lines leads from each ring to the next one, and the
+    last ring is run as it is. Where rings divide, or a turn would leave the area, one spiral ends and another begins; where
+    spirals would leave something standing, the rings are run as they are.
     """
     return piecewise(region, radius, stepover, allowance, lambda part: _piece(part, radius, stepover, climb))
 
@@ -91,12 +91,11 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piec
     cover = covered([way for turns, ring in chains for way in (*turns, ring.contour)], radius)
     if reach.difference(cover).area > LEFT * reach.area:
         chains = [([], ring if climb else replace(ring, contour=ring.contour.reversed())) for ring in rings]
-    passes: list[Contour] = []
+    passes = [way for turns, ring in chains for way in (*turns, ring.contour)]
     labels: list[str] = []
     for name, (turns, ring) in zip(numbered("spiral", len(chains)), chains, strict=True):
-        passes += [*turns, ring.contour]
         face = "island" if ring.island else "wall"
-        labels += [name] * len(turns) + [face if ring.level == 0 else f"{name}, last ring"]
+        labels += [name] * len(turns) + [f"{name}, last ring" if ring.level else face]
     return Piece(centres, tuple(passes), links(centres, passes, stepover), tuple(labels))
 
 

@@ -34,20 +34,16 @@ def clear(
     if strategy not in STRATEGIES:
         raise ValueError(f"unknown strategy {strategy!r}; known are {', '.join(STRATEGIES)}")
     found = STRATEGIES[strategy](region, radius, stepover, allowance=allowance, climb=climb, **more)
-    return completed(found, stepover) if complete else found
-
-
-def completed(clearing: Clearing, stepover: float) -> Clearing:
-    """The same with a pass through everything that the tool can reach and has left standing.
-
-    With a stepover above the tool radius cores and slivers stand between two passes, where they turn. They are narrower
-    than the tool, so a pass along their longest axis takes them.
-    """
-    pieces = tuple(_completed(piece, clearing.radius, stepover) for piece in clearing.pieces)
-    return replace(clearing, pieces=pieces)
+    if not complete:
+        return found
+    return replace(found, pieces=tuple(_completed(piece, radius, stepover) for piece in found.pieces))
 
 
 def _completed(piece: Piece, radius: float, stepover: float) -> Piece:
+    """A piece with a pass through everything that the tool can reach and has left standing.
+
+    Cores and slivers between passes more than a tool radius apart: narrower than the tool, so one pass along them does.
+    """
     if not piece.centres.loops:
         return piece
     reach = polygons(piece.centres).buffer(radius * (1 - LEAST), quad_segs=64)

@@ -131,9 +131,6 @@ def polygon(
     return _spiral(first, last, steps(spare, stepover), radius, climb, centre, angle, 0, apex=True)
 
 
-# ---- beneath ----
-
-
 def _part(first: Figure, last: Figure, share: float) -> Figure:
     reach = first.reach + (last.reach - first.reach) * share
     return last._replace(reach=reach, corner=first.corner + (last.corner - first.corner) * share)
@@ -189,11 +186,10 @@ def _spiral(
         points, bulges = points[1:], bulges[1:]
     cut = 2 * turns * n + (1 if apex else 0)
     ways = [slice(0, cut + 1), slice(cut, None)] if turns else [slice(0, None)]
-    passes = [_open(points[way], bulges[way], centre, angle) for way in ways]
+    passes = []
+    for way in ways:
+        some = np.append(np.hypot(*np.diff(points[way], axis=0).T) > DRIFT, True)
+        bends = np.append(bulges[way][some][:-1], 0.0)
+        passes.append(Contour(placed(points[way][some], centre, angle), bends, closed=False))
     labels = ("spiral", "last ring") if turns else ("last ring",)
     return joined(passes, labels, radius)
-
-
-def _open(points: Floats, bulges: Floats, centre: ArrayLike, angle: float) -> Contour:
-    some = np.append(np.hypot(*np.diff(points, axis=0).T) > DRIFT, True)
-    return Contour(placed(points[some], centre, angle), np.append(bulges[some][:-1], 0.0), closed=False)

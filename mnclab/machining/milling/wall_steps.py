@@ -62,11 +62,7 @@ def face_levels(passes: Passes, levels: Sequence[Level], lift: float, position: 
 
 
 def _over_lines(passes: Passes, at: Level, lift: float, position: float) -> Iterator[Step]:
-    """From the first line, at its level, over all of them.
-
-    One way, the tool lifts after a line and goes straight back to the start of the next one; where that begins at a wall
-    it lifts higher than all that stands.
-    """
+    """From the first line over all of them; one way, with a lift and straight back, over all that stands to a wall."""
     before = None
     for label, line in zip(numbered("line", len(passes.lines)), passes.lines, strict=True):
         if before and passes.one_way:

@@ -34,10 +34,7 @@ from mnclab.path.tool import Tool
 
 
 def loop(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
-    """Every pass by itself: along Z to the contour, off it, back at rapid, to the next depth.
-
-    In a closed zone the tool goes back to where the pass began and plunges along the contour.
-    """
+    """Every pass by itself: along Z to the contour, off it, back at rapid; in a closed zone it plunges along the contour."""
     return cleared(_loop(task(profile, blank, depth, tool, **distances)), profile, blank, tool)
 
 
@@ -78,10 +75,7 @@ def pick_up(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **
 def semi_finish(
     profile: Contour, blank: float, depth: float, tool: Tool = POINT, after: str = "last", **distances: Any
 ) -> Plan:
-    """Passes as in the loop; after the last one, or the penultimate, once along the whole contour.
-
-    After the `penultimate` pass the contour stroke takes what the last pass would have taken.
-    """
+    """Passes as in the loop; after the last one, or in place of it after the penultimate, once along the whole contour."""
     if after not in ("last", "penultimate"):
         raise ValueError(f'the clean-up follows the "last" or the "penultimate" pass, got {after!r}')
     return cleared(_semi_finish(task(profile, blank, depth, tool, **distances), after), profile, blank, tool)
@@ -160,10 +154,7 @@ def descent(
 
 
 def equidistant(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
-    """Strokes along offsets of the contour, one `depth` apart along its normal; the last one is the contour.
-
-    Outside corners of an offset are sharp. What of it lies outside the blank is left out.
-    """
+    """Strokes along offsets of the contour with sharp corners, one `depth` apart along its normal, within the blank."""
     t = task(profile, blank, depth, tool, **distances, slanting=True)
     strokes: list[tuple[bool, Contour]] = []
     for k in range(MOST):

@@ -95,7 +95,6 @@ class Pen:
         self.z, self.r = z, r
 
     def follow(self, steps: Iterable[Go | Thread], role: str) -> None:
-        """Steps of z along and x across, those at feed in a role."""
         for step in steps:
             z, r = (here if to is None else to for here, to in ((self.z, step.z), (self.r, step.x)))
             self.feed(z, r, RAPID if isinstance(step, Go) and step.feed == AT_RAPID else role)
@@ -107,7 +106,6 @@ class Pen:
                 self.feed(place[0], place[1], role, bulge)
 
     def append(self, plan: Plan, outside: float) -> None:
-        """Another plan, reached outside the blank."""
         if np.hypot(plan.start[0] - self.z, plan.start[1] - self.r) > SAME:
             self.rapid(self.z, outside)
             self.rapid(plan.start[0], outside)

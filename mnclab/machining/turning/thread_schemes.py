@@ -107,8 +107,8 @@ def thread(
 ) -> Plan:  # fmt: skip
     """Passes of an external thread from z `start` to `end`; `radius` is that of its crests at the end, mm.
 
-    `taper` is how much the radius grows from start to end. Every pass has the same length: the shift of the last one is
-    0, so that the thread ends in its nominal place; `out` is how far outside the tool goes back.
+    `taper` is how much the radius grows from start to end; `out` is how far outside the tool goes back. All passes have one
+    length: the last is not shifted, so that the thread ends in its nominal place.
     """
     if end == start:
         raise ValueError("a thread needs a length")
@@ -146,6 +146,5 @@ def edge_shares(
 
 def _check(depths: Sequence[float]) -> None:
     if not len(depths) or not depths[0] > 0 or any(b < a for a, b in zip(depths, depths[1:], strict=False)):
-        raise ValueError(
-            f"the depths of the passes must be positive and grow, got {', '.join(f'{d:g}' for d in depths)}"
-        )
+        got = ", ".join(f"{d:g}" for d in depths)
+        raise ValueError(f"the depths of the passes must be positive and grow, got {got}")

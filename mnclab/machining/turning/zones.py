@@ -27,7 +27,7 @@ KINDS = (OPEN, SEMI_OPEN, CLOSED, COMBINED)
 class Zone(NamedTuple):
     """One section: its kind and its profile; in dry sections lines stand for the closed zones within them.
 
-    `main` and `auxiliary` are the angles in degrees that the tool needs at least, 0 where it needs none.
+    `main` and `auxiliary` are the angles in degrees that the tool needs at least: the steepest growth and fall.
     """
 
     kind: str
@@ -35,12 +35,10 @@ class Zone(NamedTuple):
 
     @property
     def main(self) -> float:
-        """The steepest growth: what the main angle must reach."""
         return _steepest(self.profile, 1.0)
 
     @property
     def auxiliary(self) -> float:
-        """The steepest fall: what the auxiliary angle must reach."""
         return _steepest(self.profile, -1.0)
 
 
@@ -61,9 +59,7 @@ def zones(profile: Contour, blank: float = math.inf) -> tuple[Zone, ...]:
     r = rim.points[:, 1]
     top = int(np.flatnonzero(r >= r.max() - SAME)[0])
     upto = float(rim.lengths[:top].sum())
-    found = []
-    if top:
-        found.append(Zone(SEMI_OPEN, joined([between(rim, 0.0, upto)])))
+    found = [Zone(SEMI_OPEN, joined([between(rim, 0.0, upto)]))] if top else []
     rest = between(rim, upto, rim.length)
     if rest is not None:
         right, left = rest.points[0, 0], rest.points[-1, 0]
@@ -123,7 +119,7 @@ def _simple(pool: Contour) -> list[Contour]:
 
 def _is_rib(r: np.ndarray, i: int) -> bool:
     """Whether the profile has grown before a point and falls behind it."""
-    before, behind = r[:i][np.abs(r[:i] - r[i]) > SAME], r[i + 1 :][np.abs(r[i + 1 :] - r[i]) > SAME]
+    before, behind = (part[np.abs(part - r[i]) > SAME] for part in (r[:i], r[i + 1 :]))
     return bool(len(before) and len(behind) and before[-1] < r[i] and behind[0] < r[i])
 
 
