@@ -73,11 +73,12 @@ def approach(m: Machine, words: Words) -> None:
 
 def lead_feed(m: Machine) -> float:
     """The feed of the line to the auxiliary point: rapid if the block before was, else the feed as it was."""
-    if last := m.recorder.last():
-        kind = last[0]
-    else:
-        settled = (path.kind[path.is_motion] for path in reversed(m.settled))
-        kind = next((motion[-1] for motion in settled if len(motion)), None)
+    last = m.recorder.last()
+    kind = last[0] if last else None
+    for path in () if last else reversed(m.settled):
+        if len(motion := path.kind[path.is_motion]):
+            kind = motion[-1]
+            break
     return INF if kind == Kind.RAPID else m.feed_of(None)
 
 
