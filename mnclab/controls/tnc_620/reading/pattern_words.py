@@ -80,7 +80,8 @@ class PatternWords:
         address, begin, flag = self.pending
         value = cursor.value()
         if value is None:
-            raise Fault(f"{address} needs a number", *((begin, len(address)) if same_line else (cursor.at, 1)))
+            where, length = (begin, len(address)) if same_line else (cursor.at, 1)
+            raise Fault(f"{address} needs a number", where, length)
         self.pending = None
         if not same_line:
             cursor.builder.words.pop()  # the word without a number
