@@ -24,7 +24,7 @@ FLOORS = {
 }  # fmt: skip
 
 OUTSIDE = {  # package -> the only modules of mnclab that import it
-    "shapely": ("geometry.regions", "geometry.sweeps"),
+    "shapely": ("geometry.shapely",),
     "matplotlib": ("show.plot",),
     "pyvista": ("show.scene",),
     "vtkmodules": ("show.scene",),
@@ -151,8 +151,8 @@ DOOR = "def plot(self):\n    'A door.'\n    from mnclab.show.plot import path\n 
         ("path/toolpath.py", "if TYPE_CHECKING:\n    import matplotlib", None),
         ("workpiece/stock.py", "from mnclab.machining import holes", "the same floor"),
         ("comparison/runs.py", "from mnclab.machine import run", "the same floor"),
-        ("geometry/regions.py", "import shapely", None),
-        ("geometry/offsets.py", "import shapely", "only geometry.regions"),
+        ("geometry/shapely.py", "import shapely", None),
+        ("geometry/offsets.py", "import shapely", "only geometry.shapely"),
         ("show/plot/path.py", "from matplotlib.figure import Figure", None),
         ("show/scene.py", "def f():\n    import pyvista", None),
         ("show/player.py", "from matplotlib.figure import Figure", "only show.plot"),

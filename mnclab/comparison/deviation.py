@@ -2,8 +2,7 @@
 
 The distance of a place is that to the nearest place of the other path, whatever its number or order of moves; the
 greatest of all, in both directions, is the Hausdorff distance. Arcs are chords within `chord_error`; a path is looked at
-every `step` mm, so that the result is too small by less than half a step,
-and wrong by the chord error at most besides.
+every `step` mm, so the result is too small by less than half a step, and wrong by the chord error at most besides.
 """
 
 from __future__ import annotations
@@ -36,8 +35,7 @@ class Traces:
     row: NDArray[np.int64]
     nearest: Array
 
-    def __repr__(self) -> str:
-        return shapes(self)
+    __repr__ = shapes
 
     @property
     def distance(self) -> Array:
@@ -48,10 +46,7 @@ class Traces:
 
 @dataclass(frozen=True)
 class Deviation:
-    """Where two paths differ.
-
-    `one` and `other` are the traces, `names` and `paths` what was compared, `times` s of both.
-    """
+    """Where two paths differ: `one` and `other` are the traces, `names` and `paths` what was compared, `times` s of both."""
 
     paths: tuple[Toolpath, Toolpath]
     names: tuple[str, str]
@@ -63,7 +58,7 @@ class Deviation:
     @property
     def largest(self) -> float:
         """The largest deviation, mm; nan when one path has no motion and the other has."""
-        if not len(self.one.row) or not len(self.other.row):
+        if not (len(self.one.row) and len(self.other.row)):
             return 0.0 if len(self.one.row) == len(self.other.row) else float("nan")
         return float(max(self.one.distance.max(), self.other.distance.max()))
 
@@ -84,22 +79,18 @@ class Deviation:
         away = np.flatnonzero(self.other.distance > tolerance)
         return int(self.other.row[away[0]]) if len(away) else None
 
-    def rows(self) -> list[tuple[str, str, str]]:
+    def rows(self) -> list[tuple[str, ...]]:
         """What the table shows: a quantity, and its value on each path."""
-        one, other = self.paths
-        apart = self.where if not self.largest < SAME else None
-        found = [
-            *([("farthest apart", point(apart[0]), point(apart[1]))] if apart else []),
-            ("moves", str(int(one.is_motion.sum())), str(int(other.is_motion.sum()))),
-            ("length", f"{figure(one.length, 3)} mm", f"{figure(other.length, 3)} mm"),
+        quantities = [
+            ("farthest apart", map(point, self.where[:2] if self.where and not self.largest < SAME else ())),
+            ("moves", (str(int(path.is_motion.sum())) for path in self.paths)),
+            ("length", (f"{figure(path.length, 3)} mm" for path in self.paths)),
+            ("time", (f"{figure(time, 3)} s" for time in self.times or ())),
         ]
-        if self.times:
-            found.append(("time", f"{figure(self.times[0], 3)} s", f"{figure(self.times[1], 3)} s"))
-        return found
+        return [(name, *pair) for name, values in quantities if (pair := tuple(values))]
 
     @property
     def sentence(self) -> str:
-        """The result in one sentence."""
         where = self.where
         if where is None:
             return "no motion on either path" if self.largest == 0 else "only one of the paths has motion"
@@ -108,8 +99,8 @@ class Deviation:
         return f"largest deviation {figure(self.largest, 6)} mm at line {where[2]} of {self.names[where[3]]}"
 
     def __str__(self) -> str:
-        lines = [f"{self.names[0]} and {self.names[1]}: {self.sentence}"]
-        return "\n".join([*lines, *(f"  {name}: {one}; {other}" for name, one, other in self.rows())])
+        head = f"{self.names[0]} and {self.names[1]}: {self.sentence}"
+        return "\n".join([head, *(f"  {name}: {one}; {other}" for name, one, other in self.rows())])
 
     __repr__ = __str__
 
@@ -129,14 +120,12 @@ def deviation(
 ) -> Deviation:  # fmt: skip
     """Lay two paths over one another; `step` mm, by default a four-thousandth of the longer one."""
     longest = max(one.length, other.length, 1e-3)
-    if step is None:
-        step = longest / PLACES
-    else:
-        check_number(step, "step (mm)", above=0, at_least=longest / MOST)
+    step = longest / PLACES if step is None else step
+    check_number(step, "step (mm)", above=0, at_least=longest / MOST)
     strokes = [_strokes(path, chord_error) for path in (one, other)]
     looks = [_places(*parts, step) for parts in strokes]
-    traces = [Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1])]
-    return Deviation((one, other), names, traces[0], traces[1], step, times)
+    first, second = (Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1]))
+    return Deviation((one, other), names, first, second, step, times)
 
 
 def _strokes(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[np.int64]]:
@@ -186,11 +175,8 @@ def _nearest(places: Array, start: Array, end: Array) -> Array:
 
 
 def _on_strokes(here: Array, start: Array, end: Array, boxes: NDArray[np.int64]) -> Array:
-    """The nearest place (m, 3) on the strokes of some boxes.
-
-    Which stroke is nearest is found with matrix products, which are quick and lose half of the digits; where on that
-    stroke, with differences.
-    """
+    """The nearest place (m, 3) on the strokes of some boxes. Which stroke is nearest is found with matrix products,
+    which are quick and lose half of the digits; where on that stroke, with differences."""
     which = (boxes[:, None] * GROUP + np.arange(GROUP)).ravel()
     which = which[which < len(start)]
     middle = here.mean(axis=0)

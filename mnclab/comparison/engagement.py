@@ -43,12 +43,15 @@ class Engagement(NamedTuple):
     def __repr__(self) -> str:
         return shapes(self)
 
+    def along_the_way(self, values: Floats) -> float:
+        """The mean of values (n,), each weighted with the way that it stands for."""
+        return float(np.average(values, weights=self.step)) if self.step.sum() > 0 else 0.0
+
     def mean(self) -> float:
         """The mean angle along the way."""
-        return float(np.average(self.angle, weights=self.step)) if self.step.sum() > 0 else 0.0
+        return self.along_the_way(self.angle)
 
     def most(self) -> float:
-        """The greatest angle."""
         return float(self.angle.max(initial=0.0))
 
     def share_above(self, limit: float) -> float:
@@ -57,7 +60,6 @@ class Engagement(NamedTuple):
         return float(self.step[self.angle > limit + 1e-9].sum()) / whole if whole else 0.0
 
     def chosen(self, mask: NDArray[np.bool_]) -> Engagement:
-        """Only the samples where the mask holds."""
         return Engagement._make(column[mask] for column in self)
 
 

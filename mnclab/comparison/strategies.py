@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from mnclab.comparison.engagement import Engagement, engagement
-from mnclab.comparison.table import Table, told
+from mnclab.comparison.table import Table, Titles, Tried
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, left_over, polygons
@@ -27,11 +27,8 @@ from mnclab.machining.milling.clearing import Clearing, begin, end
 from mnclab.machining.milling.entries import VERTICAL, Entry, descent
 from mnclab.machining.milling.layers import toolpath
 from mnclab.machining.milling.strategies import STRATEGIES, clear
-from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
-from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, faults_as_alarms, shown
 from mnclab.text.progress import progress
@@ -43,43 +40,37 @@ Strategies = Iterable[str] | Mapping[str, str | Clearing | Callable[[Region, flo
 
 DISCS = 10  # to a tool radius; the angles are within half a degree from 10° on
 
-#: Every column of a comparison: what it is and how it is written.
-COLUMNS = {
-    "strategy": ("strategy", "{}"),
-    "length": ("cutting length, mm", "{:.0f}"),
-    "rapid": ("rapid length, mm", "{:.0f}"),
-    "moves": ("moves", "{}"),
-    "lifts": ("lifts", "{}"),
-    "time": ("time, s", "{:.1f}"),
-    "covered": ("covered, %", "{:.2f}"),
-    "rest": ("rest, mm²", "{:.2f}"),
-    "corners": ("corners, mm²", "{:.2f}"),
-    "mean": ("engagement: mean, °", "{:.0f}"),
-    "most": ("greatest, °", "{:.0f}"),
-    "above": ("above the limit, %", "{:.1f}"),
-    "removal": ("removal: mean, cm³/min", "{:.2f}"),
-    "removal_most": ("greatest, cm³/min", "{:.2f}"),
+#: Every column of a comparison: what it is, how it is written, and its value.
+COLUMNS: Titles = {
+    "strategy": ("strategy", "{}", lambda trial: trial.name),
+    "length": ("cutting length, mm", "{:.0f}", lambda trial: trial.length(rapid=False)),
+    "rapid": ("rapid length, mm", "{:.0f}", lambda trial: trial.length(rapid=True)),
+    "moves": ("moves", "{}", lambda trial: len(trial.path)),
+    "lifts": ("lifts", "{}", lambda trial: sum(not k for piece in trial.clearing.pieces for k in piece.linked)),
+    "time": ("time, s", "{:.1f}", lambda trial: trial.time),
+    "covered": ("covered, %", "{:.2f}", lambda trial: 100 * trial.covered),
+    "rest": ("rest, mm²", "{:.2f}", lambda trial: trial.rest.area),
+    "corners": ("corners, mm²", "{:.2f}", lambda trial: trial.corners.area),
+    "mean": ("engagement: mean, °", "{:.0f}", lambda trial: float(np.degrees(trial.engagement.mean()))),
+    "most": ("greatest, °", "{:.0f}", lambda trial: float(np.degrees(trial.engagement.most()))),
+    "above": ("above the limit, %", "{:.1f}", lambda trial: 100 * trial.engagement.share_above(trial.limit)),
+    "removal": ("removal: mean, cm³/min", "{:.2f}", lambda trial: trial.engagement.along_the_way(trial.removal)),
+    "removal_most": ("greatest, cm³/min", "{:.2f}", lambda trial: float(trial.removal.max(initial=0.0))),
 }
 
 
-@dataclass(frozen=True, eq=False)
-class Trial:
+@dataclass(frozen=True, eq=False, repr=False)
+class Trial(Tried):
     """One strategy on one area: its passes, the whole path, and what comes of it."""
 
-    name: str
+    titles: ClassVar = COLUMNS
     region: Region
     clearing: Clearing
-    path: Toolpath
     engagement: Engagement
     depth: float
     feed: float
     limit: float
     allowance: float
-    limits: Limits | None
-    rapid_rate: float
-
-    def __repr__(self) -> str:
-        return told(self.row, COLUMNS)
 
     @property
     def entries(self) -> np.ndarray:
@@ -112,36 +103,10 @@ class Trial:
         reach = self._areas[1]
         return float(1 - self.rest.area / reach.area) if reach.area else 1.0
 
-    @cached_property
-    def time(self) -> float:
-        """Seconds: by the feed-rate profile where axis limits are given, else length over feed."""
-        if self.limits is not None:
-            return Profile(self.path, self.limits).time
-        feed = np.where(np.isinf(self.path.feed), self.rapid_rate, self.path.feed)
-        return float((self.path.lengths / feed).sum() * 60)
-
     @property
-    def row(self) -> dict[str, Any]:
-        """The values of `COLUMNS`."""
-        rapid = self.path.kind == Kind.RAPID
-        rate = self.engagement.width * self.depth * self.feed / 1000
-        weight = self.engagement.step
-        return {
-            "strategy": self.name,
-            "length": float(self.path.lengths[~rapid].sum()),
-            "rapid": float(self.path.lengths[rapid].sum()),
-            "moves": len(self.path),
-            "lifts": sum(not linked for piece in self.clearing.pieces for linked in piece.linked),
-            "time": self.time,
-            "covered": 100 * self.covered,
-            "rest": self.rest.area,
-            "corners": self.corners.area,
-            "mean": float(np.degrees(self.engagement.mean())),
-            "most": float(np.degrees(self.engagement.most())),
-            "above": 100 * self.engagement.share_above(self.limit),
-            "removal": float(np.average(rate, weights=weight)) if weight.sum() else 0.0,
-            "removal_most": float(rate.max(initial=0.0)),
-        }
+    def removal(self) -> np.ndarray:
+        """What is cut at each sample of the engagement, cm³/min."""
+        return self.engagement.width * self.depth * self.feed / 1000
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -184,25 +149,21 @@ def compare(
     trials = []
     with progress("comparing", len(named), "strategies") as done:
         for name, how in named.items():
-            if isinstance(how, Clearing):
-                clearing = how
-            elif callable(how):
-                clearing = how(region, radius, stepover)
-            else:
+            if isinstance(how, str):
                 clearing = clear(how, region, radius, stepover, allowance=allowance, climb=climb)
+            else:
+                clearing = how if isinstance(how, Clearing) else how(region, radius, stepover)
             path = toolpath(clearing, (-depth,), entry=entry, feed=feed, plunge_feed=plunge_feed, climb=climb)
             moves, counted = level_moves(clearing, entry, depth, climb)
             found = engagement(moves, radius, spacing=radius / DISCS)
             found = found.chosen(np.array(counted, dtype=bool)[found.move])
-            trials.append(
-                Trial(name, region, clearing, path, found, depth, feed, np.radians(limit), allowance, limits, rapid)
-            )
+            way = name, path, limits, rapid
+            trials.append(Trial(*way, region, clearing, found, depth, feed, np.radians(limit), allowance))
             done(len(trials))
     return Comparison(tuple(trials))
 
 
 def _check(region: Region, strategies: Strategies, limits: Limits | None) -> None:
-    """An Alarm for what is no area, no strategies or no limits."""
     if not isinstance(region, Region):
         example = "mnclab.area.Region.of(mnclab.area.rectangle(60, 40))"
         raise Alarm(f"strategies are compared on a Region, got {shown(region)}", hint=example)
@@ -230,9 +191,7 @@ def level_moves(clearing: Clearing, entry: Entry, depth: float, climb: bool) -> 
             if not piece.passes:
                 continue
             before, contour = end(moves[-1]), piece.passes[k]
-            if np.hypot(*(begin(contour) - before)) > 1e-9:
-                moves.append(Contour([before, begin(contour)], closed=False))
-                counted.append(True)
-            moves.append(contour)
-            counted.append(True)
+            linked = np.hypot(*(begin(contour) - before)) > 1e-9
+            moves += [*([Contour([before, begin(contour)], closed=False)] if linked else []), contour]
+            counted += [True] * (len(moves) - len(counted))
     return moves, counted

@@ -24,12 +24,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from mnclab.comparison.table import Table, told
+from mnclab.comparison.table import Table, Titles, Tried
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import CHORD_ERROR, broad, outlined, swept, under
@@ -40,7 +40,6 @@ from mnclab.machining.turning.strokes import PLUNGE, RAPID, ROLES, Plan
 from mnclab.machining.turning.zones import CLOSED, COMBINED, OPEN, SEMI_OPEN, zone_of
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
-from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
@@ -51,17 +50,17 @@ if TYPE_CHECKING:
 
 Schemes = Iterable[str] | Mapping[str, "str | Plan | Callable[[Contour, float, float, Tool], Plan]"]
 
-#: Every column of a comparison: what it is and how it is written.
-COLUMNS = {
-    "scheme": ("scheme", "{}"),
-    "passes": ("passes", "{}"),
-    "length": ("cutting length, mm", "{:.1f}"),
-    "rapid": ("rapid length, mm", "{:.1f}"),
-    "time": ("time, s", "{:.1f}"),
-    "removed": ("removed, mm²", "{:.2f}"),
-    "rest": ("rest, mm²", "{:.2f}"),
-    "ridge": ("highest ridge, mm", "{:.2f}"),
-    "unreachable": ("unreachable, mm²", "{:.2f}"),
+#: Every column of a comparison: what it is, how it is written, and its value.
+COLUMNS: Titles = {
+    "scheme": ("scheme", "{}", lambda trial: trial.name),
+    "passes": ("passes", "{}", lambda trial: trial.plan.passes),
+    "length": ("cutting length, mm", "{:.1f}", lambda trial: trial.length(rapid=False)),
+    "rapid": ("rapid length, mm", "{:.1f}", lambda trial: trial.length(rapid=True)),
+    "time": ("time, s", "{:.1f}", lambda trial: trial.time),
+    "removed": ("removed, mm²", "{:.2f}", lambda trial: trial.removed),
+    "rest": ("rest, mm²", "{:.2f}", lambda trial: trial.rest.area),
+    "ridge": ("highest ridge, mm", "{:.2f}", lambda trial: trial.ridge),
+    "unreachable": ("unreachable, mm²", "{:.2f}", lambda trial: trial.unreachable.area),
 }
 #: Which schemes the source names for a zone.
 SUITED = {
@@ -74,21 +73,15 @@ LEAST = 1e-6  # mm²
 TURNER = Tool(number=1, kind="turning", main_angle=95.0, auxiliary_angle=30.0)
 
 
-@dataclass(frozen=True, eq=False)
-class TurningTrial:
+@dataclass(frozen=True, eq=False, repr=False)
+class TurningTrial(Tried):
     """One scheme on one profile: its plan, the whole path, and what comes of it."""
 
-    name: str
+    titles: ClassVar = COLUMNS
     plan: Plan
     profile: Contour
     blank: float
     tools: tuple[Tool, ...]
-    path: Toolpath
-    limits: Limits | None
-    rapid_rate: float
-
-    def __repr__(self) -> str:
-        return told(self.row, COLUMNS)
 
     @cached_property
     def reached(self) -> Contour:
@@ -97,7 +90,7 @@ class TurningTrial:
 
     @cached_property
     def _outlines(self) -> list[Floats]:
-        bottom = min(float(self.profile.points[:, 1].min()), min(s.r for s in self.plan.strokes))
+        bottom = min(float(self.profile.points[:, 1].min()), *(s.r for s in self.plan.strokes))
         return [edges_of(tool, self.blank - bottom + 10.0) for tool in self.tools]
 
     @cached_property
@@ -110,10 +103,7 @@ class TurningTrial:
         """Material, what of it the tool can reach, and what of it the strokes cover, as shapely areas."""
         material = under(self.profile, self.blank).intersection(self._box(0.0, self.blank))
         reach = material.intersection(swept(self._outlines[0], self.reached))
-        cut = None
-        for rapid, cover in self._cover:
-            if not rapid:
-                cut = cover if cut is None else cut.union(cover)
+        cut = reduce(lambda one, other: one.union(other), (cover for rapid, cover in self._cover if not rapid))
         return material, reach if len(self.tools) == 1 else material, cut
 
     def _box(self, low: float, high: float) -> Any:
@@ -162,30 +152,6 @@ class TurningTrial:
             else:
                 left = left.difference(cover)
         return struck
-
-    @cached_property
-    def time(self) -> float:
-        """Seconds: by the feed-rate profile where axis limits are given, else length over feed."""
-        if self.limits is not None:
-            return Profile(self.path, self.limits).time
-        feed = np.where(np.isinf(self.path.feed), self.rapid_rate, self.path.feed)
-        return float((self.path.lengths / feed).sum() * 60)
-
-    @property
-    def row(self) -> dict[str, Any]:
-        """The values of `COLUMNS`."""
-        rapid = self.path.kind == Kind.RAPID
-        return {
-            "scheme": self.name,
-            "passes": self.plan.passes,
-            "length": float(self.path.lengths[~rapid].sum()),
-            "rapid": float(self.path.lengths[rapid].sum()),
-            "time": self.time,
-            "removed": self.removed,
-            "rest": self.rest.area,
-            "ridge": self.ridge,
-            "unreachable": self.unreachable.area,
-        }
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -242,7 +208,7 @@ def compare(
         else:
             plan = how if isinstance(how, Plan) else how(contour, blank, depth, tools[0])
         path = toolpath(plan, by_role, spindle, surface, tools)
-        trials.append(TurningTrial(name, plan, contour, blank, tools, path, limits, rapid))
+        trials.append(TurningTrial(name, path, limits, rapid, plan, contour, blank, tools))
     return TurningComparison(tuple(trials))
 
 

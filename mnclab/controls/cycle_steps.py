@@ -19,25 +19,6 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
 from mnclab.machine.touching import Contact
 from mnclab.machine.true_size import MILLS
-from mnclab.machining.steps import (
-    Along,
-    Blocks,
-    Call,
-    Coolant,
-    Each,
-    Go,
-    Orient,
-    Record,
-    Say,
-    Spin,
-    Step,
-    Swivel,
-    Thread,
-    Touch,
-    Turn,
-    Wait,
-    Write,
-)  # fmt: skip
 from mnclab.path.listing import figure
 from mnclab.running.binding import store, value_of
 from mnclab.running.interpreter import Interpreter
@@ -47,6 +28,10 @@ from mnclab.text.given import plain, shown
 from mnclab.text.nearest import hint
 from mnclab.text.program import Word, place_of
 from mnclab.text.tables import html_table, text_table
+
+from mnclab.machining.steps import (  # isort: skip
+    Along, Blocks, Call, Coolant, Each, Go, Orient, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
+)  # fmt: skip
 
 HEAD = ("step", "label", "x", "y", "z", "feed", "")
 SPINDLE = {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}
@@ -74,14 +59,12 @@ class CycleSteps(Sequence[Step]):
 
     @property
     def title(self) -> str:
-        """The cycle and its values."""
         given = (
             f"{address}={value if isinstance(value, str) else shown(value)}" for address, value in self.values.items()
         )
         return " ".join((f"{self.cycle.code} {self.cycle.title}:", *given))
 
     def cells(self) -> Iterator[tuple[str, ...]]:
-        """The table as texts, a row a step."""
         for step, end, feed in self.rows:
             places = ("", "", "") if end is None else map(figure, end)
             yield type(step).__name__.lower(), step.label, *places, feed, details(step)
@@ -186,7 +169,6 @@ def situations(control: Control, cycle: type[Cycle], setup: Setup) -> Iterator[M
 
 
 def define(m: Machine, cycle: type[Cycle], given: dict[str, Any]) -> Definition:
-    """A cycle as a program would define it."""
     parameters = {p.name: p for p in cycle.parameters()}
     words = {name: word_of(parameters[name], value) for name, value in given.items()}
     values = {name: read(m, parameters[name], cycle, word) for name, word in words.items()}
@@ -198,12 +180,10 @@ def define(m: Machine, cycle: type[Cycle], given: dict[str, Any]) -> Definition:
 
 
 def word_of(parameter: Parameter, value: Any) -> Word:
-    """The word of a value."""
     return Word(parameter.address, float(value) if isinstance(value, int) else value, place_of(1, 1, 1))
 
 
 def read(m: Machine, parameter: Parameter, cycle: type[Cycle], word: Word) -> Any:
-    """The value of a word; of several, if the address may be repeated."""
     if not parameter.several:
         return value_of(m, parameter, cycle.code, word, cycle.in_variables)
     several = word.value if isinstance(word.value, tuple) else (word.value,)

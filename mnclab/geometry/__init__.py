@@ -1,5 +1,5 @@
 """Plane and space geometry on numpy arrays: frames, arcs, contours, areas.
 
-Imports numpy alone (`regions` also shapely, inside functions) and nothing of mnclab outside this folder;
+Imports numpy alone (and shapely when areas are first asked for) and of mnclab nothing but `text`;
 it knows neither tools nor programs. A new kind of curve or a new operation on shapes is a new file here.
 """

@@ -7,13 +7,14 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from mnclab.geometry.vectors import Floats
+
 Index = NDArray[np.int64]
 
 BATCH = 1 << 18  # pairs handed out at once
 
 
-def near(low: Array, high: Array, gap: float) -> Iterator[tuple[Index, Index]]:
+def near(low: Floats, high: Floats, gap: float) -> Iterator[tuple[Index, Index]]:
     """Pairs a < b of boxes (n, 2) nearer than `gap` mm along both axes, each pair once, in batches."""
     n = len(low)
     if n < 2:
@@ -36,25 +37,16 @@ def near(low: Array, high: Array, gap: float) -> Iterator[tuple[Index, Index]]:
     order = np.argsort(key, kind="stable")
     box, key, column, row = box[order], key[order], column[order], row[order]
     # each entry is compared with those after it in its cell
-    ends = np.searchsorted(key, key, "right")
-    partners = ends - np.arange(len(key)) - 1
-    total = np.cumsum(partners)
-    begin = 0
+    partners = np.searchsorted(key, key, "right") - np.arange(len(key)) - 1
+    begin, before = 0, np.append(0, np.cumsum(partners))  # pairs of all entries before each
     while begin < len(key):
-        done = total[begin - 1] if begin else 0
-        stop = max(begin + 1, int(np.searchsorted(total, done + BATCH, "right")))
+        stop = max(begin + 1, int(np.searchsorted(before, before[begin] + BATCH, "right")) - 1)
         here = np.repeat(np.arange(begin, stop), partners[begin:stop])
-        if len(here):
-            there = (
-                here
-                + 1
-                + np.arange(len(here))
-                - np.repeat(total[begin:stop] - partners[begin:stop] - done, partners[begin:stop])
-            )
-            a, b = box[here], box[there]
-            corner = np.maximum(first[a], first[b])  # of all cells that both lie in only the first counts
-            meet = (low[a] <= high[b]).all(axis=1) & (low[b] <= high[a]).all(axis=1)
-            meet &= (column[here] == corner[:, 0]) & (row[here] == corner[:, 1])
-            if meet.any():
-                yield np.minimum(a[meet], b[meet]), np.maximum(a[meet], b[meet])
+        there = here + 1 + np.arange(before[begin], before[stop]) - before[here]
+        a, b = box[here], box[there]
+        corner = np.maximum(first[a], first[b])  # of all cells that both lie in only the first counts
+        meet = (low[a] <= high[b]).all(axis=1) & (low[b] <= high[a]).all(axis=1)
+        meet &= (column[here] == corner[:, 0]) & (row[here] == corner[:, 1])
+        if meet.any():
+            yield np.minimum(a[meet], b[meet]), np.maximum(a[meet], b[meet])
         begin = stop

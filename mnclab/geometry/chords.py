@@ -13,20 +13,21 @@ looked into: along a smooth contour there are hardly any.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.boxes import near
-from mnclab.geometry.curves import Curves, foot, share
-from mnclab.geometry.vectors import cross, dot
+from mnclab.geometry.curves import Curves, foot, on
+from mnclab.geometry.vectors import Floats, cross, dot, length_of, unit_of
 
-Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 EXACT = 1e-9  # mm, and rad between a chord and a normal
+SLACK = 1e-12  # of a wall: beyond its ends a point is still on it
 COARSE, FINE = 64, 8  # walls in a chunk
 PIECE = 1 << 14  # walls summed up at once
 BATCH = 1 << 16  # pairs of walls worked on at once
@@ -38,10 +39,10 @@ class Walls(NamedTuple):
     of one group are compared, and they follow each other."""
 
     curves: Curves
-    n_in: Array
-    n_out: Array
+    n_in: Floats
+    n_out: Floats
     joined: Mask
-    s: Array
+    s: Floats
     group: Index
 
 
@@ -50,37 +51,28 @@ class Chords(NamedTuple):
 
     i: Index
     j: Index
-    p: Array
-    q: Array
-    length: Array
+    p: Floats
+    q: Floats
+    length: Floats
 
 
-def facing(walls: Walls, width: Array, coarse: Chunks) -> Chords:
-    """The shortest chord of every pair of walls that is shorter than `width` (n,) mm, the same within a group.
-
-    `coarse` are their `chunks`.
-    """
-    found = [chords(walls, i, j) for i, j in _pairs(walls, width, coarse)]
-    if not found:
-        none = np.zeros(0, dtype=np.int64)
-        return Chords(none, none, np.empty((0, 2)), np.empty((0, 2)), np.empty(0))
-    i, j = np.concatenate([c.i for c in found]), np.concatenate([c.j for c in found])
-    p, q = np.concatenate([c.p for c in found]), np.concatenate([c.q for c in found])
-    length = np.concatenate([c.length for c in found])
-    short = length < width[i] - EXACT
-    return Chords(i[short], j[short], p[short], q[short], length[short])
-
-
-# --- pairs worth a look -----------------------------------------------------------------------------------------------
+def facing(walls: Walls, width: Floats, coarse: Chunks) -> Chords:
+    """The shortest chord of every pair of walls (`coarse` are their chunks) below `width` (n,) mm, the same in a group."""
+    none = np.zeros(0, dtype=np.int64)
+    found = [Chords(none, none, np.empty((0, 2)), np.empty((0, 2)), np.empty(0))]
+    found += [chords(walls, i, j) for i, j in _pairs(walls, width, coarse)]
+    every = Chords._make(map(np.concatenate, zip(*found, strict=True)))
+    short = every.length < width[every.i] - EXACT
+    return Chords._make(column[short] for column in every)
 
 
 class Chunks(NamedTuple):
     """Boxes (m, 2) of chunks of walls, and cones of their normals: middle (m, 2) and half angle (m,) rad."""
 
-    low: Array
-    high: Array
-    middle: Array
-    spread: Array
+    low: Floats
+    high: Floats
+    middle: Floats
+    spread: Floats
 
     def opposed(self, a: Index, b: Index) -> Mask:
         """Whether a normal of chunk a (k,) can be opposite to one of chunk b."""
@@ -120,8 +112,7 @@ def _chunks(walls: Walls, begin: int, end: int, size: int) -> Chunks:
             least, most = least - bulge, most + bulge
         low[:, axis], high[:, axis] = np.minimum.reduceat(least, at), np.maximum.reduceat(most, at)
     total = np.stack([np.add.reduceat(n_in[:, 0], at), np.add.reduceat(n_in[:, 1], at)], axis=1)
-    length = np.hypot(total[:, 0], total[:, 1])
-    middle = total / np.where(length > 0, length, 1.0)[:, None]
+    length, middle = length_of(total), unit_of(total)
     each = np.repeat(middle, np.diff(np.append(at, end - begin)), axis=0)
     least = dot(n_in, each)
     if len(k):
@@ -135,19 +126,19 @@ def _chunks(walls: Walls, begin: int, end: int, size: int) -> Chunks:
     return Chunks(low, high, middle, spread)
 
 
-def around(coarse: Chunks, at: Array, reach: float, n: int) -> Index:
+def around(coarse: Chunks, at: Floats, reach: float, n: int) -> Index:
     """The walls of all n in chunks whose boxes are nearer than `reach` to a point (2,)."""
     there = ((coarse.low - reach <= at) & (coarse.high + reach >= at)).all(axis=1)
     k = (np.flatnonzero(there)[:, None] * COARSE + np.arange(COARSE)).ravel()
     return k[k < n]
 
 
-def _pairs(walls: Walls, width: Array, coarse: Chunks) -> Iterator[tuple[Index, Index]]:
+def _pairs(walls: Walls, width: Floats, coarse: Chunks) -> Iterator[tuple[Index, Index]]:
     """Pairs i < j of walls that may face each other, in batches."""
     n, gap = len(walls.s), float(width.max(initial=0.0))
     fine: Chunks | None = None
     itself = np.flatnonzero(coarse.spread > np.pi / 2 - 1e-3)
-    for a, b in _batches(near(coarse.low, coarse.high, gap), (itself, itself)):
+    for a, b in chain(near(coarse.low, coarse.high, gap), [(itself, itself)]):
         opposed = coarse.opposed(a, b)
         if not opposed.any():
             continue
@@ -158,11 +149,6 @@ def _pairs(walls: Walls, width: Array, coarse: Chunks) -> Iterator[tuple[Index, 
                 keep_pair = (i < j) & (walls.group[i] == walls.group[j])
                 if keep_pair.any():
                     yield i[keep_pair], j[keep_pair]
-
-
-def _batches(pairs: Iterator[tuple[Index, Index]], more: tuple[Index, Index]) -> Iterator[tuple[Index, Index]]:
-    yield from pairs
-    yield more
 
 
 def _inside(a: Index, b: Index, size: int, n: int) -> Iterator[tuple[Index, Index]]:
@@ -176,18 +162,16 @@ def _inside(a: Index, b: Index, size: int, n: int) -> Iterator[tuple[Index, Inde
         yield i[there], j[there]
 
 
-# --- chords of pairs --------------------------------------------------------------------------------------------------
-
-
 class _Best:
     """The shortest chord found so far for each of m pairs."""
 
     def __init__(self, m: int) -> None:
         self.length, self.p, self.q = np.full(m, np.inf), np.full((m, 2), np.nan), np.full((m, 2), np.nan)
 
-    def offer(self, k: Index, p: Array, q: Array, valid: Mask) -> None:
-        """Chords from p to q (len(k), 2) of the pairs k, where valid."""
-        length = np.hypot(*(q - p).T)
+    def offer(self, k: Index, p: Floats, q: Floats, valid: Mask, turned: bool = False) -> None:
+        """Chords from p to q (len(k), 2) of the pairs k, where valid; `turned` from q to p."""
+        p, q = (q, p) if turned else (p, q)
+        length = length_of(q - p)
         better = valid & (length > EXACT) & (length < self.length[k])
         self.length[k[better]], self.p[k[better]], self.q[k[better]] = length[better], p[better], q[better]
 
@@ -196,22 +180,20 @@ def chords(walls: Walls, i: Index, j: Index) -> Chords:
     """The shortest chord between walls i and j (m,); infinite where there is none."""
     c, best, every = walls.curves, _Best(len(i)), np.arange(len(i))
     one, two = c.take(i), c.take(j)
-    ends = [
-        (k, curve.end if last else curve.start, last, _own(walls, k, last))
-        for k, curve in ((i, one), (j, two))
-        for last in (False, True)
-    ]
+    ends = []  # walls, points, whether they are the last of the walls, and whether they are theirs
+    for k, curve in ((i, one), (j, two)):  # a vertex between two walls is that of the second
+        ends += [(k, curve.start, False, np.ones(len(k), dtype=bool)), (k, curve.end, True, ~_after(walls, k)[1])]
     for a, p, p_last, p_own in ends[:2]:
         for b, q, q_last, q_own in ends[2:]:
-            u = _unit(q - p)
+            u = unit_of(q - p)
             valid = p_own & q_own & _in_cone(walls, a, p_last, u) & _in_cone(walls, b, q_last, -u)
             best.offer(every, p, q, valid)
     for near_ends, b, curve, turned in ((ends[:2], j, two, False), (ends[2:], i, one, True)):
         for a, p, p_last, p_own in near_ends:
             q = foot(p, curve)
-            u = _unit(q - p)
-            valid = p_own & _on(q, curve) & _in_cone(walls, a, p_last, u) & (dot(u, _normal(walls, b, q)) < 0)
-            best.offer(every, *((q, p) if turned else (p, q)), valid)
+            u = unit_of(q - p)
+            valid = p_own & on(q, curve, SLACK) & _in_cone(walls, a, p_last, u) & (dot(u, _normal(walls, b, q)) < 0)
+            best.offer(every, p, q, valid, turned)
     _between_curves(walls, i, j, best)
     k = np.flatnonzero(np.isfinite(best.length))
     return Chords(i[k], j[k], best.p[k], best.q[k], best.length[k])
@@ -226,62 +208,48 @@ def _between_curves(walls: Walls, i: Index, j: Index, best: _Best) -> None:
         if len(k):
             arc, line = c.take(a[k]), c.take(b[k])
             q = foot(arc.centre, line)
-            p = arc.centre + arc.r[:, None] * _unit(q - arc.centre)
-            clear = np.hypot(*(q - arc.centre).T) > arc.r
-            valid = clear & _on(p, arc) & _on(q, line) & (dot(p - q, walls.n_in[b[k]]) > 0)
-            best.offer(k, *((q, p) if turned else (p, q)), valid)
+            p = arc.centre + arc.r[:, None] * unit_of(q - arc.centre)
+            clear = length_of(q - arc.centre) > arc.r
+            valid = clear & on(p, arc, SLACK) & on(q, line, SLACK) & (dot(p - q, walls.n_in[b[k]]) > 0)
+            best.offer(k, p, q, valid, turned)
         k = np.flatnonzero(away[a] & c.arc[b] & (~away[b] | (not turned)))  # the line of the centres
         if len(k):
             arc, other = c.take(a[k]), c.take(b[k])
             between, both = other.centre - arc.centre, away[b[k]]
-            apart = np.hypot(between[:, 0], between[:, 1])
+            apart = length_of(between)
             clear = np.where(both, apart > arc.r + other.r, apart + arc.r < other.r) & (apart > EXACT)
-            u = _unit(between) * np.where(both, 1.0, -1.0)[:, None]
+            u = unit_of(between) * np.where(both, 1.0, -1.0)[:, None]
             p = arc.centre + arc.r[:, None] * u
             q = other.centre + np.where(both, -other.r, other.r)[:, None] * u
-            best.offer(k, *((q, p) if turned else (p, q)), clear & _on(p, arc) & _on(q, other))
+            best.offer(k, p, q, clear & on(p, arc, SLACK) & on(q, other, SLACK), turned)
 
 
-def _own(walls: Walls, k: Index, last: bool) -> Mask:
-    """Whether the vertex at the start or the end belongs to walls k: a vertex between two is that of the second."""
-    if not last:
-        return np.ones(len(k), dtype=bool)
+def _after(walls: Walls, k: Index) -> tuple[Index, Mask]:
+    """The walls after walls k, and which of them begin where those end."""
     after = np.minimum(k + 1, len(walls.s) - 1)
-    return np.asarray(~(walls.joined[after] & (after > k)))
+    return after, walls.joined[after] & (after > k)
 
 
-def _unit(v: Array) -> Array:
-    length = np.hypot(v[:, 0], v[:, 1])
-    return np.asarray(v / np.where(length > 0, length, 1.0)[:, None])
-
-
-def _on(p: Array, curve: Curves) -> Mask:
-    where = share(p, curve)
-    return np.asarray((where >= -1e-12) & (where <= 1 + 1e-12) & np.isfinite(p[:, 0]))
-
-
-def _normal(walls: Walls, k: Index, at: Array) -> Array:
+def _normal(walls: Walls, k: Index, at: Floats) -> Floats:
     """The normals towards the tool of walls k at points (m, 2) on them."""
     c = walls.curves
     inward = (c.centre[k] - at) / c.r[k, None]
     return np.where(c.arc[k, None], (walls.s[k] * np.sign(c.sweep[k]))[:, None] * inward, walls.n_in[k])
 
 
-def _in_cone(walls: Walls, k: Index, last: bool, u: Array) -> Mask:
+def _in_cone(walls: Walls, k: Index, last: bool, u: Floats) -> Mask:
     """Whether directions u (m, 2) lie in the wedge between the normals at the end or the start of walls k.
 
     At an inside corner there is no wedge, only the normals themselves.
     """
     if last:
-        after = np.minimum(k + 1, len(walls.s) - 1)
-        follows = walls.joined[after] & (after > k)
+        after, follows = _after(walls, k)
         first, second = walls.n_out[k], np.where(follows[:, None], walls.n_in[after], walls.n_out[k])
     else:
         before = np.maximum(k - 1, 0)
         follows = walls.joined[k] & (before < k)
         first, second = np.where(follows[:, None], walls.n_out[before], walls.n_in[k]), walls.n_in[k]
-    from_first, to_second = cross(first, u), cross(u, second)
-    s = walls.s[k]
+    from_first, to_second, s = cross(first, u), cross(u, second), walls.s[k]
     wedge = (s * from_first <= EXACT) & (s * to_second <= EXACT) & (dot(u, first + second) >= -EXACT)
     along = (np.abs(from_first) <= EXACT) & (dot(first, u) > 0) | (np.abs(to_second) <= EXACT) & (dot(second, u) > 0)
     return np.asarray(wedge | along)

@@ -9,6 +9,7 @@ counter-clockwise, -1 for half a circle clockwise. Lengths in mm, angles in rad,
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -16,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mnclab.geometry.vectors import Floats, cross, left, length_of
+from mnclab.geometry.vectors import Floats, at_angle, cross, left, length_of, turned, unit_of
 from mnclab.geometry.whole_curves import Curve
 
 FULL_TURN = 2 * np.pi
@@ -56,8 +57,7 @@ class Contour:
     @classmethod
     def circle(cls, centre: ArrayLike, radius: float, start: float = 0.0, clockwise: bool = False) -> Contour:
         """The full circle that begins at the angle `start`, as two half circles."""
-        arm = abs(radius) * np.array([np.cos(start), np.sin(start)])
-        middle = np.asarray(centre, dtype=float)
+        arm, middle = abs(radius) * at_angle(start), np.asarray(centre, dtype=float)
         return cls([middle + arm, middle - arm], [-1.0, -1.0] if clockwise else [1.0, 1.0])
 
     def __repr__(self) -> str:
@@ -113,9 +113,7 @@ class Contour:
     @property
     def curves(self) -> list[Curve]:
         """The whole lines and circles on which the m elements lie."""
-        chords = self.ends - self.starts
-        units = chords / np.where(length_of(chords) > 0, length_of(chords), 1.0)[:, None]
-        rows = zip(self.starts, units, self.centres, self.radii, strict=True)
+        rows = zip(self.starts, unit_of(self.ends - self.starts), self.centres, self.radii, strict=True)
         return [Curve(s, u, r) if np.isinf(r) else Curve(c, u, r) for s, u, c, r in rows]
 
     def tangents(self) -> tuple[Floats, Floats]:
@@ -123,10 +121,7 @@ class Contour:
         return self._at(0.0)[1], self._at(1.0)[1]
 
     def turns(self) -> Floats:
-        """Angle by which the contour turns at the start of every element, + to the left, `(m,)`.
-
-        The first entry of an open contour is 0.
-        """
+        """Angle by which the contour turns at the start of every element, + to the left, 0 at an open start, `(m,)`."""
         begin, end = self.tangents()
         before = np.roll(end, 1, axis=0)
         angle: Floats = np.arctan2(cross(before, begin), (before * begin).sum(axis=1))
@@ -146,11 +141,9 @@ class Contour:
 
         The area within the chords, and for every arc the piece between it and its chord: r²·(s - sin s) / 2.
         """
-        p = self.points - self.points[0]
-        b = self.bulge
-        q = np.roll(p, -1, axis=0)
+        p, b = self.points - self.points[0], self.bulge
+        q, sweep = np.roll(p, -1, axis=0), 4 * np.arctan(b)
         chord2 = ((q - p) ** 2).sum(axis=1)
-        sweep = 4 * np.arctan(b)
         flat = np.abs(b) < 1e-3  # there the difference cancels; the series c²·b·(1 + b²/5) / 3 is exact
         with np.errstate(divide="ignore", invalid="ignore"):
             round_piece = chord2 * (1 + b * b) ** 2 / (32 * b * b) * (sweep - np.sin(sweep))
@@ -160,9 +153,9 @@ class Contour:
     @property
     def bounds(self) -> Floats:
         """Lower left and upper right corner, `(2, 2)`; arcs bulge out to their quadrant points."""
-        east_north = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
         bent = self.sweeps != 0
-        quadrants = self.centres[bent, None] + self.radii[bent, None, None] * east_north
+        axes = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
+        quadrants = self.centres[bent, None] + self.radii[bent, None, None] * axes
         first, sweep = self._first_angles()[bent, None], self.sweeps[bent, None]
         ahead = _ahead(np.arange(4) * np.pi / 2, first, sweep)
         corners = np.vstack([self.points, quadrants[ahead <= np.abs(sweep)]])
@@ -181,9 +174,7 @@ class Contour:
         """
         frame = np.asarray(matrix, dtype=float)
         turn, shift = frame[:2, :2], frame[:2, -1]
-        gram = turn.T @ turn
-        alike = np.allclose(gram, gram[0, 0] * np.eye(2), rtol=1e-9, atol=1e-9 * np.trace(gram))
-        if self.bulge.any() and not alike:
+        if self.bulge.any() and not keeps_circles(turn):
             raise ValueError("an arc stays an arc only under equal scales and without a tilt of its plane")
         sign = -1.0 if np.linalg.det(turn) < 0 else 1.0
         return Contour(self.points @ turn.T + shift, sign * self.bulge, self.closed)
@@ -214,10 +205,7 @@ class Contour:
 
     def distance(self, points: ArrayLike) -> Floats:
         """Distance of the contour from each of the points `(k, 2)`, never negative, `(k,)`."""
-        spots = np.asarray(points, dtype=float).reshape(-1, 2)
-        block = max(1, 2_000_000 // len(self.starts))  # points by elements must fit into memory
-        near = [self._feet(spots[i : i + block])[0].min(axis=1) for i in range(0, len(spots), block)]
-        return np.concatenate(near) if near else np.zeros(0)
+        return np.concatenate([self._feet(spots)[0].min(axis=1) for spots in self._blocks(points)])
 
     def nearest(self, point: ArrayLike) -> float:
         """The way along the contour to its point nearest to `point` (the first of several)."""
@@ -227,27 +215,19 @@ class Contour:
 
     def nearest_points(self, points: ArrayLike) -> Floats:
         """The point of the contour nearest to each of the points `(k, 2)`, `(k, 2)`."""
-        spots = np.asarray(points, dtype=float).reshape(-1, 2)
-        block = max(1, 2_000_000 // len(self.starts))
-        feet = [np.zeros((0, 2))]
-        for i in range(0, len(spots), block):
-            off, fraction = self._feet(spots[i : i + block])
+        feet = []
+        for spots in self._blocks(points):
+            off, fraction = self._feet(spots)
             element = off.argmin(axis=1)
             feet.append(self._at(fraction[np.arange(len(element)), element], element)[0])
         return np.vstack(feet)
 
     def winding(self, points: ArrayLike) -> NDArray[np.int_]:
         """Rounds of a closed contour about each of the points `(k, 2)`, + counter-clockwise, `(k,)`."""
-        spots = np.asarray(points, dtype=float).reshape(-1, 2)
-        block = max(1, 2_000_000 // len(self.points))
-        rounds = [self._winding(spots[i : i + block]) for i in range(0, len(spots), block)]
-        return np.concatenate(rounds) if rounds else np.zeros(0, dtype=int)
+        return np.concatenate([self._winding(spots) for spots in self._blocks(points)])
 
     def started_at(self, distance: float) -> Contour:
-        """The same closed contour begun after a way along it; the element met there is split in two.
-
-        A circle of two halves is two halves again.
-        """
+        """The same closed contour begun after a way along it; the element met there is split, but of a circle in halves."""
         if not self.closed:
             raise ValueError("only a closed contour can begin anywhere")
         elements, fractions = self._element_at(np.array([float(distance)]))
@@ -263,13 +243,14 @@ class Contour:
         bulge[[0, -1]] = np.tan(self.sweeps[i] * np.array([1 - u, u]) / 4)
         return Contour(points, bulge)
 
-    # ---- beneath ----
+    def _blocks(self, points: ArrayLike) -> Iterator[Floats]:
+        """Points `(k, 2)` in blocks, one at least: points by elements must fit into memory."""
+        spots = np.asarray(points, dtype=float).reshape(-1, 2)
+        size = max(1, 2_000_000 // len(self.starts))
+        return (spots[i : i + size] for i in range(0, max(1, len(spots)), size))
 
     def _winding(self, spots: Floats) -> NDArray[np.int_]:
-        """Rounds of the chords, and of the pieces between each arc and its chord.
-
-        A spot on a chord must lie on one side of it for both: it counts as shifted a little along +x.
-        """
+        """Rounds of the chords and of the pieces between arcs and chords; a spot on a chord counts as a little farther in x."""
         to, chord, sweep = spots[:, None] - self.starts, self.ends - self.starts, self.sweeps
         side, y = cross(chord, to), spots[:, 1, None]
         low, high = self.starts[:, 1], self.ends[:, 1]
@@ -306,10 +287,9 @@ class Contour:
         u = np.broadcast_to(np.asarray(fraction, dtype=float), s.shape)
         bent = np.abs(s) > 1e-8
         ratio = np.divide(np.sin(u * s / 2), np.sin(s / 2), out=u.copy(), where=bent)
-        place = self.starts[pick] + ratio[:, None] * _turned(chord, (u - 1) * s / 2)
+        place = self.starts[pick] + ratio[:, None] * turned(chord, (u - 1) * s / 2)
         place = np.where((u == 1.0)[:, None], self.ends[pick], place)
-        size = length_of(chord)[:, None]
-        return place, _turned(chord, (u - 0.5) * s) / np.where(size > 0, size, 1.0)
+        return place, turned(chord, (u - 0.5) * s) / np.maximum(length_of(chord), 1e-300)[:, None]
 
     def _feet(self, spots: Floats) -> tuple[Floats, Floats]:
         """Distance and fraction of the foot on each of m elements for each of k spots, `(k, m)` each."""
@@ -329,21 +309,19 @@ class Contour:
         return off, u
 
 
+def keeps_circles(matrix: Floats) -> bool:
+    """Whether a 2×2 matrix makes circles of circles."""
+    gram = matrix.T @ matrix
+    return np.allclose(gram, gram[0, 0] * np.eye(2), rtol=1e-9, atol=1e-9 * np.trace(gram))
+
+
 def steps_within(radii: Floats, sweeps: Floats, chord_error: float) -> NDArray[np.intp]:
     """Into how many chords each element is cut; one over the angle a is off by 2·r·sin²(a/4)."""
     if not chord_error > 0:
         raise ValueError(f"the chord error must be greater than 0, got {chord_error}")
     largest = 4 * np.arcsin(np.sqrt(np.minimum(chord_error / (2 * np.maximum(radii, 1e-300)), 0.5)))
-    bent = sweeps != 0
-    chords = np.ones_like(sweeps)
-    np.divide(np.abs(sweeps), largest, out=chords, where=bent)
+    chords = np.divide(np.abs(sweeps), largest, out=np.ones_like(sweeps), where=sweeps != 0)
     return np.maximum(np.ceil(chords - 1e-9), 1.0).astype(np.intp)
-
-
-def _turned(vectors: Floats, angle: Floats) -> Floats:
-    c, s = np.cos(angle), np.sin(angle)
-    x, y = vectors[..., 0], vectors[..., 1]
-    return np.stack([c * x - s * y, s * x + c * y], axis=-1)
 
 
 def _ahead(angle: Floats, first: Floats, sweep: Floats) -> Floats:

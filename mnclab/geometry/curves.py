@@ -8,9 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import Element, meetings
-from mnclab.geometry.vectors import cross, dot
-
-Array = NDArray[np.float64]
+from mnclab.geometry.vectors import Floats, cross, dot, length_of, turned
 
 SLACK = 1e-9  # of a curve: beyond its ends a point is still on it
 
@@ -18,28 +16,25 @@ SLACK = 1e-9  # of a curve: beyond its ends a point is still on it
 class Curves(NamedTuple):
     """n lines and arcs: `start`, `end`, `centre` (n, 2) mm, radius `r` (n,), nan for lines, `sweep` (n,) rad."""
 
-    start: Array
-    end: Array
-    centre: Array
-    r: Array
-    sweep: Array
+    start: Floats
+    end: Floats
+    centre: Floats
+    r: Floats
+    sweep: Floats
 
     @property
     def arc(self) -> NDArray[np.bool_]:
-        """Which of them are arcs (n,)."""
         return ~np.isnan(self.r)
 
     def take(self, k: NDArray[np.int64] | NDArray[np.bool_]) -> Curves:
-        """Some of them."""
         return Curves(*(column[k] for column in self))
 
 
-def share(p: Array, curve: Curves) -> Array:
+def share(p: Floats, curve: Curves) -> Floats:
     """Where the point of a curve nearest to p (n, 2) lies, 0 at its start and 1 at its end; beyond is not on it.
 
-    A curve without length has no such point: nan or infinite, by which p is on none of it; its ends count alone.
-
-    For an arc the foot is where the ray from its centre through p meets its circle.
+    For an arc it is where the ray from its centre through p meets its circle. A curve without length has no such point:
+    nan or infinite, by which p is on none of it; its ends count alone.
     """
     travel = curve.end - curve.start
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -49,8 +44,7 @@ def share(p: Array, curve: Curves) -> Array:
         a, b = curve.start[k] - curve.centre[k], p[k] - curve.centre[k]
         sense, sweep = np.sign(curve.sweep[k]), np.abs(curve.sweep[k])
         angle = np.arctan2(cross(a, b), dot(a, b)) * sense
-        # seen from the middle of the arc, so that what lies before the start is negative
-        half = sweep / 2
+        half = sweep / 2  # seen from the middle of the arc, what lies before the start is negative
         angle = (angle - half + np.pi) % (2 * np.pi) - np.pi + half
         angle = np.where(sweep >= 2 * np.pi, np.minimum(np.maximum(angle, 0), sweep), angle)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -58,7 +52,7 @@ def share(p: Array, curve: Curves) -> Array:
     return np.asarray(found)
 
 
-def foot(p: Array, curve: Curves) -> Array:
+def foot(p: Floats, curve: Curves) -> Floats:
     """The point (n, 2) of the whole line or circle nearest to p (n, 2); for the centre of an arc nan."""
     travel = curve.end - curve.start
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -66,54 +60,53 @@ def foot(p: Array, curve: Curves) -> Array:
         k = np.flatnonzero(curve.arc)
         if len(k):
             spoke = p[k] - curve.centre[k]
-            found[k] = curve.centre[k] + spoke * (curve.r[k] / np.hypot(spoke[:, 0], spoke[:, 1]))[:, None]
+            found[k] = curve.centre[k] + spoke * (curve.r[k] / length_of(spoke))[:, None]
     return found
 
 
-def distance(p: Array, curve: Curves) -> Array:
+def distance(p: Floats, curve: Curves) -> Floats:
     """Distance (n,) of points p (n, 2) from curves, each from its own."""
-    at_ends = np.minimum(np.hypot(*(p - curve.start).T), np.hypot(*(p - curve.end).T))
+    at_ends = np.minimum(length_of(p - curve.start), length_of(p - curve.end))
     where = share(p, curve)
-    beside = np.hypot(*(p - foot(p, curve)).T)
+    beside = length_of(p - foot(p, curve))
     on = (where >= 0) & (where <= 1) & np.isfinite(beside)
     return np.asarray(np.where(on, np.minimum(beside, at_ends), at_ends))
 
 
-def gap(a: Curves, b: Curves) -> Array:
+def gap(a: Curves, b: Curves) -> Floats:
     """The least distance (n,) between curves a and b, each from its own; 0 where they cross."""
-    least = np.minimum(distance(a.start, b), distance(a.end, b))
-    least = np.minimum(least, np.minimum(distance(b.start, a), distance(b.end, a)))
+    ends = distance(a.start, b), distance(a.end, b), distance(b.start, a), distance(b.end, a)
+    least = np.minimum.reduce(ends)
     for p in crossings(a, b):
         least[np.isfinite(p[:, 0])] = 0.0
     for one, other in ((a, b), (b, a)):
         k = np.flatnonzero(one.arc)
         if len(k):  # square to both: through the centre of the arc
             arc, curve = one.take(k), other.take(k)
-            for q in _square(arc.centre, curve):
-                p = _toward(arc, q)
-                there = _on(q, curve) & _on(p, arc)
-                least[k] = np.where(there, np.minimum(least[k], np.hypot(*(q - p).T)), least[k])
+            near = foot(arc.centre, curve)
+            for q in (near, np.where(curve.arc[:, None], 2 * curve.centre - near, near)):
+                p = foot(q, arc)
+                there = on(q, curve) & on(p, arc)
+                least[k] = np.where(there, np.minimum(least[k], length_of(q - p)), least[k])
     return least
 
 
-def part(curve: Curves, begin: Array, end: Array) -> Curves:
+def part(curve: Curves, begin: Floats, end: Floats) -> Curves:
     """What lies between two shares (n,) of curves, 0 at their start and 1 at their end."""
     travel, turn = curve.end - curve.start, np.where(curve.arc, curve.sweep, 0.0)
 
-    def at(where: Array) -> Array:
-        angle = turn * where
-        spoke, cos, sin = curve.start - curve.centre, np.cos(angle), np.sin(angle)
-        turned = np.stack([spoke[:, 0] * cos - spoke[:, 1] * sin, spoke[:, 0] * sin + spoke[:, 1] * cos], axis=1)
-        return np.where(curve.arc[:, None], curve.centre + turned, curve.start + travel * where[:, None])
+    def at(where: Floats) -> Floats:
+        spoke = turned(curve.start - curve.centre, turn * where)
+        return np.where(curve.arc[:, None], curve.centre + spoke, curve.start + travel * where[:, None])
 
     return Curves(at(begin), at(end), curve.centre, curve.r, curve.sweep * (end - begin))
 
 
-def crossings(a: Curves, b: Curves) -> tuple[Array, Array]:
+def crossings(a: Curves, b: Curves) -> tuple[Floats, Floats]:
     """The common points (n, 2) of curves a and b, at most two of each pair; nan where there is none."""
     found = meetings(_whole(a), _whole(b))
     for p in found:
-        p[~(_on(p, a) & _on(p, b))] = np.nan
+        p[~(on(p, a) & on(p, b))] = np.nan
     return found
 
 
@@ -121,22 +114,10 @@ def _whole(curve: Curves) -> Element:
     """The whole line or circle."""
     travel = curve.end - curve.start
     with np.errstate(divide="ignore", invalid="ignore"):
-        return Element(curve.start, travel / np.hypot(travel[:, 0], travel[:, 1])[:, None], curve.centre, curve.r)
+        return Element(curve.start, travel / length_of(travel)[:, None], curve.centre, curve.r)
 
 
-def _on(p: Array, curve: Curves) -> NDArray[np.bool_]:
+def on(p: Floats, curve: Curves, slack: float = SLACK) -> NDArray[np.bool_]:
+    """Whether points p (n, 2) of the whole lines and circles lie on the curves themselves."""
     where = share(p, curve)
-    return np.asarray((where >= -SLACK) & (where <= 1 + SLACK) & np.isfinite(p[:, 0]))
-
-
-def _square(centre: Array, curve: Curves) -> tuple[Array, Array]:
-    """Where lines through `centre` (n, 2) meet the whole curves at a right angle: near points and far ones (n, 2)."""
-    near = foot(centre, curve)
-    return near, np.where(curve.arc[:, None], 2 * curve.centre - near, near)
-
-
-def _toward(arc: Curves, q: Array) -> Array:
-    """The points (n, 2) of the whole circles on the side of q (n, 2)."""
-    spoke = q - arc.centre
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(arc.centre + spoke * (arc.r / np.hypot(spoke[:, 0], spoke[:, 1]))[:, None])
+    return np.asarray((where >= -slack) & (where <= 1 + slack) & np.isfinite(p[:, 0]))

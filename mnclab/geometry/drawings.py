@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import reduce
 
 import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
+from mnclab.geometry.vectors import length_of
 
 SAME = 1e-3  # mm, below which ends of a drawing count as one point
 
@@ -23,13 +25,9 @@ def area_of(contours: Iterable[Contour], tolerance: float = SAME) -> Region:
         raise ValueError("the drawing has no closed contour")
     within = np.array([loop.winding([other.points[0] for other in loops]) != 0 for loop in loops])
     depth = within.sum(axis=0) - np.diag(within)
-    found = Region()
-    for level in range(0, int(depth.max()) + 1, 2):
-        outer = [loop for loop, d in zip(loops, depth, strict=True) if d == level]
-        holes = [loop for loop, d in zip(loops, depth, strict=True) if d == level + 1]
-        piece = Region.of(*outer, holes=holes)
-        found = found.union(piece) if level else piece
-    return found
+    levels = [[loop for loop, d in zip(loops, depth, strict=True) if d == level] for level in range(depth.max() + 2)]
+    pieces = [Region.of(*outer, holes=holes) for outer, holes in zip(levels[::2], levels[1::2])]
+    return reduce(Region.union, pieces)
 
 
 def joined(contours: Iterable[Contour], tolerance: float = SAME) -> list[Contour]:
@@ -40,16 +38,14 @@ def joined(contours: Iterable[Contour], tolerance: float = SAME) -> list[Contour
         chain = [loose.pop(0)]
         while True:
             tail, head = chain[-1].points[-1], chain[0].points[0]
-            if np.hypot(*(tail - head)) <= tolerance and (len(chain) > 1 or len(chain[0].starts) > 1):
-                closed.append(_strung(chain, True))
-                break
-            k = _meeting(loose, tail, tolerance)
+            is_round = length_of(tail - head) <= tolerance and (len(chain) > 1 or len(chain[0].starts) > 1)
+            k = None if is_round else _meeting(loose, tail, tolerance)
             if k is None:
-                closed.append(_strung(chain, False))
                 break
             following = loose.pop(k)
-            near = np.hypot(*(following.points[0] - tail)) <= tolerance
+            near = length_of(following.points[0] - tail) <= tolerance
             chain.append(following if near else following.reversed())
+        closed.append(_strung(chain, bool(is_round)))
     return closed
 
 
@@ -57,7 +53,7 @@ def _meeting(loose: Sequence[Contour], tail: np.ndarray, tolerance: float) -> in
     if not loose:
         return None
     ends = np.array([[contour.points[0], contour.points[-1]] for contour in loose])
-    away = np.hypot(*np.moveaxis(ends - tail, -1, 0)).min(axis=1)
+    away = length_of(ends - tail).min(axis=1)
     k = int(away.argmin())
     return k if away[k] <= tolerance else None
 

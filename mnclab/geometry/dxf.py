@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.vectors import at_angle
 from mnclab.text.extras import require
 from mnclab.text.file import read
 
@@ -38,15 +39,9 @@ def contours(source: str | Path, tolerance: float = 0.01, layer: str | None = No
     except (ezdxf.DXFError, UnicodeDecodeError, OSError) as error:
         raise ValueError(f"{source} is no DXF: {error}") from None
     scale = TO_MM.get(int(drawing.header.get("$INSUNITS", 0)), 1.0)
-    found = []
-    for entity in drawing.modelspace():
-        if layer is None or entity.dxf.layer == layer:
-            found += [_scaled(contour, scale) for contour in _contours(entity, tolerance / scale)]
-    return found
-
-
-def _scaled(contour: Contour, scale: float) -> Contour:
-    return contour if scale == 1.0 else Contour(contour.points * scale, contour.bulge, contour.closed)
+    entities = [entity for entity in drawing.modelspace() if layer is None or entity.dxf.layer == layer]
+    found = [contour for entity in entities for contour in _contours(entity, tolerance / scale)]
+    return [Contour(contour.points * scale, contour.bulge, contour.closed) for contour in found]
 
 
 def _contours(entity: Any, tolerance: float) -> Iterator[Contour]:
@@ -58,17 +53,14 @@ def _contours(entity: Any, tolerance: float) -> Iterator[Contour]:
     elif kind == "ARC":
         first, last = np.radians([entity.dxf.start_angle, entity.dxf.end_angle])
         sweep = np.mod(last - first, 2 * np.pi) or 2 * np.pi
-        bulge = float(np.tan(sweep / 8))
-        mirrored = entity.dxf.extrusion.z < 0
-        ways = first + sweep * np.array([0, 0.5, 1])
-        spots = [entity.ocs().to_wcs(entity.dxf.center + _arm(entity.dxf.radius, way)) for way in ways]
-        bent = [-bulge, -bulge, 0.0] if mirrored else [bulge, bulge, 0.0]
-        yield Contour([_flat(spot) for spot in spots], bent, closed=False)
+        bulge = float(np.tan(sweep / 8)) * _side(entity)
+        arms = entity.dxf.radius * at_angle(first + sweep * np.array([0, 0.5, 1]))
+        spots = [entity.ocs().to_wcs(entity.dxf.center + (x, y, 0.0)) for x, y in arms.tolist()]
+        yield Contour([_flat(spot) for spot in spots], [bulge, bulge, 0.0], closed=False)
     elif kind == "LWPOLYLINE":
         rows = np.array(entity.get_points("xyb"), dtype=float).reshape(-1, 3)
         if len(rows) > 1:
-            sign = -1.0 if entity.dxf.extrusion.z < 0 else 1.0
-            yield Contour(rows[:, :2] * (sign, 1.0), sign * rows[:, 2], closed=bool(entity.closed))
+            yield Contour(rows[:, :2] * (_side(entity), 1.0), _side(entity) * rows[:, 2], closed=bool(entity.closed))
     elif kind == "POLYLINE" and entity.is_2d_polyline:
         rows = np.array([(*_flat(v.dxf.location), v.dxf.bulge) for v in entity.vertices], dtype=float).reshape(-1, 3)
         if len(rows) > 1:
@@ -79,8 +71,9 @@ def _contours(entity: Any, tolerance: float) -> Iterator[Contour]:
         yield Contour(points[:-1] if closed else points, closed=closed)
 
 
-def _arm(radius: float, way: float) -> tuple[float, float, float]:
-    return float(radius * np.cos(way)), float(radius * np.sin(way)), 0.0
+def _side(entity: Any) -> float:
+    """-1 for what is seen from behind."""
+    return -1.0 if entity.dxf.extrusion.z < 0 else 1.0
 
 
 def _flat(point: Any) -> tuple[float, float]:

@@ -6,6 +6,8 @@ A frame maps local coordinates to outer ones: `outer = M @ (x, y, z, 1)`. Length
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import reduce
+from itertools import takewhile
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -60,9 +62,8 @@ def apply(matrix: Matrix, points: ArrayLike) -> NDArray[np.float64]:
     and a million give the same figures. A coordinate that is nan spoils only those that depend on it.
     """
     xyz = np.moveaxis(np.asarray(points, dtype=np.float64), -1, 0)
-    return np.stack(
-        [sum(f * p for f, p in zip(row, xyz, strict=False) if f) + row[3] for row in matrix[:3].tolist()], -1
-    )
+    rows = matrix[:3].tolist()
+    return np.stack([sum(f * p for f, p in zip(row, xyz, strict=False) if f) + row[3] for row in rows], -1)
 
 
 def inverse(matrix: Matrix) -> Matrix:
@@ -121,22 +122,14 @@ class FrameChain:
     @property
     def matrix(self) -> Matrix:
         """The product of all frames: local to outermost coordinates."""
-        product = IDENTITY
-        for frame in self._frames.values():
-            product = product @ frame
-        return product
+        return reduce(np.matmul, self._frames.values(), IDENTITY)
 
     def before(self, name: str) -> Matrix:
         """The product of the frames outside `name`."""
-        product = IDENTITY
-        for key, frame in self._frames.items():
-            if key == name:
-                break
-            product = product @ frame
-        return product
+        outside = takewhile(lambda item: item[0] != name, self)
+        return reduce(np.matmul, (frame for _, frame in outside), IDENTITY)
 
     def copy(self) -> FrameChain:
-        """A chain of its own with the same frames."""
         twin = FrameChain(self.slots)
         twin._frames = dict(self._frames)
         return twin

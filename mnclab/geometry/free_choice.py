@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mnclab.geometry.arcs import sweep_of_one
 from mnclab.geometry.curves import Curves, distance
 from mnclab.geometry.free_contour import Piece
+from mnclab.geometry.vectors import Floats, cross, length_of, turned
 
-Array = NDArray[np.float64]
 CLOSED = 1e-3  # mm between the end and the start of a closed contour
 STEPS = 48  # chords of an element
 ALONG = 1e-6  # mm: a point inside one element as near to another lies on it
 
 
-def outline(pieces: Sequence[Piece]) -> Array:
+def outline(pieces: Sequence[Piece]) -> Floats:
     """Points (n, STEPS + 1, 2) along n elements, from start to end."""
     shares = np.linspace(0, 1, STEPS + 1)[:, None]
     found = []
@@ -26,11 +25,8 @@ def outline(pieces: Sequence[Piece]) -> Array:
         if piece.centre is None:
             found.append(start + shares * (end - start))
             continue
-        angle = sweep_of_one(piece.start, piece.end, piece.centre, piece.sense) * shares
-        x, y = start - piece.centre
-        found.append(
-            piece.centre + np.hstack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)])
-        )
+        angle = sweep_of_one(piece.start, piece.end, piece.centre, piece.sense) * shares[:, 0]
+        found.append(piece.centre + turned(start - piece.centre, angle))
     return np.array(found)
 
 
@@ -55,21 +51,15 @@ def crosses_itself(pieces: Sequence[Piece]) -> bool:
     for k, other in np.argwhere(near & ~np.eye(len(points), dtype=bool)):
         a, b = points[k, :-1, None], points[k, 1:, None]
         c, d = points[other, :-1], points[other, 1:]
-        if ((_side(a, b, c) * _side(a, b, d) < -apart) & (_side(c, d, a) * _side(c, d, b) < -apart)).any():
-            return True
-        if (distance(points[k, 1:-1], curves.take(np.full(STEPS - 1, other))) < ALONG).any():
+        across = cross(b - a, c - a) * cross(b - a, d - a) < -apart  # c and d on two sides of a -> b
+        across &= cross(d - c, a - c) * cross(d - c, b - c) < -apart
+        if across.any() or (distance(points[k, 1:-1], curves.take(np.full(STEPS - 1, other))) < ALONG).any():
             return True
     return False
-
-
-def _side(p: Array, q: Array, r: Array) -> Array:
-    """Positive where r lies to the left of p -> q."""
-    u, v = q - p, r - p
-    return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
 
 
 def _curves(pieces: Sequence[Piece]) -> Curves:
     start, end = (np.array([getattr(piece, name) for piece in pieces]) for name in ("start", "end"))
     centre = np.array([piece.centre or (np.nan, np.nan) for piece in pieces])
     sweep = [sweep_of_one(p.start, p.end, p.centre, p.sense) if p.centre else 0.0 for p in pieces]
-    return Curves(start, end, centre, np.hypot(*(start - centre).T), np.array(sweep))
+    return Curves(start, end, centre, length_of(start - centre), np.array(sweep))

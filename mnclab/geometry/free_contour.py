@@ -35,15 +35,12 @@ class Pair(NamedTuple):
         return Pair(self.x - other.x, self.y - other.y)
 
     def dot(self, other: Pair) -> Form:
-        """The scalar product."""
         return self.x * other.x + self.y * other.y
 
     def times(self, factor: Form | float) -> Pair:
-        """Stretched."""
         return Pair(self.x * factor, self.y * factor)
 
     def turned(self, angle: float) -> Pair:
-        """Turned counter-clockwise by an angle, rad."""
         c, s = float(np.cos(angle)), float(np.sin(angle))
         return Pair(self.x * c - self.y * s, self.x * s + self.y * c)
 
@@ -68,6 +65,12 @@ class Element(NamedTuple):
     centre: Pair | None = None
     radius: Form = Form()
 
+    @property
+    def middle(self) -> Pair:
+        """The centre of what is known to be an arc."""
+        assert self.centre is not None
+        return self.centre
+
 
 class Piece(NamedTuple):
     """A solved element: `centre` is None for a line, `sense` +1 for a counter-clockwise arc, -1 for a clockwise one."""
@@ -89,8 +92,6 @@ class FreeContour(Readings):
         self.arriving = None if heading is None else normal_of(heading)
         self.size = max(1.0, abs(start[0]), abs(start[1]))
 
-    # --- telling what is known ------------------------------------------------------------------------------------------
-
     def unknown_pair(self, place: float, dim: int = 1) -> Pair:
         """Two unknowns: a point, or with `dim` 0 a unit vector."""
         pair = Pair(self.unknown(place, dim), self.unknown(place, dim))
@@ -99,12 +100,10 @@ class FreeContour(Readings):
         return pair
 
     def same(self, a: Pair, b: Pair, label: Label) -> None:
-        """Two points or vectors are equal."""
         self.equal(a.x - b.x, label)
         self.equal(a.y - b.y, label)
 
     def line(self, tangent: bool = False, label: Label = None) -> int:
-        """A straight line; its number."""
         k, start = len(self.elements), self.end()
         end = self.unknown_pair(2 * k + 2)
         before = self.elements[-1] if self.elements else None
@@ -126,19 +125,17 @@ class FreeContour(Readings):
         return k
 
     def arc(self, tangent: bool = False, label: Label = None) -> int:
-        """A circular arc; its number."""
         k, start = len(self.elements), self.end()
         end, centre, radius = self.unknown_pair(2 * k + 2), self.unknown_pair(2 * k + 1), self.unknown(2 * k + 1)
         before = self.elements[-1] if self.elements else None
         self.elements.append(Element(start, end, centre=centre, radius=radius))
         for point in (start, end):
-            self.on_circle(k, point, label)
+            self.through(k, point, label)
         if tangent:
             normal = self.arriving if before is None else before.normal
             if before and before.centre is not None:
                 normal = self.normal(k - 1, at_end=True)
-                apart = before.centre - centre
-                difference = before.radius - radius
+                apart, difference = before.centre - centre, before.radius - radius
                 self.equal(apart.dot(apart) - difference * difference, label)
             elif before and before.normal:
                 self.equal(before.normal.dot(centre) - before.offset - radius, label)
@@ -157,10 +154,9 @@ class FreeContour(Readings):
         if element.normal is not None:
             return element.normal
         if (k, at_end) not in self.normals:
-            assert element.centre is not None
             normal = self.normals[k, at_end] = self.unknown_pair(2 * k + (1.5 if at_end else 0.5), 0)
             point = element.end if at_end else element.start
-            self.same(point, element.centre - normal.times(element.radius), None)
+            self.same(point, element.middle - normal.times(element.radius), None)
         return self.normals[k, at_end]
 
     def direction(self, k: int, normal: Pair, label: Label) -> None:
@@ -186,20 +182,14 @@ class FreeContour(Readings):
             self.either([[radius - value], [radius + value]], 2 * k + 1.9, label)
         self.size = max(self.size, value)
 
-    def on_circle(self, k: int, point: Pair, label: Label) -> None:
-        """A point of the circle of an arc."""
-        centre, radius = self.elements[k].centre, self.elements[k].radius
-        assert centre is not None
-        spoke = point - centre
-        self.equal(spoke.dot(spoke) - radius * radius, label)
-
     def through(self, k: int, point: Pair, label: Label) -> None:
         """A point of an element, or of the line or circle that carries it."""
         element = self.elements[k]
-        if element.normal is None:
-            self.on_circle(k, point, label)
-        else:
+        if element.normal is not None:
             self.equal(element.normal.dot(point) - element.offset, label)
+        else:
+            spoke = point - element.middle
+            self.equal(spoke.dot(spoke) - element.radius * element.radius, label)
 
     def beside(self, k: int, point: Pair, distance: float, label: Label) -> None:
         """An element passes a point at a distance, mm, on either side: a line first to the right of it."""
@@ -208,12 +198,8 @@ class FreeContour(Readings):
         if element.normal is not None:
             forms = [[element.normal.dot(point) - element.offset - shift] for shift in shifts]
         else:
-            assert element.centre is not None
-            spoke = point - element.centre
-            forms = []
-            for shift in shifts:
-                reach = element.radius + shift
-                forms.append([spoke.dot(spoke) - reach * reach])
+            spoke, reaches = point - element.middle, [element.radius + shift for shift in shifts]
+            forms = [[spoke.dot(spoke) - reach * reach] for reach in reaches]
         self.either(forms, 2 * k + 1.8, label)
         self.size = max(self.size, distance)
 
@@ -237,18 +223,14 @@ class FreeContour(Readings):
     def central_angle(self, k: int, angle: float, sign: int, label: Label) -> None:
         """An arc turns by an angle (rad, positive) in its sense."""
         element = self.elements[k]
-        assert element.centre is not None
-        a, b = element.start - element.centre, element.end - element.centre
-        self.same(b, a.turned(sign * angle), label)
-
-    # --- readings -------------------------------------------------------------------------------------------------------
+        spoke = element.start - element.middle
+        self.same(element.end - element.middle, spoke.turned(sign * angle), label)
 
     def order_of(self, place: float) -> float:
-        """Elements come in the order of the chain, a joint behind the elements on both its sides."""
+        """A joint comes behind the elements on both its sides."""
         return place + 1.95 if place % 2 == 0 else place
 
     def rank(self, values: Array, before: Array, window: Sequence[int]) -> list[float]:
-        """What solutions of a window are sorted by: see the module."""
         for i in window:
             joint, odd = divmod(self.places[i], 2)
             if odd or not self.dims[i]:

@@ -33,9 +33,8 @@ _TURN = np.array([[np.cos(0.7), -np.sin(0.7)], [np.sin(0.7), np.cos(0.7)]])
 def conics(first: Conic, second: Conic) -> list[Array] | None:
     """Where two conics xᵀAx + bx + c = 0 meet, points (2,): roots of the resultant of degree four, polished.
 
-    A point may come more than once. None when they have a curve in common.
-
-    The axes are turned so that two of the points hardly ever lie above each other.
+    A point may come more than once. None when they have a curve in common. The axes are turned so that two of the points
+    hardly ever lie above each other.
     """
     (a1, b1, c1), (a2, b2, c2) = ((_TURN.T @ a @ _TURN, b @ _TURN, c) for a, b, c in (first, second))
     p1, p2 = (np.array([a[1, 1]]) for a in (a1, a2))  # p y² + q(x) y + r(x), highest powers of x first
@@ -46,13 +45,13 @@ def conics(first: Conic, second: Conic) -> list[Array] | None:
     resultant[np.abs(resultant) < 1e-14 * np.abs(resultant).max()] = 0
     if not resultant.any():
         return None
-    found = []
-    for x in np.roots(resultant):
-        if abs(x.imag) > 1e-3 * (1 + abs(x)):
-            continue
-        for p, q, r in ((p1, q1, r1), (p2, q2, r2)):
-            for y in np.roots([p[0], np.polyval(q, x.real), np.polyval(r, x.real)]):
-                found.append([x.real, y.real])
+    nearly_real = [x.real for x in np.roots(resultant) if abs(x.imag) <= 1e-3 * (1 + abs(x))]
+    found = [
+        [x, y.real]
+        for x in nearly_real
+        for p, q, r in ((p1, q1, r1), (p2, q2, r2))
+        for y in np.roots([p[0], np.polyval(q, x), np.polyval(r, x)])
+    ]
     if not found:
         return []
     a, b, c = np.array([a1, a2]), np.array([b1, b2]), np.array([c1, c2])
@@ -70,9 +69,8 @@ def newton_from(
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Solutions (m, v) of xᵀAx + bx + c = 0 (k equations) reached from starts (n, v), and which of them are single (m,).
 
-    Levenberg's damping fades with the residual, so that the last steps are Newton's. Of many starts, for which `work`
-    is counted, those that have arrived rest; at a solution
-    that is not single steps stay long, and only many of them show what it is.
+    Levenberg's damping fades with the residual, so that the last steps are Newton's. Of many starts, for which `work` is
+    counted, those that have arrived rest; at a solution that is not single steps stay long, and only many show what it is.
     """
     x, (k, v) = starts.copy(), b.shape
     eye = np.eye(v)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from itertools import product
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Key = TypeVar("Key", bound=Hashable)
 
 
 class Form:
@@ -24,11 +27,7 @@ class Form:
     def __add__(self, other: Form | float) -> Form:
         if not isinstance(other, Form):
             return Form(self.const + other, self.linear, self.square)
-        linear, square = dict(self.linear), dict(self.square)
-        for i, a in other.linear.items():
-            linear[i] = linear.get(i, 0.0) + a
-        for ij, a in other.square.items():
-            square[ij] = square.get(ij, 0.0) + a
+        linear, square = _added(self.linear, other.linear.items()), _added(self.square, other.square.items())
         return Form(self.const + other.const, linear, square)
 
     __radd__ = __add__
@@ -45,31 +44,22 @@ class Form:
     def __mul__(self, other: Form | float) -> Form:
         """The product; both factors must be linear unless one is a number."""
         if not isinstance(other, Form):
-            return Form(
-                self.const * other,
-                {i: a * other for i, a in self.linear.items()},
-                {ij: a * other for ij, a in self.square.items()},
-            )
+            square = {ij: a * other for ij, a in self.square.items()}
+            return Form(self.const * other, {i: a * other for i, a in self.linear.items()}, square)
         assert not (self.square or other.square), "a product of degree three"
-        linear: dict[int, float] = {i: a * other.const for i, a in self.linear.items()}
-        for i, a in other.linear.items():
-            linear[i] = linear.get(i, 0.0) + a * self.const
-        square: dict[tuple[int, int], float] = {}
-        for i, a in self.linear.items():
-            for j, b in other.linear.items():
-                ij = (min(i, j), max(i, j))
-                square[ij] = square.get(ij, 0.0) + a * b
+        linear = {i: a * other.const for i, a in self.linear.items()}
+        linear = _added(linear, ((i, a * self.const) for i, a in other.linear.items()))
+        products = product(self.linear.items(), other.linear.items())
+        square = _added({}, (((min(i, j), max(i, j)), a * b) for (i, a), (j, b) in products))
         return Form(self.const * other.const, linear, square)
 
     __rmul__ = __mul__
 
     @property
     def variables(self) -> set[int]:
-        """The unknowns that occur."""
         return set(self.linear) | {i for ij in self.square for i in ij}
 
     def at(self, values: Array) -> float:
-        """Its value."""
         total = self.const
         for i, a in self.linear.items():
             total += a * values[i]
@@ -88,9 +78,14 @@ class Form:
             return 10 * value
         if power == 1:
             return value
-        slope: dict[int, float] = dict(self.linear)
-        for (i, j), a in self.square.items():
-            slope[i] = slope.get(i, 0.0) + a * values[j]
-            slope[j] = slope.get(j, 0.0) + a * values[i]
+        sides = (term for (i, j), a in self.square.items() for term in ((i, a * values[j]), (j, a * values[i])))
+        slope = _added(self.linear, sides)
         steep = np.sqrt(sum(a * a for i, a in slope.items() if dims[i]))
         return float(value / max(steep, 1e-3))
+
+
+def _added(terms: Mapping[Key, float], more: Iterable[tuple[Key, float]]) -> dict[Key, float]:
+    total = dict(terms)
+    for key, a in more:
+        total[key] = total.get(key, 0.0) + a
+    return total

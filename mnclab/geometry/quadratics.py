@@ -42,28 +42,23 @@ class System:
         self.near, self.size = NEAR / size, size
         a, b, c = np.zeros((k, v, v)), np.zeros((k, v)), np.zeros(k)
         for row, form in enumerate(forms):
-            c[row] = form.const
-            for i, factor in form.linear.items():
-                self._term(b, c, row, index, i, factor)
+            c[row], linear = form.const, list(form.linear.items())
             for (i, j), factor in form.square.items():
                 if i in index and j in index:
                     a[row, index[i], index[j]] += factor / 2
                     a[row, index[j], index[i]] += factor / 2
-                elif i in index:
-                    b[row, index[i]] += factor * values[j]
                 else:
-                    self._term(b, c, row, index, j, factor * values[i])
+                    linear.append((i, factor * values[j]) if i in index else (j, factor * values[i]))
+            for i, factor in linear:
+                if i in index:
+                    b[row, index[i]] += factor
+                else:
+                    c[row] += factor * values[i]
             scale = size ** form.power(dims)
             a[row] *= self.unit[:, None] * self.unit / scale
             b[row] *= self.unit / scale
             c[row] /= scale
         self.a, self.b, self.c = a, b, c
-
-    def _term(self, b: Array, c: Array, row: int, index: dict[int, int], i: int, factor: float) -> None:
-        if i in index:
-            b[row, index[i]] += factor
-        else:
-            c[row] += factor * self.values[i]
 
     def solve(self, work: Work | None = None, newton: bool = False) -> list[Array] | None:
         """All real solutions (v,), in mm; None if there are infinitely many, or without `newton` if they would need it.
@@ -120,8 +115,7 @@ class System:
 
     def _roots(self, k: int, a: float, b: float, c: float, begin: Array, basis: Array) -> list[Array]:
         """A quadratic equation; where it is missed by less than drawings are exact, or hardly met, it has one root."""
-        middle = -b / (2 * a)
-        bottom = c - b * b / (4 * a)
+        middle, bottom = -b / (2 * a), c - b * b / (4 * a)
         gap = self.gap(k, begin + basis @ np.array([middle]))
         if gap < 1e-10 * self.size or (bottom * a > 0 and gap < NEAR):
             return [np.array([middle])]
@@ -142,9 +136,8 @@ class System:
             starts = (random.normal(0, 1.0, (count, len(begin))) - begin) @ basis
             if found:
                 near = np.array(found)[random.integers(len(found), size=count // 2)]
-                starts[: len(near)] = near + random.normal(0, 1, near.shape) * 10 ** random.uniform(
-                    -3, 0, (len(near), 1)
-                )
+                apart = random.normal(0, 1, near.shape)
+                starts[: len(near)] = near + apart * 10 ** random.uniform(-3, 0, (len(near), 1))
             ends, single = newton_from(a, b, c, starts, work=self.work)
             if len(ends) and not single.any():
                 return None

@@ -4,10 +4,9 @@ Data are equations of the second degree between numbered unknowns (`.quadratics`
 and choices between several lists of equations. After each datum `Readings.follow` settles whatever a few neighbouring
 unknowns settle among themselves; several solutions make several readings, a contradiction takes a reading away.
 
-The search is bounded: every system that is tried costs some of the `Work` of the contour, which
-grows with what is settled. What a reading has tried in vain is not tried again while nothing new is known of it. Before
-systems of many unknowns are looked into, one look at the whole tells which unknowns are free to move, and those are left
-alone.
+The search is bounded: every system that is tried costs some of the `Work` of the contour, which grows with what is settled.
+What a reading has tried in vain is not tried again while nothing new is known of it. Before systems of many unknowns are
+looked into, one look at the whole tells which unknowns are free to move, and those are left alone.
 """
 
 from __future__ import annotations
@@ -22,6 +21,8 @@ from mnclab.geometry.quadratic_form import Array, Form
 from mnclab.geometry.quadratics import NEAR, SAME, System
 
 Label = Any
+Choice = tuple[int, int]  # an unknown that tells alternatives apart, and the number of one of them
+Spans = dict[int, list[tuple[int, int, frozenset[int]]]]
 MOST_READINGS = 256
 WIDEST = 8  # unknowns in a row that are tried together before all of them are
 SHORTEST = 1e-6  # mm: a line has a length, an arc a radius
@@ -43,6 +44,12 @@ class Reading(NamedTuple):
     limits: tuple[int, ...] = ()
     vain: frozenset[tuple[Any, ...]] = frozenset()
 
+    def settled(self, unknowns: Sequence[int], values: Any, choices: Sequence[tuple[float, int]] = ()) -> Reading:
+        """The reading with values for some unknowns more, and the choices made for them."""
+        own = self.values.copy()
+        own[list(unknowns)] = values
+        return self._replace(values=own, choices=(*self.choices, *choices))
+
 
 class Contradiction(Exception):
     """Data that no contour fulfils; `label` is that of the datum, `gap` by how much it is missed (mm, or nan)."""
@@ -50,9 +57,6 @@ class Contradiction(Exception):
     def __init__(self, label: Label, gap: float) -> None:
         super().__init__(f"{label} contradicts what is known")
         self.label, self.gap = label, gap
-
-
-Spans = dict[int, list[tuple[int, int, frozenset[int]]]]
 
 
 class TooManyReadings(Exception):
@@ -65,7 +69,7 @@ class Readings:
     def __init__(self) -> None:
         self.dims: list[int] = []
         self.places: list[float] = []
-        self.equations: list[tuple[Form, frozenset[int], Label]] = []
+        self.equations: list[tuple[Form, frozenset[int], Label, Choice | None]] = []
         self.limits: list[tuple[Form, frozenset[int], Label]] = []
         self.readings = [Reading(np.empty(0), ())]
         self.size = 1.0
@@ -81,8 +85,6 @@ class Readings:
         """Where a choice at a place comes in the order of the readings."""
         return place
 
-    # --- telling --------------------------------------------------------------------------------------------------------
-
     def unknown(self, place: float, dim: int = 1) -> Form:
         """A new unknown, a length or (`dim` 0) a component of a unit vector."""
         self.dims.append(dim)
@@ -90,9 +92,9 @@ class Readings:
         self.readings = [r._replace(values=np.append(r.values, np.nan)) for r in self.readings]
         return Form(0.0, {len(self.dims) - 1: 1.0})
 
-    def equal(self, form: Form, label: Label) -> None:
-        """An equation form = 0."""
-        self.equations.append((form, frozenset(form.variables), label))
+    def equal(self, form: Form, label: Label, choice: Choice | None = None) -> None:
+        """An equation form = 0; with a `choice` only in the readings that have taken it."""
+        self.equations.append((form, frozenset(form.variables), label, choice))
         if form.power(self.dims) == 1:
             self.size = max(self.size, abs(form.const))
 
@@ -102,24 +104,16 @@ class Readings:
 
     def either(self, alternatives: Sequence[Iterable[Form]], place: float, label: Label) -> None:
         """One of several lists of equations holds; the readings are followed for each."""
-        flag = self.unknown(place)
-        (variable,) = flag.linear
+        (flag,) = self.unknown(place).linear
         count = len(alternatives)
-        readings = []
-        for reading in self.readings:
-            for k in range(count):
-                values = reading.values.copy()
-                values[variable] = k
-                choices = (*reading.choices, (place, k)) if count > 1 else reading.choices
-                readings.append(reading._replace(values=values, choices=choices))
-        self.readings = readings
+        self.readings = [
+            reading.settled([flag], k, [(place, k)] if count > 1 else [])
+            for reading in self.readings
+            for k in range(count)
+        ]
         for k, forms in enumerate(alternatives):
-            for form in forms:  # counts only in the readings that have taken it
-                self.equations.append((form, frozenset(form.variables) | {-1 - variable, -1_000_000 - k}, label))
-                if form.power(self.dims) == 1:
-                    self.size = max(self.size, abs(form.const))
-
-    # --- solving --------------------------------------------------------------------------------------------------------
+            for form in forms:
+                self.equal(form, label, (flag, k))
 
     def follow(self, thoroughly: bool = False) -> None:
         """Settle in every reading what can be settled; raises Contradiction when none is left.
@@ -133,8 +127,7 @@ class Readings:
             reading = waiting.pop()
             try:
                 self.work.spend(3 * (len(reading.equations) + len(self.equations) - reading.told[0]))
-                looked_at = self._looked_at(reading)
-                if looked_at is None:
+                if (looked_at := self._looked_at(reading)) is None:
                     continue
                 reading = looked_at
                 following = self._further(reading, thoroughly)
@@ -165,15 +158,13 @@ class Readings:
 
     def _looked_at(self, reading: Reading) -> Reading | None:
         """The reading with the equations and conditions that still wait for unknowns; None if it misses one that does not."""
-        values, (equations, limits) = reading.values, reading.told
-        waiting, waiting_limits, open_ = [], [], np.isnan(reading.values)
+        values, (equations, limits), open_ = reading.values, reading.told, np.isnan(reading.values)
+        waiting, waiting_limits = [], []
         for number in (*reading.equations, *range(equations, len(self.equations))):
-            form, variables, _ = self.equations[number]
-            if any(i < 0 for i in variables):
-                flag = next(-1 - i for i in variables if -1_000_000 < i < 0)
-                if values[flag] != next(-1_000_000 - i for i in variables if i <= -1_000_000):
-                    continue
-            if any(i >= 0 and open_[i] for i in variables):
+            form, variables, _, choice = self.equations[number]
+            if choice and values[choice[0]] != choice[1]:
+                continue
+            if any(open_[i] for i in variables):
                 waiting.append(number)
             elif (gap := form.gap(values, self.dims)) > NEAR:
                 self._blame(number, gap)
@@ -238,7 +229,7 @@ class Readings:
         place, open_ = {variable: k for k, variable in enumerate(row)}, np.isnan(reading.values)
         found: Spans = {}
         for number in reading.equations:
-            rest = frozenset(i for i in self.equations[number][1] if i >= 0 and open_[i])
+            rest = frozenset(i for i in self.equations[number][1] if open_[i])
             if all(i in place for i in rest):
                 places = [place[i] for i in rest]
                 found.setdefault(min(places), []).append((max(places), number, rest))
@@ -248,18 +239,12 @@ class Readings:
         """A reading for each solution of a window, in the order that the module states."""
         self.work.left += WORK_OF_UNKNOWN * len(set(window) - self.paid)
         self.paid.update(window)
-        readings = []
-        for solution in found:
-            values = reading.values.copy()
-            values[list(window)] = solution
-            readings.append(values)
+        readings = [reading.settled(window, solution) for solution in found]
         if len(readings) == 1:
-            return [reading._replace(values=readings[0])]
+            return readings
         place = self.order_of(self.places[window[0]])
-        readings.sort(key=lambda values: self.rank(values, reading.values, window))
-        return [
-            reading._replace(values=values, choices=(*reading.choices, (place, k))) for k, values in enumerate(readings)
-        ]
+        readings.sort(key=lambda each: self.rank(each.values, reading.values, window))
+        return [each._replace(choices=(*reading.choices, (place, k))) for k, each in enumerate(readings)]
 
     def _blame(self, number: int, gap: float) -> None:
         """Remember what took a reading away: the datum that is missed least."""
@@ -280,7 +265,7 @@ class Readings:
         """The open unknowns in sets that no equation connects, along the chain."""
         parts, open_ = list[set[int]](), np.isnan(reading.values)
         for number in reading.equations:
-            rest = {i for i in self.equations[number][1] if i >= 0 and open_[i]}
+            rest = {i for i in self.equations[number][1] if open_[i]}
             touched = [part for part in parts if part & rest]
             parts = [part for part in parts if not part & rest] + [rest.union(*touched)]
         alone = set(self.open_unknowns(reading)).difference(*parts)
@@ -288,7 +273,7 @@ class Readings:
 
     def _system(self, reading: Reading, unknowns: set[int]) -> System:
         """What is told of some open unknowns."""
-        forms = [form for number in reading.equations for form, told, _ in [self.equations[number]] if told & unknowns]
+        forms = [form for form, told, *_ in map(self.equations.__getitem__, reading.equations) if told & unknowns]
         return System(forms, sorted(unknowns), reading.values, self.dims, self.size)
 
 

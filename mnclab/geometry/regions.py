@@ -17,14 +17,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.geometry import shapely
 from mnclab.geometry.contours import FULL_TURN, Contour, Floats, steps_within
-from mnclab.geometry.vectors import cross, left
+from mnclab.geometry.vectors import at_angle, cross, left, length_of, turned, unit_of
 from mnclab.geometry.whole_curves import Curve
 
 CHORD_ERROR = 2e-5  # mm, of the polylines: decides only what touches and what does not
@@ -51,12 +52,13 @@ class Region:
 
         A single contour is kept as it is. Raises ValueError where a contour is open or crosses itself.
         """
-        import shapely
-
         drawing = _Drawing([_tidy(contour) for contour in (*outer, *holes)])
         areas = [shapely.Polygon(ring) for ring in drawing.rings]
         for area in areas:
-            _refuse_crossing(area)
+            if not area.is_valid:
+                place = shapely.is_valid_reason(area).partition("[")[2].rstrip("]").split()
+                where = f" near ({float(place[0]):.3f}, {float(place[1]):.3f})" if len(place) >= 2 else ""
+                raise ValueError(f"the contour crosses or touches itself{where}")
         if len(areas) == len(outer) == 1:
             contour = drawing.contours[0]
             return cls((contour if contour.area > 0 else contour.reversed(),))
@@ -75,18 +77,15 @@ class Region:
 
     def inset(self, distance: float) -> Region:
         """What is farther than `distance` from everything outside; a negative distance lets the area grow."""
-        import shapely
-
         if distance == 0 or not self.loops:
             return self
         faces = self.loops if distance > 0 else [loop.reversed() for loop in self.loops]
         bands = [band for face in faces for band in _bands(face, abs(distance))]
         drawing = _Drawing([*self.loops, *bands])
-        count = len(self.loops)
-        area = drawing.area(self.loops, 0)
-        strip = shapely.union_all([shapely.Polygon(ring) for ring in drawing.rings[count:]], grid_size=GRID)
+        strips = [shapely.Polygon(ring) for ring in drawing.rings[len(self.loops) :]]
+        strip = shapely.union_all(strips, grid_size=GRID)
         change = shapely.difference if distance > 0 else shapely.union
-        return Region(drawing.traced(change(area, strip, grid_size=GRID)))
+        return Region(drawing.traced(change(drawing.area(self.loops, 0), strip, grid_size=GRID)))
 
     def offset(self, distance: float) -> Region:
         """What is nearer than `distance` to the area: the inset outwards, corners rounded."""
@@ -127,8 +126,6 @@ class Region:
         return bool((self.contains(spots) | (self.distance(spots) <= tolerance)).all())
 
     def _with(self, operation: str, other: Region) -> Region:
-        import shapely
-
         drawing = _Drawing([*self.loops, *other.loops])
         mine, theirs = drawing.area(self.loops, 0), drawing.area(other.loops, len(self.loops))
         return Region(drawing.traced(getattr(shapely, operation)(mine, theirs, grid_size=GRID)))
@@ -146,27 +143,24 @@ class _Drawing:
     def __post_init__(self) -> None:
         for contour in self.contours:
             self.curves.extend(contour.curves)
-        label = _labels(self.curves)
+        label = iter(_labels(self.curves).tolist())
+        elements = [list(zip(c.starts, c.ends, c.sweeps, label)) for c in self.contours]
         arcs_on: dict[int, list[Floats]] = {}
-        elements = [(*row, k) for k, contour in enumerate(self.contours) for row in _elements(contour)]
-        for tag, (start, end, sweep, _) in zip(label, elements, strict=True):
+        for start, end, sweep, tag in chain(*elements):
             if sweep:
-                arcs_on.setdefault(int(tag), []).extend([start, end])
-        pieces: list[list[Floats]] = [[] for _ in self.contours]
-        tags: list[list[int]] = [[] for _ in self.contours]
-        for tag, (start, _, sweep, k) in zip(label, elements, strict=True):
-            between = np.zeros((0, 2))
-            if sweep:
-                between = _arc_points(self.curves[tag], start, sweep, np.array(arcs_on[int(tag)]))
-            pieces[k] += [start[None], between]
-            tags[k] += [int(tag)] * (1 + len(between))
-        self.rings = [np.vstack(piece) for piece in pieces]
-        self.tags = [np.array(tag) for tag in tags]
+                arcs_on.setdefault(tag, []).extend([start, end])
+        for mine in elements:
+            pieces, tags = list[Floats](), list[int]()
+            for start, _, sweep, tag in mine:
+                circle = self.curves[tag]
+                between = _arc_points(circle, start, sweep, np.array(arcs_on[tag])) if sweep else np.zeros((0, 2))
+                pieces += [start[None], between]
+                tags += [tag] * (1 + len(between))
+            self.rings.append(np.vstack(pieces))
+            self.tags.append(np.array(tags))
 
     def area(self, loops: Sequence[Contour], first: int) -> Any:
         """Loops of a region, which stand in the drawing from `first` on, as a shapely area."""
-        import shapely
-
         pieces: list[tuple[Floats, list[Floats]]] = []
         for loop, ring in zip(loops, self.rings[first:], strict=False):
             if loop.area > 0:
@@ -178,8 +172,6 @@ class _Drawing:
 
     def traced(self, result: Any) -> tuple[Contour, ...]:
         """The loops of a shapely result, with lines and arcs found again."""
-        import shapely
-
         starts = np.vstack([np.zeros((0, 2)), *self.rings])
         ends = np.vstack([np.zeros((0, 2)), *(np.roll(ring, -1, axis=0) for ring in self.rings)])
         tags = np.concatenate([np.zeros(0, dtype=int), *self.tags])
@@ -191,7 +183,7 @@ class _Drawing:
                 after = np.roll(corners, -1, axis=0)
                 middles, way = shapely.points((corners + after) / 2), after - corners
                 piece, source = tree.query(middles, predicate="dwithin", distance=10 * GRID)
-                skew = np.abs(cross(way[piece], _units(ends - starts)[source]))
+                skew = np.abs(cross(way[piece], unit_of(ends - starts)[source]))
                 order = np.lexsort((source, skew, piece))
                 piece, chosen = np.unique(piece[order], return_index=True)
                 tag = np.full(len(corners), -1)
@@ -227,11 +219,11 @@ def _found_again(ring: Floats, tag: NDArray[np.intp], curves: list[Curve]) -> Co
             exact = _angle_swept(np.array([start, end]) - curve.point)
             sweep = seen + np.remainder(exact - seen + np.pi, FULL_TURN) - np.pi
             sweeps = [sweep] if abs(sweep) < 6 else [sweep / 2, sweep / 2]
-        if np.hypot(*(end - start)) < SAME and len(sweeps) == 1:
+        if length_of(end - start) < SAME and len(sweeps) == 1:
             continue
         arm = start - curve.point
         for k, sweep in enumerate(sweeps):
-            points.append(start if k == 0 else curve.foot(curve.point + _rotated(arm, sweep)))
+            points.append(start if k == 0 else curve.foot(curve.point + turned(arm, sweep)))
             bulge.append(float(np.tan(sweep / 4)))
     exact_loop = Contour(points, bulge) if len(points) > 1 else raw
     plausible = abs(exact_loop.area - raw.area) < 10 * CHORD_ERROR * raw.length
@@ -280,15 +272,8 @@ def _bands(loop: Contour, width: float) -> Iterator[Contour]:
             yield Contour([start, last[i - 1], first[i]], [0.0, np.tan(turns[i] / 4), 0.0])
 
 
-def _elements(contour: Contour) -> Iterable[tuple[Floats, Floats, float]]:
-    """Start, end and sweep of each element."""
-    return zip(contour.starts, contour.ends, contour.sweeps, strict=True)
-
-
 def _labels(curves: list[Curve]) -> NDArray[np.intp]:
     """For each curve the first one that is the same circle; a line is its own."""
-    import shapely
-
     label = np.arange(len(curves))
     bent = np.array([i for i, curve in enumerate(curves) if np.isfinite(curve.radius)], dtype=int)
     if len(bent):
@@ -310,7 +295,7 @@ def _arc_points(circle: Curve, start: Floats, sweep: float, ends: Floats) -> Flo
     low = np.arctan2(arm[1], arm[0]) + min(sweep, 0.0)
     grid = np.arange(np.ceil(low / step), np.floor((low + abs(sweep)) / step) + 1)
     angle = np.mod(grid, count) * step
-    spots = circle.point + circle.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    spots = circle.point + circle.radius * at_angle(angle)
     arms = ends - circle.point
     fixed = np.unique(np.mod(np.arctan2(arms[:, 1], arms[:, 0]) - low, FULL_TURN), return_index=True)
     places = np.concatenate([fixed[0], grid * step - low])
@@ -341,7 +326,7 @@ def _same(curves: list[Curve], i: int, k: int) -> bool:
     a, b = curves[i], curves[k]
     if i == k or np.isfinite(a.radius) or np.isfinite(b.radius):
         return i == k
-    apart = np.hypot(*(a.foot(b.point) - b.point))
+    apart = length_of(a.foot(b.point) - b.point)
     return bool(abs(cross(a.direction, b.direction)) < SMOOTH and apart < SAME)
 
 
@@ -355,26 +340,11 @@ def _tidy(contour: Contour) -> Contour:
     return contour if some.all() else Contour(contour.points[some], contour.bulge[some])
 
 
-def _refuse_crossing(area: Any) -> None:
-    import shapely
-
-    if not area.is_valid:
-        place = shapely.is_valid_reason(area).partition("[")[2].rstrip("]").split()
-        where = f" near ({float(place[0]):.3f}, {float(place[1]):.3f})" if len(place) >= 2 else ""
-        raise ValueError(f"the contour crosses or touches itself{where}")
-
-
 def _polygons(geometry: Any) -> list[Any]:
     """The polygons of any shapely geometry, from left to right; loose points and lines are no area."""
-    import shapely
-
     flat = shapely.get_parts(shapely.get_parts(geometry))
     found = [g for g in flat if g.geom_type == "Polygon" and not g.is_empty]
     return sorted(found, key=lambda g: g.bounds[:2])
-
-
-def _units(vectors: Floats) -> Floats:
-    return vectors / np.maximum(np.hypot(vectors[:, 0], vectors[:, 1]), 1e-300)[:, None]
 
 
 def _along(curve: Curve, point: Floats) -> Floats:
@@ -386,7 +356,3 @@ def _angle_swept(arms: Floats) -> float:
     """The signed angle swept by arms `(k, 2)` from the first to the last."""
     before, after = arms[:-1], arms[1:]
     return float(np.arctan2(cross(before, after), (before * after).sum(axis=1)).sum())
-
-
-def _rotated(arm: Floats, angle: float) -> Floats:
-    return np.asarray(np.cos(angle) * arm + np.sin(angle) * left(arm))

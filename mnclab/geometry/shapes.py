@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.vectors import left
+from mnclab.geometry.vectors import at_angle, left, length_of, turned
 
 QUARTER = float(np.tan(np.pi / 8))  # the bulge of a quarter circle
 
@@ -27,18 +27,14 @@ def rectangle(
     if not 0 <= corner <= min(a, b) + 1e-9:
         raise ValueError(f"a corner radius of {corner:g} does not fit into {length:g} by {width:g}")
     corner = min(corner, a, b)
-    corners = np.array([(a, b), (-a, b), (-a, -b), (a, -b)])
-    ahead = np.array([(0, 1), (-1, 0), (0, -1), (1, 0)])
-    if begin:
-        corners, ahead = np.roll(corners, -1, axis=0), np.roll(ahead, -1, axis=0)
+    points = np.roll(np.array([(a, b), (-a, b), (-a, -b), (a, -b)]), -begin, axis=0)
+    ahead = np.roll(np.array([(0, 1), (-1, 0), (0, -1), (1, 0)]), -begin, axis=0)
+    bulge = np.zeros(5)
     if corner:
-        points = np.stack([corners - corner * ahead, corners + corner * left(ahead)], axis=1).reshape(-1, 2)
-        bulge = np.tile([QUARTER, 0.0], 4)
-    else:
-        points, bulge = corners, np.zeros(4)
-    first = np.array([(a, 0.0), (0.0, b)][begin])
-    points, bulge = np.vstack([first, points]), np.append(0.0, bulge)
-    some = np.hypot(*(np.roll(points, -1, axis=0) - points).T) > 1e-9  # two roundings may use up a side
+        points = np.stack([points - corner * ahead, points + corner * left(ahead)], axis=1).reshape(-1, 2)
+        bulge = np.append(0.0, np.tile([QUARTER, 0.0], 4))
+    points = np.vstack([[(a, 0.0), (0.0, b)][begin], points])
+    some = length_of(np.roll(points, -1, axis=0) - points) > 1e-9  # two roundings may use up a side
     return Contour(placed(points[some], centre, angle), bulge[some])
 
 
@@ -64,9 +60,8 @@ def is_smooth(line: Contour) -> bool:
     """Whether an open contour is one straight line or one arc, in any number of pieces."""
     begins, ends = line.tangents()
     bends = np.sign(line.bulge[:-1]) / line.radii
-    return not line.closed and bool(
-        np.allclose(begins[1:], ends[:-1], atol=1e-6) and np.allclose(bends, bends[0], rtol=1e-6)
-    )
+    one_way = np.allclose(begins[1:], ends[:-1], atol=1e-6) and np.allclose(bends, bends[0], rtol=1e-6)
+    return not line.closed and bool(one_way)
 
 
 def arc(radius: float, begin: float, sweep: float) -> Contour:
@@ -74,7 +69,7 @@ def arc(radius: float, begin: float, sweep: float) -> Contour:
     count = 1 if abs(sweep) <= np.pi else 2
     way = begin + sweep * np.arange(count + 1) / count
     bulge = np.append(np.full(count, np.tan(sweep / count / 4)), 0.0)
-    return Contour(radius * np.stack([np.cos(way), np.sin(way)], axis=1), bulge, closed=False)
+    return Contour(radius * at_angle(way), bulge, closed=False)
 
 
 def polygon(corners: int, radius: float, *, centre: ArrayLike = (0, 0), angle: float = 0.0) -> Contour:
@@ -82,11 +77,9 @@ def polygon(corners: int, radius: float, *, centre: ArrayLike = (0, 0), angle: f
     if corners < 3 or not radius > 0:
         raise ValueError(f"a polygon has at least 3 corners and a radius above 0, got {corners} and {radius:g}")
     way = angle + 2 * np.pi * np.arange(corners) / corners
-    return Contour(placed(radius * np.stack([np.cos(way), np.sin(way)], axis=1), centre, 0.0))
+    return Contour(placed(radius * at_angle(way), centre, 0.0))
 
 
 def placed(points: Floats, centre: ArrayLike, angle: float) -> Floats:
     """Points `(n, 2)` turned about the origin, then moved to a centre."""
-    if angle:
-        points = np.cos(angle) * points + np.sin(angle) * left(points)
-    return np.asarray(points + np.asarray(centre, dtype=float))
+    return np.asarray((turned(points, angle) if angle else points) + np.asarray(centre, dtype=float))

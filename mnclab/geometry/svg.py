@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.contours import Contour, Floats, keeps_circles
 from mnclab.text.file import read
 
 FIGURE = re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?")
@@ -126,39 +126,32 @@ class _Pen:
 
     def contours(self, text: str) -> Iterator[Contour]:
         here = first = handle = 0j
-        points: list[Floats] = []
-        bulges: list[float] = []
-        last = ""
+        points, bulges, last = list[Floats](), list[float](), "M"
         for letter, v in _commands(text):
             upper, base = letter.upper(), here if letter.islower() else 0j
-            if upper == "M":
-                yield from self._done(points, bulges, False)
-                here = first = base + complex(*v)
+            if upper in "MZ":
+                yield from self._done(points, bulges, upper == "Z")
+                here = first = base + complex(*v) if upper == "M" else first
                 points, bulges = [self._at(here)], []
-            elif upper == "Z":
-                yield from self._done(points, bulges, True)
-                here, points, bulges = first, [self._at(first)], []
             else:
-                pairs = [base + complex(*v[k : k + 2]) for k in range(0, len(v) - 1, 2)] if upper not in "HVA" else []
                 if upper == "H":
                     goal = complex(v[0] + base.real, here.imag)
                 elif upper == "V":
                     goal = complex(here.real, v[0] + base.imag)
                 else:
-                    goal = base + complex(v[5], v[6]) if upper == "A" else pairs[-1]
+                    goal = base + complex(*v[-2:])
                 if upper == "A":
                     added = self._arc(here, goal, v)
                 elif upper in "CSQT":
-                    if upper in "ST":
-                        kin = last in ("CS" if upper == "S" else "QT") and last != ""
-                        pairs.insert(0, 2 * here - handle if kin else here)
+                    pairs = [base + complex(*v[k : k + 2]) for k in range(0, len(v), 2)]
+                    if upper in "ST":  # smooth after one of its kind
+                        pairs.insert(0, 2 * here - handle if last in {"S": "CS", "T": "QT"}[upper] else here)
                     handle = pairs[-2]
                     added = self._curve([here, *pairs])
                 else:
                     added = [(self._at(goal), 0.0)]
-                for point, bulge in added:
-                    points.append(point)
-                    bulges.append(bulge)
+                points += [point for point, _ in added]
+                bulges += [bulge for _, bulge in added]
                 here = goal
             last = upper
         yield from self._done(points, bulges, False)
@@ -205,11 +198,9 @@ class _Pen:
         centre = (a + b) / 2 + (rise if bool(v[3]) != bool(v[4]) else -rise)
         sweep = float(np.angle((b - centre) / (a - centre)))
         sweep += 2 * np.pi * ((v[4] and sweep < 0) - (not v[4] and sweep > 0))
-        shape = (
-            self.matrix[:, :2] @ np.array([[np.cos(phi), -np.sin(phi)], [np.sin(phi), np.cos(phi)]]) @ np.diag([rx, ry])
-        )
-        gram = shape.T @ shape
-        is_round = np.allclose(gram, gram[0, 0] * np.eye(2), rtol=1e-9, atol=1e-9 * np.trace(gram))
+        c, s = np.cos(phi), np.sin(phi)
+        shape = self.matrix[:, :2] @ np.array([[c, -s], [s, c]]) @ np.diag([rx, ry])
+        is_round = keeps_circles(shape)
         largest = 4 * np.arcsin(min(1.0, np.sqrt(self.tolerance / (2 * size * np.linalg.norm(shape, 2)))))
         count = 2 if is_round else max(2, int(np.ceil(abs(sweep) / largest)))
         part = sweep / count

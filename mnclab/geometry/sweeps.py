@@ -12,8 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
+from mnclab.geometry.vectors import length_of
 
 CHORD_ERROR = 1e-3
 QUARTER_STEPS = 64  # corners of a quarter circle
@@ -21,8 +23,6 @@ QUARTER_STEPS = 64  # corners of a quarter circle
 
 def covered(passes: Iterable[Contour], radius: float) -> Any:
     """What a disc covers along contours, as a shapely area."""
-    import shapely
-
     lines = [shapely.LineString(contour.points_within(CHORD_ERROR)) for contour in passes]
     return shapely.union_all(shapely.buffer(lines, radius, quad_segs=QUARTER_STEPS))
 
@@ -32,8 +32,6 @@ def swept(outline: Floats, way: Contour) -> Any:
 
     `outline` counts from the moved point. Arcs are chords, off by `CHORD_ERROR` at most.
     """
-    import shapely
-
     places = way.points_within(CHORD_ERROR)
     corners = places[:, None] + outline
     hulls = shapely.convex_hull(shapely.multipoints(np.concatenate([corners[:-1], corners[1:]], axis=1)))
@@ -42,24 +40,18 @@ def swept(outline: Floats, way: Contour) -> Any:
 
 def under(contour: Contour, level: float) -> Any:
     """The area between a contour (x, y) and a level of y, as a shapely area; arcs as in `swept`."""
-    import shapely
-
     points = contour.points_within(CHORD_ERROR)
     return shapely.make_valid(shapely.Polygon([*points, (points[-1, 0], level), (points[0, 0], level)]))
 
 
 def polygons(region: Region) -> Any:
     """A region as a shapely area."""
-    import shapely
-
     pieces = [[loop.points_within(CHORD_ERROR) for loop in part.loops] for part in region.parts]
     return shapely.union_all([shapely.make_valid(shapely.Polygon(outer, holes)) for outer, *holes in pieces])
 
 
 def stays(passes: Iterable[Contour], area: Any) -> list[bool]:
     """Which contours lie in a shapely area, or within twice `CHORD_ERROR` of it."""
-    import shapely
-
     lines = [shapely.LineString(contour.points_within(CHORD_ERROR)) for contour in passes]
     room = shapely.buffer(area, 2 * CHORD_ERROR)
     shapely.prepare(room)
@@ -68,8 +60,6 @@ def stays(passes: Iterable[Contour], area: Any) -> list[bool]:
 
 def left_over(area: Any, cover: Any, least: float) -> Region:
     """What of a shapely area is not covered, without what is narrower than `least`."""
-    import shapely
-
     rest = shapely.difference(area, cover)
     kept = shapely.buffer(shapely.buffer(rest, -least / 2, join_style="mitre"), least / 2, join_style="mitre")
     return outlined(shapely.intersection(rest, kept))
@@ -77,8 +67,6 @@ def left_over(area: Any, cover: Any, least: float) -> Region:
 
 def broad(area: Any, least: float) -> Any:
     """The pieces of a shapely area that are somewhere wider than `least`, whole."""
-    import shapely
-
     pieces = shapely.get_parts(area)
     pieces = pieces[shapely.area(pieces) > 0]
     return shapely.union_all(pieces[~shapely.is_empty(shapely.buffer(pieces, -least / 2, join_style="mitre"))])
@@ -86,11 +74,8 @@ def broad(area: Any, least: float) -> Any:
 
 def outlined(area: Any) -> Region:
     """A shapely area as a region of polylines."""
-    import shapely
-
-    flat = shapely.get_parts(shapely.get_parts(area))
     loops: list[Contour] = []
-    for polygon in flat:
+    for polygon in shapely.get_parts(shapely.get_parts(area)):
         if polygon.geom_type != "Polygon" or polygon.is_empty:
             continue
         for k, ring in enumerate((polygon.exterior, *polygon.interiors)):
@@ -113,17 +98,11 @@ def skeleton(region: Region, spacing: float) -> Skeleton:
     A branch is cut back while its last disc lies within its neighbour's but for a tenth of `spacing`: what is left are
     the branches that reach somewhere.
     """
-    import shapely
-
     spots = [_spaced(loop, spacing) for loop in region.loops]
     cells = shapely.voronoi_polygons(shapely.MultiPoint(np.vstack(spots)), only_edges=True)
-    lines = shapely.get_coordinates(shapely.get_parts(cells)).reshape(-1, 2)
-    owner = np.repeat(
-        np.arange(shapely.get_num_geometries(cells)), shapely.get_num_coordinates(shapely.get_parts(cells))
-    )
-    same = owner[1:] == owner[:-1]
+    lines, owner = shapely.get_coordinates(shapely.get_parts(cells), return_index=True)
     points, index = np.unique(np.round(lines, 9), axis=0, return_inverse=True)
-    edges = np.stack([index.reshape(-1)[:-1], index.reshape(-1)[1:]], axis=1)[same]
+    edges = np.stack([index.reshape(-1)[:-1], index.reshape(-1)[1:]], axis=1)[owner[1:] == owner[:-1]]
     edges = np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], axis=1), axis=0)
     inside = region.contains(points)
     edges = edges[inside[edges].all(axis=1)]
@@ -148,7 +127,7 @@ def _pruned(found: Skeleton, slack: float) -> Skeleton:
         gone = np.zeros(len(edges), dtype=bool)
         for column in (0, 1):
             leaf, stem = edges[:, column], edges[:, 1 - column]
-            apart = np.hypot(*(points[leaf] - points[stem]).T)
+            apart = length_of(points[leaf] - points[stem])
             gone |= (tip[:, column] >= 0) & (apart + room[leaf] <= room[stem] + slack * np.minimum(1, apart))
         if not gone.any():
             break
@@ -162,7 +141,6 @@ def long_axes(rest: Region) -> Sequence[Floats]:
     for part in rest.parts:
         corners = part.loops[0].points
         for _ in range(2):  # from any corner to the farthest, from there to the farthest
-            away = np.hypot(*(corners - corners[0]).T)
-            corners = np.roll(corners, -int(away.argmax()), axis=0)
-        axes.append(np.array([corners[0], corners[int(np.hypot(*(corners - corners[0]).T).argmax())]]))
+            corners = np.roll(corners, -int(length_of(corners - corners[0]).argmax()), axis=0)
+        axes.append(corners[[0, int(length_of(corners - corners[0]).argmax())]])
     return axes

@@ -49,10 +49,10 @@ def positions(pair: str, tool_axis: ArrayLike, now: Mapping[str, float]) -> list
         swing = math.atan2(x, -y) if inner == "A" else math.atan2(y, x)
         found = [(swing, tilt), (swing + math.pi, -tilt)]
     else:
-        s = x if inner == "B" else -y
-        tilt = math.atan2(s, math.hypot(z, y if inner == "B" else x))
-        free = math.hypot(z, y if inner == "B" else x) < SINGULAR
-        swing = math.atan2(-y, z) if inner == "B" else math.atan2(x, z)
+        along, across = (x, -y) if inner == "B" else (-y, x)  # the axis of the carrier, and to its side
+        tilt = math.atan2(along, math.hypot(z, across))
+        free = math.hypot(z, across) < SINGULAR
+        swing = math.atan2(across, z)
         found = [(swing, tilt), (swing + math.pi, math.pi - tilt)]
     return [{outer: now[outer] if free else wrapped(one), inner: wrapped(two)} for one, two in found]
 

@@ -39,12 +39,8 @@ def centre_by_radius(
     c, shortage = centre_of_one(s, e, radius, sense)
     if shortage > tolerance:
         chord, address = 2 * (shortage + abs(radius)), word.address if word else "R"
-        m.alarm(
-            f"{address}{abs(radius):g} is too small for the distance {chord:.7g} mm between start and end: "
-            f"at least {chord / 2:.7g} is needed",
-            word,
-            hint=f"too short by {shortage:.4g} mm",
-        )
+        between = f"the distance {chord:.7g} mm between start and end: at least {chord / 2:.7g} is needed"
+        m.alarm(f"{address}{abs(radius):g} is too small for {between}", word, f"too short by {shortage:.4g} mm")
     return c
 
 
@@ -54,11 +50,8 @@ def check_radii(m: Machine, s: Point, e: Point, c: Point, tolerance: float, word
     if at_start < 1e-9:
         m.alarm("the centre of the arc lies on its start", word)
     if abs(at_start - at_end) > tolerance:
-        m.alarm(
-            f"the end point is not on the circle: radius {at_start:.4f} at the start, {at_end:.4f} at the end, "
-            f"allowed difference {tolerance:g} mm",
-            word,
-        )
+        found = f"radius {at_start:.4f} at the start, {at_end:.4f} at the end, allowed difference {tolerance:g} mm"
+        m.alarm(f"the end point is not on the circle: {found}", word)
 
 
 def arc(
@@ -68,13 +61,12 @@ def arc(
     """An arc of the active plane to a point, by its centre or by a signed radius."""
     check_start(m, tolerance, word)
     first, second, _ = PLANES[m.plane]
-    here = m.programmed
+    here, given = m.programmed, centre or {}
     s, e = (here[first], here[second]), (point[first], point[second])
     if radius is not None:
         c = centre_by_radius(m, s, e, radius, sense, tolerance, word)
     else:
-        given = centre or {}
-        c = (given.get(first, here[first]), given.get(second, here[second]))
+        c = (given.get(first, s[0]), given.get(second, s[1]))
         check_radii(m, s, e, c, tolerance, word)
     angle = sweep_of_one(s, e, c, sense) * on_machine(m, word)
     middle = list(here)
@@ -91,9 +83,7 @@ def on_machine(m: Machine, word: Word | None = None) -> int:
     return m.orientation
 
 
-def turn(
-    m: Machine, centre: Point, angle: float, level: float | None = None, f: float | None = None
-) -> None:  # fmt: skip
+def turn(m: Machine, centre: Point, angle: float, level: float | None = None, f: float | None = None) -> None:
     """Round a centre in the plane by an angle, to a level along its normal; a whole turn ends where it began."""
     first, second, normal = PLANES[m.plane]
     feed, sense = m.feed_of(f), on_machine(m)

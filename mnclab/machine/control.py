@@ -52,7 +52,6 @@ class Words(dict[str, Word]):
         self.words, self.code = words, code
 
     def all(self, address: str) -> list[Word]:
-        """Every word of an address, in the order written."""
         return [word for word in self.words if word.address == address]
 
 
@@ -90,23 +89,10 @@ class FunctionTable(dict[str, Function]):
     """Functions by code; calling it decorates the function that obeys these codes."""
 
     def __call__(
-        self,
-        codes: str,
-        title: str | Mapping[str, str],
-        *,
-        group: str | None = None,
-        phase: str = "motion",
-        takes: str = "",
-        power_on: str = "",
-        modal: bool = True,
-        moves: bool = False,
-        still: bool = False,
-        ends_cycle: bool = False,
-        owns: bool = False,
-        collects: bool = False,
-        source: str = "",
-    ) -> Callable[[AnyObey], AnyObey]:
-        """Register one function for several codes; `title` may differ by code.
+        self, codes: str, title: str | Mapping[str, str], *, group: str | None = None, phase: str = "motion",
+        takes: str = "", power_on: str = "", source: str = "", **marks: bool,
+    ) -> Callable[[AnyObey], AnyObey]:  # fmt: skip
+        """Register one function for several codes; `title` may differ by code, `marks` are those of a `Function`.
 
         Codes are separated by blanks, or by commas where one holds a blank: `"CALL LBL,"` is one code.
         """
@@ -114,23 +100,11 @@ class FunctionTable(dict[str, Function]):
         def register(obey: AnyObey) -> AnyObey:
             split = codes.split(",") if "," in codes else codes.split()
             for code in filter(None, (part.strip() for part in split)):
+                named, active = title if isinstance(title, str) else title[code], code in power_on.split()
                 self[code] = Function(
-                    code=code,
-                    title=title if isinstance(title, str) else title[code],
-                    obey=obey,
-                    group=group,
-                    phase=phase,
-                    takes=tuple(takes.split()),
-                    power_on=code in power_on.split(),
-                    modal=modal,
-                    moves=moves,
-                    still=still,
-                    ends_cycle=ends_cycle,
-                    owns=owns,
-                    collects=collects,
-                    source=source,
-                    doc=(obey.__doc__ or "").strip(),
-                )
+                    code, named, obey, group, phase, tuple(takes.split()), active,
+                    source=source, doc=(obey.__doc__ or "").strip(), **marks,
+                )  # fmt: skip
             return obey
 
         return register

@@ -53,7 +53,6 @@ class Placed(State):
         self.set_frame(frame, frames.shift(datum.x, datum.y, datum.z))
 
     def to_machine(self, point: Iterable[float]) -> Place:
-        """Program coordinates to machine coordinates."""
         x, y, z = point
         if self.shift is not None:
             dx, dy, dz = self.shift
@@ -62,7 +61,6 @@ class Placed(State):
         return u, v, w
 
     def to_program(self, point: Iterable[float]) -> Place:
-        """Machine coordinates to program coordinates."""
         x, y, z = point
         if self.shift is not None:
             dx, dy, dz = self.shift

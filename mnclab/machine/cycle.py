@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 
+Values = dict[str, Any]  # by the name of a parameter; or what a cycle keeps while it is active
+Given = Mapping[str, Word]  # the words of a block by the name of a parameter
+
+
 @dataclass(frozen=True)
 class Parameter:
     """One address of a cycle: what it means and what is allowed. `meaning` is a short noun phrase; alarms quote it.
@@ -174,9 +178,7 @@ class Cycle:
         return tuple(declared)
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """Turn what a block wrote into what stays; for cycles that resolve levels when they are programmed.
 
         `kept` lives as long as the cycle is active.

@@ -79,7 +79,7 @@ class Flow(Protocol):
         """A function is about to decide by these values of words where the program goes on."""
 
     def ask_whether(self, variable: str) -> None:
-        """A function is about to decide so by whether a variable has a value."""
+        """The same by whether a variable has a value."""
 
     def compare(self, one: Any, other: Any, difference: float) -> None:
-        """A function is about to decide so by two values of words, whose numbers differ by so much."""
+        """The same by two values of words, whose numbers differ by so much."""

@@ -30,31 +30,27 @@ class Log:
         return twin
 
     def extend(self, steps: NDArray[np.integer[Any]], values: Values) -> None:
-        """Changes of many steps at once."""
         if len(steps):
             self._chunks += [(np.array(self.steps, dtype=np.int64), self.values), (steps, values)]
             self.steps, self.values = [], []
 
     @property
     def first(self) -> int:
-        """The step of the first change."""
         chunks = [steps for steps, _ in self._chunks if len(steps)]
         return int(chunks[0][0]) if chunks else self.steps[0]
 
     def close(self, last: int) -> tuple[NDArray[np.integer[Any]], Values]:
         """All changes up to step `last`."""
-        chunks = [
-            chunk for chunk in (*self._chunks, (np.array(self.steps, dtype=np.int64), self.values)) if len(chunk[0])
-        ]
-        if not chunks:
-            return np.empty(0, dtype=np.int64), []
-        steps = np.concatenate([chunk[0] for chunk in chunks])
+        own = np.array(self.steps, dtype=np.int64), self.values
+        chunks = [chunk for chunk in (*self._chunks, own) if len(chunk[0])] or [own]
+        pieces = [values for _, values in chunks]
+        steps = np.concatenate([steps for steps, _ in chunks])
         keep = int(np.searchsorted(steps, last, "right"))
-        if len(chunks) == 1:
-            return steps[:keep], chunks[0][1][:keep]
-        if any(isinstance(chunk[1], np.ndarray) for chunk in chunks):
-            return steps[:keep], np.concatenate([np.asarray(chunk[1]) for chunk in chunks])[:keep]
-        return steps[:keep], [value for chunk in chunks for value in chunk[1]][:keep]
+        if len(pieces) == 1:
+            return steps[:keep], pieces[0][:keep]
+        if any(isinstance(values, np.ndarray) for values in pieces):
+            return steps[:keep], np.concatenate([np.asarray(values) for values in pieces])[:keep]
+        return steps[:keep], [value for values in pieces for value in values][:keep]
 
 
 class Logs:
@@ -64,10 +60,7 @@ class Logs:
         self.by_name: dict[str, Log] = {}
 
     def add(self, name: str, step: int, value: Any) -> None:
-        """A name has a new value from this step on."""
-        log = self.by_name.get(name)
-        if log is None:
-            log = self.by_name[name] = Log()
+        log = self.by_name.get(name) or self.by_name.setdefault(name, Log())
         steps = log.steps
         if steps and steps[-1] == step:
             log.values[-1] = value
@@ -76,5 +69,4 @@ class Logs:
             log.values.append(value)
 
     def extend(self, name: str, steps: NDArray[np.integer[Any]], values: Values) -> None:
-        """New values at many steps."""
         self.by_name.setdefault(name, Log()).extend(steps, values)

@@ -51,7 +51,6 @@ class Machine(Placed):
     # --- saying what is wrong ----------------------------------------------------------------------------------------
 
     def alarm(self, message: str, word: Word | Span | None = None, hint: str = "") -> NoReturn:
-        """Stop with an alarm at a word."""
         raise Alarm(message, self.span_of(word), hint=hint)
 
     def warn(self, message: str, word: Word | Span | None = None, hint: str = "") -> None:
@@ -67,7 +66,6 @@ class Machine(Placed):
         return span._replace(program=self.program) if span else self.flow.span_of_step(self.step)
 
     def message(self, text: str) -> None:
-        """Show a message to the operator: a warning at the block."""
         self.warn(text)
 
     # --- values and state --------------------------------------------------------------------------------------------
@@ -123,7 +121,6 @@ class Machine(Placed):
     # --- verbs: motion -----------------------------------------------------------------------------------------------
 
     def rapid(self, x: float | None = None, y: float | None = None, z: float | None = None) -> None:
-        """Rapid traverse to a point."""
         self._go(Kind.RAPID, self.target(x, y, z), INF)
 
     def line(
@@ -174,7 +171,6 @@ class Machine(Placed):
         circles.turn(self, centre, angle, level, f)
 
     def at_block_end(self, undo: Callable[[], None]) -> None:
-        """Do something when the running block is over."""
         self.block_end.append(undo)
 
     def end_block(self) -> None:
@@ -228,11 +224,9 @@ class Machine(Placed):
         self.read_position()
 
     def stop(self) -> None:
-        """Wait for the operator."""
         self.add_row(Kind.STOP, self.tip)
 
     def coolant(self) -> None:
-        """A change of the coolant."""
         self.add_row(Kind.COOLANT, self.tip)
 
     def touch(
@@ -255,7 +249,6 @@ class Machine(Placed):
     # --- settling ----------------------------------------------------------------------------------------------------
 
     def settle(self, unfinished: bool = False) -> None:
-        """Run the passes on the rows not yet settled; see `machine.settling`."""
         settle(self, unfinished)
 
     def observe(self) -> None:

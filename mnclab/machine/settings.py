@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
-from mnclab.text.nearest import hint, nearest
+from mnclab.text.nearest import hint
 from mnclab.text.records import written
 from mnclab.text.tables import html_table, text_table
 
@@ -39,7 +39,6 @@ class Setting(NamedTuple):
 
     @property
     def allowed(self) -> str:
-        """What may be written, in words."""
         if self.choices:
             return "one of " + ", ".join(self.choices)
         if isinstance(self.default, bool):
@@ -62,6 +61,11 @@ class Setting(NamedTuple):
             near = hint(value, self.choices, 1) if isinstance(value, str) else ""
             raise Alarm(f"setting {self.name} ({self.meaning}) must be {self.allowed}, got {shown(value)}", hint=near)
         return value
+
+
+def one_of(name: str, meaning: str, source: str = "", /, **choices: str) -> Setting:
+    """A setting with choices, of which the first is the default."""
+    return Setting(name, next(iter(choices)), meaning, source, choices)
 
 
 #: What every control has, unless it declares the same name itself.
@@ -92,9 +96,8 @@ def chosen(declared: Iterable[Setting], given: Mapping[str, Any], control: str, 
     known = {setting.name: setting for setting in declared}
     for name in given:
         if name not in known:
-            near = nearest(str(name)[:40], known, 1)
             listed = f"mnclab.help('settings', {control!r}) lists them" if known else "it has none"
-            told = f"near: {near[0]}" if near else listed
+            told = hint(str(name)[:40], known, 1) or listed
             place = source and source.place_of("settings", name)
             raise Alarm(f"{control} has no setting {shown(name)}", place, hint=told, source=source)
     found = {}

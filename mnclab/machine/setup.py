@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from types import MappingProxyType
+from types import MappingProxyType, UnionType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -87,46 +87,52 @@ NAMED = ("files", "settings", "variables")
 NOT_BUILT = ("kinematics", "true_tools")
 
 
+Check = Callable[[str, Any], None]  # an Alarm unless what is given for a part, or for a piece of it, is right
+
+
 def _must(good: bool, what: str, be: str, given: Any) -> None:
     if not good:
         raise Alarm(f"{what} must be {be}, got {shown(given)}")
 
 
-def _rows(what: str, given: Any) -> None:
-    _must(isinstance(given, Mapping), what, "a dict", given)
-    for row in given:
-        check_number(row, f"a row of {what}", at_least=0)
+def _a(kind: type | UnionType, be: str) -> Check:
+    return lambda what, given: _must(isinstance(given, kind), what, be, given)
 
 
-def _tools(what: str, given: Any) -> None:
-    _rows(what, given)
-    for row, tool in given.items():
-        _must(isinstance(tool, Tool), f"{what}[{row}]", "a Tool", tool)
+def _rows(check: Check) -> Check:
+    """Of a table: its rows are numbers, and what stands in them is right."""
+
+    def rows(what: str, given: Any) -> None:
+        _must(isinstance(given, Mapping), what, "a dict", given)
+        for row in given:
+            check_number(row, f"a row of {what}", at_least=0)
+        for row, each in given.items():
+            check(f"{what}[{row}]", each)
+
+    return rows
 
 
-def _datums(what: str, given: Any) -> None:
-    _rows(what, given)
-    for row, datum in given.items():
-        few = isinstance(datum, tuple | list) and len(datum) <= len(Datum._fields)
-        _must(few, f"{what}[{row}]", "a Datum or its numbers", datum)
-        Datum(*datum)
+def _names(check: Check) -> Check:
+    """Of values by name."""
+
+    def names(what: str, given: Any) -> None:
+        named = isinstance(given, Mapping) and all(isinstance(name, str) for name in given)
+        _must(named, what, "a dict with names", given)
+        for name, each in given.items():
+            check(f"{what}[{name!r}]", each)
+
+    return names
 
 
-def _named(what: str, given: Any) -> None:
-    _must(isinstance(given, Mapping) and all(isinstance(key, str) for key in given), what, "a dict with names", given)
+def _datum(what: str, given: Any) -> None:
+    few = isinstance(given, tuple | list) and len(given) <= len(Datum._fields)
+    _must(few, what, "a Datum or its numbers", given)
+    Datum(*given)
 
 
-def _files(what: str, given: Any) -> None:
-    _named(what, given)
-    for name, file in given.items():
-        _must(isinstance(file, str | Path), f"{what}[{name!r}]", "a text or a Path", file)
-
-
-def _variables(what: str, given: Any) -> None:
-    _named(what, given)
-    for name, value in given.items():
-        if not isinstance(value, str):
-            check_number(value, f"{what}[{name!r}]")
+def _variable(what: str, given: Any) -> None:
+    if not isinstance(given, str):
+        check_number(given, what)
 
 
 def _stock(what: str, given: Any) -> None:
@@ -145,37 +151,32 @@ def _part(what: str, given: Any) -> None:
     _must(given is None or callable(given), what, "a part", given)
 
 
-def _probe(what: str, given: Any) -> None:
-    _must(isinstance(given, Probe), what, "a Probe", given)
-
-
-def _limits(what: str, given: Any) -> None:
-    _must(isinstance(given, Limits), what, "a Limits", given)
-
-
 def _not_built(what: str, given: Any) -> None:
     if given is not None and not (what == "true_tools" and isinstance(given, Mapping) and not given):
         raise Alarm(f"Setup({what}=…) is not built yet: {MEANT[what][1]}", hint=f"leave {what} out")
 
 
 #: What each part of a setup is: what checks it, and the hint of an alarm about it.
-MEANT: Mapping[str, tuple[Callable[[str, Any], None], str]] = {
-    "tools": (_tools, "a tool is its radius and length in mm, and what else is known of it: "
-                      'Setup(tools={1: mnclab.Tool(radius=4, length=80, kind="drill")})'),
-    "datums": (_datums, "a datum is a zero point in machine coordinates, mm: Setup(datums={1: (100, 50, -200)})"),
-    "presets": (_datums, "a preset is a zero point in machine coordinates, mm: Setup(presets={1: (100, 50, -200)})"),
-    "correctors": (_datums, "a corrector is an offset along the axes, mm: Setup(correctors={1: (0, 0, 80)})"),
+MEANT: Mapping[str, tuple[Check, str]] = {
+    "tools": (_rows(_a(Tool, "a Tool")),
+              "a tool is its radius and length in mm, and what else is known of it: "
+              'Setup(tools={1: mnclab.Tool(radius=4, length=80, kind="drill")})'),
+    "datums": (_rows(_datum), "a datum is a zero point in machine coordinates, mm: Setup(datums={1: (100, 50, -200)})"),
+    "presets": (_rows(_datum), "a preset is a zero point in machine coordinates, mm: Setup(presets={1: (100, 50, -200)})"),
+    "correctors": (_rows(_datum), "a corrector is an offset along the axes, mm: Setup(correctors={1: (0, 0, 80)})"),
     "stock": (_stock, "the blank is two corners, or mnclab.blank.cylinder(…): Setup(stock=((0, 0, -20), (60, 40, 0)))"),
     "part": (_part, "a part is what a probe touches: Setup(part=mnclab.part.box((0, 0, -20), (60, 40, 0)))"),
-    "probe": (_probe, "how a touch probe moves: Setup(probe=mnclab.Probe(clearance=2, reach=10, feed=100))"),
-    "limits": (_limits, "what the axes can do: Setup(limits=mnclab.Limits(rapid=10000, acceleration=1000))"),
+    "probe": (_a(Probe, "a Probe"), "how a touch probe moves: Setup(probe=mnclab.Probe(clearance=2, reach=10, feed=100))"),
+    "limits": (_a(Limits, "a Limits"), "what the axes can do: Setup(limits=mnclab.Limits(rapid=10000, acceleration=1000))"),
     "start": (lambda what, given: check_point(given, what),
               "where the spindle stands before the program, machine coordinates, mm: Setup(start=(0, 0, 300))"),
-    "files": (_files, "other programs and tables by name, each a text or a path: "
-                      'Setup(files={"SUB.H": pathlib.Path("sub.h")})'),
-    "settings": (_named, "choices of the control, listed by mnclab.help(\"settings\", control): "
-                         'Setup(settings={"block_skip": True})'),
-    "variables": (_variables, 'values that are there before the program: Setup(variables={"QR1": 2.5})'),
+    "files": (_names(_a(str | Path, "a text or a Path")),
+              "other programs and tables by name, each a text or a path: "
+              'Setup(files={"SUB.H": pathlib.Path("sub.h")})'),
+    "settings": (_names(_a(object, "anything")),
+                 "choices of the control, listed by mnclab.help(\"settings\", control): "
+                 'Setup(settings={"block_skip": True})'),
+    "variables": (_names(_variable), 'values that are there before the program: Setup(variables={"QR1": 2.5})'),
     "kinematics": (_not_built, "the axes of the machine stand square to each other"),
     "true_tools": (_not_built, "the tools are as their table says"),
 }  # fmt: skip
@@ -185,14 +186,13 @@ MEANT: Mapping[str, tuple[Callable[[str, Any], None], str]] = {
 class Setup:
     """Everything a program finds on the machine; never changed by a run, which keeps a copy that nobody can write to.
 
-    `start` is the spindle reference in machine coordinates, mm. `part` and `stock` stand in machine coordinates.
-    `files` maps names to texts or paths of other programs and tables. `settings` overrides the declared choices of
-    the control (`mnclab.help("settings", control)`). `correctors` are offsets along the axes, mm, of the controls whose
-    words D or L name them. Tools given without a number get the one they are listed under.
-    `variables` have their values before the program begins: what another program left (`run.variables`).
-    `stock` is the blank: two corners, or a body of revolution (`mnclab.workpiece.blank.cylinder`); pictures show it.
-    `source` is the file that the setup was read from: an alarm about one of its settings shows its line.
-    `kinematics` and `true_tools` are not built yet. Tables are kept as copies; an Alarm names what cannot be.
+    `start` is the spindle reference, mm; it, `part` and `stock` are in machine coordinates. `stock` is the blank: two
+    corners, or a body of revolution (`mnclab.workpiece.blank.cylinder`). `files` maps names to texts or paths of other
+    programs and tables. `settings` overrides the declared choices of the control (`mnclab.help("settings", control)`).
+    `correctors` are offsets along the axes, mm, of the controls whose words D or L name them. Tools given without a
+    number get the one they are listed under. `variables` have values before the program begins: what another left
+    (`run.variables`). `source` is the file that the setup was read from: an alarm about a setting shows its line.
+    `kinematics` and `true_tools` are not built yet. An Alarm names what cannot be.
     """
 
     tools: Mapping[int, Tool] = field(default_factory=lambda: MAGAZINE)
@@ -230,7 +230,8 @@ class Setup:
         for name in MEANT:
             value = getattr(self, name)
             if name == "tools" and dict(value) == dict(MAGAZINE):
-                lines.append(f"  tools: the usual ones: {', '.join(tool.name for tool in MAGAZINE.values() if tool.kind)}")
+                usual = ", ".join(tool.name for tool in MAGAZINE.values() if tool.kind)
+                lines.append(f"  tools: the usual ones: {usual}")
             elif isinstance(value, Mapping):
                 quoted = shown if name in NAMED else repr
                 lines += [f"  {name}[{key!r}]: {quoted(each)}" for key, each in value.items()]
@@ -271,15 +272,13 @@ class Tables:
     """The tables of one run: copies that the program may write to."""
 
     def __init__(self, setup: Setup) -> None:
-        numbered = {number: _numbered(tool, number) for number, tool in setup.tools.items()}
-        self.tools: dict[int, Tool] = {0: MAGAZINE[0], **numbered}
-        self.datums: dict[int, Datum] = {row: Datum(*datum) for row, datum in setup.datums.items()}
-        self.presets: dict[int, Datum] = {row: Datum(*datum) for row, datum in setup.presets.items()}
-        self.correctors: dict[int, Datum] = {row: Datum(*datum) for row, datum in setup.correctors.items()}
+        self.tools: dict[int, Tool] = {0: MAGAZINE[0]}
+        for number, tool in setup.tools.items():
+            self.tools[number] = tool if tool.number == number else replace(tool, number=number)
+        self.datums, self.presets, self.correctors = (
+            {row: Datum(*datum) for row, datum in table.items()}
+            for table in (setup.datums, setup.presets, setup.correctors)
+        )
 
     def __repr__(self) -> str:
         return f"<Tables: {len(self.tools)} tools, {len(self.datums)} datums, {len(self.presets)} presets>"
-
-
-def _numbered(tool: Tool, number: int) -> Tool:
-    return tool if tool.number == number else replace(tool, number=number)

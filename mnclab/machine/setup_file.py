@@ -6,7 +6,7 @@ import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import fields, replace
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -69,7 +69,6 @@ class File:
 
     @property
     def end(self) -> Span:
-        """Just behind the last character."""
         return Span(len(self._lines), len(self._lines[-1]) + 1) if self._lines else Span(1, 1)
 
     def line_text(self, line: int) -> str:
@@ -109,28 +108,20 @@ class File:
 
 def load(path: str | Path) -> Setup:
     """The setup of a file; an Alarm names what is wrong in it."""
-
-    def build(table: dict[str, Any], file: File) -> Setup:
-        return replace(_setup(table, file), source=file)
-
-    return parse(path, build, "setup")
+    return parse(path, _setup, "setup")
 
 
 def parse(path: str | Path, build: Callable[[dict[str, Any], File], Result], what: str) -> Result:
     """What `build` makes of the table in a TOML file; alarms show the line of the file."""
     if not isinstance(path, str | Path) or not str(path):
         raise Alarm(f"the {what} must be the name of a file, got {shown(path)}")
-    path = Path(path)
+    file = File(str(Path(path)), "")
     try:
-        text = read(path, f"the {what}", LARGEST).decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise Alarm(f"the {what} cannot be read: it is not UTF-8", source=File(str(path), "")) from None
-    except Alarm as alarm:
-        alarm.source = File(str(path), "")
-        raise
-    file = File(str(path), text)
-    try:
+        text = read(Path(path), f"the {what}", LARGEST).decode("utf-8-sig")
+        file = File(file.name, text)
         return build(_table_of(text), file)
+    except UnicodeDecodeError:
+        raise Alarm(f"the {what} cannot be read: it is not UTF-8", source=file) from None
     except tomllib.TOMLDecodeError as error:
         place = re.search(r"line (\d+), column (\d+)", str(error))
         span = Span(int(place[1]), int(place[2])) if place else file.end
@@ -141,7 +132,7 @@ def parse(path: str | Path, build: Callable[[dict[str, Any], File], Result], wha
 
 
 def _table_of(text: str) -> dict[str, Any]:
-    """The table that a text writes; an Alarm for one that nobody could follow, and that Python would take hours for."""
+    """The table that a text writes; an Alarm for one that Python would take hours for."""
     for number, line in enumerate(text.splitlines() if text.count(".") > DEEPEST else (), 1):
         deep = 0
         for part in line.split("."):
@@ -165,28 +156,24 @@ def _setup(table: Mapping[str, Any], file: File) -> Setup:
         with file.at(name):
             if name == "start":
                 found[name] = _point(value, name)
-            elif name == "stock":
-                found[name] = _stock(_table(value, name), file)
-            elif name in ROWS:
-                found[name] = _rows(_table(value, name), name, file)
             elif name in RECORDS:
                 found[name] = record(RECORDS[name], value, file, name)
-            elif name == "files":
-                found[name] = {key: _file(each, file, key) for key, each in _table(value, name).items()}
             elif name in NOT_BUILT:
                 found[name] = value or True
             else:
-                found[name] = _table(value, name)
+                found[name] = TABLES[name](_table(value, name), name, file)
             Setup(**{name: found[name]})  # what is wrong with this part alone is shown at its place
-    return Setup(**found)
+    return Setup(**found, source=file)
 
 
 def _rows(table: Mapping[str, Any], name: str, file: File) -> dict[int, Any]:
     """The rows of a table of tools or datums; an Alarm for one that is written twice, as 1 and as 01."""
     found: dict[int, Any] = {}
     for key, value in table.items():
-        row = _row(key, name, file)
         with file.at(name, key):
+            if not (key.isascii() and key.isdigit() and len(key) < 10):
+                raise Alarm(f"a row of {name} must be a whole number, got {shown(key)}")
+            row = int(key)
             if row in found:
                 raise Alarm(f"{name} has the row {row} twice")
         found[row] = record(ROWS[name], value, file, name, key)
@@ -197,24 +184,24 @@ def _rows(table: Mapping[str, Any], name: str, file: File) -> dict[int, Any]:
     return found
 
 
-def _stock(table: Mapping[str, Any], file: File) -> Blank:
+def _stock(table: Mapping[str, Any], stock: str, file: File) -> Blank:
     """The blank: a cylinder where it has a radius, else a box."""
     if "radius" not in table:
-        check_names(table, ("low", "high"), "stock without a radius", file, "stock")
+        check_names(table, ("low", "high"), "stock without a radius", file, stock)
         corners = []
         for name in ("low", "high"):
-            with file.at("stock", name):
+            with file.at(stock, name):
                 if name not in table:
                     needs = "stock needs low and high, two corners [x, y, z], or a radius"
                     raise Alarm(f"{needs}: stock.{name} is missing")
                 corners.append(_point(table[name], f"stock.{name}"))
         return Box(*corners)
-    check_names(table, ("radius", "low", "high", "bore", "axis", "at"), "stock", file, "stock")
+    check_names(table, ("radius", "low", "high", "bore", "axis", "at"), stock, file, stock)
     numbers = {name: table.get(name, 0.0) for name in ("radius", "low", "high", "bore")}
     for name, number in numbers.items():
-        with file.at("stock", name):
+        with file.at(stock, name):
             check_number(number, f"stock.{name}")
-    with file.at("stock", "at"):
+    with file.at(stock, "at"):
         at = _point(table.get("at", [0.0, 0.0, 0.0]), "stock.at")
     try:
         return cylinder(**numbers, axis=table.get("axis", "Z"), at=at)
@@ -239,7 +226,6 @@ def record(kind: Any, value: Any, file: File, *keys: str) -> Any:
 
 
 def _field(value: Any) -> Any:
-    """Lists as tuples."""
     return tuple(map(_field, value)) if isinstance(value, list) else value
 
 
@@ -261,19 +247,20 @@ def _point(value: Any, where: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _file(name: Any, file: File, key: str) -> Path:
-    """A file, seen from the one that names it."""
-    with file.at("files", key):
-        if not isinstance(name, str):
-            raise Alarm(f"files.{key} must be a text, got {shown(name)}")
-    return Path(file.name).parent / name
+def _files(table: Mapping[str, Any], files: str, file: File) -> dict[str, Path]:
+    """Files by name, seen from the one that names them."""
+    for key, name in table.items():
+        with file.at(files, key):
+            if not isinstance(name, str):
+                raise Alarm(f"files.{key} must be a text, got {shown(name)}")
+    return {key: Path(file.name).parent / name for key, name in table.items()}
 
 
-def _row(number: str, where: str, file: File) -> int:
-    with file.at(where, number):
-        if not (number.isascii() and number.isdigit() and len(number) < 10):
-            raise Alarm(f"a row of {where} must be a whole number, got {shown(number)}")
-    return int(number)
+#: What reads a part of a setup that is a table in the file.
+TABLES: dict[str, Callable[[Mapping[str, Any], str, File], Any]] = {
+    **dict.fromkeys(ROWS, _rows), "stock": _stock, "files": _files,
+    **dict.fromkeys(("settings", "variables"), lambda table, name, file: table),
+}  # fmt: skip
 
 
 def _table(value: Any, where: str) -> Mapping[str, Any]:

@@ -127,7 +127,6 @@ class State:
     row_state: int | None  # of the rows made now, once worked out
 
     def begin(self) -> None:
-        """Give every part its first value."""
         for name, one in TABLE.items():
             setattr(self, name, one.default(self) if callable(one.default) else one.default)
         self.compose()
@@ -140,7 +139,6 @@ class State:
         self.row_state = None
 
     def put(self, **values: Any) -> None:
-        """Set attributes; the history does not hear of it."""
         vars(self).update(values)
         if "frames" in values:
             self.compose()
@@ -161,7 +159,6 @@ class State:
             self.put(**before)
 
     def snapshot(self, names: Iterable[str] | None = None) -> Snapshot:
-        """The attributes of these names, by default all, as they are now."""
         return Snapshot({name: getattr(self, name) for name in (TABLE if names is None else names)})
 
     def restore(self, snapshot: Snapshot) -> None:

@@ -7,11 +7,14 @@ declaration, or guessed from what a parameter means and allows; they are a start
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle, Parameter
 from mnclab.path.listing import figure
+
+TrialWords = Sequence[tuple[str, Any]]  # address and value
 
 #: A piece of a meaning -> a first value, mm where it is a length; the first that fits and is allowed counts.
 FIRST = (
@@ -46,6 +49,11 @@ SCALE = {"0.01 mm": 100.0}
 def number(value: float) -> str:
     """A number as programs write it: without exponent and trailing zeros."""
     return figure(value, 6)
+
+
+def in_block(cycle: type[Cycle], words: TrialWords) -> str:
+    """A block of the code of a cycle and its words."""
+    return " ".join([cycle.code, *(address + number(value) for address, value in words)])
 
 
 def is_text(parameter: Parameter) -> bool:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mnclab.geometry.frames import IDENTITY, Matrix, is_shift
+from mnclab.geometry.frames import IDENTITY, Matrix
 from mnclab.machining.steps import Go, Step
 from mnclab.path.tool import Tool
 
@@ -27,7 +27,7 @@ SAME = 1e-9
 
 def faults(does: str, m: Machine) -> Iterator[str]:
     """Why a cycle that does this cannot run under the frame of the machine: the end of a sentence."""
-    if is_shift(m.frames.matrix):
+    if m.shift is not None:
         return
     if is_upside_down(m):
         yield "cannot run under a mirror image of Z: it would work from below the table"
@@ -38,7 +38,7 @@ def faults(does: str, m: Machine) -> Iterator[str]:
         if not is_round(m):
             yield "cannot run under unequal scales of the plane"
         return
-    x, y, z = np.linalg.norm(m.frames.matrix[:3, :3], axis=0).tolist()
+    x, y, z = np.linalg.norm(m.matrix[:3, :3], axis=0).tolist()
     kept = "bar keeps its size" if does == SHIFTS else "thread keeps its pitch"
     if abs(z - 1) > SAME:
         yield f"cannot run under a scale of Z other than 1, got {z:g}: a {kept}"
@@ -48,7 +48,7 @@ def faults(does: str, m: Machine) -> Iterator[str]:
 
 def is_round(m: Machine) -> bool:
     """Whether circles of the plane XY stay circles on the machine."""
-    u, v = m.frames.matrix[:3, 0], m.frames.matrix[:3, 1]
+    u, v = m.matrix[:3, 0], m.matrix[:3, 1]
     return bool(abs(np.linalg.norm(u) - np.linalg.norm(v)) <= SAME and abs(u @ v) <= SAME)
 
 
@@ -60,17 +60,17 @@ def is_upside_down(m: Machine) -> bool:
 
 def plane_scale(m: Machine) -> float:
     """How long 1 mm of the program in the plane XY is on the machine; 1 where that depends on the direction."""
-    return math.hypot(*m.frames.matrix[:3, 0].tolist()) if is_round(m) else 1.0
+    return math.hypot(*m.matrix[:3, 0].tolist()) if is_round(m) else 1.0
 
 
 def depth_scale(m: Machine) -> float:
     """How long 1 mm of the program along Z is on the machine."""
-    return math.hypot(*m.frames.matrix[:3, 2].tolist())
+    return math.hypot(*m.matrix[:3, 2].tolist())
 
 
 def tool(m: Machine) -> Tool:
     """The tool in lengths of the program: where Z has another scale than the plane, its angles are others there, too."""
-    if is_shift(m.frames.matrix):
+    if m.shift is not None:
         return m.tool
     plane, depth = plane_scale(m), depth_scale(m)
     own, steeper = m.tool, plane / depth
@@ -101,7 +101,7 @@ def with_the_spindle(m: Machine, steps: Iterable[Step], frame: Matrix = IDENTITY
 
     `frame` is the part of the frame that the direction follows; none of it: it is one of the machine.
     """
-    whole = m.frames.matrix[:3, :3]
+    whole = m.matrix[:3, :3]
     for step in steps:
         if isinstance(step, Go) and step.x is not None and step.y is not None and (step.x or step.y):
             way = np.linalg.solve(whole, frame[:3, :2] @ (step.x, step.y))[:2]

@@ -50,7 +50,6 @@ class Variables(Kept):
         return value
 
     def forget(self, name: str) -> None:
-        """A variable has no value any more."""
         if name in self:
             self._machine.log(name, None)
             del self[name]

@@ -31,7 +31,7 @@ def determine(m: Machine) -> None:
         pending.make(m)
 
 
-class Moment(NamedTuple):
+class Reading(NamedTuple):
     """What a block that waits was read under."""
 
     step: int
@@ -40,22 +40,14 @@ class Moment(NamedTuple):
     label: str
 
 
-def moment(m: Machine) -> Moment:
-    """Now."""
-    return Moment(m.step, m.source_line, m.side, m.label)
+def reading(m: Machine) -> Reading:
+    """What a block is read under now."""
+    return Reading(m.step, m.source_line, m.side, m.label)
 
 
 @contextmanager
-def as_of(m: Machine, then: Moment) -> Iterator[None]:
-    """Rows made within belong to the block of an earlier moment, and the history notes their ends there."""
-    now = moment(m)
-    try:
-        _set(m, then)
+def as_of(m: Machine, then: Reading) -> Iterator[None]:
+    """Rows made within belong to a block that was read earlier, and the history notes their ends there."""
+    with m.within(**then._asdict()):
         yield
         m.log("position", m.programmed)
-    finally:
-        _set(m, now)
-
-
-def _set(m: Machine, at: Moment) -> None:
-    m.put(**at._asdict())

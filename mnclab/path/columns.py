@@ -16,6 +16,9 @@ from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
 
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 T = TypeVar("T", bound=np.generic)
 
 
@@ -35,7 +38,6 @@ class Column(NamedTuple):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The shape of one row."""
         return (len(self.parts),) if self.parts else ()
 
     def flat(self, name: str) -> list[str]:
@@ -48,9 +50,14 @@ class Column(NamedTuple):
         return np.broadcast_to(value, (rows, *self.shape))
 
 
-def column(
-    dtype: type[T], default: Any, meaning: str, unit: str = "", *, parts: str = "", per: str = ""
-) -> NDArray[T]:
+def gathered(column: NDArray[Any], source: Index) -> NDArray[Any]:
+    """A column read at rows `source` (m,); a constant one stays so and costs nothing."""
+    if len(column) and column.strides[0] == 0:
+        return np.broadcast_to(column[0], (len(source), *column.shape[1:]))
+    return column.take(source, axis=0, mode="clip")  # faster than column[source]
+
+
+def column(dtype: type[T], default: Any, meaning: str, unit: str = "", *, parts: str = "", per: str = "") -> NDArray[T]:
     """Declare a column; a toolpath has an array of its name."""
     return cast("NDArray[T]", Column(dtype, default, meaning, unit, parts, per))
 
@@ -72,9 +79,7 @@ class Columns:
     feed = column(np.float64, np.nan, "feed along the path; inf for rapids", "mm/min", per="row")
     per_rev = column(np.float64, np.nan, "feed per revolution of rows at feed", "mm/rev", per="state")
     surface = column(np.float64, np.nan, "constant cutting speed", "m/min", per="state")
-    speed_limit = column(
-        np.float64, np.inf, "greatest spindle speed at constant cutting speed", "rev/min", per="state"
-    )
+    speed_limit = column(np.float64, np.inf, "greatest spindle speed at constant cutting speed", "rev/min", per="state")
     spindle_x = column(np.float64, 0.0, "X of the spindle axis at constant cutting speed", "mm", per="state")
     time = column(np.float64, np.nan, "time given by the program", "s", per="row")
     spindle = column(np.float64, 0.0, "speed at the end of the row, negative for counter-clockwise", "rev/min", per="state")

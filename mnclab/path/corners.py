@@ -10,11 +10,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import Element, meet
 from mnclab.geometry.vectors import cross, dot, left
-from mnclab.path.columns import COLUMNS
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind
 from mnclab.path.plane import PlaneView
@@ -30,7 +29,6 @@ class Rounding(NamedTuple):
 
     @property
     def label(self) -> str:
-        """What its row is called."""
         return "rounding"
 
     def __str__(self) -> str:
@@ -46,7 +44,6 @@ class Chamfer(NamedTuple):
 
     @property
     def label(self) -> str:
-        """What its row is called."""
         return "chamfer"
 
     def __str__(self) -> str:
@@ -55,15 +52,11 @@ class Chamfer(NamedTuple):
 
 Corner = Rounding | Chamfer
 NOTHING = 1e-9  # mm
-CHAMFER: dict[str, Any] = {"kind": Kind.LINE, "sweep": 0.0}
 
 
 def apply(path: Toolpath, unfinished: bool = False) -> Toolpath:
-    """The path with its corners replaced; itself when it has none. Raises PathFault.
-
-    `unfinished`: the program broke off, so the end of a last row that waits for its joint is unknown and the row is
-    left out.
-    """
+    """The path with its corners replaced; itself when it has none. Raises PathFault. `unfinished`: the program broke
+    off, so the end of a last row that waits for its joint is unknown and the row is left out."""
     which = [isinstance(joint, Corner) for joint in path.joints]
     rows = np.flatnonzero((path.joint >= 0) & np.array([*which, False])[path.joint])
     if not len(rows):
@@ -78,14 +71,13 @@ def apply(path: Toolpath, unfinished: bool = False) -> Toolpath:
 class _Work:
     """Ends and sweeps of rows as they are trimmed, and the rows to insert."""
 
-    def __init__(self, path: Toolpath, rows: NDArray[np.int64]) -> None:
+    def __init__(self, path: Toolpath, rows: Index) -> None:
         self.path, self.rows, self.view = path, rows, PlaneView(path)
         self.begin, self.end, self.sweep = self.view.start.copy(), self.view.end.copy(), path.sweep.copy()
-        self.inserted: list[tuple[int, int, dict[str, Any]]] = []  # before row, like row, changed columns in (u, v, w)
+        self.inserted: list[tuple[int, dict[str, Any]]] = []  # before which row, and what differs from it, in (u, v, w)
         self.trimmed: set[int] = set()
 
     def next_of(self, row: int, step: int, what: str) -> int:
-        """The next row that moves in the plane."""
         after = np.flatnonzero(self.view.moves[row + 1 :])
         if not len(after):
             raise PathFault(f"{what} needs a path element after it", step)
@@ -116,14 +108,15 @@ class _Work:
             raise PathFault(f"{joint} has no place where the path runs straight back", joint.step)
         feed = self.feed(row, follow, joint)
         if isinstance(joint, Chamfer):
-            begin, end = (self.view.end[row, :2] + joint.length * t for t in self.along(row, follow))
-            fits, changes = self.trim(row, follow, begin, end), CHAMFER.copy()
+            begin = self.view.end[row, :2] - joint.length * self.view.tangent_end[row]
+            end = self.view.end[row, :2] + joint.length * self.view.tangent_start[follow]
+            fits, changes = self.trim(row, follow, begin, end), dict[str, Any](kind=Kind.LINE, sweep=0.0)
         else:
             fits, end, changes = self.round(row, follow, joint.radius * float(np.sign(turn)))
         if not fits:
             raise PathFault(f"{joint} does not fit between its elements, which are too short for it", joint.step)
         changes |= {"end": (*end, self.view.end[row, 2]), "feed": feed, "joint": -1, "label": joint.label}
-        self.inserted.append((follow, follow, changes))
+        self.inserted.append((follow, changes))
         self.trimmed |= {row, follow}
 
     def feed(self, row: int, follow: int, joint: Corner) -> float:
@@ -133,11 +126,7 @@ class _Work:
                 return feed
         raise PathFault(f"{joint} stands between two rapid moves and needs a feed", joint.step, "write F in its block")
 
-    def along(self, row: int, follow: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """From the corner back along the element before it, and on along the one after it: unit vectors (2,)."""
-        return -self.view.tangent_end[row], self.view.tangent_start[follow]
-
-    def round(self, row: int, follow: int, offset: float) -> tuple[bool, NDArray[np.float64], dict[str, Any]]:
+    def round(self, row: int, follow: int, offset: float) -> tuple[bool, Array, dict[str, Any]]:
         """Trim two elements for the arc between them: whether it fits, its end (2,), and its columns."""
         first, second = self.element(row, True, offset), self.element(follow, False, offset)
         centre = meet(first, second, self.view.end[row : row + 1, :2])[0]
@@ -148,11 +137,12 @@ class _Work:
         arc = {"kind": Kind.ARC, "centre": (*centre, self.view.end[row, 2]), "sweep": sweep}
         return self.trim(row, follow, begin, end), end, arc
 
-    def trim(self, row: int, follow: int, begin: NDArray[np.float64], end: NDArray[np.float64]) -> bool:
+    def trim(self, row: int, follow: int, begin: Array, end: Array) -> bool:
         """End one element earlier and begin the next later; False if nothing would be left of one of them."""
-        return self.trim_end(row, begin) and self.trim_start(follow, end)
+        self.end[row, :2], self.begin[follow, :2] = begin, end
+        return self.remains(row) and self.remains(follow)
 
-    def foot(self, row: int, centre: NDArray[np.float64]) -> NDArray[np.float64]:
+    def foot(self, row: int, centre: Array) -> Array:
         """The point of an element nearest to a centre."""
         if self.view.arc[row]:
             spoke = centre - self.view.centre[row]
@@ -160,66 +150,45 @@ class _Work:
         t = self.view.tangent_end[row]
         return self.begin[row, :2] + dot(centre - self.begin[row, :2], t) * t
 
-    def trim_end(self, row: int, to: NDArray[np.float64]) -> bool:
-        """Shorten a row at its end; False if nothing would be left."""
-        left_over = self.left_over(row, self.begin[row, :2], to)
-        self.end[row, :2] = to
-        if self.view.arc[row]:
-            self.sweep[row] = left_over
-        return left_over > -1e-9 if not self.view.arc[row] else abs(left_over) < abs(self.path.sweep[row]) + 1e-9
+    def remains(self, row: int) -> bool:
+        """Whether something is left of a trimmed row, whose sweep is set to that."""
+        left_over = self.left_over(row)
+        if not self.view.arc[row]:
+            return left_over > -1e-9
+        self.sweep[row] = left_over
+        return abs(left_over) < abs(self.path.sweep[row]) + 1e-9
 
-    def trim_start(self, row: int, to: NDArray[np.float64]) -> bool:
-        """Shorten a row at its start; False if nothing would be left."""
-        left_over = self.left_over(row, to, self.end[row, :2])
-        self.begin[row, :2] = to
-        if self.view.arc[row]:
-            self.sweep[row] = left_over
-        return left_over > -1e-9 if not self.view.arc[row] else abs(left_over) < abs(self.path.sweep[row]) + 1e-9
-
-    def left_over(self, row: int, begin: NDArray[np.float64], end: NDArray[np.float64]) -> float:
+    def left_over(self, row: int) -> float:
         """What remains of a row: length of a line, sweep of an arc."""
+        begin, end = self.begin[row, :2], self.end[row, :2]
         if not self.view.arc[row]:
             return float(dot(end - begin, self.view.tangent_end[row]))
         a, b = begin - self.view.centre[row], end - self.view.centre[row]
         angle, sense = np.arctan2(cross(a, b), dot(a, b)), np.sign(self.view.sweep[row])
         return float(angle + sense * 2 * np.pi if angle * sense < 0 else angle)
 
-    def used_up(self) -> NDArray[np.bool_]:
+    def used_up(self) -> Mask:
         """Rows (n,) of which the corners at both their ends have left nothing: a stop there would be no one's wish."""
-        used = np.zeros(len(self.path), dtype=bool)
-        rows = np.array(sorted(self.trimmed), dtype=np.int64)
-        rest = np.abs(self.end[rows] - self.begin[rows]).max(axis=1, initial=0.0) < NOTHING
-        used[rows[rest & (np.abs(self.sweep[rows]) < np.pi)]] = True
-        return used
+        nothing = np.abs(self.end - self.begin).max(axis=1, initial=0.0) < NOTHING
+        return np.isin(np.arange(len(self.path)), list(self.trimmed)) & nothing & (np.abs(self.sweep) < np.pi)
 
     def result(self, count: int) -> Toolpath:
         """The first `count` rows of the path, with their corners."""
         order = sorted(self.inserted, key=lambda item: item[0])
-        path, view = self.path, self.view
-        like = np.array([item[1] for item in order], dtype=np.int64)
-        where = np.array([item[0] for item in order], dtype=np.int64)
-        labels = list(dict.fromkeys([*path.labels, *(item[2]["label"] for item in order)]))
-        everything = np.arange(len(path))
-        ends = view.to_space(everything, self.end)
-        columns = {name: np.asarray(getattr(path, name)) for name in COLUMNS if name not in ("start", "end")}
-        columns["sweep"], columns["joint"] = self.sweep, path.joint.copy()
+        path, view, everything = self.path, self.view, np.arange(len(self.path))
+        where = np.array([row for row, _ in order], dtype=np.int64)
+        known = list(dict.fromkeys([*path.labels, *(changes["label"] for _, changes in order)]))
+        columns = path.all_but_ends() | {"sweep": self.sweep, "joint": path.joint.copy()}
         columns["joint"][self.rows] = -1
-        made: dict[str, Any] = {name: column[like].copy() for name, column in columns.items()}
-        for k, (_, _, changes) in enumerate(order):
+        made: dict[str, Any] = {name: column[where].copy() for name, column in columns.items()}
+        new_ends = np.empty((len(order), 3))
+        for k, (row, changes) in enumerate(order):
+            places = np.array([changes.pop("end"), changes.pop("centre", (np.nan,) * 3)])
+            new_ends[k], made["centre"][k] = view.to_space(np.array([row, row]), places)
             for name, value in changes.items():
-                if name == "label":
-                    made["label"][k] = labels.index(value)
-                elif name == "centre":
-                    made["centre"][k] = view.to_space(like[k : k + 1], np.array([value]))[0]
-                elif name != "end":
-                    made[name][k] = value
-            if changes["kind"] == Kind.LINE:
-                made["centre"][k] = np.nan
-        new_ends = view.to_space(like, np.array([item[2]["end"] for item in order]).reshape(-1, 3))
+                made[name][k] = known.index(value) if name == "label" else value
         columns = {name: np.insert(column, where, made[name], axis=0) for name, column in columns.items()}
         keep = np.insert(~self.used_up() & (everything < count), where, True)
-        vertices = np.concatenate([path.start[:1], np.insert(ends, where, new_ends, axis=0)[keep]])
-        columns = {name: column[keep] for name, column in columns.items()}
-        return Toolpath.chain(
-            vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe
-        )
+        ends = np.insert(view.to_space(everything, self.end), where, new_ends, axis=0)
+        vertices = np.concatenate([path.start[:1], ends[keep]])
+        return path.through(vertices, {name: column[keep] for name, column in columns.items()}, *known)

@@ -18,16 +18,14 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mnclab.geometry.vectors import cross, dot, left
-from mnclab.path.columns import COLUMNS
+from mnclab.path.columns import Array, gathered
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
-Point = NDArray[np.float64]
 NEAR = 1e-9  # mm
 CHANGED = ("kind", "centre", "sweep", "feed", "label", "joint")  # columns that a lead gives its rows
 MISFIT = 0.1  # mm: more than arcs may miss their ends by
@@ -52,28 +50,27 @@ class Lead(NamedTuple):
 
     @property
     def label(self) -> str:
-        """What its rows are called."""
         return "departure" if self.departs else "approach"
 
     @property
     def name(self) -> str:
-        """How the program writes it."""
         return f"{'DEP' if self.departs else 'APPR'} {self.form}"
 
 
 class Way(NamedTuple):
     """The auxiliary point H (2,), and the arc from there to Q: its centre (2,) or None for a line, and its sweep."""
 
-    by: Point
-    centre: Point | None = None
+    by: Array
+    centre: Array | None = None
     sweep: float = 0.0
 
+    def centre_at(self, height: float) -> Array | None:
+        return None if self.centre is None else np.append(self.centre, height)
 
-def way(lead: Lead, start: Point, to: Point, t: Point) -> Way:
-    """The way from `start` to the place `to` where the contour begins with the tangent `t` (all (2,)).
 
-    A departure is asked for backwards: the side, the tangent and the sweep turn over. Raises PathFault.
-    """
+def way(lead: Lead, start: Array, to: Array, t: Array) -> Way:
+    """The way from `start` to the place `to` where the contour begins with the tangent `t` (all (2,)). A departure is
+    asked for backwards: the side, the tangent and the sweep turn over. Raises PathFault."""
     normal = lead.side * left(t)
     match lead.form:
         case "LT":
@@ -87,7 +84,7 @@ def way(lead: Lead, start: Point, to: Point, t: Point) -> Way:
     return _line_and_arc(lead, start, to, t)
 
 
-def _line_and_arc(lead: Lead, start: Point, to: Point, t: Point) -> Way:
+def _line_and_arc(lead: Lead, start: Array, to: Array, t: Array) -> Way:
     """LCT: the arc bends towards the side of the tangent on which the start lies, and the line touches it."""
     beside, along = float(cross(t, start - to)), float(dot(start - to, t))
     if abs(beside) < NEAR:
@@ -100,11 +97,8 @@ def _line_and_arc(lead: Lead, start: Point, to: Point, t: Point) -> Way:
     distance = float(np.hypot(*away))
     if distance < lead.radius - NEAR:
         outside = "ends" if lead.departs else "begins"
-        raise PathFault(
-            f"{lead.name} {outside} inside of its arc of R{lead.radius:g}: no line touches the arc from there",
-            lead.step,
-            "take a smaller radius, or a point farther away",
-        )
+        message = f"{lead.name} {outside} inside of its arc of R{lead.radius:g}: no line touches the arc from there"
+        raise PathFault(message, lead.step, "take a smaller radius, or a point farther away")
     # the line has the centre at the distance R beside it
     heading = _turned(away / distance, -sense * math.asin(min(1.0, lead.radius / distance)))
     by = start + math.sqrt(max(0.0, (distance - lead.radius) * (distance + lead.radius))) * heading
@@ -112,7 +106,7 @@ def _line_and_arc(lead: Lead, start: Point, to: Point, t: Point) -> Way:
     return Way(by, centre, sense * angle) if NEAR < angle < math.tau - NEAR else Way(to)
 
 
-def _turned(v: Point, angle: float) -> Point:
+def _turned(v: Array, angle: float) -> Array:
     c, s = math.cos(angle), math.sin(angle)
     return np.array([c * v[0] - s * v[1], s * v[0] + c * v[1]])
 
@@ -123,7 +117,7 @@ def apply(path: Toolpath, contour: Toolpath, unfinished: bool = False) -> Toolpa
     `contour` is the same before the compensation: its elements give the tangents. `unfinished`: the program broke
     off, so an approach may still wait for its contour and is left out.
     """
-    rows = [int(row) for row in np.flatnonzero(path.joint >= 0) if isinstance(_joint(path, int(row)), Lead)]
+    rows = [row for row in np.flatnonzero(path.joint >= 0).tolist() if isinstance(_joint(path, row), Lead)]
     if not rows:
         return path
     view, before = PlaneView(path), PlaneView(contour)
@@ -132,9 +126,7 @@ def apply(path: Toolpath, contour: Toolpath, unfinished: bool = False) -> Toolpa
     made: dict[int, list[_Part]] = {}
     for row in rows:
         lead, here = _joint(path, row), at[int(path.joint[row])]
-        next_to = (
-            np.searchsorted(elements, here, "left") - 1 if lead.departs else np.searchsorted(elements, here, "right")
-        )
+        next_to = int(np.searchsorted(elements, here, "left" if lead.departs else "right")) - lead.departs
         lonely = not 0 <= next_to < len(elements)
         if lonely and unfinished:
             return _expanded(path[:row], made, view)
@@ -168,42 +160,33 @@ def _alone(lead: Lead) -> PathFault:
 class _Part(NamedTuple):
     """A row of a lead in the coordinates of its plane: end (3,), and centre (3,) and sweep of an arc."""
 
-    end: Point
-    centre: Point | None = None
+    end: Array
+    centre: Array | None = None
     sweep: float = 0.0
     feed: float = math.nan  # nan: that of the block
 
 
-def _at(found: Way, height: float) -> Point | None:
-    """The centre (3,) at the height where its arc begins."""
-    return None if found.centre is None else np.append(found.centre, height)
-
-
-def _approach(view: PlaneView, row: int, lead: Lead, t: Point, contact: Point) -> list[_Part]:
+def _approach(view: PlaneView, row: int, lead: Lead, t: Array, contact: Array) -> list[_Part]:
     """To H, with the depth, and on to the contact Q with the contour."""
     start = view.start[row]
     found = way(lead, start[:2], contact[:2], t)
     by = np.append(found.by, contact[2])
-    return _moving(start, _Part(by, feed=lead.feed), _Part(contact, _at(found, contact[2]), found.sweep))
+    return _moving(start, _Part(by, feed=lead.feed), _Part(contact, found.centre_at(contact[2]), found.sweep))
 
 
-def _departure(view: PlaneView, row: int, lead: Lead, t: Point) -> list[_Part]:
+def _departure(view: PlaneView, row: int, lead: Lead, t: Array) -> list[_Part]:
     """From the contact with the contour to the end; the height is reached along the last row."""
     start, end = view.start[row], view.end[row]
     found = way(lead._replace(side=-lead.side), end[:2], start[:2], -t)
     if lead.form != "LCT":
-        return [_Part(end, _at(found, start[2]), -found.sweep)]
-    return _moving(start, _Part(np.append(found.by, start[2]), _at(found, start[2]), -found.sweep), _Part(end))
+        return [_Part(end, found.centre_at(start[2]), -found.sweep)]
+    return _moving(start, _Part(np.append(found.by, start[2]), found.centre_at(start[2]), -found.sweep), _Part(end))
 
 
-def _moving(start: Point, first: _Part, last: _Part) -> list[_Part]:
+def _moving(start: Array, first: _Part, last: _Part) -> list[_Part]:
     """Those of two rows that move; the last one if none does."""
-    kept = [
-        part
-        for begin, part in ((start, first), (first.end, last))
-        if part.sweep or float(np.abs(part.end - begin).max()) > NEAR
-    ]
-    return kept or [last]
+    both = ((start, first), (first.end, last))
+    return [part for begin, part in both if part.sweep or float(np.abs(part.end - begin).max()) > NEAR] or [last]
 
 
 def _expanded(path: Toolpath, made: dict[int, list[_Part]], view: PlaneView) -> Toolpath:
@@ -212,30 +195,17 @@ def _expanded(path: Toolpath, made: dict[int, list[_Part]], view: PlaneView) -> 
     for row, parts in made.items():
         count[row] = len(parts)
     source = np.repeat(np.arange(len(path)), count)
-    columns = {
-        name: _spread(np.asarray(getattr(path, name)), source, name in CHANGED)
-        for name in COLUMNS
-        if name not in ("start", "end")
-    }
+    columns = {name: gathered(column, source) for name, column in path.all_but_ends().items()}
+    columns |= {name: np.array(columns[name]) for name in CHANGED}
     ends, first = path.end[source], np.cumsum(count) - count
     labels = list(dict.fromkeys([*path.labels, *(_joint(path, row).label for row in made)]))
     for row, parts in made.items():
         for k, part in enumerate(parts, int(first[row])):
             feed = path.feed[row] if math.isnan(part.feed) else part.feed
             straight = Kind.LINE if math.isfinite(feed) else Kind.RAPID
-            at, which = part.end, np.array([row])
-            ends[k] = view.to_space(which, at[None])[0]
-            columns["kind"][k] = straight if part.centre is None else Kind.ARC
             centre = np.full(3, np.nan) if part.centre is None else part.centre
-            columns["centre"][k] = view.to_space(which, centre[None])[0]
+            ends[k], columns["centre"][k] = view.to_space(np.array([row, row]), np.stack([part.end, centre]))
+            columns["kind"][k] = straight if part.centre is None else Kind.ARC
             columns["sweep"][k], columns["feed"][k] = part.sweep, feed
             columns["label"][k], columns["joint"][k] = labels.index(_joint(path, row).label), -1
-    vertices = np.concatenate([path.start[:1], ends])
-    return Toolpath.chain(vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe)
-
-
-def _spread(column: NDArray[Any], source: NDArray[np.int64], changes: bool) -> NDArray[Any]:
-    """A column gathered from its old rows; a constant one stays so unless rows of it change."""
-    if changes or column.strides[0] or not len(column):
-        return column[source]
-    return np.broadcast_to(column[0], (len(source), *column.shape[1:]))
+    return path.through(np.concatenate([path.start[:1], ends]), columns, *labels)

@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, plain, shown
 from mnclab.text.records import written
@@ -56,15 +56,14 @@ class Limits:
     spindle_acceleration: float | None = None
     tool_change: float = 0.0
 
-    def __repr__(self) -> str:
-        return written(self)
+    __repr__ = written
 
     def __post_init__(self) -> None:
         for name in ("rapid", "acceleration", "jerk", "spindle", "spindle_acceleration"):
             if getattr(self, name) is not None or name not in ("jerk", "spindle_acceleration"):
-                self._check(name, above=True)
+                self._check(name, LEAST)
         for name in ("corner_tolerance", "corner_jump", "tool_change"):
-            self._check(name, above=False)
+            self._check(name, 0)
         for name, known in (("corner_speed", (*CORNERS,)), ("rapid_motion", (*RAPIDS, None))):
             value = getattr(self, name)
             if not isinstance(value, str | None) or value not in known:
@@ -75,21 +74,16 @@ class Limits:
         for each in fields(self):
             object.__setattr__(self, each.name, plain(getattr(self, each.name)))
 
-    def _check(self, name: str, above: bool) -> None:
-        """An Alarm unless each value is a number greater than 0, or not below it."""
+    def _check(self, name: str, least: float) -> None:
         value = getattr(self, name)
-        many = name in ("rapid", "acceleration", "jerk", "corner_jump")
-        values = tuple(value) if many and isinstance(value, tuple | list) else (value,)
-        if len(values) not in ((1, 3) if many else (1,)) and many:
-            raise Alarm(f"limit {name} takes one number or three (X Y Z), got {len(values)}")
-        for each in values:
-            if above:
-                check_number(each, f"limit {name}", above=0, at_least=LEAST, at_most=MOST, endless=name == "spindle")
-            else:
-                check_number(each, f"limit {name}", at_least=0, at_most=MOST)
+        many = name in ("rapid", "acceleration", "jerk", "corner_jump") and isinstance(value, tuple | list)
+        if many and len(value) not in (1, 3):
+            raise Alarm(f"limit {name} takes one number or three (X Y Z), got {len(value)}")
+        for each in value if many else (value,):
+            above, endless = 0 if least else None, name == "spindle"
+            check_number(each, f"limit {name}", above=above, at_least=least, at_most=MOST, endless=endless)
 
     def _check_travel(self, travel: Any) -> None:
-        """An Alarm unless each axis has a lower position and a higher one."""
         if not isinstance(travel, tuple | list) or len(travel) != 3:
             raise Alarm(f"limit travel takes a pair for each of X, Y and Z, got {shown(travel)}", hint=TRAVEL)
         for axis, pair in zip("XYZ", travel):
@@ -100,7 +94,7 @@ class Limits:
             if not pair[0] < pair[1]:
                 raise Alarm(f"limit travel of {axis} must go up, got {pair[0]:g} to {pair[1]:g}", hint=TRAVEL)
 
-    def axes(self, name: str) -> NDArray[np.float64]:
+    def axes(self, name: str) -> Array:
         """A limit (3,) for X, Y, Z in mm and s; infinite where there is none."""
         value = getattr(self, name)
         per_second = 60.0 if name in ("rapid", "corner_jump") else 1.0

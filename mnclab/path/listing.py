@@ -37,37 +37,29 @@ def point(xyz: np.ndarray) -> str:
 def words(move: Move) -> str:
     """The part of a row that says what happens."""
     match move.kind:
-        case Kind.RAPID:
-            return f"{point(move.end)}{_rotary(move)}"
-        case Kind.LINE | Kind.PROBE:
-            return f"{point(move.end)}{_rotary(move)}{_feed(move)}"
+        case Kind.RAPID | Kind.LINE | Kind.PROBE:
+            axes = zip("ABC", move.rotary, strict=True)
+            rotary = "".join(f" {axis}{figure(np.degrees(value))}" for axis, value in axes if value)
+            return f"{point(move.end)}{rotary}{'' if move.kind == Kind.RAPID else _feed(move)}"
         case Kind.ARC:
             return f"{point(move.end)} centre {point(move.centre)} sweep {figure(np.degrees(move.sweep))}{_feed(move)}"
         case Kind.DWELL:
             return f"{figure(move.time)} s"
         case Kind.TOOL:
             return f"T{move.tool} radius {figure(move.radius)} tip {point(move.end)}"
-        case Kind.SPINDLE:
-            return f"S{figure(move.spindle)}"
-        case _:
-            return ""
-
-
-def _rotary(move: Move) -> str:
-    """` A90` for each rotary axis that does not stand at zero."""
-    return "".join(
-        f" {axis}{figure(np.degrees(value))}" for axis, value in zip("ABC", move.rotary, strict=True) if value
-    )
+    return f"S{figure(move.spindle)}" if move.kind == Kind.SPINDLE else ""
 
 
 def _feed(move: Move) -> str:
     if move.kind == Kind.LINE and np.isfinite(move.time) and np.array_equal(move.start, move.end):
         return f" F{figure(np.degrees(move.feed))} degrees/min"
+    return f" F{feed}" if (feed := _rate(move)) else ""
+
+
+def _rate(move: Move) -> str:
     if np.isfinite(move.per_rev):
-        return f" F{figure(move.per_rev)}/rev"
-    if np.isfinite(move.feed):
-        return f" F{figure(move.feed)}"
-    return ""
+        return f"{figure(move.per_rev)}/rev"
+    return figure(move.feed) if np.isfinite(move.feed) else ""
 
 
 def listing(path: Toolpath) -> str:
@@ -98,11 +90,6 @@ def table(path: Toolpath) -> str:
 
 
 def _cells(i: int, move: Move) -> tuple[str, ...]:
-    feed = ""
-    if np.isfinite(move.per_rev):
-        feed = f"{figure(move.per_rev)}/rev"
-    elif np.isfinite(move.feed):
-        feed = figure(move.feed)
     told = move.label if move.kind <= Kind.PROBE else f"{words(move)} {move.label}".strip()
     kind, place = Kind(move.kind).name.lower(), map(figure, move.end)
-    return str(i), line(move), kind, *place, feed, figure(move.spindle), str(move.tool), told
+    return str(i), line(move), kind, *place, _rate(move), figure(move.spindle), str(move.tool), told

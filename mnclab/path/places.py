@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 
-Array = NDArray[np.float64]
 
-
-def spokes(path: Toolpath, rows: NDArray[np.integer]) -> tuple[Array, Array]:
+def spokes(path: Toolpath, rows: Index) -> tuple[Array, Array]:
     """Of arcs: from the centre to the start within the plane, and the same a quarter turn on, (n, 3) each."""
     axis = path.axis[rows]
     spoke = path.start[rows] - path.centre[rows]
@@ -19,25 +17,28 @@ def spokes(path: Toolpath, rows: NDArray[np.integer]) -> tuple[Array, Array]:
     return spoke, np.cross(axis, spoke)
 
 
-def points_at(path: Toolpath, rows: NDArray[np.integer], share: Array) -> Array:
+def points_at(path: Toolpath, rows: Index, share: Array) -> Array:
     """Points (n, 3) of `rows` (n,) at shares (n,) of their way; of events, where the tool is."""
     start, end = path.start[rows], path.end[rows]
     xyz = start + share[:, None] * (end - start)
-    arc = np.flatnonzero(path.kind[rows] == Kind.ARC)
-    if len(arc):
-        which, t = rows[arc], share[arc]
-        u, v = spokes(path, which)
-        sweep = path.sweep[which]
-        middle = start[arc] - u
-
-        def turned(angle: Array) -> Array:
-            return np.cos(angle)[:, None] * u + np.sin(angle)[:, None] * v
-
-        # the end may lie a little off the circle (a rounded program): spread along the arc, like the pitch of a helix
-        drift = end[arc] - (middle + turned(sweep))
-        xyz[arc] = middle + turned(t * sweep) + t[:, None] * drift
-        xyz[arc[t == 1]] = end[arc[t == 1]]
+    arc = np.flatnonzero((path.kind[rows] == Kind.ARC) & (share != 1))
+    xyz[arc] = on_arcs(path, rows[arc], share[arc])
+    at_end = share == 1
+    xyz[at_end] = end[at_end]
     return xyz
+
+
+def on_arcs(path: Toolpath, rows: Index, share: Array) -> Array:
+    """Points (n, 3) of arcs at shares (n,) of their way."""
+    u, v = spokes(path, rows)
+    sweep, middle = path.sweep[rows], path.start[rows] - u
+
+    def turned(angle: Array) -> Array:
+        return np.cos(angle)[:, None] * u + np.sin(angle)[:, None] * v
+
+    # the end may lie a little off the circle (a rounded program): spread along the arc, like the pitch of a helix
+    drift = path.end[rows] - (middle + turned(sweep))
+    return middle + turned(share * sweep) + share[:, None] * drift
 
 
 def turns_of_sum(cosine: Array, sine: Array, pitch: Array, sweep: Array) -> Array:
@@ -53,7 +54,7 @@ def turns_of_sum(cosine: Array, sine: Array, pitch: Array, sweep: Array) -> Arra
     return np.where((share > 0) & (share < 1), share, 0.0)
 
 
-def turning_points(path: Toolpath, rows: NDArray[np.integer]) -> Array:
+def turning_points(path: Toolpath, rows: Index) -> Array:
     """Shares (n, k) of arcs where a coordinate turns back, in any order; 0 where there are fewer than k."""
     u, v = spokes(path, rows)
     sweep = path.sweep[rows]

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.kinds import Kind
+from mnclab.path.places import on_arcs, spokes
 
 if TYPE_CHECKING:
     from mnclab.path.toolpath import Toolpath
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 FINEST = 100_000  # pieces of one arc at most
 
 
-def points(path: Toolpath, chord_error: float = 0.01) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def points(path: Toolpath, chord_error: float = 0.01) -> tuple[Array, Index]:
     """Points (m, 3) along the motion rows and the row (m,) each belongs to.
 
     The first point is where the first motion begins; then every row ends with its own end point. An arc of radius r
@@ -31,28 +32,16 @@ def points(path: Toolpath, chord_error: float = 0.01) -> tuple[NDArray[np.float6
     arc = path.kind[rows] == Kind.ARC
     if not arc.any():
         return np.concatenate([path.start[rows[:1]], end]), np.concatenate([rows[:1], rows])
-    start, axis = path.start[rows], path.axis[rows]
-    spoke = np.where(arc[:, None], start - path.centre[rows], 0.0)
-    spoke -= np.einsum("ij,ij->i", spoke, axis)[:, None] * axis
-    radius = np.linalg.norm(spoke, axis=1)
+    radius = np.zeros(len(rows))
+    radius[arc] = np.linalg.norm(spokes(path, rows[arc])[0], axis=1)
     step = 2 * np.arccos(np.clip(1 - chord_error / np.maximum(radius, chord_error), 0.0, 1.0))
-    sweep = path.sweep[rows]
-    pieces = np.where(arc, np.ceil(np.abs(sweep) / np.maximum(step, 1e-6)), 1).clip(1, FINEST).astype(np.int64)
-
+    pieces = np.where(arc, np.ceil(np.abs(path.sweep[rows]) / np.maximum(step, 1e-6)), 1)
+    pieces = pieces.clip(1, FINEST).astype(np.int64)
     row = np.repeat(np.arange(len(rows)), pieces)
     k = np.arange(len(row)) - np.repeat(np.cumsum(pieces) - pieces, pieces) + 1
     share = k / pieces[row]
     xyz = end[row]
     bent = np.flatnonzero(arc[row] & (k < pieces[row]))
     if len(bent):
-        which, t = row[bent], share[bent]
-        angle = sweep[which] * t
-        u = spoke[which]
-        v = np.cross(axis[which], u)
-        turned = np.cos(angle)[:, None] * u + np.sin(angle)[:, None] * v
-        # the end may lie a little off the circle (a rounded program): the difference is spread along the arc, like the pitch
-        full = np.cos(sweep[which])[:, None] * u + np.sin(sweep[which])[:, None] * v
-        drift = end[which] - (start[which] - u + full)
-        xyz = xyz.copy()
-        xyz[bent] = start[which] - u + turned + t[:, None] * drift
-    return np.concatenate([start[:1], xyz]), np.concatenate([rows[:1], rows[row]])
+        xyz[bent] = on_arcs(path, rows[row[bent]], share[bent])
+    return np.concatenate([path.start[rows[:1]], xyz]), np.concatenate([rows[:1], rows[row]])

@@ -20,14 +20,12 @@ SIZES = ("radius", "corner", "teeth", "cutting_length", "width", "number", "angl
 
 @dataclass(frozen=True)
 class Tool:
-    """Dimensions in mm, angles in degrees.
+    """Dimensions in mm, angles in degrees; `kind` is one of `KINDS`, "" where it does not matter.
 
     `angle` is the point angle, `plunge_angle` the steepest plunge, `dl` and `dr` are deltas added to length and
     radius, `corner` is the corner radius, `cutting_length` the length of the edges, `pitch` that of a tap.
     Of a lathe tool `main_angle` and `auxiliary_angle` lie between the cutting edges and the axis (0: not given),
     `width` is that of a grooving tool, whose tip is its left corner, and `corner` the nose radius.
-
-    `kind` is one of `KINDS`, "" where it does not matter.
 
     An Alarm names a dimension that makes no sense. Negative may be the deltas, and the length against a zero tool; a
     radius below 0 is written as a negative `dr`.
@@ -50,8 +48,7 @@ class Tool:
     auxiliary_angle: float = 0.0
     width: float = 0.0
 
-    def __repr__(self) -> str:
-        return written(self)
+    __repr__ = written
 
     def __post_init__(self) -> None:
         for each in fields(self):
@@ -76,10 +73,8 @@ class Tool:
 
     @property
     def effective_radius(self) -> float:
-        """Radius with its delta, mm."""
         return self.radius + self.dr
 
     @property
     def effective_length(self) -> float:
-        """Length with its delta, mm."""
         return self.length + self.dl

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS, Columns, Move
+from mnclab.path.columns import COLUMNS, Array, Columns, Index, Mask, Move
 from mnclab.path.kinds import MOTION_KINDS, Kind
 from mnclab.text.alarm import several
 from mnclab.text.columns import fixed
@@ -35,13 +35,9 @@ class Toolpath(Columns):
     """
 
     def __init__(
-        self,
-        columns: dict[str, NDArray[Any]],
-        labels: Sequence[str] = ("",),
-        joints: Sequence[Any] = (),
-        origin: Iterable[float] = (0.0, 0.0, 0.0),
-        lathe: bool = False,
-    ) -> None:
+        self, columns: dict[str, NDArray[Any]], labels: Sequence[str] = ("",), joints: Sequence[Any] = (),
+        origin: Iterable[float] = (0.0, 0.0, 0.0), lathe: bool = False,
+    ) -> None:  # fmt: skip
         self._n = len(columns["kind"])
         for name, each in COLUMNS.items():
             column = columns.get(name)
@@ -55,11 +51,18 @@ class Toolpath(Columns):
         self.lathe = lathe
 
     @classmethod
-    def chain(cls, vertices: NDArray[np.float64], columns: dict[str, NDArray[Any]], **more: Any) -> Toolpath:
+    def chain(cls, vertices: Array, columns: dict[str, NDArray[Any]], **more: Any) -> Toolpath:
         """A continuous path through `vertices` (n + 1, 3); the other columns (n, ...)."""
         return cls({**columns, "start": vertices[:-1], "end": vertices[1:]}, **more)
 
-    # --- rows and slices -------------------------------------------------------------------------------------------
+    def through(self, vertices: Array, columns: dict[str, NDArray[Any]], *labels: str) -> Toolpath:
+        """What this path becomes: a chain with its joints, origin and labels, and more `labels`."""
+        more = {"joints": self.joints, "origin": self.origin, "lathe": self.lathe}
+        return Toolpath.chain(vertices, columns, labels=tuple(dict.fromkeys((*self.labels, *labels))), **more)
+
+    def all_but_ends(self) -> dict[str, NDArray[Any]]:
+        """The columns by their names, without those that `chain` makes."""
+        return {name: getattr(self, name) for name in COLUMNS if name not in ("start", "end")}
 
     def __len__(self) -> int:
         return self._n
@@ -73,8 +76,7 @@ class Toolpath(Columns):
             i = range(self._n)[int(index)]
             row = {name: getattr(self, name)[i] for name in COLUMNS}
             plain = {name: value.item() if value.ndim == 0 else value for name, value in row.items()}
-            plain["kind"] = Kind(plain["kind"])
-            plain["label"] = self.labels[plain["label"]]
+            plain["kind"], plain["label"] = Kind(plain["kind"]), self.labels[plain["label"]]
             plain["joint"] = self.joints[plain["joint"]] if plain["joint"] >= 0 else None
             return Move(**plain)
         return self.replace(**{name: getattr(self, name)[index] for name in COLUMNS})
@@ -99,19 +101,15 @@ class Toolpath(Columns):
         return _unpacked, (self._n, kept, self.labels, self.joints, self.origin, self.lathe)
 
     @property
-    def is_motion(self) -> NDArray[np.bool_]:
-        """Which rows move the tool (n,)."""
+    def is_motion(self) -> Mask:
         return np.asarray(self.kind <= max(MOTION_KINDS))
 
     @property
     def motion(self) -> Toolpath:
-        """The path without its events."""
         return self[self.is_motion]
 
-    # --- measures ----------------------------------------------------------------------------------------------------
-
     @cached_property
-    def lengths(self) -> NDArray[np.float64]:
+    def lengths(self) -> Array:
         """Length of each row along the path, mm (n,); zero for events."""
         travel = self.end - self.start
         straight = np.linalg.norm(travel, axis=1)
@@ -125,11 +123,10 @@ class Toolpath(Columns):
 
     @property
     def length(self) -> float:
-        """Length of all motion, mm."""
         return float(self.lengths.sum())
 
     @property
-    def bounds(self) -> NDArray[np.float64]:
+    def bounds(self) -> Array:
         """Smallest and greatest coordinates (2, 3) of the motion, arcs included; nan without motion."""
         from mnclab.path.travel import extents
 
@@ -139,7 +136,7 @@ class Toolpath(Columns):
         low, high = extents(motion)
         return np.stack([np.minimum(motion.start, low).min(axis=0), np.maximum(motion.start, high).max(axis=0)])
 
-    def points(self, chord_error: float = 0.01) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    def points(self, chord_error: float = 0.01) -> tuple[Array, Index]:
         """Points (m, 3) along the motion within `chord_error` mm of every arc, and the row (m,) of each."""
         from mnclab.path.points import points
 
@@ -158,8 +155,6 @@ class Toolpath(Columns):
             flat |= {one: column[:, k] if each.parts else column for k, one in enumerate(each.flat(name))}
         return flat
 
-    # --- shown -------------------------------------------------------------------------------------------------------
-
     def __str__(self) -> str:
         from mnclab.path.listing import listing
 
@@ -175,10 +170,7 @@ class Toolpath(Columns):
         return table(self)
 
     def plot(self, **options: Any) -> Figure:
-        """Views of the path, coloured by `colour` "kind", "feed", "tool", "line" or "z".
-
-        All options are explained in `mnclab.show.plot.path.plot_path`; zero points and poles only a run knows.
-        """
+        """Views of the path, coloured by `colour` "kind", "feed", "tool", "line" or "z"; see `show.plot.path.plot_path`."""
         from mnclab.show.plot.path import plot_path
 
         return plot_path(self, **options)
@@ -186,10 +178,7 @@ class Toolpath(Columns):
 
 def _unpacked(n: int, columns: dict[str, NDArray[Any]], *more: Any) -> Toolpath:
     """A path of n rows again, from columns that may have one row for all."""
-    whole = {
-        name: np.broadcast_to(each, (n, *each.shape[1:])) if len(each) != n else each for name, each in columns.items()
-    }
-    return Toolpath(whole, *more)
+    return Toolpath({name: np.broadcast_to(each, (n, *each.shape[1:])) for name, each in columns.items()}, *more)
 
 
 def concatenate(pieces: Sequence[Toolpath]) -> Toolpath:

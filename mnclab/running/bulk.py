@@ -211,7 +211,6 @@ class Bulk:
         return run
 
     def to_machine(self, points: Array) -> Array:
-        """Program coordinates (n, 3) to machine coordinates."""
         shift = self.machine.shift
         return frames.apply(self.machine.matrix, points) if shift is None else points + np.array(shift)
 
@@ -282,7 +281,6 @@ class Bulk:
             self.rows(run, first, steps, moved if len(moved) < count else slice(0, count))
 
     def rows(self, run: _Run, first: int, steps: NDArray[np.int32], moved: NDArray[np.int64] | slice) -> None:
-        """Hand the rows of the blocks that move to the recorder."""
         motion, arc = run.motion[moved], run.arc[moved]
         kind = np.where(motion == 0, Kind.RAPID, np.where(arc, Kind.ARC, Kind.LINE)).astype(np.uint8)
         lines = np.asarray(self.program.line_of(slice(first, first + len(run.moves))))

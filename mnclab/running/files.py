@@ -74,7 +74,6 @@ def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "prog
 
 
 def _beside(caller: Program, wanted: str) -> Path | None:
-    """A file in the folder of the calling program."""
     if not caller.folder:
         return None
     try:
@@ -104,7 +103,6 @@ def _spelt(name: str, suffixes: tuple[str, ...]) -> str:
 
 
 def _last(name: str) -> str:
-    """A name without its directory."""
     return name.replace(":", "/").rpartition("/")[2]
 
 

@@ -47,12 +47,8 @@ def course(m: Machine) -> Course:
     return m.flow
 
 
-def _nothing(which: int) -> None:
-    """Where nobody listens."""
-
-
-def _none_at_once(first: int, stop: int) -> int:
-    """All blocks go one by one."""
+def _nothing(*blocks: int) -> int:
+    """Where nobody listens, and where no blocks are obeyed at once."""
     return 0
 
 
@@ -64,16 +60,15 @@ class Course:
     """
 
     def __init__(
-        self, program: Program, obey: Callable[[int], None] | None = None, switch: Callable[[int], None] | None = None
+        self, program: Program, obey: Callable[[int], Any] = _nothing, switch: Callable[[int], Any] = _nothing
     ) -> None:
-        self.programs = [program]
-        self.obey, self.switch = obey or _nothing, switch or _nothing
-        self.bulk: Callable[[int, int], int] = _none_at_once
+        self.programs, self.obey, self.switch = [program], obey, switch
+        self.bulk: Callable[[int, int], int] = _nothing
         self.spent = 0  # of the limit, by blocks that take as long as many
         self.depth, self.calls = 0, 0  # calls: subprograms alone, without repeats
         self.limit = LONGEST + len(program)
         self.in_bulk = 0  # steps obeyed in bulk do not count for it: they end by themselves
-        self.watched: Callable[[int], None] = _nothing  # hears now and then how many steps were begun
+        self.watched: Callable[[int], Any] = _nothing  # hears now and then how many steps were begun
         self.returning = self.over = False  # the subprogram, the called program ends
         self.target = -1  # block to go on at, after a jump
         self.found: dict[tuple[str, str], int] = {}  # indices of programs by folder of the caller, and name
@@ -93,7 +88,6 @@ class Course:
 
     @property
     def program(self) -> Program:
-        """The running program."""
         return self.programs[self.running[-1]]
 
     # --- running -----------------------------------------------------------------------------------------------------
@@ -117,38 +111,31 @@ class Course:
                 block, self.target = self.target, -1
 
     def call(self, m: Machine, label: str, span: Span | None = None) -> None:
-        """Run from a label to the end of its subprogram."""
-        self.enter(span)
-        here = self.current
+        here = self.enter(span).block
         self.calls += 1
-        self.loops.running.append(Loop(self.running[-1], here, 0, self.begun - 1))
         self.section(m, self.index_of(label, span) + 1, len(self.program))
-        self.loops.running.pop()
         self.calls -= 1
-        self.depth, self.returning, self.current = self.depth - 1, False, here
+        self.returning = False
+        self.go_back(here)
 
     def call_program(self, m: Machine, index: int, span: Span | None = None) -> None:
         """Run another program, from its first block to its end; its rows have no label of a cycle that called it."""
         if index in self.running:
             name = self.programs[index].name
             raise Alarm(f"{name} is running already: a program cannot call itself, nor one that calls it", span)
-        self.enter(span)
-        kept = self.current, self.calls, m.source_line, m.label
+        here, kept = self.enter(span).block, (self.calls, m.source_line, m.label)
         self.calls, m.label = 0, ""
-        self.loops.running.append(Loop(self.running[-1], self.current, 0, self.begun - 1))
         with self.inside(m, index):
             self.section(m, 0, len(self.program))
-        self.loops.running.pop()
-        self.current, self.calls, m.source_line, m.label = kept
-        self.depth, self.over = self.depth - 1, False
+        self.calls, m.source_line, m.label = kept
+        self.over = False
+        self.go_back(here)
 
     def record(self, m: Machine, label: str, span: Span | None = None, after: Recording | None = None) -> Recording:
-        """Obey a label for its contour; nothing moves."""
         return record(m, self, label, span, after)
 
     @contextmanager
     def inside(self, m: Machine, index: int) -> Iterator[None]:
-        """Blocks and labels are those of another program."""
         if index == self.running[-1]:
             yield
             return
@@ -161,9 +148,8 @@ class Course:
         self._change_program(m)
 
     def _change_program(self, m: Machine) -> None:
-        """Blocks are those of another program from now on."""
         m.put(program=self.running[-1])
-        self.switch(self.running[-1])
+        self.switch(m.program)
 
     def add(self, m: Machine, program: Program) -> int:
         """Another program that may be called; its index."""
@@ -174,37 +160,28 @@ class Course:
 
     @property
     def called(self) -> bool:
-        """Whether the running program was called by another."""
         return len(self.running) > 1
 
     def end_program(self) -> None:
-        """Go back to the calling program."""
         self.over = True
 
     def jump(self, m: Machine, label: str, span: Span | None = None) -> None:
-        """Go on at a label."""
         self.target = self.index_of(label, span)
         if self.target <= self.current:
             self.loops.back(m, (self.running[-1], self.current, self.target), span or self.span_of_block(self.current))
 
     def ask(self, *values: Any) -> None:
-        """A function is about to decide where the program goes on; the values of the words that it reads for that."""
         self.loops.ask(self.begun - 1, values)
 
     def ask_whether(self, variable: str) -> None:
-        """A function is about to decide so by whether a variable has a value."""
         self.loops.asked[variable] = self.loops.otherwise = self.begun - 1
 
     def compare(self, one: Any, other: Any, difference: float) -> None:
-        """A function is about to decide so by two values of words, whose numbers differ by so much."""
         self.loops.compare(self.begun - 1, (self.running[-1], self.current), (one, other), difference)
 
     def repeat(self, m: Machine, first: int, stop: int, times: int, span: Span | None = None) -> None:
         """Run the blocks [first, stop) a number of times more; a jump out of them ends that."""
-        self.enter(span)
-        here, recorder, before = self.current, m.recorder, None
-        loop = Loop(self.running[-1], here, times, self.begun - 1)
-        self.loops.running.append(loop)
+        loop, recorder, before = self.enter(span, times), m.recorder, None
         for loop.done in range(1, times + 1):
             loop.begun, begin, made = self.begun - 1, self.begun - self.in_bulk, recorder.made
             self.section(m, first, stop, least=first)
@@ -215,28 +192,32 @@ class Course:
             blocks = (self.begun - self.in_bulk - begin) * times
             rows = made + (recorder.made - made) * (times - loop.done)
             if blocks > CERTAIN * self.limit and not self.loops.asked_since(loop.begun):
-                self._too_long(here)
+                self._too_long(loop.block)
             if rows > recorder.most:  # and will be, if this pass was like the one before
                 now = m.snapshot(COMPARED[REPEAT])
                 if before == now:
-                    self.current = here
+                    self.current = loop.block
                     self.too_many_rows(m, rows)
                 before = now
-        self.loops.running.pop()
-        self.depth, self.current = self.depth - 1, here
+        self.go_back(loop.block)
 
-    def enter(self, span: Span | None) -> None:
-        """Go one call deeper."""
+    def enter(self, span: Span | None, times: int = 0) -> Loop:
+        """Go one call or repeat deeper."""
         if self.depth >= DEEPEST:
             raise Alarm(f"calls are nested deeper than {DEEPEST}", span or self.span_of_step(self.begun - 1))
         self.depth += 1
+        self.loops.running.append(Loop(self.running[-1], self.current, times, self.begun - 1))
+        return self.loops.running[-1]
+
+    def go_back(self, block: int) -> None:
+        """Be again where the last call or repeat was entered."""
+        self.loops.running.pop()
+        self.depth, self.current = self.depth - 1, block
 
     def leave(self) -> None:
-        """End the running subprogram; nothing in the main program."""
         self.returning = self.calls > 0
 
     def index_of(self, label: str, span: Span | None = None) -> int:
-        """The block of a label."""
         if label not in self.program.labels:
             known = ", ".join(list(self.program.labels)[:8])
             hint = f"labels of this program: {known}" if known else "this program has no labels"
@@ -246,7 +227,6 @@ class Course:
     # --- steps -------------------------------------------------------------------------------------------------------
 
     def span_of_block(self, block: int) -> Span:
-        """The place of a block of the running program."""
         return self.program.span_of_block(block)._replace(program=self.running[-1])
 
     @property
@@ -307,7 +287,6 @@ class Course:
             self._blocks = []
 
     def steps(self) -> Steps:
-        """All steps so far."""
         self._flush()
         blocks, programs = np.empty(self._counted, dtype=np.int32), np.zeros(self._counted, dtype=np.int16)
         at = 0
@@ -320,7 +299,6 @@ class Course:
         return Steps(blocks, np.broadcast_to(np.int16(0), (len(blocks),)) if alone else programs)
 
     def span_of_step(self, step: int) -> Span | None:
-        """The place of the block that a step executed."""
         if step < 0:
             return None
         self._flush()

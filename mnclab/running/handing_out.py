@@ -7,10 +7,10 @@ construction: every one is in a plan or in an alarm.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import replace
 from operator import itemgetter
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 from mnclab.machine.control import Control, Function, Modal, Remark
 from mnclab.machine.cycle import Cycle
@@ -53,61 +53,57 @@ class Planner:
         self.strange: list[Remark] = []
         self.remarks: list[Remark] = []
 
-    def alarm(self, message: str, index: int, hint: str = "") -> None:
+    def alarm(self, message: str, index: int, hint: str = "") -> NoReturn:
         raise Alarm(message, self.words[index].span if index >= 0 else None, hint=hint)
 
     def plan(self) -> Plan:
-        if self.control.together:
-            self.strange = [*(self.control.together(self.control, self.modal, self.keyword, self.words) or ())]
+        control = self.control
+        if control.together:
+            self.strange = [*(control.together(control, self.modal, self.keyword, self.words) or ())]
         codes = self.codes()
-        cycle = next(((c, i) for c, i in codes if c in self.control.cycles), None)
+        name, at = next(((c, i) for c, i in codes if c in control.cycles), ("", -1))
+        cycle = control.cycles.get(name)
         if cycle:
-            self.claim(self.control.cycles[cycle[0]], cycle[0], cycle[1])
-            codes = [(c, i) for c, i in codes if i < 0 or self.owner[i] == ""]
-            codes = [(c, i) for c, i in codes if i != cycle[1]]
+            self.claim(cycle, name, at)
+            codes = [(c, i) for c, i in codes if i != at and (i < 0 or self.owner[i] == "")]
             for code, index in codes:
-                other = self.control.functions.get(code)
-                if code == cycle[0]:
+                other = control.functions.get(code)
+                if code == name:
                     self.alarm(f"{code} is written twice in this block", index, "keep one of them")
-                if code in self.control.cycles or (other and other.ends_cycle):
-                    self.alarm(f"{code} and {cycle[0]} are of one group: only one of it may stand in a block", index)
-        functions = [(self.function(code, index), index) for code, index in codes]
-        self.check_groups([f for f, _ in functions], [i for _, i in functions])
-        for function, index in functions:
+                if code in control.cycles or (other and other.ends_cycle):
+                    self.alarm(f"{code} and {name} are of one group: only one of it may stand in a block", index)
+        called = [(self.function(code, index), index) for code, index in codes]
+        functions = [function for function, _ in called]
+        self.check_groups(called)
+        for function, index in called:
             if index >= 0:
                 self.owner[index] = function.code
-        for function, index in functions:
+        for function, index in called:
             if not function.moves:
                 self.hand_out(function, index)
-        ending = any(f.ends_cycle for f, _ in functions)
-        if self.active and not cycle and not ending:
-            self.claim_again([f for f, _ in functions if f.moves])
-        owned = any(f.owns for f, _ in functions)
-        for function, index in functions:
+        if self.active and not cycle and not any(f.ends_cycle for f in functions):
+            self.claim_again(functions)
+        owned = any(f.owns for f in functions)
+        for function, index in called:
             if function.moves and (function.owns or not owned):
                 self.hand_out(function, index)
             elif function.moves:  # it only becomes active
-                self.actions.append(Action(self.phases[function.phase], function, function.code, index, ()))
-        self.refuse_motion([f for f, _ in functions])
-        at_once = cycle is not None and self.control.cycles[cycle[0]].runs == "definition"
-        if at_once and cycle and not self.control.one_command:
-            self.refuse_beside(cycle[0])
+                self.act(function, function.code, index, ())
+        self.refuse_motion(functions)
+        runs = cycle.runs if cycle else ""
+        if runs == "definition" and not control.one_command:
+            self.refuse_beside(name)
         self.word_functions()
-        if self.control.one_command and self.actions:
+        if control.one_command and self.actions:
             self.refuse_strangers(self.actions[0])
-        prepared = cycle is not None and self.control.cycles[cycle[0]].runs == "call"
-        if not (
-            prepared or at_once
-        ):  # preparing a cycle moves nothing; one that runs at once makes all moves of its block
-            self.modal_motion([f for f, _ in functions])
-        self.modal_call([f for f, _ in functions])
-        self.refuse_leftovers([f for f, _ in functions])
-        self.refuse_repeated()
+        if runs not in ("definition", "call"):  # which make all moves of their block, or none
+            self.modal_motion(functions)
+        self.modal_call(functions)
+        self.refuse_leftovers(functions)
         order = sorted(self.actions, key=lambda action: action.phase)
         return Plan(tuple((action, action.pick) for action in order), (*self.strange, *self.remarks))
 
     def codes(self) -> list[tuple[str, int]]:
-        """The codes of a block: its keyword, and its G and M words."""
         found = [(self.keyword, -1)] if self.keyword else []
         for i, word in enumerate(self.words):
             if word.address in self.control.codes and type(word.value) is float:
@@ -115,22 +111,20 @@ class Planner:
         return found
 
     def function(self, code: str, index: int) -> Function:
-        found = self.control.functions.get(code)
-        every = self.control.functions.get(code[0])  # one function for all codes of an address that have none of their own
-        if found is None and every is not None and code[1:].isdigit() and index >= 0:
+        control = self.control
+        if code in control.functions:
+            return control.functions[code]
+        every = control.functions.get(code[0])  # one for all codes of an address that have none of their own
+        if every is not None and code[1:].isdigit() and index >= 0:
             return replace(every, code=code)
-        if found is None:
-            if code in self.control.refused:
-                self.alarm(f"{code} is refused: {self.control.refused[code]}", index)
-            meant = code.replace("-", "").partition(".")[0]
-            near = hint(meant, (*self.control.functions, *self.control.cycles))
-            self.alarm(f"{code} is not a function of this control", index, near)
-        assert found is not None
-        return found
+        if code in control.refused:
+            self.alarm(f"{code} is refused: {control.refused[code]}", index)
+        near = hint(code.replace("-", "").partition(".")[0], (*control.functions, *control.cycles))
+        self.alarm(f"{code} is not a function of this control", index, near)
 
-    def check_groups(self, functions: list[Function], indices: list[int]) -> None:
+    def check_groups(self, called: list[tuple[Function, int]]) -> None:
         seen: dict[str, str] = {}  # group, or the code itself where it has none
-        for function, index in zip(functions, indices, strict=True):
+        for function, index in called:
             group = function.group or function.code
             if seen.get(group) == function.code:
                 self.alarm(f"{function.code} is written twice in this block", index, "keep one of them")
@@ -138,6 +132,10 @@ class Planner:
                 one_of = "only one function of a group may stand in a block"
                 self.alarm(f"{function.code} and {seen[group]} are of one group: {one_of}", index)
             seen[group] = function.code
+
+    def act(self, what: Function | type[Cycle], code: str, head: int, takes: Iterable[int]) -> None:
+        phase = what.phase if isinstance(what, Function) else "motion"
+        self.actions.append(Action(self.phases[phase], what, code, head, tuple(takes)))
 
     def claim(self, cycle: type[Cycle], code: str, index: int) -> None:
         """A cycle takes its addresses before any function sees them."""
@@ -153,57 +151,57 @@ class Planner:
                 taken.append(i)
         if index >= 0:
             self.owner[index] = code
-        self.actions.append(Action(self.phases["motion"], cycle, code, index, tuple(taken)))
+        self.act(cycle, code, index, taken)
 
-    def claim_again(self, moving: list[Function]) -> None:
+    def claim_again(self, functions: list[Function]) -> None:
         """An active cycle runs again where one of its trigger addresses stands."""
         assert self.active is not None
-        if any(
-            not owner and word.address in self.active.triggers
-            for word, owner in zip(self.words, self.owner, strict=True)
-        ):
-            self.claim(self.active, self.active.code, -1)
-            action = self.actions.pop()
-            self.actions.append(action._replace(head=-1))
-            for function in moving:
-                index = next(i for i, owner in enumerate(self.owner) if owner == function.code)
+        if not self.left_of(self.active.triggers):
+            return
+        self.claim(self.active, self.active.code, -1)
+        for function in functions:
+            if function.moves:
                 sentence = f"{function.code} is kept for later: {self.active.code} is active and runs at this position"
-                self.remarks.append((index, sentence, "write G80 first to end the cycle"))
+                self.remarks.append((self.owner.index(function.code), sentence, "write G80 first to end the cycle"))
 
     def hand_out(self, function: Function, index: int) -> None:
-        taken = []
+        control, taken = self.control, []
         for address in function.takes:
             several, address = address.endswith("*"), address.rstrip("*")
             for i, word in enumerate(self.words):
                 if word.address != address or i == index:
                     continue
-                if self.owner[i] and self.owner[i] != function.code:
-                    if function.moves and self.owner[i] in self.control.cycles:
+                owner = self.owner[i]
+                if owner and owner != function.code:
+                    if function.moves and owner in control.cycles:
                         break  # a second one is a repeated address, no motion
-                    claimed = function.still and self.owner[i] in self.control.cycles
-                    if claimed or (self.owner[i] in self.control.functions and word.address not in self.control.codes):
-                        self.alarm(
-                            f"{self.owner[i]} and {function.code} both take {word}", i, "write them in two blocks"
-                        )
-                    continue
-                if not self.owner[i]:
+                    claimed = function.still and owner in control.cycles
+                    if claimed or (owner in control.functions and word.address not in control.codes):
+                        self.alarm(f"{owner} and {function.code} both take {word}", i, "write them in two blocks")
+                elif not owner:
                     self.owner[i] = function.code
                     taken.append(i)
                     if not several:
                         break
-        self.actions.append(Action(self.phases[function.phase], function, function.code, index, tuple(taken)))
+        self.act(function, function.code, index, taken)
+
+    def left_of(self, addresses: Collection[str]) -> bool:
+        """Whether a word with one of some addresses is taken by nobody yet."""
+        return any(not owner and word.address in addresses for word, owner in zip(self.words, self.owner, strict=True))
+
+    def repeats(self, word: Word) -> bool:
+        """Whether another word with its address is taken."""
+        return any(owner and one.address == word.address for one, owner in zip(self.words, self.owner, strict=True))
 
     def word_functions(self) -> None:
         """F, S, T and the like: addresses that are functions by themselves."""
-        if not self.control.word_functions:
-            return
-        for i, word in enumerate(self.words):
-            if not self.owner[i] and word.address not in self.control.codes and word.address in self.control.functions:
-                function = self.control.functions[word.address]
-                if any(w.address == word.address and self.owner[k] for k, w in enumerate(self.words)):
-                    continue  # a second one, of a cycle too, is a repeated address
-                self.owner[i] = function.code
-                self.hand_out(function, i)
+        control = self.control
+        for i, word in enumerate(self.words if control.word_functions else ()):
+            address = word.address
+            if self.owner[i] or address in control.codes or address not in control.functions or self.repeats(word):
+                continue
+            self.owner[i] = control.functions[address].code
+            self.hand_out(control.functions[address], i)
 
     def refuse_strangers(self, command: Action) -> None:
         """Where a block is one command: words that it does not take."""
@@ -222,69 +220,56 @@ class Planner:
 
     def modal_motion(self, functions: list[Function]) -> None:
         """Axis words that are left belong to the modal motion."""
-        code = self.modal.motion
-        function = self.control.functions.get(code) if code else None
+        function = self.control.functions.get(self.modal.motion or "")
         if function is None or self.keyword or any(f.still or f.moves for f in functions):
             return
-        if any(
-            not owner and word.address in function.takes for word, owner in zip(self.words, self.owner, strict=True)
-        ):
+        if self.left_of(function.takes):
             self.hand_out(function, -1)
 
     def modal_call(self, functions: list[Function]) -> None:
         """A modal call of a cycle runs it in every block that positions and has no call of its own."""
-        again = self.control.calls_again
-        modal = self.control.functions.get(self.modal.call or "")
+        again, modal = self.control.calls_again, self.control.functions.get(self.modal.call or "")
         own = next((f for f in functions if f.group == "call"), None)
         if again is None or not (modal or (own and own.modal)):
             return
-        if again(self.keyword, self.words) and modal and own is None:
+        if again(self.keyword, self.words) and modal and own is None:  # asked in any case: it refuses blocks
             self.hand_out(modal, -1)
 
+    def refuse_still(self, functions: list[Function], index: int) -> None:
+        """A word of a motion beside a function that moves nothing."""
+        if still := next((f.code for f in functions if f.still), None):
+            sentence = f"{still} stands in a block without motion, {self.words[index]} does not belong to it"
+            self.alarm(sentence, index, "write two blocks")
+
     def refuse_motion(self, functions: list[Function]) -> None:
-        """A function that moves nothing beside one that moves: words of the motion."""
-        still = next((f.code for f in functions if f.still), None)
-        moved = next(
-            (a.takes[0] for a in self.actions if a.takes and isinstance(a.what, Function) and a.what.moves), -1
-        )
-        if still and moved >= 0:
-            word = self.words[moved]
-            self.alarm(
-                f"{still} stands in a block without motion, {word} does not belong to it", moved, "write two blocks"
-            )
+        """Words of a function that moves beside one that does not."""
+        moving = (a.takes for a in self.actions if a.takes and isinstance(a.what, Function) and a.what.moves)
+        for moved in moving:
+            self.refuse_still(functions, moved[0])
 
     def refuse_beside(self, code: str) -> None:
         """Another motion, or the call of a cycle, in the block of one that runs at once."""
-        for action in self.actions:
-            if isinstance(action.what, Function) and (
-                action.what.phase == "call" or action.what.moves and action.takes
-            ):
-                index = action.takes[0] if action.takes else action.head
+        for _, what, _, head, takes in self.actions:
+            if isinstance(what, Function) and (what.phase == "call" or what.moves and takes):
+                index = takes[0] if takes else head
                 sentence = f"{code} runs in a block of its own, {self.words[index]} does not belong to it"
                 self.alarm(sentence, index, "write two blocks")
 
     def refuse_leftovers(self, functions: list[Function]) -> None:
-        still = next((f.code for f in functions if f.still), None)
-        for i, word in enumerate(self.words):
-            if self.owner[i] or any(w.address == word.address and self.owner[k] for k, w in enumerate(self.words)):
+        refused, left = self.control.refused, [i for i, owner in enumerate(self.owner) if not owner]
+        for i in left:
+            word = self.words[i]
+            if self.repeats(word):
                 continue
             code = f"{word.address}{digits(word.value)}" if type(word.value) is float else ""
-            if code in self.control.refused:
-                self.alarm(self.control.refused[code], i)
-            if word.address in self.control.refused:
-                self.alarm(f"{word.address} is refused: {self.control.refused[word.address]}", i)
-            if still and word.address in self.control.axes:
-                self.alarm(
-                    f"{still} stands in a block without motion, {word} does not belong to it", i, "write two blocks"
-                )
+            if code in refused:
+                self.alarm(refused[code], i)
+            if word.address in refused:
+                self.alarm(f"{word.address} is refused: {refused[word.address]}", i)
+            if word.address in self.control.axes:
+                self.refuse_still(functions, i)
             actors = " ".join(dict.fromkeys(a.code for a in self.actions if a.phase == self.phases["motion"]))
-            self.alarm(
-                f"{word} has no meaning in this block"
-                + (f" ({actors} does not take {word.address})" if actors else ""),
-                i,
-            )
-
-    def refuse_repeated(self) -> None:
-        for i, word in enumerate(self.words):
-            if not self.owner[i]:
-                self.alarm(f"{word.address} is written twice in this block", i, "keep one of them")
+            whose = f" ({actors} does not take {word.address})" if actors else ""
+            self.alarm(f"{word} has no meaning in this block{whose}", i)
+        if left:
+            self.alarm(f"{self.words[left[0]].address} is written twice in this block", left[0], "keep one of them")

@@ -85,7 +85,6 @@ class Interpreter:
         machine.recorder.refuse = partial(self.flow.too_many_rows, machine)
 
     def switch(self, index: int) -> None:
-        """Obey the blocks of another program from now on."""
         self.program = self.flow.programs[index]
         if index not in self.loaded:
             self.loaded[index] = Loaded(self.machine, self.flow, self.program, index)
@@ -110,7 +109,6 @@ class Interpreter:
     # --- one block -----------------------------------------------------------------------------------------------------
 
     def obey(self, index: int) -> None:
-        """Obey one block."""
         machine, window = self.machine, self.window
         machine.step = self.flow.begin(index)
         if index not in window:
@@ -174,7 +172,6 @@ class Interpreter:
     # --- planning ----------------------------------------------------------------------------------------------------
 
     def plan_for(self, keyword: str, kinds: tuple[Any, ...], words: list[Word]) -> Plan:
-        """The plan for this kind of block, made when it is first met."""
         machine = self.machine
         active = machine.position_cycle.cycle if machine.position_cycle else None
         modal = machine.modal.get(self.control.motion), machine.modal.get("call"), machine.pole is not None, active
@@ -189,7 +186,6 @@ class Interpreter:
         return plan
 
     def remark(self, remarks: Iterable[Remark], words: list[Word]) -> None:
-        """Say what is doubtful about the words of a block."""
         for which, sentence, hint in remarks:
             self.machine.warn(sentence, words[which], hint)
 

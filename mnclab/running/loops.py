@@ -73,7 +73,6 @@ class Loops:
     otherwise: int = -1  # the step of the last decision that read a variable and compared nothing
 
     def ask(self, step: int, values: Iterable[Any]) -> None:
-        """A decision where to go reads these values of words."""
         for value in values:
             if isinstance(value, Expression):
                 self.asked.update((token.text, step) for token in value.tokens if token.kind == "variable")
@@ -96,7 +95,6 @@ class Loops:
             now.rounds = last.rounds + 1 if even and now.growth * difference > 0 else 0
 
     def asked_since(self, step: int) -> list[str]:
-        """The variables that decided something after a step."""
         return [name for name, last in self.asked.items() if last > step]
 
     def back(self, m: Machine, key: tuple[int, int, int], span: Span) -> None:

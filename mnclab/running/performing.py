@@ -18,27 +18,12 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.rotary import turn_axes
 from mnclab.machine.true_size import MILLS
 from mnclab.machining.depths import TooMany
-from mnclab.machining.steps import (
-    Along,
-    Blocks,
-    Call,
-    Coolant,
-    Each,
-    Go,
-    Orient,
-    Record,
-    Say,
-    Spin,
-    Step,
-    Swivel,
-    Thread,
-    Touch,
-    Turn,
-    Wait,
-    Write,
-)  # fmt: skip
 from mnclab.running.binding import as_it_stands, bind, fault
 from mnclab.running.repeating import at_each
+
+from mnclab.machining.steps import (  # isort: skip
+    Along, Blocks, Call, Coolant, Each, Go, Orient, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
+)  # fmt: skip
 
 Place = tuple[float, float]
 Through = Callable[[Iterable[Step], Place], Iterable[Step]]
@@ -126,10 +111,8 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
 def write(m: Machine, step: Write) -> None:
     """Change what a cycle says that it changes."""
     match step.what:
-        case "variable":
-            m.variables[step.key] = step.value
-        case "measured":
-            m.measured[step.key] = step.value
+        case "variable" | "measured":
+            (m.variables if step.what == "variable" else m.measured)[step.key] = step.value
         case "tools" | "datums" | "presets":
             m.write_table(step.what, step.key, step.value)
         case "frame":
@@ -141,7 +124,9 @@ def write(m: Machine, step: Write) -> None:
         case "modal":
             m.set_modal(step.key, step.value)
         case "memory":
-            keep(m, step.key, step.value)
+            if not hasattr(m.memory, step.key):
+                raise AttributeError(f"{m.control.name} keeps no {step.key}")
+            setattr(m.memory, step.key, step.value)
         case "kept":
             assert m.cycle is not None
             m.cycle.extra[step.key] = step.value
@@ -149,13 +134,6 @@ def write(m: Machine, step: Write) -> None:
             m.log(step.key, step.value)
         case _:
             m.change(step.what, step.value)
-
-
-def keep(m: Machine, name: str, value: Any) -> None:
-    """Set a field of what the control keeps."""
-    if not hasattr(m.memory, name):
-        raise AttributeError(f"{m.control.name} keeps no {name}")
-    setattr(m.memory, name, value)
 
 
 def follow(

@@ -73,7 +73,6 @@ class Node:
     name: str = ""
 
     def value(self, values: Values) -> Array:
-        """The number at every place."""
         if self.what == "number":
             return np.float64(self.number)  # type: ignore[return-value]
         if self.what == "name":
@@ -83,7 +82,6 @@ class Node:
             return FUNCTIONS[self.name](*numbers) if self.what == "function" else ARITHMETIC[self.name](*numbers)
 
     def truth(self, values: Values) -> Truth:
-        """Where the condition is true and where it is false."""
         if self.what == "comparison":
             with np.errstate(all="ignore"):
                 gap = np.asarray(self.gap(values))
@@ -99,7 +97,6 @@ class Node:
         return Truth(one.false, one.true) if self.what == "not" else one
 
     def gap(self, values: Values) -> Array:
-        """Left side less right side of a comparison."""
         return self.parts[0].value(values) - self.parts[1].value(values)
 
     def degree(self, names: Collection[str]) -> float:
@@ -114,7 +111,6 @@ class Node:
         return (degrees[0] if self.name == "/" and not degrees[1] else np.inf) if any(degrees) else 0.0
 
     def walk(self) -> Iterator[Node]:
-        """This part and all parts in it."""
         yield self
         for part in self.parts:
             yield from part.walk()
@@ -130,7 +126,6 @@ class Condition:
 
     @property
     def comparisons(self) -> list[Node]:
-        """Every comparison in it."""
         return [node for node in self.tree.walk() if node.what == "comparison"]
 
     def truth(self, values: Values) -> Truth:

@@ -50,7 +50,6 @@ class Explanation:
 
     @property
     def title(self) -> str:
-        """The line, and the block as written."""
         text = quoted(self.program.line_text(self.moment.line).strip())[0]
         times = _executions(self.run, self.moment.step)
         again = f" (execution {times})" if times > 1 else ""

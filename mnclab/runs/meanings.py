@@ -103,19 +103,16 @@ class _Here:
 
     @property
     def feed(self) -> str:
-        """What F is."""
         if self.active("per_time"):
             return "time of the move, s"
         return "feed, mm/rev" if self.active("per_rev") else "feed, mm/min"
 
     @property
     def speed(self) -> str:
-        """What S is."""
         return "spindle speed, rev/min" if self.active("surface") is None else "cutting speed, m/min"
 
 
 def _title(here: _Here, what: Function, word: Word | None) -> str:
-    """The title of a function; of a word that is a function by itself also what it is in this block."""
     if word is None or word.address != what.code:
         return what.title
     says = _meaning(here, what, word)

@@ -36,7 +36,6 @@ class Moment(NamedTuple):
     point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def page(self) -> list[tuple[str, str]]:
-        """What is shown: a title and its value."""
         first, stop = self.rows.start, self.rows.stop
         rows = "none" if first == stop else f"{first}" if stop == first + 1 else f"{first} to {stop - 1}"
         inside = f", {100 * self.share:.4g} % of row {self.row}" if self.share != 1 else ""

@@ -67,7 +67,6 @@ class Moments(tuple["Moment", ...]):
     exact = True
 
     def rows(self) -> list[tuple[str, ...]]:
-        """What the table shows."""
         found: list[tuple[str, ...]] = []
         for moment in self:
             share = f"{100 * moment.share:.4g} %" if moment.row >= 0 else ""
@@ -147,7 +146,6 @@ class _Search:
         self.state = {name: self._state(name) for name in condition.names - PLACE.keys() - COLUMN.keys()}
 
     def _state(self, name: str) -> Array:
-        """A value of the history, one a step; nan before the first."""
         values = self.run.history[name]
         return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
 
@@ -277,7 +275,6 @@ class _Search:
         return np.where(looks.row >= 0, looks.row, last)
 
     def points(self, looks: Looks) -> Array:
-        """Where the tool is (m, 3)."""
         if not len(self.path):
             return np.zeros((len(looks.row), 3)) + self.run.setup.start
         row = self.standing(looks)
@@ -285,7 +282,6 @@ class _Search:
         return points_at(self.path, np.maximum(row, 0), share)
 
     def angles(self, looks: Looks) -> Array:
-        """Where the rotary axes are (m, 3), rad."""
         if not len(self.path):
             return np.zeros((len(looks.row), 3))
         row = self.standing(looks)

@@ -98,7 +98,6 @@ class Run:
 
     @property
     def ok(self) -> bool:
-        """Whether no alarm of severity "alarm" was raised."""
         return not any(alarm.severity == ALARM for alarm in self.alarms)
 
     def at(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Moment:
@@ -278,7 +277,6 @@ class Run:
     # --- shown -------------------------------------------------------------------------------------------------------
 
     def summary(self) -> dict[str, Any]:
-        """The figures of the card."""
         path = self.toolpath
         lengths, rapid = path.lengths, path.kind == 0
         with np.errstate(divide="ignore", invalid="ignore"):

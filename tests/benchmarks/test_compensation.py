@@ -18,6 +18,7 @@ from mnclab.path.compensation import Compensation, Report
 from mnclab.path.compensation import apply as compensate
 from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
+from mnclab.path.compensation.fit import check
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
@@ -69,7 +70,7 @@ def corners_and_fit(path):
     """Corners, and the look over the whole contour."""
     view = PlaneView(path)
     found = Equidistant(Elements.of(path, view, np.flatnonzero(view.moves)), RULES)
-    assert not found.check(path, view, "refuse", Report()).any()
+    assert not check(found, path, view, "refuse", Report()).any()
     return found
 
 

@@ -74,41 +74,13 @@ def test_a_rectangle_is_cleared(share, corner):
     assert covered.difference(reach.buffer(1e-3)).area < 1e-6
 
 
-@pytest.mark.parametrize("make", [concentric.circle, concentric.circular_spiral])
 @pytest.mark.parametrize("step", [1.2, 4.0, 5.5])
-def test_a_circle_is_cleared(make, step):
-    clearing = make(61, 4, step, allowance=0.25, centre=(3, -2), angle=0.4)
+def test_a_circle_is_cleared(step):
+    clearing = concentric.circle(61, 4, step, allowance=0.25, centre=(3, -2), angle=0.4)
     start = Contour([(3, -2), clearing.passes[0].points[0]], closed=False)
     covered, reach = swept([start, *clearing.passes], 4), shapely.Point(3, -2).buffer(30.25, quad_segs=400)
     assert covered.intersection(reach).area >= 0.999 * reach.area
     assert covered.difference(shapely.Point(3, -2).buffer(30.25 + 1e-3, quad_segs=4000)).area == 0
-
-
-@pytest.mark.parametrize("size", [(70, 46), (46, 70), (50, 50)])
-@pytest.mark.parametrize("share", [0.3, 1.0, 1.25])
-@pytest.mark.parametrize("climb", [True, False])
-def test_a_rectangular_spiral_clears_its_pocket(size, share, climb):
-    clearing = concentric.rectangular_spiral(*size, 4, 4 * share, corner=7, allowance=0.2, climb=climb, angle=np.pi / 2)
-    way, last = clearing.passes
-    covered, reach = swept(clearing.passes, 4), box(size[1] / 2 - 0.2, size[0] / 2 - 0.2, 6.8)
-    assert covered.intersection(reach).area >= 0.999 * reach.area
-    assert covered.difference(reach.buffer(1e-3)).area < 1e-6
-    assert way.turns() == pytest.approx(np.zeros(len(way.starts)), abs=1e-9)
-    assert last.points[0] == pytest.approx(way.points[-1])
-    assert (last.area > 0) == climb
-    assert ((way.bulge[:-1] >= 0) if climb else (way.bulge[:-1] <= 0)).all()
-
-
-def test_a_spiral_never_turns_sharply_and_keeps_its_step():
-    """On the line through the centre the turns are equal steps apart, none above the stepover."""
-    (piece,) = concentric.circular_spiral(60, 5, 4).pieces
-    spiral, last = piece.passes
-    assert spiral.turns() == pytest.approx(np.zeros(len(spiral.starts)), abs=1e-9)
-    away = np.hypot(*spiral.points.T)
-    assert np.diff(away) == pytest.approx(25 / 13)  # 2·25/4 = 12.5, so 13 half turns
-    assert last.length == pytest.approx(50 * np.pi)
-    assert last.points[0] == pytest.approx(spiral.points[-1])
-    assert last.tangents()[0][0] == pytest.approx(spiral.tangents()[1][-1])
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from mnclab.machining.depths import TooMany
 from mnclab.machining.milling import concentric, face_lines
 from mnclab.machining.milling.entries import Entry, descend, helix, pendulum, vertical
 from mnclab.machining.milling.face_steps import Layer, face
-from mnclab.machining.milling.finishing import approaching, leaving, tangential
+from mnclab.machining.milling.finishing import approaching, leaving
 from mnclab.machining.milling.pocket_steps import Feeds, Room, rough, way_down
 from mnclab.machining.steps import Along, Go, Turn
 
@@ -72,11 +72,11 @@ def test_a_layer_begins_where_the_one_before_has_cut():
     assert not any(isinstance(step, Turn) for step in steps)
 
 
-def test_the_arcs_at_a_wall_are_those_of_a_tangential_pass():
+def test_the_arcs_at_a_wall_are_quarter_circles():
     wall = concentric.circle(40, 5, 5).passes[-1]
-    whole, to, away = tangential(wall, 3, 1), approaching(wall, 3, 1), leaving(wall, 3, 1)
-    assert to.points.tolist() == whole.points[:2].tolist() == [[12, -3], [15, 0]]
-    assert away.points.tolist() == pytest.approx(whole.points[-2:]) and to.length == pytest.approx(1.5 * math.pi)
+    to, away = approaching(wall, 3, 1), leaving(wall, 3, 1)
+    assert to.points.tolist() == [[12, -3], [15, 0]] and to.length == pytest.approx(1.5 * math.pi)
+    assert away.points.tolist() == [pytest.approx((15, 0)), pytest.approx((12, 3))]
 
 
 def test_lines_that_do_not_lead_on_are_reached_above_the_surface():

@@ -7,7 +7,6 @@ import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import rectangle
-from mnclab.machining.milling import trochoids
 from mnclab.machining.milling.clearing import begin, end
 from mnclab.machining.milling.entries import Entry
 from mnclab.machining.milling.layers import toolpath
@@ -143,17 +142,6 @@ def test_lines_at_an_angle():
     assert np.abs(ways[:, 1] / ways[:, 0]) == pytest.approx(np.tan(np.pi / 3))
 
 
-def test_trochoid_along_a_line():
-    """A slot 20 wide, R 4: circles of radius 6 a stepover apart; the slot is cleared between its first and last middle."""
-    line = Contour([(0, 0), (30, 0)], closed=False)
-    (way,) = trochoids.trochoid(line, 20, 4, 2.5).passes
-    covered = shapely.LineString(way.points_within(1e-3)).buffer(4)
-    core = shapely.box(4, -9.5, 26, 9.5)
-    assert core.difference(covered).area < 1e-9
-    assert way.bounds[:, 1] == pytest.approx([-6, 6])
-    assert way.length == pytest.approx(13 * 12 * np.pi + 12 * 2.5)
-
-
 def test_a_path_down_and_along_on_two_levels():
     clearing = clear("rings", AREAS["rectangle"], 5, 5)
     path = toolpath(clearing, (-2.0, -4.0), entry=Entry("helix", 3), feed=600, plunge_feed=200)
@@ -175,5 +163,3 @@ def test_unknown_strategy():
         clear("moles", AREAS["L"], 3, 3)
     with pytest.raises(ValueError, match="does not fit"):
         clear("zigzag", AREAS["L"], 30, 3)
-    with pytest.raises(ValueError, match="wider than the tool"):
-        trochoids.trochoid(Contour([(0, 0), (9, 0)], closed=False), 8, 4, 1)

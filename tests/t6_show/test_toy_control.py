@@ -11,6 +11,7 @@ from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.trial import number
+from mnclab.machining.steps import Go
 from mnclab.show import forms, magic
 from mnclab.show.plot import colours
 
@@ -30,8 +31,8 @@ class Punch(Cycle):
     way: float = param("W", "way up", "choice", default=0, choices={0: "to the surface", 1: "2 mm above it"})
 
     def moves(self, m):
-        m.line(z=-self.depth, f=50)
-        m.rapid(z=2 * self.way)
+        yield Go("down", -self.depth, 50)
+        yield Go("up", 2 * self.way)
 
 
 def around(cycle, words):

@@ -10,13 +10,14 @@ import re
 
 from mnclab.controls.g43 import cycles, language, lengths
 from mnclab.controls.g43.state import Memory, memory
-from mnclab.controls.g43.trial import trial_program
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control
+from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
+from mnclab.machine.settings import Setting, one_of
 from mnclab.machine.setup import Datum
+from mnclab.machine.trial import TrialWords, in_block
 from mnclab.path.compensation import Compensation
 from mnclab.running.bulk import PlainWords
 
@@ -28,17 +29,13 @@ PHASES = (
 
 SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "ISO 6983"),
-    Setting(
-        "undescribed", "warn", "codes of chapters that the source does not have", "other chapters",
-        {"warn": "their ISO meaning, with a warning", "accept": "their ISO meaning, without a word", "refuse": "an alarm"},
-    ),
+    one_of("undescribed", "codes of chapters that the source does not have", "other chapters",
+           warn="their ISO meaning, with a warning", accept="their ISO meaning, without a word", refuse="an alarm"),
     Setting("peck_clearance", 1.0, "where G83 returns to above the last depth, and how far G73 lifts", "", {}, "mm", 0),
     Setting("arc_tolerance", 0.01, "difference of the radii at start and end of an arc", "", {}, "mm", 0),
-    Setting(
-        "gouge", "refuse", "what happens where a compensated tool does not fit", "",
-        {"refuse": "an alarm, before the tool goes there", "mark": "it cuts anyway: marked rows and warnings"},
-    ),
-    Setting("bulk", True, "obey long runs of plain blocks at once", ""),
+    one_of("gouge", "what happens where a compensated tool does not fit",
+           refuse="an alarm, before the tool goes there", mark="it cuts anyway: marked rows and warnings"),
+    Setting("bulk", True, "obey long runs of plain blocks at once"),
 )  # fmt: skip
 
 _NO_SYNTAX = "the source does not say how this control writes it"
@@ -62,6 +59,11 @@ def start(m: Machine) -> None:
     """G54 is active at the start; the tip hangs below the spindle by the length of the tool."""
     m.select_datum(m.tables.datums.get(1, Datum()))
     lengths.place(m, "tip")
+
+
+def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
+    """A cycle in one block, and its end."""
+    return f"T2 M6\nG43 G0 X0 Y0 Z20 S1000 M3\n{in_block(cycle, words)}\nG80\n"
 
 
 FUNCTIONS = language.FUNCTIONS | lengths.FUNCTIONS

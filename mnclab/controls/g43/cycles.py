@@ -8,23 +8,20 @@ until G80, and so does the initial level. The steps are those of the cycles of o
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterator
 from functools import partial
-from typing import Any, ClassVar
 
 from mnclab.controls.g43.language import ISO, undescribed
 from mnclab.controls.g43.lengths import activate
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import holes
 from mnclab.machine.control import Words
-from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import bore_and_stop, drill, ream
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Step
-from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 
@@ -34,24 +31,15 @@ dwell = partial(param, "P", "dwell at the bottom, milliseconds", "ms", default=0
 peck = partial(param, "Q", "depth of one peck", above=0, incremental=True, modal=True, example=5)
 
 
-class HoleCycle(Cycle, ABC):
-    """A cycle at a hole; each declares its parameters, and says in `work` what happens below level R."""
+class HoleCycle(holes.AtHole, Cycle):
+    """A cycle at a hole whose data hold from one cycle to the next."""
 
     shares = True
-    needs: ClassVar[tuple[Callable[[Machine], Iterator[tuple[str, str]]], ...]] = ()
-    """What may be wrong with the machine for this work."""
-
-    x: float | None
-    y: float | None
-    bottom: float
-    r_level: float
     peck: float | None = None
     dwell: float = 0.0
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """Increments become coordinates where they are programmed; offsets of the length compensation count from here on."""
         undescribed(m, Words((), cls.code))
         if not memory(m).machine_coordinates:
@@ -74,35 +62,14 @@ class HoleCycle(Cycle, ABC):
 
     @property
     def seconds(self) -> float:
-        """The dwell, s."""
         return self.dwell / 1000
 
     def levels(self) -> tuple[float, ...]:
-        """Pecks count from level R."""
         return infeeds(self.r_level, self.bottom, self.peck)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """The bottom lies below level R; no more pecks than a hole can have."""
-        yield from holes.upside_down(self.bottom, self.r_level)
+        yield from super().contradictions()
         yield from too_many("peck", self.levels)
-
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """No radius compensation, no machine coordinates; what the work needs."""
-        yield from holes.out_of_place(m)
-        for faults in self.needs:
-            yield from faults(m)
-
-    def about(self, m: Machine) -> tuple[float, float]:
-        """The hole."""
-        return holes.axis_of(m, self.x, self.y)
-
-    def moves(self, m: Machine) -> Iterator[Step]:
-        """Over the hole, level R, the work, and up."""
-        return holes.at_hole(m, self.x, self.y, self.r_level, self.work(m))
-
-    @abstractmethod
-    def work(self, m: Machine) -> Iterable[Step]:
-        """The steps from level R and back to it."""
 
 
 @CYCLES("G81", "Drilling", runs="position", source=ISO, triggers=POSITION)
@@ -175,7 +142,6 @@ class RightTapping(HoleCycle):
     r_level: float = holes.r_level()
     dwell: float = dwell()
     feed: float | None = holes.feed()
-
     needs = (holes.no_pitch,)
 
     def work(self, m: Machine) -> Iterator[Step]:
@@ -192,7 +158,6 @@ class LeftTapping(HoleCycle):
     r_level: float = holes.r_level()
     dwell: float = dwell()
     feed: float | None = holes.feed()
-
     needs = (holes.no_pitch,)
 
     def work(self, m: Machine) -> Iterator[Step]:
@@ -244,7 +209,6 @@ class StoppedBoring(HoleCycle):
     r_level: float = holes.r_level()
     dwell: float = dwell()
     feed: float | None = holes.feed()
-
     needs = (holes.spindle_stands,)
 
     def work(self, m: Machine) -> Iterator[Step]:
@@ -262,7 +226,6 @@ class FineBoring(HoleCycle):
     shift: float = param("Q", "shift off the wall", above=0, incremental=True, modal=True, example=0.2)
     dwell: float = dwell()
     feed: float | None = holes.feed()
-
     needs = (holes.spindle_stands,)
 
     def work(self, m: Machine) -> Iterator[Step]:

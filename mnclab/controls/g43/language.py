@@ -42,7 +42,7 @@ def undescribed(m: Machine, words: Words) -> None:
     if words.code not in told:
         told.add(words.code)
         sentence = f"{words.code}: not described in the manual; it is taken in its ISO meaning"
-        motion.remark(m, "undescribed", sentence, words)
+        motion.remark(m, "undescribed", sentence, first_word(words))
 
 
 def remark(m: Machine, words: Words) -> None:
@@ -79,9 +79,6 @@ def arc(m: Machine, words: Words) -> None:
     undescribed(m, words)
     targets(m, words)
     motion.arc(m, words, -1 if words.code == "G2" else 1, m.modal["dimension"] == "G90")
-
-
-# --- datums --------------------------------------------------------------------------------------------------------------
 
 
 @FUNCTIONS(
@@ -131,8 +128,6 @@ def reference(m: Machine, words: Words) -> None:
     m.rapid(**{AXES[k].lower(): home[k] for k in axes})
 
 
-# --- feed, spindle, auxiliary functions -----------------------------------------------------------------------------------
-
 FUNCTIONS("F", "Feed", phase="feed", source="7.1, example")(motion.feed)
 FUNCTIONS("S", "Spindle speed", phase="spindle", source=ISO)(motion.spindle_speed)
 
@@ -150,13 +145,5 @@ def dwell(m: Machine, words: Words) -> None:
     m.dwell(value if word.address == "X" else value / 1000)
 
 
-@FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source=ISO)
-def spindle(m: Machine, words: Words) -> None:
-    """M3 and M4 before the motion of the block, M5 after it."""
-    if words.code == "M5":
-        m.at_block_end(lambda: m.spindle(turning=0))
-    else:
-        m.spindle(turning=1 if words.code == "M3" else -1)
-
-
+FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source=ISO)(motion.spindle)
 FUNCTIONS |= functions(remark, ISO, plane="7.1, example")

@@ -47,9 +47,9 @@ def choose(m: Machine, number: int, word: Word | None) -> None:
     """Corrector `number` from now on: its offsets, and its radius where the tool table has such a row."""
     memory(m).corrector = number
     m.log("corrector", number)
-    own, row = m.tables.tools[m.tool.number], m.tables.tools.get(number)
+    row = m.tables.tools.get(number)
     if number and row is not None:
-        m.change("tool", motion.corrected(own, row))
+        m.change("tool", m.tables.tools[m.tool.number].of_radius(row.radius, row.dr))
     want(m, word)
 
 

@@ -9,10 +9,11 @@ from __future__ import annotations
 from mnclab.controls.jnc_t01 import cycles, feeds, motion
 from mnclab.controls.jnc_t01.reader import looks_like, read
 from mnclab.controls.jnc_t01.state import Memory
-from mnclab.controls.jnc_t01.trial import trial_program
 from mnclab.machine.control import Control, Modal
+from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting
+from mnclab.machine.settings import Setting, one_of
+from mnclab.machine.trial import TrialWords, in_block
 from mnclab.running.bulk import PlainWords
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
@@ -23,24 +24,18 @@ PHASES = ("modes", "feed", "spindle", "tool", "corrector", "auxiliary", "dwell",
 SETTINGS = (
     Setting("diameter", False, "X and U are diameters; I, R and D stay on the radius", "not stated, adopted: radius"),
     Setting("max_spindle_speed", 3000.0, "greatest spindle speed under G96", "8.20: a system parameter", {}, "rev/min", 1),
-    Setting(
-        "stopped_spindle", "warn", "a feed move under G95 while the spindle stands", "example 2 does so",
-        {"warn": "the speed S counts, with a warning", "accept": "the same without a word", "refuse": "an alarm"},
-    ),
+    one_of("stopped_spindle", "a feed move under G95 while the spindle stands", "example 2 does so",
+           warn="the speed S counts, with a warning", accept="the same without a word", refuse="an alarm"),
     Setting("retract", 0.5, "G77, G78: how far a pass leaves the contour in each axis", "not stated, adopted", {}, "mm", 0),
-    Setting(
-        "wall", "rapid", "G77, G78: from point 4 to point 5", "8.12, 8.13",
-        {"rapid": "at rapid, as the text says", "feed": "at feed: the wall is cut"},
-    ),
+    one_of("wall", "G77, G78: from point 4 to point 5", "8.12, 8.13",
+           rapid="at rapid, as the text says", feed="at feed: the wall is cut"),
     Setting("home_x", 0.0, "M60, M61: machine position of the tool, on the radius", "9.29, 9.30", {}, "mm"),
     Setting("home_z", 0.0, "M60, M63: machine position of the tool", "9.29, 9.31", {}, "mm"),
     Setting("optional_stop", False, "M01 stops", "9.23"),
     Setting("arc_tolerance", 0.01, "difference of the radii at start and end of an arc", "", {}, "mm", 0),
-    Setting(
-        "foreign", "refuse", "words of other controls: N, %, M02, M30", "not in table 1 or 3",
-        {"refuse": "an alarm", "accept": "N and % are passed over, M02 and M30 end the program, with a warning"},
-    ),
-    Setting("bulk", True, "obey long runs of plain blocks at once", ""),
+    one_of("foreign", "words of other controls: N, %, M02, M30", "not in table 1 or 3", refuse="an alarm",
+           accept="N and % are passed over, M02 and M30 end the program, with a warning"),
+    Setting("bulk", True, "obey long runs of plain blocks at once"),
 )  # fmt: skip
 
 _NO_ADDRESS = "it is not in table 1 of the manual"
@@ -66,11 +61,16 @@ def start(m: Machine) -> None:
 def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
     """One function that acts once in a block."""
     codes = [(f"G{digits(w.value)}", w) for w in words if w.address == "G" and isinstance(w.value, float)]
-    once = [(code, word) for code, word in codes if code in ONCE]
-    if len(once) > 1:
+    if len(once := [pair for pair in codes if pair[0] in ONCE]) > 1:
         (first, _), (second, word) = once[:2]
         message = f"{second} and {first} are of one group: only one of it may stand in a block"
         raise Alarm(message, word.span, hint="write two blocks")
+
+
+def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
+    """A cycle in one block, before the face of the part."""
+    x = 0 if cycle.code == "G73" else 40
+    return f"G90 G94 F100\nT1 S800 M3\nG0 X{x} Z5\n{in_block(cycle, words)}\n"
 
 
 FUNCTIONS = feeds.FUNCTIONS | motion.FUNCTIONS

@@ -5,36 +5,38 @@ All begin where the tool stands, at (X1, Z1), and end there.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mnclab.controls.jnc_t01.feeds import cutting_feed, standing_feed
 from mnclab.controls.jnc_t01.motion import coordinate, scale, use_corrector
-from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import MOST, infeeds
 from mnclab.machining.holes.drilling import drill
 from mnclab.machining.steps import RAPID, Go, Say, Step
 from mnclab.machining.turning.grooving import grooves, places
 from mnclab.machining.turning.roughing import Crosswise, Shoulder, remove_stock
-from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 INCREMENT = "under G91 from the start"
 
 
-def optional(address: str, meaning: str, left_out: str, **options: Any) -> Any:
-    """A parameter, and in words what it is where it is left out."""
-    return param(address, meaning, default=None, default_means=left_out, **options)
+def optional(address: str, meaning: str, left_out: str, example: float) -> Any:
+    """A coordinate, and in words what it is where it is left out."""
+    return param(address, meaning, default=None, default_means=left_out, note=INCREMENT, example=example)
+
+
+def pass_of(meaning: str, left_out: str, example: float = 6) -> Any:
+    """D: the depth of a pass, or the way to the next one."""
+    return param("D", meaning, default=None, default_means=left_out, above=0, incremental=True, example=example)
 
 
 class LatheCycle(Crosswise, Cycle):
     """What all share: X, Z, U and W become coordinates of the tool, X and U on the radius."""
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """Increments and diameters become coordinates; a corrector chosen before counts from now on."""
         for name, word in given.items():
             if word.address in "XZUW":
@@ -43,7 +45,6 @@ class LatheCycle(Crosswise, Cycle):
         return values
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A feed, and a spindle for it."""
         cutting_feed(m, None)
         yield from ()
 
@@ -54,20 +55,16 @@ class DeepHoleDrilling(LatheCycle):
     before the depth reached. Each pass makes the hole D deeper, the last one the remainder."""
 
     bottom: float = param("Z", "bottom of the hole", note=INCREMENT, example=-40)
-    peck: float | None = optional(
-        "D", "depth drilled in a pass", "the whole depth", above=0, incremental=True, example=15
-    )
+    peck: float | None = pass_of("depth drilled in a pass", "the whole depth", 15)
     clearance: float = param(
         "R", "distance from the depth reached at the return", default=0, at_least=0, incremental=True, example=5
     )
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Not too many passes."""
         yield from too_many("peck", lambda: infeeds(m.programmed[2], self.bottom, self.peck))
         yield from super().check(m)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Passes, and the return."""
         start, feed = m.programmed[2], standing_feed(m)
         if self.bottom == start:
             yield Say(f"Z (bottom of the hole) is where the tool stands, Z{start:g}: nothing is drilled")
@@ -75,9 +72,6 @@ class DeepHoleDrilling(LatheCycle):
         levels = infeeds(start, self.bottom, self.peck)
         yield from drill(levels, above=start, feed=feed, reenter=self.clearance)
         yield Go("retract", start)
-
-
-# --- grooves ---------------------------------------------------------------------------------------------------------
 
 
 def cuts(cycle: FaceGrooves | CylindricalGrooves, m: Machine) -> tuple[float, ...]:
@@ -104,12 +98,8 @@ class FaceGrooves(LatheCycle):
     """Plunges along Z at X1 and at places D apart, the last one at X; between them it returns to Z1 at rapid."""
 
     bottom: float = param("Z", "bottom of the groove", note=INCREMENT, example=-30)
-    last_x: float | None = optional(
-        "X", "place of the last groove or cut", "one groove at the present X", note=INCREMENT, example=20
-    )
-    step: float | None = optional(
-        "D", "step between the cuts", "two cuts, at X1 and at X", above=0, incremental=True, example=6
-    )
+    last_x: float | None = optional("X", "place of the last groove or cut", "one groove at the present X", 20)
+    step: float | None = pass_of("step between the cuts", "two cuts, at X1 and at X")
 
     transverse = True
     check, moves = check_grooves, plunge
@@ -120,17 +110,10 @@ class CylindricalGrooves(LatheCycle):
     """Plunges along X at Z1 and at places D apart, the last one at Z; between them it returns to X1 at rapid."""
 
     bottom: float = param("X", "bottom of the groove", note=INCREMENT, example=25)
-    last_z: float | None = optional(
-        "Z", "place of the last groove or cut", "one groove at the present Z", note=INCREMENT, example=-15
-    )
-    step: float | None = optional(
-        "D", "step between the cuts", "two cuts, at Z1 and at Z", above=0, incremental=True, example=6
-    )
+    last_z: float | None = optional("Z", "place of the last groove or cut", "one groove at the present Z", -15)
+    step: float | None = pass_of("step between the cuts", "two cuts, at Z1 and at Z")
 
     check, moves = check_grooves, plunge
-
-
-# --- stock removal between the start and (X, Z); the bevel goes through U and W ----------------------------------------
 
 
 def check_removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterator[tuple[str, str]]:
@@ -151,7 +134,7 @@ def check_removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterator[t
 
 
 def removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterable[Step]:
-    """Infeed across, cuts along."""
+    """Infeed across, cuts along; the bevel goes through U and W."""
     x1, _, z1 = m.programmed
     finish, far = cycle.across_along(cycle.end_x, cycle.end_z)
     bevel = x1 if cycle.taper_x is None else cycle.taper_x, z1 if cycle.taper_z is None else cycle.taper_z
@@ -172,9 +155,9 @@ class LongitudinalTurning(LatheCycle):
 
     end_x: float = param("X", "end of the cut along X", note=INCREMENT, example=20)
     end_z: float = param("Z", "end of the cut along Z", note=INCREMENT, example=-75)
-    taper_x: float | None = optional("U", "X of the bevel", "X of the start", note=INCREMENT, example=30)
-    taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", note=INCREMENT, example=-60)
-    depth: float | None = optional("D", "depth of cut", "the contour alone", above=0, incremental=True, example=6)
+    taper_x: float | None = optional("U", "X of the bevel", "X of the start", 30)
+    taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", -60)
+    depth: float | None = pass_of("depth of cut", "the contour alone")
 
     check, moves = check_removal, removal
 
@@ -189,9 +172,9 @@ class Facing(LatheCycle):
 
     end_x: float = param("X", "end of the cut along X", note=INCREMENT, example=20)
     end_z: float = param("Z", "end of the cut along Z", note=INCREMENT, example=-75)
-    taper_x: float | None = optional("U", "X of the bevel", "X of the start", note=INCREMENT, example=30)
-    taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", note=INCREMENT, example=-60)
-    depth: float | None = optional("D", "depth of cut", "the contour alone", above=0, incremental=True, example=6)
+    taper_x: float | None = optional("U", "X of the bevel", "X of the start", 30)
+    taper_z: float | None = optional("W", "Z of the bevel", "Z of the start", -60)
+    depth: float | None = pass_of("depth of cut", "the contour alone")
 
     transverse = True
     check, moves = check_removal, removal

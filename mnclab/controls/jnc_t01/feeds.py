@@ -12,8 +12,6 @@ from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 
-# --- dimensions and feed ---------------------------------------------------------------------------------------------
-
 DIMENSIONS = {"G90": "Absolute dimensions", "G91": "Incremental dimensions"}
 FEEDS = {"G93": "Feed as time of the move, s", "G94": "Feed per minute", "G95": "Feed per revolution"}
 
@@ -42,14 +40,11 @@ def cutting_feed(m: Machine, word: Word | None) -> float | None:
     """As `standing_feed`; an Alarm if there is no feed, no speed, or if a spindle that stands is to be refused."""
     need_cutting_speed(m)
     if (feed := standing_feed(m)) is not None:
-        motion.remark_at(
-            m, "stopped_spindle", f"G95: the spindle stands, the feed is that of {m.speed:g} rev/min", word
-        )
+        motion.remark(m, "stopped_spindle", f"G95: the spindle stands, the feed is that of {m.speed:g} rev/min", word)
         return feed
     if m.feed is None and (code := memory(m).feed_ended_by):
-        m.alarm(
-            f"no feed rate was programmed after {code}, which gives F another unit", word, "write F with a new value"
-        )
+        sentence = f"no feed rate was programmed after {code}, which gives F another unit"
+        m.alarm(sentence, word, "write F with a new value")
     m.feed_of(None, word)
     return None
 
@@ -60,8 +55,6 @@ def standing_feed(m: Machine) -> float | None:
         return None
     return m.feed * m.speed
 
-
-# --- spindle ---------------------------------------------------------------------------------------------------------
 
 SPEEDS = {"G96": "Constant cutting speed", "G97": "Constant spindle speed"}
 
@@ -115,17 +108,9 @@ def follow_speed(m: Machine) -> None:
 TURNS = {"M3": "Spindle on, right", "M4": "Spindle on, left", "M5": "Spindle off"}
 
 
-@FUNCTIONS("M3 M4 M5", TURNS, group="spindle", phase="auxiliary", power_on="M5", source="5, 9.24 to 9.26")
-def spindle(m: Machine, words: Words) -> None:
-    """M3 and M4 before the motion of the block, M5 after it."""
-    if words.code == "M5":
-        m.at_block_end(lambda: m.spindle(turning=0))
-    else:
-        m.spindle(turning=1 if words.code == "M3" else -1)
-
-
-# --- tool, coolant, stops --------------------------------------------------------------------------------------------
-
+FUNCTIONS(
+    "M3 M4 M5", TURNS, group="spindle", phase="auxiliary", power_on="M5", source="5, 9.24 to 9.26"
+)(motion.spindle)  # fmt: skip
 FUNCTIONS("T", "Tool", phase="tool", source="3, table 1")(motion.tool)
 
 COOLANT = {"M7": "Coolant on", "M8": "Coolant off (table 3)", "M9": "Coolant off"}
@@ -155,8 +140,6 @@ def machine_function(m: Machine, words: Words) -> None:
     """What the machine builder may have added: it has no effect here."""
     m.warn(f"{words.code} is not in the table of this control: it has no effect", first_word(words))
 
-
-# --- words of other controls -----------------------------------------------------------------------------------------
 
 OUTSIDE = {"N": "Block number", "%": "Program start"}
 

@@ -71,9 +71,8 @@ def arc(m: Machine, words: Words) -> None:
     if not offsets and "R" not in words:
         m.alarm(f"{words.code} needs R, or I or K", first_word(words), "they count for one block only")
     if offsets and "R" in words:
-        m.alarm(
-            f"R and {offsets[0].address} stand in one block: the centre is given twice", words["R"], "keep one of them"
-        )
+        twice = f"R and {offsets[0].address} stand in one block: the centre is given twice"
+        m.alarm(twice, words["R"], "keep one of them")
     to, sense, tolerance = targets(m, words), 1 if words.code == "G3" else -1, m.settings["arc_tolerance"]
     head = words["R"] if "R" in words else offsets[0]
     feed = cutting_feed(m, first_word(words))
@@ -86,8 +85,6 @@ def arc(m: Machine, words: Words) -> None:
     centre = {k: m.programmed[k] + (m.value(words[c]) if c in words else 0.0) for c, k in (("I", 0), ("K", 2))}
     m.arc(**to, sense=sense, centre=centre, f=feed, word=head, tolerance=tolerance)
 
-
-# --- moves of one block ----------------------------------------------------------------------------------------------
 
 CORNERS = {"G12": "Straight line with fillet of 90 degrees", "G14": "Straight line with chamfer of 45 degrees"}
 SIZES = {"G12": "fillet radius", "G14": "chamfer size"}
@@ -111,8 +108,7 @@ def corner(m: Machine, words: Words) -> None:
         m.alarm(f"{words.code} R ({SIZES[words.code]}) {sentence}", words["R"])
     use_corrector(m)
     turn = end - math.copysign(abs(size), way)
-    middle, last = list(start), list(start)
-    middle[along], last[along], last[across] = turn, end, start[across] + size
+    middle, last = {along: turn, across: start[across]}, {along: end, across: start[across] + size}
     centre = {along: turn, across: start[across] + size}
     round_it = words.code == "G12" and size != 0
     lengths = abs(turn - start[along]), abs(size) * (math.pi / 2 if round_it else math.sqrt(2))
@@ -152,9 +148,8 @@ def thread(m: Machine, words: Words) -> None:
     if not m.spindle_speed:
         m.alarm("G32 needs a turning spindle", head, hint="write S and M3 before the move")
     if m.surface is not None:
-        m.warn(
-            "G32 under constant cutting speed (G96): the spindle speed changes where X does", head, "write G97 S first"
-        )
+        changes = "G32 under constant cutting speed (G96): the spindle speed changes where X does"
+        m.warn(changes, head, "write G97 S first")
     start, to = m.programmed, targets(m, words)
     way = [to.get(axis, start[k]) - start[k] for axis, k in (("x", 0), ("z", 2))]
     m.label = "G32 thread"
@@ -173,9 +168,6 @@ def dwell(m: Machine, words: Words) -> None:
     m.dwell(m.value(words["F"]))
 
 
-# --- frames ----------------------------------------------------------------------------------------------------------
-
-
 @FUNCTIONS(
     "G92", "Zero offset", group=ONCE, phase="dwell", modal=False, still=True, owns=True, takes="X Z", source="8.16"
 )  # fmt: skip
@@ -189,19 +181,16 @@ def zero_offset(m: Machine, words: Words) -> None:
     follow_speed(m)
 
 
+@FUNCTIONS("L", "Corrector", phase="corrector", source="3, table 1")
 def corrector(m: Machine, words: Words) -> None:
     """The offsets of corrector L count from the next motion on, in both axes; L0 has none."""
-    number = int(m.value(words["L"]))
-    if number and number not in m.tables.correctors:
-        if number not in (told := memory(m).empty_correctors):
-            told.add(number)
-            message = f"L{number} (corrector) has no offsets: they count as 0"
-            m.warn(message, words["L"], hint="Setup(correctors={…}) gives them")
+    number, told = int(m.value(words["L"])), memory(m).empty_correctors
+    if number and number not in m.tables.correctors and number not in told:
+        told.add(number)
+        message = f"L{number} (corrector) has no offsets: they count as 0"
+        m.warn(message, words["L"], hint="Setup(correctors={…}) gives them")
     memory(m).corrector = number
     m.log("corrector", number)
-
-
-FUNCTIONS("L", "Corrector", phase="corrector", source="3, table 1")(corrector)
 
 
 def use_corrector(m: Machine) -> None:
@@ -214,22 +203,16 @@ def use_corrector(m: Machine) -> None:
         m.set_frame("corrector", shift, "programmed")
 
 
-HOME: dict[str, tuple[str, str]] = {
-    "M60": ("Home X and Z", "XZ"), "M61": ("Home X", "X"), "M63": ("Home Z", "Z"),
-}  # fmt: skip
+HOME = {"M60": "Home X and Z", "M61": "Home X", "M63": "Home Z"}
 
 
-@FUNCTIONS(
-    " ".join(HOME), {code: title for code, (title, _) in HOME.items()},
-    phase="motion", modal=False, still=True, source="9.29 to 9.31",
-)  # fmt: skip
+@FUNCTIONS("M60 M61 M63", HOME, modal=False, still=True, source="9.29 to 9.31")
 def home(m: Machine, words: Words) -> None:
     """To the machine's zero position at rapid, the axes together; where it lies is a setting."""
     use_corrector(m)
     x, _, z = m.to_program((m.settings["home_x"], 0.0, m.settings["home_z"]))
-    to = {axis.lower(): {"X": x, "Z": z}[axis] for axis in HOME[words.code][1]}
     m.label = f"{words.code} home"
-    m.rapid(**to)
+    m.rapid(x=None if words.code == "M63" else x, z=None if words.code == "M61" else z)
     m.label = ""
 
 

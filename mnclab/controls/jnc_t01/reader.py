@@ -14,11 +14,7 @@ from mnclab.text.alarm import WARNING, Alarm, Alarms
 from mnclab.text.program import Program
 
 COMMENT = "'"
-FORMATS = {
-    **dict.fromkeys("GMTLN", "n"),
-    **dict.fromkeys("DFS", "n.n"),
-    **dict.fromkeys("IKRUWXZ", "±n.n"),
-}
+FORMATS = {**dict.fromkeys("GMTLN", "n"), **dict.fromkeys("DFS", "n.n"), **dict.fromkeys("IKRUWXZ", "±n.n")}
 _LOOKS_LATIN = dict(zip("ХхМмТтКкІі", "XxMmTtKkIi", strict=True))
 _CODE = re.compile(rf"^[^{COMMENT}\r\n]*", re.MULTILINE)
 _LETTERS = re.compile(f"[{''.join(_LOOKS_LATIN)}]")

@@ -13,10 +13,11 @@ from mnclab.controls.mnc import auxiliary, language, polar, transforms
 from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared, tapping
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.state import Memory
-from mnclab.controls.mnc.trial import trial_program
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control
+from mnclab.machine.cycle import Cycle
+from mnclab.machine.trial import TrialWords, in_block
 from mnclab.path.compensation import Compensation
 from mnclab.running.bulk import PlainWords
 
@@ -54,6 +55,15 @@ MEANINGS = {
     **{f"G{n} R": "polar radius" for n in range(10, 14)}, **{f"G{n} A": "polar angle in degrees" for n in range(10, 14)},
     **{letter: f"increment along {axis}" for letter, axis in zip("UVW", "XYZ")},
 }  # fmt: skip
+
+
+def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
+    """A milling cycle runs where it stands, a prepared one by M99, a fixed one at a position."""
+    if cycle.runs == "definition":  # milling
+        return f"G17 G90 G54\nT1 S1000 M3\nG0 X20 Y10 Z20 F100\n{in_block(cycle, words)}\n"
+    call = "G80" if cycle.runs == "position" else "G0 X20 Y10 M99"
+    return f"G17 G90 G54\nT2 S1000 M3\nG0 X0 Y0 Z20 F100\n{in_block(cycle, words)}\n{call}\n"
+
 
 FUNCTIONS = (
     language.FUNCTIONS | auxiliary.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | prepared.FUNCTIONS

@@ -5,7 +5,7 @@ from __future__ import annotations
 from mnclab.controls.mnc.state import memory
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.functions import SPINDLE, functions
-from mnclab.controls.word_address.motion import remark
+from mnclab.controls.word_address.motion import first_word, remark
 from mnclab.machine.control import Words
 from mnclab.machine.machine import Machine
 
@@ -14,7 +14,8 @@ ISO = "ISO 6983"
 
 def unlisted(m: Machine, words: Words, more: str = "") -> None:
     """Say that the manual knows nothing of this M function."""
-    remark(m, "unlisted_m", f"{words.code}: the manual does not list it; it is taken in its ISO meaning{more}", words)
+    sentence = f"{words.code}: the manual does not list it; it is taken in its ISO meaning{more}"
+    remark(m, "unlisted_m", sentence, first_word(words))
 
 
 def remark_m(m: Machine, words: Words) -> None:
@@ -26,9 +27,6 @@ def remark_m(m: Machine, words: Words) -> None:
 FUNCTIONS = functions(
     remark_m, ISO, plane="2.4", dimension="2.3", feed_mode="4.2", blending="3.5", compensation="6", cycle="9"
 )
-
-
-# --- tool ----------------------------------------------------------------------------------------------------------------
 
 
 @FUNCTIONS("T", "Tool call", phase="tool", source="5.1")
@@ -52,8 +50,6 @@ def tool_change(m: Machine, words: Words) -> None:
         motion.change_tool(m, words)
 
 
-# --- spindle -------------------------------------------------------------------------------------------------------------
-
 SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
 
 
@@ -68,11 +64,11 @@ def spindle_speed(m: Machine, words: Words) -> None:
 @FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5", source="9")
 def spindle(m: Machine, words: Words) -> None:
     """M3 and M4 before the motion of the block, M5 after it; by the setting spindle_stop before it too."""
-    if words.code == "M5" and m.settings["spindle_stop"] == "after":
-        m.at_block_end(lambda: m.spindle(turning=0))
-        return
     before = m.spindle_speed
-    m.spindle(turning={"M3": 1, "M4": -1, "M5": 0}[words.code])
+    if words.code == "M5" and m.settings["spindle_stop"] == "before":
+        m.spindle(turning=0)
+    else:
+        motion.spindle(m, words)
     run_up(m, before)
 
 

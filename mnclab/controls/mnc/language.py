@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 
 from mnclab.controls.word_address import motion
@@ -63,8 +65,7 @@ def line(m: Machine, words: Words) -> None:
 @FUNCTIONS("G2 G3", ARCS, group="motion", takes="X Y Z I J K R", moves=True, source="3.4")
 def arc(m: Machine, words: Words) -> None:
     """An arc by R (negative: above 180 degrees) or I J K from the start; without either a straight line."""
-    sense = -1 if words.code == "G2" else 1
-    motion.arc(m, words, sense, absolute(m), line_without_centre=True)
+    motion.arc(m, words, -1 if words.code == "G2" else 1, absolute(m), line_without_centre=True)
 
 
 @FUNCTIONS("G53", "Machine coordinates", group="datum", phase="frames", power_on="G53", modal=False, source="2.6")
@@ -79,20 +80,13 @@ def machine_coordinates(m: Machine, words: Words) -> None:
         m.set_frame("local", frames.shift(z=-m.tool.effective_length))
 
 
-def transformation(m: Machine) -> frames.Matrix:
-    """Scaling, mirror image and rotation as one: all that stands inside the work offset and G92."""
-    product = frames.IDENTITY
-    for name, frame in m.frames:
-        product = product if name in ("datum", "local") else product @ frame
-    return product
-
-
 @FUNCTIONS("G92", "Set position", phase="local", takes="X Y Z U V W", still=True, modal=False, source="2.5")
 def set_position(m: Machine, words: Words) -> None:
     """The present point gets the coordinates X Y Z; U V W move the origin by that much. No motion."""
     motion.uncompensated(m, words)
-    point, local = list(m.programmed), m.frames["local"][:3, 3].copy()
-    inner = transformation(m)
+    point, local = list(m.programmed), m.frames["local"][:3, 3]
+    transformations = [frame for name, frame in m.frames if name not in ("datum", "local")]
+    inner = functools.reduce(np.matmul, transformations, frames.IDENTITY)
     if not np.array_equal(inner, frames.IDENTITY):
         m.warn("G92 under scaling, mirror image or rotation: its values are programmed coordinates", first_word(words))
     for k, (axis, increment) in enumerate(zip(AXES, "UVW", strict=True)):
@@ -104,10 +98,8 @@ def set_position(m: Machine, words: Words) -> None:
             point[k] += m.value(words[increment]) * (1 if m.settings["g92_increment"] == "add" else -1)
     # shift = tip - datum - q(p), for the axes written (2.5, MNC-G92-XFORM)
     shift = np.array(m.tip) - m.frames["datum"][:3, 3] - frames.apply(inner, point)
-    for k, (axis, increment) in enumerate(zip(AXES, "UVW", strict=True)):
-        if axis in words or increment in words:
-            local[k] = shift[k]
-    m.set_frame("local", frames.shift(*local), keep="programmed")
+    written = [axis in words or increment in words for axis, increment in zip(AXES, "UVW", strict=True)]
+    m.set_frame("local", frames.shift(*np.where(written, shift, local)), keep="programmed")
     m.set_register(point)  # exactly as written
 
 
@@ -132,11 +124,8 @@ def exact_stop_here(m: Machine, words: Words) -> None:
 
 
 CORNERS = {"G160": ROUND, "G161": STRAIGHT, "G162": ACUTE}
-CORNER_TITLES = {
-    "G160": "Outside corners: arc",
-    "G161": "Outside corners: straight",
-    "G162": "Outside corners: arc at acute corners only",
-}
+SHAPES = {"G160": "arc", "G161": "straight", "G162": "arc at acute corners only"}
+CORNER_TITLES = {code: f"Outside corners: {shape}" for code, shape in SHAPES.items()}
 
 
 @FUNCTIONS("G160 G161 G162", CORNER_TITLES, group="corners", phase="plane", power_on="G160", source="6.4")

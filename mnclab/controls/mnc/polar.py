@@ -12,7 +12,7 @@ from typing import Any
 
 from mnclab.controls.mnc.language import absolute
 from mnclab.controls.mnc.state import Polar, memory
-from mnclab.controls.word_address.motion import AXES, first_word, helix, uncompensated
+from mnclab.controls.word_address.motion import AXES, coordinates, first_word, helix, uncompensated
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import Machine
@@ -54,8 +54,7 @@ def polar_off(m: Machine, words: Words) -> None:
     """The pole is forgotten; a modal polar motion falls back to the Cartesian one (MNC-POLAR-CART)."""
     if m.pole is not None:
         m.log("pole", None)
-    m.pole = None
-    memory(m).polar = None
+    m.pole = memory(m).polar = None
     motion = m.modal["motion"]
     m.set_modal("motion", CARTESIAN.get(motion, motion))
 
@@ -78,23 +77,19 @@ def target(m: Machine, words: Words) -> dict[str, Any]:
             m.alarm(f"R (polar radius) must be at least 0, got {radius:g}", words["R"])
     if "A" in words:
         angle = m.value(words["A"]) + (0.0 if absolute(m) else angle)
-    first, second, normal = PLANES[m.plane]
+    first, second, _ = (AXES[k] for k in PLANES[m.plane])
+    to = coordinates(m, words, absolute(m))  # of the third axis
+    for axis in (first, second):
+        if axis in words:
+            m.alarm(f"{m.modal['motion']} does not take {axis}: its end is given by R and A", words[axis])
     turned = math.radians(angle)
-    to = {
-        AXES[first].lower(): m.pole[0] + radius * math.cos(turned),
-        AXES[second].lower(): m.pole[1] + radius * math.sin(turned),
-    }
-    third = AXES[normal]
-    if third in words:
-        value = m.value(words[third])
-        to[third.lower()] = value if absolute(m) else m.programmed[normal] + value
-    for k in (first, second):
-        if AXES[k] in words:
-            m.alarm(f"{m.modal['motion']} does not take {AXES[k]}: its end is given by R and A", words[AXES[k]])
+    to[first.lower()] = m.pole[0] + radius * math.cos(turned)
+    to[second.lower()] = m.pole[1] + radius * math.sin(turned)
     memory(m).polar = Polar(radius, angle, m.target(**{axis: to.get(axis) for axis in "xyz"}))
     return to
 
 
+ENDS = set("RAKXYZ")  # words that make a block move
 STRAIGHT = {"G10": "Rapid positioning, polar", "G11": "Linear interpolation, polar"}
 ARCS = {"G12": "Circular interpolation clockwise, polar", "G13": "Circular interpolation counter-clockwise, polar"}
 
@@ -102,15 +97,12 @@ ARCS = {"G12": "Circular interpolation clockwise, polar", "G13": "Circular inter
 @FUNCTIONS("G10 G11", STRAIGHT, group="motion", takes="R A X Y Z", moves=True, source="2.8.5")
 def polar_straight(m: Machine, words: Words) -> None:
     """Like G0 and G1, to radius R and angle A about the pole: a straight line, not a spiral."""
-    if has_target(words) and words.code == "G10":
+    if not words.keys() & ENDS:
+        return
+    if words.code == "G10":
         m.rapid(**target(m, words))
-    elif has_target(words):
+    else:
         m.line(**target(m, words), word=first_word(words))
-
-
-def has_target(words: Words) -> bool:
-    """Whether a block moves."""
-    return any(address in words for address in ("R", "A", "X", "Y", "Z", "K"))
 
 
 @FUNCTIONS("G12 G13", ARCS, group="motion", takes="R A K X Y Z", moves=True, source="2.8.5")
@@ -119,7 +111,7 @@ def polar_arc(m: Machine, words: Words) -> None:
 
     Without K a straight line, as G2 and G3 without a centre (MNC-G12-NOK). Settings polar_arc, polar_arc_without_k.
     """
-    if not has_target(words):
+    if not words.keys() & ENDS:
         return
     begin = polar_of(m, m.pole or (0.0, 0.0))[0]
     to = target(m, words)

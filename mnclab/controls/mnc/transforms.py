@@ -74,7 +74,7 @@ def rotation(m: Machine, words: Words) -> None:
 
 def transformation_off(m: Machine, words: Words) -> None:
     """No motion; the programmed coordinates stay."""
-    switch(m, {"G36": "scaling", "G38": "rotation", "G50": "mirror"}[words.code], None, words)
+    switch(m, str(m.control.functions[words.code].group), None, words)
 
 
 for code, title, group in (("G36", SCALING, "scaling"), ("G38", ROTATION, "rotation"), ("G50", MIRROR, "mirror")):

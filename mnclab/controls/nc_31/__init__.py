@@ -10,32 +10,24 @@ from __future__ import annotations
 from mnclab.controls.nc_31 import drilling, functions, grooving, notation, stock_removal, threads
 from mnclab.controls.nc_31.reader import looks_like, read
 from mnclab.controls.nc_31.state import Memory
-from mnclab.controls.nc_31.trial import trial_program
 from mnclab.machine.control import Control
-from mnclab.machine.settings import Setting
+from mnclab.machine.cycle import Cycle
+from mnclab.machine.settings import Setting, one_of
+from mnclab.machine.trial import TrialWords, number
 
 SETTINGS = (
     Setting("parameter_6", 0, "G31: infeed angle of the thread", "group P, adopted 0", {}, "deg"),
     Setting("parameter_7", 0, "G31: run-out at the end of the thread", "group P, adopted 0", {}, "tenths of the pitch", 0),
     Setting("parameter_8", 100, "G72, G73: gap left when the drill returns", "group P, adopted 1 mm", {}, "0.01 mm", 0),
-    Setting(
-        "parameter_10", 0, "G77, G78: length of cut until the chip is broken; 0: not broken", "group P", {}, "0.01 mm", 0
-    ),
-    Setting(
-        "parameter_11", 50, "G77, G78: rapid retract that breaks the chip", "group P, adopted 0.5 mm", {}, "0.01 mm", 0
-    ),
+    Setting("parameter_10", 0, "G77, G78: length of cut until the chip is broken; 0: not broken", "group P", {}, "0.01 mm", 0),
+    Setting("parameter_11", 50, "G77, G78: rapid retract that breaks the chip", "group P, adopted 0.5 mm", {}, "0.01 mm", 0),
     Setting("p1_on_radius", False, "G77 P1, G72 P: on the radius, not on the diameter", "not stated"),
-    Setting(
-        "g78_bevel", "along_z", "G78: which way its bevel P2 counts", "3.20.6, its figure is lost",
-        {"along_z": "along Z, as its table says: a conical face", "along_x": "along X: G77 with the axes exchanged"},
-    ),
+    one_of("g78_bevel", "G78: which way its bevel P2 counts", "3.20.6, its figure is lost",
+           along_z="along Z, as its table says: a conical face", along_x="along X: G77 with the axes exchanged"),
 )  # fmt: skip
 
 #: Known from elsewhere to be part of this control, but not described in the source: refused by name.
-_OTHER_CHAPTERS = {
-    **{"G2": "arcs", "G3": "arcs", "G12": "quarter arcs", "G13": "quarter arcs"},
-    "T": "tool words",
-}
+_OTHER_CHAPTERS = {**{"G2": "arcs", "G3": "arcs", "G12": "quarter arcs", "G13": "quarter arcs"}, "T": "tool words"}
 REFUSED = {code: f"{what} stand in a chapter that the source does not have" for code, what in _OTHER_CHAPTERS.items()}
 
 MEANINGS = {
@@ -44,6 +36,14 @@ MEANINGS = {
     "G25 P": "frames (first * 1000 + last), or how often", "G32 F": "pitch, 0.0001 mm",
     **{f"G{n} M": "auxiliary function at the end of the move" for n in range(61, 68)},
 }  # fmt: skip
+
+
+def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
+    """The code of a cycle in a frame with its marks, each word in one of its own."""
+    marks = [address for address, value in words if address in "~@" and value]
+    frames = [" ".join([cycle.code, *marks]), *(a + number(value) for a, value in words if a not in "~@")]
+    return "\n".join(["S800", "M3", "F20", "X4000 ~ *", "Z200 ~", " *\n".join(frames), ""])
+
 
 CYCLES = stock_removal.CYCLES | grooving.CYCLES | drilling.CYCLES | threads.CYCLES
 

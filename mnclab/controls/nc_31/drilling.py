@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from mnclab.controls.nc_31 import discretes
-from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, size, start
+from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, aside, feed_word, here, size, start
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
@@ -25,13 +25,13 @@ def faults(cycle: FromStart, m: Machine, peck: float, depth: float) -> Iterator[
     yield from cycle.needs_feed(m)
 
 
-def deep_hole(m: Machine, begin: float, bottom: float, peck: float, aside: float | None) -> Iterator[Step]:
+def deep_hole(m: Machine, begin: float, bottom: float, peck: float, after: float | None) -> Iterator[Step]:
     """Drill along in pecks, each from a gap before the last depth, each followed by a retract to the start; then aside."""
     gap = m.settings["parameter_8"] / discretes.TRAVEL
     yield from drill(infeeds(begin, bottom, peck), above=begin, feed=None, reenter=gap)
     yield Go("retract", begin)
-    if aside is not None:
-        yield Go("aside", x=aside)
+    if after is not None:
+        yield Go("aside", x=after)
 
 
 @CYCLES("G73", "Deep-hole drilling", runs="definition", source="NC-31 3.20.7")
@@ -42,21 +42,18 @@ class DeepDrilling(FromStart):
     goes there at rapid.
     """
 
-    x: float | None = param("X", "X of the drill afterwards", "0.01 mm on diameter", default=None, default_means=AFTER,
-                            note=FROM_START, example=6000)  # fmt: skip
+    x: float | None = aside("X", "X of the drill afterwards", AFTER, 6000)
     z: float = param("Z", "bottom of the hole", "0.01 mm", note=FROM_START, example=-3000)
     feed: float | None = feed_word("feed of the cycle")
     peck: float = size("depth drilled per pass", above=0, example=1000)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A hole, and pecks that it holds."""
         yield from apart(None, self.z, m)
         yield from faults(self, m, self.peck, abs(self.z - here(m)[1]))
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """The hole, then aside."""
-        aside = None if self.x is None else self.x / discretes.X
-        return deep_hole(m, start(m)[1], self.z / discretes.Z, self.peck / discretes.Z, aside)
+        after = None if self.x is None else self.x / discretes.X
+        return deep_hole(m, start(m)[1], self.z / discretes.Z, self.peck / discretes.Z, after)
 
 
 @CYCLES("G72", "Deep-hole drilling along X", runs="definition", source="NC-31 3.20.7")
@@ -67,8 +64,7 @@ class RadialDrilling(FromStart):
     """
 
     x: float = param("X", "bottom of the hole", "0.01 mm on diameter", note=FROM_START, example=2000)
-    z: float | None = param("Z", "Z of the drill afterwards", "0.01 mm", default=None, default_means=AFTER,
-                            note=FROM_START, example=1000)  # fmt: skip
+    z: float | None = aside("Z", "Z of the drill afterwards", AFTER, 1000)
     feed: float | None = feed_word("feed of the cycle")
     peck: float = size("depth drilled per pass", "0.01 mm on diameter", above=0, example=600)
 
@@ -79,11 +75,9 @@ class RadialDrilling(FromStart):
         return self.peck * (2 if m.settings["p1_on_radius"] else 1)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A hole, and pecks that it holds."""
         yield from apart(self.x, None, m)
         yield from faults(self, m, self.depth(m), abs(self.x - here(m)[0]))
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """The hole, then aside."""
-        aside = None if self.z is None else self.z / discretes.Z
-        return self.in_axes(deep_hole(m, start(m)[0], self.x / discretes.X, self.depth(m) / discretes.X, aside))
+        after = None if self.z is None else self.z / discretes.Z
+        return self.in_axes(deep_hole(m, start(m)[0], self.x / discretes.X, self.depth(m) / discretes.X, after))

@@ -22,9 +22,6 @@ def power_on(m: Machine) -> None:
     m.change("per_rev", True)
 
 
-# --- motion ----------------------------------------------------------------------------------------------------------
-
-
 def targets(m: Machine, words: Words) -> dict[str, float]:
     """Ends of a move as arguments of a verb, mm; increments count from the start of the move."""
     found = {}
@@ -69,6 +66,12 @@ CONDITIONAL = {
 }
 
 
+def notes_of(head: Word, bits: int) -> list[str]:
+    """What a conditional move has beside the exact stop."""
+    notes = [condition for k, condition in enumerate(CONDITIONS) if k and bits >> k & 1]
+    return [*notes, "separate in single-block mode"] if head.flag & INCREMENTAL else notes
+
+
 @FUNCTIONS(" ".join(CONDITIONAL), CONDITIONAL, takes="X Z M", modal=False, source="3.20.15")
 def conditional_move(m: Machine, words: Words) -> None:
     """One straight move at feed, with ~ on the G frame at rapid; M is carried out at its end.
@@ -80,17 +83,13 @@ def conditional_move(m: Machine, words: Words) -> None:
     if len(words.words) == 1:
         m.alarm(f"{words.code} needs X, Z or M", head, "tie their frames to it with the mark *")
     refuse_rapid(m, [*words.words[1:]], words.code)
-    notes = [c for k, c in enumerate(CONDITIONS) if k and bits >> k & 1]
-    notes += ["separate in single-block mode"] if head.flag & INCREMENTAL else []
+    notes = notes_of(head, bits)
     m.label = f"{words.code} {', '.join(notes)}" if notes else words.code
     m.exact_here = bool(bits & 1)
     move(m, words, bool(head.flag & RAPID_MARK))
     m.label = ""
     if "M" in words:
         auxiliary(m, Words((words["M"],), "M"))
-
-
-# --- the course of the program ---------------------------------------------------------------------------------------
 
 
 @FUNCTIONS("G25", "Repetition of frames", takes="P*", modal=False, source="3.20.15, example")
@@ -138,9 +137,8 @@ def frame_range(m: Machine, word: Word) -> tuple[int, int]:
 def frames_of(m: Machine, program: Program) -> dict[int, list[int]]:
     """Numbers of the frames of each block, worked out once in a run."""
     frames = memory(m).frames
-    if not frames:
-        for number, block in program.labels.items():
-            frames.setdefault(block, []).append(int(number))
+    for number, block in () if frames else program.labels.items():
+        frames.setdefault(block, []).append(int(number))
     return frames
 
 
@@ -149,9 +147,6 @@ def parameter(m: Machine, words: Words) -> None:
     """Only inside a group: P1, P2, P3 of a cycle are its first, second and third P frame."""
     word = words.words[0]
     m.alarm(f"{word} stands alone: P belongs to a group that begins with G", word, "the frame before it has no mark *")
-
-
-# --- feed, spindle, auxiliary functions ------------------------------------------------------------------------------
 
 
 @FUNCTIONS("F", "Feed, modal", source="3.20.15, example")

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mnclab.controls.nc_31 import discretes
-from mnclab.controls.nc_31.functions import CONDITIONAL, CONDITIONS
+from mnclab.controls.nc_31.functions import CONDITIONAL, notes_of
 from mnclab.machine.control import Function
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.text.alarm import several
@@ -98,7 +98,7 @@ def _cycle(cycle: type[Cycle], head: Word, rest: tuple[Word, ...]) -> Iterator[s
     """A cycle: its code, its words by their declarations, its marks."""
     yield cycle.code
     declared = [parameter for parameter in cycle.parameters() if not parameter.mark]
-    several = sum(parameter.address == "P" for parameter in declared) > 1
+    numbered = sum(parameter.address == "P" for parameter in declared) > 1
     for position, word in enumerate(rest):
         which = sum(other.address == word.address for other in rest[:position])
         alike = [parameter for parameter in declared if parameter.address == word.address]
@@ -106,7 +106,7 @@ def _cycle(cycle: type[Cycle], head: Word, rest: tuple[Word, ...]) -> Iterator[s
             yield _end(word)
             continue
         scale = SCALES[alike[which].unit.split()[0]]
-        yield _millimetres(f"P{which + 1}=" if several and word.address == "P" else word.address, _amount(word), scale)
+        yield _millimetres(f"P{which + 1}=" if numbered and word.address == "P" else word.address, _amount(word), scale)
     yield from (f"({p.meaning})" for p in cycle.parameters() if head.flag & p.mark)
 
 
@@ -118,9 +118,7 @@ def _conditional(head: Word, rest: tuple[Word, ...]) -> Iterator[str]:
     if bits & 1:
         yield "G9"
     yield from map(_end, rest)
-    notes = [condition for k, condition in enumerate(CONDITIONS) if k and bits >> k & 1]
-    notes += ["separate in single-block mode"] if head.flag & INCREMENTAL else []
-    if notes:
+    if notes := notes_of(head, bits):
         yield f"({', '.join(notes)})"
 
 

@@ -60,7 +60,7 @@ class _Frames:
     """The frames of a program as they come: their numbers, the group that is open, the faults."""
 
     def __init__(self, builder: ProgramBuilder) -> None:
-        self.builder, self.text = builder, builder.text.translate(_FOLD)
+        self.builder, self.text, self.alarm = builder, builder.text.translate(_FOLD), builder.alarm
         self.group = -1  # offset of the block that the frame belongs to
         self.group_mark = -1  # where the mark stands that keeps it open, -1 when it is closed
         self.last = -1  # number of the frame before
@@ -69,16 +69,13 @@ class _Frames:
         self.shadowed: set[int] = set()  # blocks with a frame whose number another one has
 
     def read_line(self, begin: int, end: int) -> None:
-        """One line: a frame, a comment, or nothing."""
-        text = self.text
-        comment = text.find(COMMENT, begin, end)
-        stop = end if comment < 0 else comment
-        while stop > begin and text[stop - 1] in BLANKS + "\r\n":
-            stop -= 1
+        stop = begin + len(self.text[begin:end].partition(COMMENT)[0].rstrip(BLANKS + "\r\n"))
         at = self.skip(begin, stop)
         if at >= stop:
             return
-        self.report_cyrillic(at, stop)
+        for i in range(at, stop):
+            if (original := self.builder.text[i]) in _LOOKS_LATIN:
+                self.alarm(f"{original!r} is a Cyrillic letter, read as {self.text[i]}", i, severity="warning")
         inside = self.group_mark >= 0
         if not inside:
             self.builder.block(at)
@@ -93,22 +90,10 @@ class _Frames:
             if block not in self.shadowed:
                 self.builder.labels[str(number)] = block
 
-    def alarm(self, message: str, at: int, length: int = 1, hint: str = "") -> None:
-        self.builder.alarm(message, at, length, hint)
-
     def skip(self, at: int, stop: int) -> int:
         while at < stop and self.text[at] in BLANKS:
             at += 1
         return at
-
-    def report_cyrillic(self, at: int, stop: int) -> None:
-        for i in range(at, stop):
-            original = self.builder.text[i]
-            if original in _LOOKS_LATIN:
-                latin = self.text[i]
-                self.builder.alarm(f"{original!r} is a Cyrillic letter, read as {latin}", i, severity="warning")
-
-    # --- one frame ---------------------------------------------------------------------------------------------------
 
     def read_frame(self, at: int, stop: int, inside: bool) -> int:
         """Number, word and marks; where the mark * stands, or -1. After a fault any * of the line will do."""
@@ -189,8 +174,6 @@ class _Frames:
                 return any_mark
         self.builder.word(address, float(match[3]), match.start(), match.end() - match.start(), flag)
         return places.get("*", -1)
-
-    # --- faults with their names -------------------------------------------------------------------------------------
 
     def refuse(self, at: int, stop: int) -> None:
         """The fault where a word should begin."""

@@ -9,18 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from mnclab.controls.nc_31 import discretes
-from mnclab.controls.nc_31.targets import (
-    FROM_START,
-    FromStart,
-    apart,
-    feed_word,
-    here,
-    own_mark,
-    rapid_mark,
-    size,
-    start,
-)
+from mnclab.controls.nc_31 import discretes, targets
+from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, rapid_mark, size, start
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import RAPID, Go, Step, Write
@@ -51,9 +41,6 @@ def shoulder_of(cycle: LatheCut, bevel: tuple[float, float]) -> Shoulder:
     across, along = cycle.across_along(cycle.x / discretes.X, cycle.z / discretes.Z)
     rim, corner = cycle.across_along(*bevel)
     return Shoulder(finish=across, corner=corner, rim=rim, far=along)
-
-
-# --- one pass --------------------------------------------------------------------------------------------------------
 
 
 def check_pass(cycle: LongitudinalPass | TransversePass, m: Machine) -> Iterator[tuple[str, str]]:
@@ -107,9 +94,6 @@ class TransversePass(FromStart):
 
     transverse = True
     check, moves = check_pass, single_pass
-
-
-# --- roughing in passes ----------------------------------------------------------------------------------------------
 
 
 def depth_of(cycle: Roughing, m: Machine) -> float:
@@ -184,7 +168,7 @@ class LongitudinalRoughing(FromStart):
     stock_per_pass: float = size("stock removed per pass", "0.01 mm on diameter", above=0, example=200)
     bevel: float = size("size of the bevel along Z", default=0, at_least=0, example=500)
     rapid_infeed: float = rapid_mark("infeed at rapid")
-    to_contour: float = own_mark("ends at point B (X, Z1) instead of the start")
+    to_contour: float = targets.own_mark("ends at point B (X, Z1) instead of the start")
 
     check, moves = check_roughing, rough
 
@@ -204,7 +188,7 @@ class TransverseRoughing(FromStart):
     stock_per_pass: float = size("stock removed per pass along Z", above=0, example=200)
     bevel: float = size("size of the bevel along Z", default=0, at_least=0, example=500)
     rapid_infeed: float = rapid_mark("infeed at rapid")
-    to_contour: float = own_mark("ends at point B (X1, Z) instead of the start")
+    to_contour: float = targets.own_mark("ends at point B (X1, Z) instead of the start")
     transverse = True
     check, moves = check_roughing, rough
 

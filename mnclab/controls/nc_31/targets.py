@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.functions import refuse_rapid
-from mnclab.machine.cycle import Cycle, param
+from mnclab.machine.cycle import Cycle, Given, Values, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.turning.roughing import Crosswise
-from mnclab.text.program import INCREMENTAL, RAPID_MARK, Word
+from mnclab.text.program import INCREMENTAL, RAPID_MARK
 
 SWITCH = {0.0: "no", 1.0: "yes"}
 FROM_START = "@: from the start point"
@@ -22,10 +22,7 @@ class FromStart(Crosswise, Cycle):
     feed: float | None
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
-        """Increments become coordinates, in discretes."""
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         ends = {name: given[name] for name in ("x", "z") if name in given}
         refuse_rapid(m, list(ends.values()), cls.code)
         for name, axis, scale in (("x", 0, discretes.X), ("z", 2, discretes.Z)):
@@ -38,7 +35,6 @@ class FromStart(Crosswise, Cycle):
         return None if self.feed is None else self.feed / discretes.CYCLE_FEED
 
     def needs_feed(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The fault of a cycle without F where none was set before."""
         if self.feed is None and m.feed is None:
             yield "", "needs a feed: F here, or before it"
 
@@ -60,6 +56,12 @@ def apart(x: float | None, z: float | None, m: Machine) -> Iterator[tuple[str, s
         yield "x", f"must differ from the start diameter, got {x:.10g}"
     if z is not None and abs(z - z1) < 1e-6:
         yield "z", f"must differ from the Z of the start, got {z:.10g}"
+
+
+def aside(axis: str, meaning: str, left_out: str, example: float) -> Any:
+    """Where the tool goes afterwards, if it does."""
+    unit = "0.01 mm on diameter" if axis == "X" else "0.01 mm"
+    return param(axis, meaning, unit, default=None, default_means=left_out, note=FROM_START, example=example)
 
 
 def feed_word(meaning: str, unit: str = "0.0001 mm/rev", default: str = "the modal feed", example: float = 2000) -> Any:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from mnclab.controls.nc_31 import discretes
 from mnclab.controls.nc_31.functions import refuse_rapid, targets
-from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, feed_word, here, own_mark, size, start
+from mnclab.controls.nc_31.targets import FROM_START, FromStart, apart, aside, feed_word, here, own_mark, size, start
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.cycle import CycleTable, param, too_many
 from mnclab.machine.machine import Machine
@@ -25,7 +25,7 @@ CYCLES = CycleTable()
 FUNCTIONS = FunctionTable()
 
 SAME = "the modal feed"
-ONE_PASS = "a single pass at X"
+ONE_PASS = {"default": None, "default_means": "a single pass at X", "above": 0}
 
 
 def pitch_of(m: Machine, feed: float | None) -> float:
@@ -54,12 +54,8 @@ class ThreadCutting(FromStart):
     x: float = param("X", "crest diameter, or root with no P", "0.01 mm on diameter", note=FROM_START, example=3600)
     z: float = param("Z", "end of the thread", "0.01 mm", note=FROM_START, example=-3000)
     feed: float | None = feed_word("pitch", "0.0001 mm", SAME, 15_000)
-    thread_depth: float | None = size(
-        "depth of the thread", "0.01 mm on radius", default=None, default_means=ONE_PASS, above=0, example=92
-    )
-    depth_per_pass: float | None = size(
-        "depth of cut per pass", "0.01 mm on radius", default=None, default_means=ONE_PASS, above=0, example=25
-    )
+    thread_depth: float | None = size("depth of the thread", "0.01 mm on radius", **ONE_PASS, example=92)
+    depth_per_pass: float | None = size("depth of cut per pass", "0.01 mm on radius", **ONE_PASS, example=25)
     taper: float = size("taper", "0.01 mm on diameter", default=0, at_least=0, example=0)
 
     def depths(self) -> tuple[float, ...]:
@@ -74,7 +70,6 @@ class ThreadCutting(FromStart):
             yield "depth_per_pass", "is missing: P1 stands alone (leave out both, or neither)"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A start beside the thread, a pitch, machine parameters that leave some thread."""
         yield from apart(self.x, self.z, m)
         yield from needs_pitch(m, self.feed)
         yield from too_many("depth_per_pass", self.depths)
@@ -91,7 +86,6 @@ class ThreadCutting(FromStart):
         return float(m.settings["parameter_7"]) * 0.1 * pitch_of(m, self.feed)
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """All passes, then at the start."""
         end, taper = (self.x / discretes.X, self.z / discretes.Z), self.taper / discretes.X
         angle, pitch = math.radians(m.settings["parameter_6"]), pitch_of(m, self.feed)
         return thread_passes(start(m), end, pitch, self.depths(), taper=taper, angle=angle, run_out=self.run_out(m))
@@ -105,19 +99,16 @@ class Tapping(FromStart):
     out of a thread.
     """
 
-    x: float | None = param("X", "X of the tool afterwards", "0.01 mm on diameter", default=None, default_means="unchanged",
-                            note=FROM_START, example=6000)  # fmt: skip
+    x: float | None = aside("X", "X of the tool afterwards", "unchanged", 6000)
     z: float = param("Z", "end of the thread", "0.01 mm", note=FROM_START, example=-2000)
     feed: float | None = feed_word("pitch", "0.0001 mm", SAME, 12_500)
     zero_mark: float = own_mark("start at the zero mark of the spindle", example=1)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A thread, a pitch, a spindle."""
         yield from apart(None, self.z, m)
         yield from needs_pitch(m, self.feed)
 
     def moves(self, m: Machine) -> Iterable[Step]:
-        """In, reversal, out, reversal, aside."""
         sense, pitch = m.turning, pitch_of(m, self.feed)
         steps: list[Step] = [*tap([self.z / discretes.Z], above=m.programmed[2], sense=sense, end=sense, pitch=pitch)]
         if self.zero_mark:

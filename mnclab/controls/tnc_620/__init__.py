@@ -33,7 +33,6 @@ from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
     calls,
-    feed_rules,
     feeds,
     flow,
     free_contours,
@@ -42,9 +41,7 @@ from mnclab.controls.tnc_620.language import (
     machine_datum,
     motion,
     parameters,
-    pattern_calls,
     pattern_definitions,
-    polar,
     pole,
     program,
     tools,
@@ -78,10 +75,7 @@ SETTINGS = (
     Setting("feed_needed", True, "a move before any feed rate is an alarm; without, it is at rapid with a warning", "6.10"),
     Setting("m6_stop", False, "M6 stops the program for a change of the tool by hand", "5.11"),
     Setting("spindle_angle", 0, "where M19 and M20 stop the spindle without Cycle 13", "12.4", unit="deg"),
-    *(
-        Setting(f"m92_{axis}", 0, f"{axis.upper()} of the position that M92 counts from", "11.9", unit="mm")
-        for axis in "xyz"
-    ),
+    *(Setting(f"m92_{axis}", 0, f"{axis.upper()} of the position that M92 counts from", "11.9", unit="mm") for axis in "xyz"),
     Setting(
         "pattern_cycles", "refuse", "cycles 220 and 221 with a cycle that the manual does not name for them", "7.1",
         {"refuse": "an alarm", "warn": "a warning, and they run"},
@@ -94,38 +88,29 @@ SETTINGS = (
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
-FUNCTIONS = feeds.in_all_forms(
-    pole.FUNCTIONS | motion.FUNCTIONS | polar.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
+FUNCTIONS = (
+    pole.FUNCTIONS | motion.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
-    | machine_datum.FUNCTIONS | feed_rules.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
-    | pattern_calls.FUNCTIONS | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
+    | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
+)  # fmt: skip
+CHAPTERS = (
+    defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
+    contours, transformations, tilting, special, engraving, face_milling, presets, program_call,
 )  # fmt: skip
 CYCLES = CycleTable()
-for chapter in (
-    defaults,
-    drilling, boring, pecking,
-    tapping, threads,
-    point_patterns,
-    pockets, slots, studs, walled_faces,
-    contours,
-    transformations, tilting,
-    special, engraving, face_milling,
-    presets,
-    program_call,
-):  # fmt: skip
+for chapter in CHAPTERS:
     CYCLES |= chapter.CYCLES
 
 #: What the words of statements are.
 MEANINGS = {
-    "F": "feed rate", "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL",
-    "M103:F": "share downwards in percent",
-    "FU": "feed per revolution", "FZ": "feed per tooth", "S": "spindle speed",
-    "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation", "RL": "compensation to the left",
-    "RR": "compensation to the right", "LEN": "length", "PR": "polar radius", "PA": "polar angle",
-    "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
+    **feeds.MEANINGS, "FMAX": "rapid traverse", "FAUTO": "feed rate of TOOL CALL", "M103:F": "share downwards in percent",
+    "S": "spindle speed", "R": "radius", "DR": "sense of rotation", "R0": "no radius compensation",
+    "RL": "compensation to the left", "RR": "compensation to the right", "LEN": "length", "PR": "polar radius",
+    "PA": "polar angle", "CCA": "centre angle", "length": "side length", "REP": "repetitions", "label": "label",
     "target": "the parameter that gets the value", "value": "formula", "tool": "tool", "axis": "tool axis",
     "name": "program name", "unit": "unit of lengths", "TOOL CALL DL": "delta length", "TOOL CALL DR": "delta radius",
-     "text": "name of the tool in a text parameter",
+    "text": "name of the tool in a text parameter",
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
@@ -139,36 +124,17 @@ MEANINGS = {
 }  # fmt: skip
 
 _KLARTEXT = re.compile(
-    r"^[ \t\ufeff]*(?:\d+[ \t]*)?(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])", re.I | re.M
+    r"(?im)^[ \t\ufeff]*(?:\d+[ \t]*)?(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])"
 )
 
 CONTROL = Control(
-    name="tnc-620",
-    title="HEIDENHAIN TNC 620 (2018)",
-    suffixes=(".h",),
-    read=reader.read,
-    functions=FUNCTIONS,
-    cycles=CYCLES,
-    phases=PHASES,
-    codes=("M",),
-    word_functions=False,
-    settings=SETTINGS,
-    storage="variables",
-    frames=("preset",),
-    memory=Memory,
+    name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=(".h",),
+    read=reader.read, looks_like=lambda text: _KLARTEXT.search(text) is not None,
+    functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
+    phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
+    settings=SETTINGS, memory=Memory, start=program.start, frames=("preset",),
+    storage="variables", preassigned=parameters.PREASSIGNED, local_variables="QL",
+    named=feeds.named, predefined=defaults.predefined, calls_again=calls.calls_again,
     compensation=Compensation(approach="perpendicular", rapid=True),
-    start=program.start,
-    looks_like=lambda text: _KLARTEXT.search(text) is not None,
-    refused=later.REFUSED,
-    together=later.strange_parameters(CYCLES),
-    meanings=MEANINGS,
-    told=motion.turning_sense,
-    names=ISO_NAMES,
     bulk=PlainWords(motions={None: ("L", 1)}, keyword="L", ready=lambda m: m.side == 0 and not m.modal.get("call")),
-    named=feeds.named,
-    preassigned=parameters.PREASSIGNED,
-    local_variables="QL",
-    predefined=defaults.predefined,
-    calls_again=calls.calls_again,
-    trial=trial_program,
-)
+)  # fmt: skip

@@ -17,16 +17,12 @@ NAMED = {
     "%": "%", "ae": "ä", "oe": "ö", "ue": "ü", "AE": "Ä", "OE": "Ö", "UE": "Ü", "ss": "ß", "D": "ø", "at": "@", "CE": "CE",
 }  # fmt: skip
 FORMATTING = {"n": NEW_LINE, "t": TAB, "v": DOWN, "\\": "\\"}
-_DAY, _MONTH, _YEAR, _HOUR = "{t:%d}", "{t:%m}", "{t:%Y}", "{t:%H}"
-_D, _H = "{t.day}", "{t.hour}"
 #: Of %time00 to %time15; as SYSSTR ID321 numbers them.
 TIMES = (
-    f"{_DAY}.{_MONTH}.{_YEAR} {_HOUR}:{{t:%M:%S}}", f"{_D}.{_MONTH}.{_YEAR} {_H}:{{t:%M:%S}}",
-    f"{_D}.{_MONTH}.{_YEAR} {_H}:{{t:%M}}", f"{_D}.{_MONTH}.{{t:%y}} {_H}:{{t:%M}}",
-    f"{_YEAR}-{_MONTH}-{_DAY} {_HOUR}:{{t:%M:%S}}", f"{_YEAR}-{_MONTH}-{_DAY} {_HOUR}:{{t:%M}}",
-    f"{_YEAR}-{_MONTH}-{_DAY} {_H}:{{t:%M}}", f"{{t:%y}}-{_MONTH}-{_DAY} {_H}:{{t:%M}}",
-    f"{_DAY}.{_MONTH}.{_YEAR}", f"{_D}.{_MONTH}.{_YEAR}", f"{_D}.{_MONTH}.{{t:%y}}", f"{_YEAR}-{_MONTH}-{_DAY}",
-    f"{{t:%y}}-{_MONTH}-{_DAY}", f"{_HOUR}:{{t:%M:%S}}", f"{_H}:{{t:%M:%S}}", f"{_H}:{{t:%M}}",
+    "{t:%d.%m.%Y %H:%M:%S}", "{t.day}.{t:%m.%Y} {t.hour}:{t:%M:%S}", "{t.day}.{t:%m.%Y} {t.hour}:{t:%M}",
+    "{t.day}.{t:%m.%y} {t.hour}:{t:%M}", "{t:%Y-%m-%d %H:%M:%S}", "{t:%Y-%m-%d %H:%M}", "{t:%Y-%m-%d} {t.hour}:{t:%M}",
+    "{t:%y-%m-%d} {t.hour}:{t:%M}", "{t:%d.%m.%Y}", "{t.day}.{t:%m.%Y}", "{t.day}.{t:%m.%y}", "{t:%Y-%m-%d}",
+    "{t:%y-%m-%d}", "{t:%H:%M:%S}", "{t.hour}:{t:%M:%S}", "{t.hour}:{t:%M}",
 )  # fmt: skip
 
 _TIME = re.compile(r"time(\d\d)", re.ASCII)
@@ -50,24 +46,19 @@ def tokens(text: str, now: datetime, counter: int) -> list[str]:
             piece, at = _named(text, at, now, counter)
             found += piece
         elif sign == "\\":
-            if text[at : at + 1] not in FORMATTING or at >= len(text):
-                raise Fault(f"has an incomplete \\{text[at : at + 1]}: \\n, \\t, \\v and \\\\ are allowed")
-            found.append(FORMATTING[text[at]])
-            at += 1
+            sign, at = text[at : at + 1], at + 1
+            if sign not in FORMATTING:
+                raise Fault(f"has an incomplete \\{sign}: \\n, \\t, \\v and \\\\ are allowed")
+            found.append(FORMATTING[sign])
         elif sign in ALLOWED:
             found.append(sign)
         else:
-            raise Fault(f"has the character {sign!r}, which cannot be engraved{_instead(sign)}")
+            instead = next((f": write %{name}" for name, character in NAMED.items() if character == sign), "")
+            raise Fault(f"has the character {sign!r}, which cannot be engraved{instead}")
     return found
 
 
-def _instead(sign: str) -> str:
-    """How a character is written that only % gives."""
-    return next((f": write %{name}" for name, character in NAMED.items() if character == sign), "")
-
-
 def _named(text: str, at: int, now: datetime, counter: int) -> tuple[str, int]:
-    """What stands behind %, and where it ends."""
     if found := _TIME.match(text, at):
         if (number := int(found.group(1))) >= len(TIMES):
             raise Fault(f"has %time{number}: %time00 to %time15 are allowed")

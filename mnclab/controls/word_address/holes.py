@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any
+from typing import Any, ClassVar
 
 from mnclab.controls.word_address.state import memory
-from mnclab.machine.cycle import param
+from mnclab.machine.cycle import Given, Values, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Go, Step
-from mnclab.text.program import Word
-
-# --- addresses -----------------------------------------------------------------------------------------------------------
 
 
 def position(axis: str, example: float) -> Any:
@@ -30,19 +28,10 @@ feed = partial(
 )  # fmt: skip
 
 
-def take_feed(m: Machine, values: Mapping[str, Any], given: Mapping[str, Word]) -> None:
+def take_feed(m: Machine, values: Values, given: Given) -> None:
     """F of a cycle becomes the modal feed."""
     if "feed" in given and values["feed"] > 0:
         m.change("feed", values["feed"])
-
-
-# --- faults --------------------------------------------------------------------------------------------------------------
-
-
-def upside_down(bottom: float, r_level: float) -> Iterator[tuple[str, str]]:
-    """A fault where the bottom does not lie below level R."""
-    if not bottom < r_level:
-        yield "bottom", f"must lie below level R, got bottom {bottom:g} and R {r_level:g}"
 
 
 def out_of_place(m: Machine) -> Iterator[tuple[str, str]]:
@@ -66,32 +55,50 @@ def no_pitch(m: Machine) -> Iterator[tuple[str, str]]:
         yield "", "has no feed rate: the pitch is F under G95, and F divided by S under G94"
 
 
-# --- motion --------------------------------------------------------------------------------------------------------------
-
-
 def initial_level(m: Machine, kept: dict[str, Any]) -> float:
     """Z of the program where the tool stood when the cycle was first called (`kept["initial"]`, of the machine)."""
     x, y, _ = m.tip
     return m.to_program((x, y, kept["initial"]))[2]
 
 
-def axis_of(m: Machine, x: float | None, y: float | None) -> tuple[float, float]:
-    """The place of a hole of which a coordinate may be left out."""
-    return m.programmed[0] if x is None else x, m.programmed[1] if y is None else y
+class AtHole(ABC):
+    """The way of a cycle to a hole and away from it; the cycle declares the parameters named here."""
 
+    x: float | None
+    y: float | None
+    bottom: float
+    r_level: float
+    needs: ClassVar[tuple[Callable[[Machine], Iterator[tuple[str, str]]], ...]] = ()
+    """What may be wrong with the machine for the work."""
 
-def at_hole(m: Machine, x: float | None, y: float | None, r_level: float, work: Iterable[Step]) -> Iterator[Step]:
-    """Movements 1 to 6: over the hole, to level R, the work, to level R, and with G98 to the initial level.
+    @abstractmethod
+    def work(self, m: Machine) -> Iterator[Step]:
+        """The steps from level R and back to it."""
 
-    From below R the tool goes up to it first, for a rapid across would cut; no source says so, LinuxCNC does this. An
-    initial level below R is none to return to: R is where nothing is in the way, and a rapid down from it would end in
-    the hole, the next one lead through the workpiece. So the tool stays at R, as ISO controls have it.
-    """
-    if m.programmed[2] < r_level:
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        if not self.bottom < self.r_level:
+            yield "bottom", f"must lie below level R, got bottom {self.bottom:g} and R {self.r_level:g}"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        for faults in (out_of_place, *self.needs):
+            yield from faults(m)
+
+    def about(self, m: Machine) -> tuple[float, float]:
+        return m.programmed[0] if self.x is None else self.x, m.programmed[1] if self.y is None else self.y
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """Movements 1 to 6: over the hole, to level R, the work, to level R, and with G98 to the initial level.
+
+        From below R the tool goes up to it first, for a rapid across would cut; no source says so, LinuxCNC does this.
+        An initial level below R is none to return to: R is where nothing is in the way, and a rapid down from it would
+        end in the hole, the next one lead through the workpiece. So the tool stays at R, as ISO controls have it.
+        """
+        work, r_level = self.work(m), self.r_level
+        if m.programmed[2] < r_level:
+            yield Go("to level R", r_level)
+        yield Go("to the hole", x=None if self.x is None else 0.0, y=None if self.y is None else 0.0)
         yield Go("to level R", r_level)
-    yield Go("to the hole", x=None if x is None else 0.0, y=None if y is None else 0.0)
-    yield Go("to level R", r_level)
-    yield from work
-    yield Go("retract", r_level)
-    if m.modal["return"] == "G98" and m.position_cycle:
-        yield Go("to the initial level", max(r_level, initial_level(m, m.position_cycle.extra)))
+        yield from work
+        yield Go("retract", r_level)
+        if m.modal["return"] == "G98" and m.position_cycle:
+            yield Go("to the initial level", max(r_level, initial_level(m, m.position_cycle.extra)))

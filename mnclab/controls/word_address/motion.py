@@ -45,13 +45,11 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
     """
     to = coordinates(m, words, absolute)
     offsets = {k: words[c] for k, c in enumerate(CENTRE) if c in words}
-    if not to and not offsets and "R" not in words:
-        return
-    head = first_word(words)
     if not offsets and "R" not in words:
-        if not line_without_centre:
-            m.alarm("an arc needs R or I J K", head)
-        m.line(**to, word=head)
+        if to and not line_without_centre:
+            m.alarm("an arc needs R or I J K", first_word(words))
+        if to:
+            m.line(**to, word=first_word(words))
         return
     first, second, normal = PLANES[m.plane]
     if normal in offsets:
@@ -79,7 +77,7 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
 
 def helix(m: Machine, words: Words) -> None:
     """Say that an arc with a word of the third axis is a helix."""
-    remark(m, "helix", _helix(m), words, AXES[PLANES[m.plane][2]])
+    remark(m, "helix", _helix(m), words[AXES[PLANES[m.plane][2]]])
 
 
 def _helix(m: Machine) -> str:
@@ -98,13 +96,8 @@ def more_helices(m: Machine, count: int) -> bool:
     return choice not in ("warn", "refuse")
 
 
-def remark(m: Machine, setting: str, sentence: str, words: Words, address: str = "") -> None:
+def remark(m: Machine, setting: str, sentence: str, word: Word | None) -> None:
     """What a manual does not describe: a warning, an alarm, or nothing, as a setting wants it."""
-    remark_at(m, setting, sentence, words[address] if address else first_word(words))
-
-
-def remark_at(m: Machine, setting: str, sentence: str, word: Word | None) -> None:
-    """The same at a word."""
     choice = m.settings.get(setting, "warn")
     if choice == "refuse":
         m.alarm(sentence, word, hint=f"setting {setting}")
@@ -126,6 +119,14 @@ def spindle_speed(m: Machine, words: Words) -> None:
     if value < 0:
         m.alarm(f"S (spindle speed) must be at least 0, got {value:g}", words["S"])
     m.spindle(speed=value)
+
+
+def spindle(m: Machine, words: Words) -> None:
+    """M3 and M4 before the motion of the block, M5 after it."""
+    if words.code == "M5":
+        m.at_block_end(lambda: m.spindle(turning=0))
+    else:
+        m.spindle(turning=1 if words.code == "M3" else -1)
 
 
 def tool(m: Machine, words: Words) -> None:
@@ -157,19 +158,13 @@ def corrector(m: Machine, words: Words) -> None:
     """
     row = tool_row(m, words["D"], "corrector")
     refuse_change(m, "corrector", words["D"])
-    own = m.tables.tools[m.tool.number]
-    other = replace(corrected(own, row), dl=row.dl)
+    other = replace(m.tables.tools[m.tool.number].of_radius(row.radius, row.dr), dl=row.dl)
     if m.settings.get("corrector_length"):
         other = replace(other, length=row.length)
     if other.effective_length != m.tool.effective_length:
         m.change_tool(other)
     else:
         m.change("tool", other)
-
-
-def corrected(tool: Tool, row: Tool) -> Tool:
-    """A tool with the radius of another row of the table."""
-    return tool.of_radius(row.radius, row.dr)
 
 
 def tool_row(m: Machine, word: Word, name: str) -> Tool:

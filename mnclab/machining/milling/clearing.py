@@ -1,8 +1,7 @@
 """What a strategy returns: passes of the tool centre in the plane, piece by piece, each with its name. Lengths in mm.
 
 A *pass* is a contour, closed or open. Between two passes the tool either goes straight (a *link*), which never leads
-it farther from what is cleared than one stepover, or it lifts. Depths are no matter here: a cycle runs the passes on
-each of its levels, `entries` lead down to them.
+it farther from what is cleared than one stepover, or it lifts. A cycle runs the passes on each of its levels.
 """
 
 from __future__ import annotations
@@ -18,6 +17,7 @@ from mnclab.geometry.regions import Region
 from mnclab.text.alarm import several
 
 SLACK = 1e-6  # mm
+NOWHERE = Region()
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,10 +47,6 @@ class Piece:
         spot = begin(self.passes[k])[None]
         return any(contour.distance(spot)[0] < 1e-3 for contour in self.passes[:k])
 
-    def rest_from(self, k: int) -> Piece:
-        """The piece without its first k passes."""
-        return self if not k else Piece(self.centres, self.passes[k:], self.linked[k:], self.labels[k:])
-
     def reversed(self) -> Piece:
         """The same passes in the opposite order and sense; their names stay with them."""
         backwards = tuple(contour.reversed() for contour in self.passes[::-1])
@@ -70,12 +66,10 @@ class Clearing:
 
     @property
     def passes(self) -> tuple[Contour, ...]:
-        """The passes of all pieces, in order."""
         return tuple(contour for piece in self.pieces for contour in piece.passes)
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """Their names."""
         return tuple(label for piece in self.pieces for label in piece.labels)
 
     @property
@@ -125,25 +119,29 @@ def _clear(centres: Region, a: Floats, b: Floats, done: Sequence[Contour], stepo
     return centres.holds(a, b)
 
 
-def round_walls(centres: Region, here: Floats, climb: bool) -> tuple[list[Contour], list[str]]:
-    """Passes round islands, then along walls, and their names; each begins where it comes nearest to the end of the last."""
-    passes: list[Contour] = []
-    for loop in (loops := sorted(centres.loops, key=lambda loop: loop.area)):  # islands have areas below 0
+def round_walls(centres: Region, passes: list[Contour], labels: list[str], climb: bool) -> None:
+    """Adds passes round islands, then along walls; each begins where it comes nearest to the end of the last."""
+    here = end(passes[-1]) if passes else centres.loops[0].points[0]
+    for loop in sorted(centres.loops, key=lambda loop: loop.area):  # islands have areas below 0
         ring = loop.started_at(loop.nearest(here))
         passes.append(ring if climb else ring.reversed())
+        labels.append("island" if loop.area < 0 else "wall")
         here = ring.points[0]
-    return passes, ["island" if loop.area < 0 else "wall" for loop in loops]
 
 
-def piecewise(centres: Region, radius: float, plan: Callable[[Region], Piece]) -> Clearing:
-    """A clearing planned piece by piece; a ValueError where the tool does not fit."""
-    if not centres.loops:
-        raise ValueError(f"a tool of radius {radius:g} does not fit into the contour")
-    return Clearing(centres, tuple(plan(part) for part in centres.parts), radius)
+def joined(
+    passes: Sequence[Contour], labels: tuple[str, ...], radius: float, centres: Region = NOWHERE,
+    place: Floats | None = None, linked: bool = True,
+) -> Clearing:  # fmt: skip
+    """Passes that lead on to one another, the tool coming in at a place or where the first one begins."""
+    links = (linked,) * max(0, len(passes) - 1)
+    return Clearing(centres, (Piece(centres, tuple(passes), links, labels, place),), radius)
 
 
-def room_for(region: Region, radius: float, stepover: float, allowance: float = 0.0) -> Region:
-    """Where the tool centre may go; a ValueError where the numbers are impossible or the tool does not fit."""
+def piecewise(
+    region: Region, radius: float, stepover: float, allowance: float, plan: Callable[[Region], Piece]
+) -> Clearing:
+    """A clearing planned for each piece of where the tool centre may go; a ValueError where the tool does not fit."""
     if not radius > 0:
         raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
     if not 0 < stepover <= 2 * radius:
@@ -152,4 +150,4 @@ def room_for(region: Region, radius: float, stepover: float, allowance: float = 
     if not centres.loops:
         rest = f" with an allowance of {allowance:g}" if allowance else ""
         raise ValueError(f"a tool of radius {radius:g}{rest} does not fit into the contour")
-    return centres
+    return Clearing(centres, tuple(plan(part) for part in centres.parts), radius)

@@ -16,10 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import placed
 from mnclab.machining.depths import MOST
-from mnclab.machining.milling.clearing import Clearing, Piece, numbered
+from mnclab.machining.milling.clearing import Clearing, joined, numbered
 from mnclab.machining.milling.concentric import steps
 
 
@@ -48,16 +47,12 @@ def lines(
     near, far = within or (start, stop)
     passes = []
     for k, place in enumerate(across):
-        a, b = (near if k else start), far
-        if k % 2 and not one_way:
-            a, b = far, near
+        a, b = (far, near) if k % 2 and not one_way else (near if k else start, far)
         if leave and k == len(across) - 1:
             b = start if k % 2 and not one_way else stop
         points = np.array([(a, place), (b, place)])
         passes.append(Contour(placed(points[:, ::-1] if axis else points, centre, angle), closed=False))
-    linked = (not one_way,) * (len(passes) - 1)
-    piece = Piece(Region(), tuple(passes), linked, numbered("line", len(passes)))
-    return Clearing(Region(), (piece,), radius)
+    return joined(passes, numbered("line", len(passes)), radius, linked=not one_way)
 
 
 def spiral(
@@ -80,16 +75,13 @@ def spiral(
     corners = np.array(points) * ((1, 1) if climb else (1, -1))
     some = np.append(True, np.hypot(*np.diff(corners, axis=0).T) > 1e-9)
     way = Contour(placed(corners[some], centre, angle), closed=False)
-    return Clearing(Region(), (Piece(Region(), (way,), (), ("spiral",)),), radius)
+    return joined([way], ("spiral",), radius)
 
 
 def spiral_from(
     sides: tuple[float, float], radius: float, stepover: float, first: float, axis: int, outside: float
 ) -> tuple[tuple[float, float], Contour]:
-    """A clockwise spiral about (0, 0) from the corner from which `sides` point into the rectangle, and its start.
-
-    That lies `outside` of the corner along X (`axis` 0) or Y (1).
-    """
+    """A clockwise spiral from the corner whose `sides` point inwards, and its start `outside` along X (`axis` 0) or Y (1)."""
     right, above = sides[0] < 0, sides[1] < 0
     turn = {(0, 0): 0, (0, 1): -1, (1, 1): 2, (1, 0): 1}[right, above]
     x, y = abs(sides[0]), abs(sides[1])

@@ -24,7 +24,6 @@ from mnclab.machining.milling.clearing import (
     links,
     numbered,
     piecewise,
-    room_for,
     round_walls,
 )
 
@@ -35,8 +34,9 @@ def zigzag(
     region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True, angle: float = 0.0
 ) -> Clearing:
     """Lines in the direction `angle`, to and fro, joined along the wall; then walls and islands in one sense."""
-    centres = room_for(region, radius, stepover, allowance)
-    return piecewise(centres, radius, lambda part: _piece(part, radius, stepover, climb, angle, False))
+    return piecewise(
+        region, radius, stepover, allowance, lambda part: _piece(part, radius, stepover, climb, angle, False)
+    )
 
 
 def one_way(
@@ -47,8 +47,9 @@ def one_way(
     A frame round them comes first, so that each line begins in the clear. In climb milling the lines run against
     `angle`, the material on their right; else along it.
     """
-    centres = room_for(region, radius, stepover, allowance)
-    return piecewise(centres, radius, lambda part: _piece(part, radius, stepover, climb, angle, True))
+    return piecewise(
+        region, radius, stepover, allowance, lambda part: _piece(part, radius, stepover, climb, angle, True)
+    )
 
 
 def _piece(centres: Region, radius: float, stepover: float, climb: bool, angle: float, single: bool) -> Piece:
@@ -58,20 +59,20 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool, angle: 
     if inner.loops:
         level = _turned(inner, -angle)
         segments = [(placed(s[0], (0, 0), angle), placed(s[1], (0, 0), angle)) for s in _segments(level, stepover)]
-        rows = _one_way(segments, climb) if single else _to_and_fro(segments, stepover)
-        names = numbered("line", len(rows))
         if single:
+            rows = [Contour([b, a] if climb else [a, b], closed=False) for a, b in segments]
             passes = [loop if climb else loop.reversed() for loop in inner.loops]
             labels = list(numbered("frame", len(passes)))
-        for line, name in zip(rows, names, strict=True):
+        else:
+            rows = _to_and_fro(segments)
+        for line, name in zip(rows, numbered("line", len(rows)), strict=True):
             way = None if single or not passes else _along_wall(inner, end(passes[-1]), begin(line), stepover)
             if way is not None:
                 passes.append(way)
                 labels.append("link along the wall")
             passes.append(line)
             labels.append(name)
-    walls, faces = round_walls(centres, end(passes[-1]) if passes else centres.loops[0].points[0], climb)
-    passes, labels = passes + walls, labels + faces
+    round_walls(centres, passes, labels, climb)
     linked = list(links(centres, passes, stepover))
     if single:
         for k, name in enumerate(labels[1:]):
@@ -97,11 +98,7 @@ def _segments(region: Region, stepover: float) -> list[Segment]:
     ]
 
 
-def _one_way(segments: list[Segment], climb: bool) -> list[Contour]:
-    return [Contour([b, a] if climb else [a, b], closed=False) for a, b in segments]
-
-
-def _to_and_fro(segments: list[Segment], stepover: float) -> list[Contour]:
+def _to_and_fro(segments: list[Segment]) -> list[Contour]:
     """The lines in an order that goes on to the nearest end not yet cut, first those a step away."""
     ends = np.array(segments).reshape(-1, 2)  # two rows a segment
     todo = np.ones(len(segments), dtype=bool)

@@ -19,7 +19,7 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import cross, left
 from mnclab.geometry.whole_curves import Curve
-from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise, room_for
+from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise
 
 MOST_RINGS = 2000
 SHARP = 1e-6  # rad and mm, the least turn of a corner and the shortest element
@@ -46,15 +46,13 @@ def rings(
     """
     if corner_radius < 0:
         raise ValueError(f"the corner radius must not be negative, got {corner_radius:g}")
-    centres = room_for(region, radius, stepover, allowance)
-    return piecewise(centres, radius, lambda part: _piece(part, radius, stepover, climb, corner_radius))
+    return piecewise(
+        region, radius, stepover, allowance, lambda part: _piece(part, radius, stepover, climb, corner_radius)
+    )
 
 
 def rounded(loop: Contour, radius: float) -> Contour:
-    """A closed contour with an arc of this radius, touching both sides, in place of every corner to the left.
-
-    A corner stays sharp where the arc does not fit between its neighbours.
-    """
+    """A closed contour with an arc in place of every corner to the left in which an arc of this radius fits."""
     turns, curves, sweeps, lengths = loop.turns(), loop.curves, loop.sweeps, loop.lengths
     ahead = loop.tangents()[0]
     taken = np.zeros((2, len(lengths)))  # of each element, at its start and at its end
@@ -79,13 +77,9 @@ def rounded(loop: Contour, radius: float) -> Contour:
     kept = np.tan(sweeps * np.clip(1 - taken.sum(axis=0) / lengths, 0, 1) / 4)
     points, bulge = [], []
     for i, corner in enumerate(loop.points):
-        if i in arcs:
-            first, last, bent = arcs[i]
-            points += [first, last]
-            bulge += [bent, kept[i]]
-        else:
-            points.append(corner)
-            bulge.append(kept[i])
+        first, last, bent = arcs.get(i, (corner, corner, 0.0))
+        points += [first, last]
+        bulge += [bent, kept[i]]
     full = Contour(points, bulge)
     some = full.lengths > SHARP  # two arcs may use up what was between them
     return Contour(full.points[some], full.bulge[some])

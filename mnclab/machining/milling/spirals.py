@@ -18,7 +18,7 @@ from mnclab.geometry.contours import Contour, Floats, steps_within
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import covered, polygons, stays
 from mnclab.geometry.vectors import cross
-from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise, room_for
+from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise
 from mnclab.machining.milling.rings import Ring, rings_in_order
 
 CHORD = 5e-4  # mm
@@ -74,8 +74,7 @@ def spiral(region: Region, radius: float, stepover: float, *, allowance: float =
     outside it, and the last ring is run as it is, arcs and all. Where rings divide, or a turn would leave the area, one
     spiral ends and another begins; where spirals would leave something standing, the rings are run as they are.
     """
-    centres = room_for(region, radius, stepover, allowance)
-    return piecewise(centres, radius, lambda part: _piece(part, radius, stepover, climb))
+    return piecewise(region, radius, stepover, allowance, lambda part: _piece(part, radius, stepover, climb))
 
 
 def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piece:
@@ -104,13 +103,10 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piec
 def _circle(centres: Region) -> tuple[Floats, float] | None:
     """Centre and radius of a region that is one circle."""
     loop = centres.loops[0]
-    if (
-        len(centres.loops) > 1
-        or not loop.bulge.all()
-        or max(np.ptp(loop.radii), np.ptp(loop.centres, axis=0).max()) > 1e-6
-    ):
+    if len(centres.loops) > 1 or not loop.bulge.all():
         return None
-    return loop.centres[0], float(loop.radii[0])
+    same = max(np.ptp(loop.radii), np.ptp(loop.centres, axis=0).max()) <= 1e-6
+    return (loop.centres[0], float(loop.radii[0])) if same else None
 
 
 def _chains(rings: list[Ring], centres: Region, stepover: float, climb: bool) -> list[tuple[list[Contour], Ring]]:
@@ -121,9 +117,8 @@ def _chains(rings: list[Ring], centres: Region, stepover: float, climb: bool) ->
         if grows[k]:  # a turn begins where the ring within comes nearest to its end
             inner, outer = rings[k].contour, rings[k + 1].contour
             rings[k] = replace(rings[k], contour=inner.started_at(inner.nearest(outer.points[0])))
-    ways = {
-        k: turn_between(rings[k].contour, rings[k + 1].contour, stepover / 2) for k in np.flatnonzero(grows).tolist()
-    }
+    steps = enumerate(pairwise(ring.contour for ring in rings))
+    ways = {k: turn_between(*two, stepover / 2) for k, two in steps if grows[k]}
     inside = dict(zip(ways, stays(ways.values(), polygons(centres)), strict=True))
     chains: list[tuple[list[Contour], Ring]] = []
     parts: list[Contour] = []
@@ -140,11 +135,9 @@ def _grows(ring: Ring, following: Ring, rings: list[Ring]) -> bool:
     """Whether the next ring goes round the same as this one, and nothing else of its kind."""
     if ring.island != following.island or not 0 < ring.level - following.level <= 1:
         return False
-    alike = [r for r in rings if r.level == ring.level and r.island == ring.island]
     outer, inner = (ring, following) if ring.island else (following, ring)
-    others = alike if not ring.island else [r for r in rings if r.level == following.level and r.island]
-    spots = np.array([other.contour.points[0] for other in others])
-    within = outer.contour.winding(spots) != 0
+    alike = [other.contour for other in rings if (other.level, other.island) == (inner.level, inner.island)]
+    within = outer.contour.winding(np.array([contour.points[0] for contour in alike])) != 0
     return int(within.sum()) == 1 and bool(outer.contour.winding(inner.contour.points[:1])[0])
 
 
@@ -152,9 +145,7 @@ def _one_way(parts: list[Contour]) -> list[Contour]:
     """The first ring and the turns after it as one open contour."""
     if not parts:
         return []
-    first, *turns = parts
-    points, bulge = [first.points], [first.bulge]
-    for turn in turns:
-        points.append(turn.points[:-1])
-        bulge.append(turn.bulge[:-1])
-    return [Contour(np.vstack([*points, turns[-1].points[-1:]]), np.append(np.concatenate(bulge), 0.0), closed=False)]
+    *_, last = parts
+    points = [parts[0].points, *(turn.points[:-1] for turn in parts[1:]), last.points[-1:]]
+    bulge = [parts[0].bulge, *(turn.bulge[:-1] for turn in parts[1:]), np.zeros(1)]
+    return [Contour(np.vstack(points), np.concatenate(bulge), closed=False)]

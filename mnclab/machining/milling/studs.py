@@ -19,10 +19,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import placed
-from mnclab.machining.milling.clearing import Clearing, numbered
-from mnclab.machining.milling.concentric import DRIFT, joined, steps
+from mnclab.machining.milling.clearing import Clearing, joined, numbered
+from mnclab.machining.milling.concentric import DRIFT, steps
 from mnclab.machining.milling.spirals import half_circles
 
 ACROSS = 1.96  # times R, the longest step across a corner
@@ -43,7 +42,8 @@ class Figure(NamedTuple):
     def towards(self, other: Figure, share: Floats) -> tuple[Floats, Floats]:
         """Distances and corners of sides in turn, each its share (0 to 1) of the way to another figure."""
         side = np.arange(len(share)) % len(self.normals)
-        return self.reach[side] + (other.reach - self.reach)[side] * share, _between(self.corner, other.corner, share)
+        reach = self.reach[side] + (other.reach - self.reach)[side] * share
+        return reach, self.corner + (other.corner - self.corner) * share
 
     def apex(self, k: int = 0) -> Floats:
         """The middle of the corner before side k, `(2,)`."""
@@ -86,7 +86,7 @@ def rectangle(
         ring = ring.started_at(ring.nearest((2 * first.reach[1], 0.0)))
         ring = Contour(placed(ring.points, centre, angle), ring.bulge)
         passes.append(ring.reversed() if climb else ring)
-    return joined(passes, numbered("ring", len(passes)), radius, Region(), passes[0].points[0])
+    return joined(passes, numbered("ring", len(passes)), radius)
 
 
 def circle(
@@ -101,9 +101,9 @@ def circle(
     n = steps(spare, stepover)
     ring = Contour.circle(centre, last, angle, clockwise=climb)
     if not n:
-        return joined([ring], ("last circle",), radius, Region(), ring.points[0])
+        return joined([ring], ("last circle",), radius)
     spiral = half_circles(centre, last + spare, last, 2 * n, angle, clockwise=climb)
-    return joined([spiral, ring], ("spiral", "last circle"), radius, Region(), spiral.points[0])
+    return joined([spiral, ring], ("spiral", "last circle"), radius)
 
 
 def polygon(
@@ -122,24 +122,16 @@ def polygon(
         raise ValueError(f"an allowance of {allowance:g} leaves nothing of a radius of {inscribed:g}")
     out, bevels, half = radius + allowance, corner < 0, math.pi / corners
     normals = np.array([half * (2 * k + 1) for k in range(corners)])
-    if bevels:  # the bevel and the sides move outwards alike
-        size = max(0.0, -corner + out * math.tan(half / 2) / math.cos(half))
-    else:
-        size = max(0.0, corner + out)
-    last = Figure(normals, np.full(corners, inscribed + out), size, bevels)
+    grown = out * math.tan(half / 2) / math.cos(half) if bevels else out  # the bevel and the sides move outwards alike
+    last = Figure(normals, np.full(corners, inscribed + out), max(0.0, abs(corner) + grown), bevels)
     edge = max(stock / 2 + radius, inscribed + out)  # the spiral begins there, or as far out as the corners reach
     beyond = edge / math.cos(half) - max(edge, float(np.hypot(*last.apex())))
-    first = Figure(
-        normals, np.full(corners, edge), beyond / (math.sin(half) if bevels else 1 / math.cos(half) - 1), bevels
-    )
+    size = beyond / (math.sin(half) if bevels else 1 / math.cos(half) - 1)
+    first = last._replace(reach=np.full(corners, edge), corner=size)
     return _spiral(first, last, steps(spare, stepover), radius, climb, centre, angle, 0, apex=True)
 
 
 # ---- beneath ----
-
-
-def _between(a: float, b: float, share: Floats) -> Floats:
-    return np.asarray(a + (b - a) * share)
 
 
 def _part(first: Figure, last: Figure, share: float) -> Figure:
@@ -147,9 +139,7 @@ def _part(first: Figure, last: Figure, share: float) -> Figure:
     return last._replace(reach=reach, corner=first.corner + (last.corner - first.corner) * share)
 
 
-def _corners(
-    normals: Floats, reach: Floats, size: Floats, bevels: bool, sense: int
-) -> tuple[Floats, Floats, Floats]:  # fmt: skip
+def _corners(normals: Floats, reach: Floats, size: Floats, bevels: bool, sense: int) -> tuple[Floats, Floats, Floats]:
     """Where m lines in turn bend into the next one: before and after `(m-1, 2)`, and the bulge between `(m-1,)`."""
     n = np.stack([np.cos(normals), np.sin(normals)], axis=1)
     a, b, h, k = n[:-1], n[1:], reach[:-1], reach[1:]
@@ -201,7 +191,7 @@ def _spiral(
     ways = [slice(0, cut + 1), slice(cut, None)] if turns else [slice(0, None)]
     passes = [_open(points[way], bulges[way], centre, angle) for way in ways]
     labels = ("spiral", "last ring") if turns else ("last ring",)
-    return joined(passes, labels, radius, Region(), passes[0].points[0])
+    return joined(passes, labels, radius)
 
 
 def _open(points: Floats, bulges: Floats, centre: ArrayLike, angle: float) -> Contour:

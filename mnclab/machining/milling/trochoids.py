@@ -18,37 +18,19 @@ import numpy as np
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import Skeleton, skeleton
-from mnclab.geometry.vectors import left
-from mnclab.machining.milling.clearing import Clearing, Piece, end, links, numbered, piecewise, room_for, round_walls
+from mnclab.machining.milling.clearing import Clearing, Piece, links, numbered, piecewise, round_walls
 from mnclab.machining.milling.spirals import half_circles
 
 SMALLEST = 0.05  # of the tool radius: discs of tool centres below that are left to the passes along the walls
-
-
-def trochoid(line: Contour, width: float, radius: float, stepover: float, *, climb: bool = True) -> Clearing:
-    """A slot of a width along an open line, in full circles that advance by `stepover` along it, and on to the next."""
-    reach = width / 2 - radius
-    if not reach > 0:
-        raise ValueError(f"a trochoid needs a slot wider than the tool, got {width:g} for a tool radius of {radius:g}")
-    if not 0 < stepover <= radius:
-        raise ValueError(f"the stepover must lie above 0 and not above the tool radius, got {stepover:g}")
-    count = max(1, int(np.ceil(line.length / stepover - 1e-9)))
-    middles, ahead = line.point_at(line.length * np.arange(count + 1) / count)
-    sense = 1.0 if climb else -1.0
-    first = middles - sense * reach * left(ahead)
-    points = np.stack([first, 2 * middles - first, first], axis=1).reshape(-1, 2)
-    bulge = np.tile([sense, sense, 0.0], count + 1)
-    way = Contour(points, bulge, closed=False)
-    piece = Piece(Region(), (way,), (), ("trochoid",))
-    return Clearing(Region(), (piece,), radius)
 
 
 def trochoidal(
     region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True
 ) -> Clearing:
     """An area cleared by arcs along its middle line, from its widest place on; `stepover` is the greatest advance."""
-    centres = room_for(region, radius, stepover, allowance)
-    return piecewise(centres, radius, lambda part: _piece(part, radius, min(stepover, radius), climb))
+    return piecewise(
+        region, radius, stepover, allowance, lambda part: _piece(part, radius, min(stepover, radius), climb)
+    )
 
 
 def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piece:
@@ -60,8 +42,7 @@ def _piece(centres: Region, radius: float, stepover: float, climb: bool) -> Piec
         passes += arcs
         labels += [f"branch {number}, {name}" for name in numbered("arc", len(arcs))]
     place = passes[0].points[0] if passes else None
-    walls, faces = round_walls(centres, end(passes[-1]) if passes else centres.loops[0].points[0], climb)
-    passes, labels = passes + walls, labels + faces
+    round_walls(centres, passes, labels, climb)
     return Piece(centres, tuple(passes), links(centres, passes, stepover), tuple(labels), place)
 
 
@@ -78,9 +59,7 @@ def _discs(points: Floats, centres: Region, radius: float, stepover: float, clim
     while len(middles) > 1:
         beyond = np.hypot(*(middles - centre).T) + rooms - reach
         over = np.flatnonzero(beyond > stepover)
-        last = int(over[0]) - 1 if len(over) else len(middles) - 1
-        if last <= 0:
-            last = min(1, len(middles) - 1)
+        last = max(int(over[0]) - 1, 1) if len(over) else len(middles) - 1
         new, size = middles[last], float(rooms[last])
         arc = _outside(new, size, centre, reach, climb) if size >= SMALLEST * radius else None
         if arc is not None:
@@ -103,8 +82,7 @@ def _outside(middle: Floats, size: float, before: Floats, reach: float, climb: b
         return None
     ahead = float(np.arctan2(*(middle - before)[::-1]))
     cosine = (reach**2 - apart**2 - size**2) / (2 * apart * size)
-    half = np.pi if cosine <= -1 else float(np.arccos(min(cosine, 1.0)))
-    half = min(half, np.pi - 1e-6)
+    half = min(float(np.arccos(np.clip(cosine, -1.0, 1.0))), np.pi - 1e-6)
     ways = ahead + np.array([-half, 0.0, half]) * (1 if climb else -1)
     spots = middle + size * np.stack([np.cos(ways), np.sin(ways)], axis=1)
     bulge = np.tan(half / 4) * (1 if climb else -1)
@@ -120,10 +98,7 @@ def _branches(found: Skeleton, least: float) -> Iterator[tuple[np.ndarray, bool]
     for a, b in found.edges.tolist():
         neighbours.setdefault(a, []).append(b)
         neighbours.setdefault(b, []).append(a)
-    seen = np.zeros(len(found.points), dtype=bool)
-    if neighbours:
-        seen[:] = True
-        seen[list(neighbours)] = False
+    seen = np.array([bool(neighbours) and k not in neighbours for k in range(len(found.points))])
     done: set[tuple[int, int]] = set()
     while not seen.all():
         widest = int(np.where(seen, -np.inf, found.room).argmax())

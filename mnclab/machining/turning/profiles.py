@@ -16,17 +16,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
+from mnclab.geometry import vectors
 from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.whole_curves import Curve
 from mnclab.path.tool import Tool
 
 SAME = 1e-9  # mm
-FAR = 1e6  # mm
 
 
 class Stretch(NamedTuple):
@@ -41,14 +39,6 @@ class Stretch(NamedTuple):
     centre: tuple[float, float] = (0.0, 0.0)
     radius: float = 0.0
 
-    @property
-    def curve(self) -> Curve:
-        """The whole line or circle that it lies on."""
-        if self.radius:
-            return Curve(np.array(self.centre), np.zeros(2), abs(self.radius))
-        way = np.array([self.left - self.right, self.ends[1] - self.ends[0]])
-        return Curve(np.array([self.right, self.ends[0]]), way / np.hypot(*way), np.inf)
-
     def at(self, z: float) -> float:
         """The r over a z."""
         if z in (self.right, self.left):
@@ -61,22 +51,21 @@ class Stretch(NamedTuple):
 
 
 def checked(profile: Contour) -> Contour:
-    """The profile with its arcs parted at their highest and lowest points; a ValueError where it is none."""
+    """The profile with its arcs parted at their tops and bottoms; a ValueError where it is none."""
     if profile.closed:
         raise ValueError("a profile is an open contour, from the face to the chuck")
     points: list[Floats] = [profile.points[0]]
     bulges: list[float] = []
-    for start, end, bulge, centre, radius in zip(
-        profile.starts, profile.ends, profile.bulge, profile.centres, profile.radii, strict=False
-    ):
-        tops = [centre + (0, s * radius) for s in (1, -1)] if bulge else []
-        sweep = 4 * math.atan(bulge)
-        inner = [(_share(start, centre, sweep, top), top) for top in tops]
-        places = [top for share, top in sorted(inner, key=lambda each: each[0]) if 1e-9 < share < 1 - 1e-9]
-        for place in (*places, end):
+    columns = profile.starts, profile.ends, profile.sweeps, profile.centres, profile.radii
+    for start, end, sweep, centre, radius in zip(*columns, strict=True):
+        tops = (centre + (0, side * radius) for side in (1, -1) if sweep)
+        inner = sorted(((_share(start, centre, sweep, top), top) for top in tops), key=lambda each: each[0])
+        done = 0.0
+        for share, place in (*(each for each in inner if 1e-9 < each[0] < 1 - 1e-9), (1.0, end)):
             if np.hypot(*(place - points[-1])) > SAME:
-                bulges.append(_bulge(points[-1], place, centre, sweep) if bulge else 0.0)
+                bulges.append(math.tan(sweep * (share - done) / 4))
                 points.append(place)
+                done = share
     if not bulges:
         raise ValueError("a profile needs a length")
     found = Contour(np.array(points), [*bulges, 0.0], closed=False)
@@ -94,18 +83,12 @@ def _share(start: Floats, centre: Floats, sweep: float, place: Floats) -> float:
     return ((then - first) * math.copysign(1, sweep)) % (2 * math.pi) / abs(sweep)
 
 
-def _bulge(start: Floats, end: Floats, centre: Floats, sweep: float) -> float:
-    first, then = (math.atan2(*(p - centre)[::-1]) for p in (start, end))
-    return math.tan(math.copysign(((then - first) * math.copysign(1, sweep)) % (2 * math.pi), sweep) / 4)
-
-
 # ---- places on a profile ----
 
 
 def way_at(profile: Contour, element: int, level: float) -> float:
     """The way along a checked profile to where an element meets a level that lies between its ends."""
     start, end = profile.starts[element], profile.ends[element]
-    before = float(profile.lengths[:element].sum())
     share = (level - start[1]) / (end[1] - start[1])
     sweep = profile.sweeps[element]
     if sweep:
@@ -114,29 +97,26 @@ def way_at(profile: Contour, element: int, level: float) -> float:
         z = centre[0] + side * math.sqrt(max(radius**2 - (level - centre[1]) ** 2, 0.0))
         share = _share(start, centre, sweep, np.array([z, level]))
         share = 0.0 if share > 1.5 else share  # rounding just before the start
-    return before + min(max(share, 0.0), 1.0) * float(profile.lengths[element])
+    return float(profile.lengths[:element].sum() + min(max(share, 0.0), 1.0) * profile.lengths[element])
 
 
 def between(profile: Contour, first: float, last: float) -> Contour | None:
     """The part of an open contour from one way along it to another; None if it has no length."""
-    upto = np.concatenate([[0.0], np.cumsum(profile.lengths)])
-    points, bulges = [profile.point_at(first)[0]], []
-    for i, sweep in enumerate(profile.sweeps):
-        low, high = max(first, upto[i]), min(last, upto[i + 1])
-        if high - low > SAME:
-            end = profile.points[i + 1] if high == upto[i + 1] else profile.point_at(high)[0]
-            bulges.append(math.tan(sweep * (high - low) / profile.lengths[i] / 4))
-            points.append(end)
-    return Contour(np.array(points), [*bulges, 0.0], closed=False) if bulges else None
+    upto = np.append(0.0, np.cumsum(profile.lengths))
+    low, high = np.maximum(first, upto[:-1]), np.minimum(last, upto[1:])
+    some = high - low > SAME
+    if not some.any():
+        return None
+    ends = np.where((high == upto[1:])[:, None], profile.points[1:], profile.point_at(high)[0])[some]
+    bulges = np.tan(profile.sweeps * (high - low) / np.maximum(profile.lengths, SAME) / 4)[some]
+    return Contour(np.vstack([profile.point_at(first)[0], ends]), np.append(bulges, 0.0), closed=False)
 
 
 def joined(pieces: Iterable[Contour | None]) -> Contour:
     """Contours that follow each other as one, with straight lines across gaps."""
     points: list[Floats] = []
     bulges: list[float] = []
-    for piece in pieces:
-        if piece is None:
-            continue
+    for piece in filter(None, pieces):
         if points and np.hypot(*(piece.points[0] - points[-1])) <= SAME:
             points.pop()
         elif points:
@@ -171,42 +151,31 @@ def entry_way(profile: Contour, level: float) -> float | None:
 def stretches(profile: Contour) -> list[Stretch]:
     """The elements of a checked profile that are not shoulders."""
     found = []
-    for i, (start, end) in enumerate(zip(profile.starts, profile.ends, strict=True)):
-        if start[0] - end[0] > SAME:
-            ends, radius = (float(start[1]), float(end[1])), 0.0
-            centre = (0.0, 0.0)
-            if profile.bulge[i]:
-                centre = (float(profile.centres[i][0]), float(profile.centres[i][1]))
-                radius = math.copysign(float(profile.radii[i]), profile.bulge[i])
-            found.append(Stretch(float(start[0]), float(end[0]), ends, centre, radius))
+    columns = profile.starts, profile.ends, profile.centres, profile.bulge, profile.radii
+    for (right, r), (left, end), centre, bulge, radius in zip(*(column.tolist() for column in columns), strict=False):
+        if right - left > SAME:
+            arc = ((centre[0], centre[1]), math.copysign(radius, bulge)) if bulge else ()
+            found.append(Stretch(right, left, (r, end), *arc))
     return found
 
 
 def uppermost(pieces: Sequence[Stretch], first: Sequence[float], last: Sequence[float]) -> Contour:
     """The upper envelope of stretches from a point (z, r) to another one, with shoulders where it jumps."""
-    places = {first[0], last[0]}
-    for piece in pieces:
-        places |= {piece.right, piece.left}
-    for (one, curve), (other, beside) in combinations([(piece, piece.curve) for piece in pieces], 2):
-        right = min(one.right, other.right)
-        if right > max(one.left, other.left):
-            places |= {z for z in _crossings(curve, beside) if z < right}
-    falling = sorted((z for z in places if last[0] <= z <= first[0]), reverse=True)
-    kept = [z for k, z in enumerate(falling) if k == 0 or falling[k - 1] - z > 1e-10]
+    table = np.array([(piece.right, piece.left, *piece.ends, *piece.centre, piece.radius) for piece in pieces]).T
+    places = np.unique([first[0], last[0], *table[:2].flat, *_crossings(table)])[::-1]
+    places = places[(last[0] <= places) & (places <= first[0])]
+    places = places[np.append(True, -np.diff(places) > 1e-10)]
     points, bulges, owner = [np.array(first, dtype=float)], [], -1
-    for right, left in zip(kept, kept[1:], strict=False):
-        middle = (right + left) / 2
-        over = [k for k, piece in enumerate(pieces) if piece.left <= middle <= piece.right]
-        if not over:
-            raise ValueError(f"nothing bounds the part at z {middle:g}")
-        top = max(over, key=lambda k: (pieces[k].at(middle), k == owner))
+    for right, left, heights in zip(places, places[1:], _heights(table, (places[:-1] + places[1:]) / 2), strict=False):
+        top = owner if owner >= 0 and heights[owner] >= heights.max() - SAME else int(heights.argmax())
+        if np.isinf(heights[top]):
+            raise ValueError(f"nothing bounds the part at z {(right + left) / 2:g}")
         piece = pieces[top]
         begin, end = np.array([right, piece.at(right)]), np.array([left, piece.at(left)])
         if abs(begin[1] - points[-1][1]) > SAME:
             points.append(begin)
             bulges.append(0.0)
-            owner = -1
-        if top == owner:
+        elif top == owner:
             points.pop()
             bulges.pop()
         bulges.append(_arc(piece, points[-1], end))
@@ -225,10 +194,35 @@ def _arc(piece: Stretch, start: Floats, end: Floats) -> float:
     return math.copysign(math.tan(half / 2), piece.radius)
 
 
-def _crossings(one: Curve, other: Curve) -> list[float]:
-    """The z where two lines or circles cross, or are nearest; far off for two lines that never do."""
-    sides = (FAR,) if math.isinf(one.radius) and math.isinf(other.radius) else (-FAR, FAR)
-    return [float(one.meeting(other, np.array([side, 0.0]))[0]) for side in sides]
+def _crossings(table: Floats) -> Floats:
+    """The z at which stretches cross, and none else that counts: those nearest to each other where they do not."""
+    right, left, r, end, _, _, radius = table
+    start, centre, ahead = table[[0, 2]].T, table[4:6].T, np.stack([left - right, end - r], axis=1)
+    ahead /= vectors.length_of(ahead)[:, None]
+    one, other = np.nonzero(np.triu(np.minimum.outer(right, right) > np.maximum.outer(left, left), 1))
+    line, ring = np.where(radius[one] != 0, (other, one), (one, other))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        between = centre[ring] - centre[line]
+        apart = vectors.length_of(between)[:, None]
+        share = (1 + (radius[line] ** 2 - radius[ring] ** 2)[:, None] / apart**2) / 2
+        is_line = radius[line, None] == 0  # two circles cross on their radical line
+        point = np.where(is_line, start[line], centre[line] + share * between)
+        way = np.where(is_line, ahead[line], vectors.left(between / apart))
+        foot = ((centre[ring] - point) * way).sum(axis=1)
+        off = vectors.length_of(point + foot[:, None] * way - centre[ring])
+        half = np.sqrt(np.maximum(radius[ring] ** 2 - off**2, 0.0))
+        along = vectors.cross(start[ring] - point, ahead[ring]) / vectors.cross(way, ahead[ring])  # of two lines
+        z = point[:, 0] + np.where(radius[ring] == 0, along, (foot - half, foot + half)) * way[:, 0]
+    return z[(z < np.minimum(right[line], right[ring])) & (z > np.maximum(left[line], left[ring]))]
+
+
+def _heights(table: Floats, z: Floats) -> Floats:
+    """The r of k stretches over m places, `(m, k)`; -inf where one does not reach."""
+    right, left, r, end, middle, level, radius = table
+    z = z[:, None]
+    line = r + (right - z) / (right - left) * (end - r)
+    arc = level + np.copysign(np.sqrt(np.maximum(radius**2 - (z - middle) ** 2, 0.0)), radius)
+    return np.where((left <= z) & (z <= right), np.where(radius, arc, line), -np.inf)
 
 
 # ---- what a tool can reach ----
@@ -283,21 +277,15 @@ def reachable(profile: Contour, tool: Tool) -> Contour:
 
 def _leaning(pieces: Iterable[Stretch], angle: float) -> list[tuple[float, float]]:
     """Where convex arcs lean by an angle, + in the direction of feed: there the edge of a tool touches them."""
-    spots = []
-    for piece in pieces:
-        z = piece.centre[0] + piece.radius * math.sin(angle)
-        if piece.radius > 0 and piece.left < z < piece.right:
-            spots.append((z, piece.centre[1] + piece.radius * math.cos(angle)))
-    return spots
+    sine, cosine = math.sin(angle), math.cos(angle)
+    spots = ((p, p.centre[0] + p.radius * sine, p.centre[1] + p.radius * cosine) for p in pieces if p.radius > 0)
+    return [(z, r) for piece, z, r in spots if piece.left < z < piece.right]
 
 
 def _for_width(contour: Contour, width: float) -> Contour:
     """The greatest radius within the width to the right of every z: the way of the left corner of a blade."""
     pieces = stretches(contour)
-    moved = [
-        p._replace(right=p.right - width, left=p.left - width, centre=(p.centre[0] - width, p.centre[1]))
-        for p in pieces
-    ]
+    moved = stretches(Contour(contour.points - (width, 0), contour.bulge, closed=False))
     level = [Stretch(float(z), float(z) - width, (float(r), float(r))) for z, r in contour.points]
     first, last = contour.points[0], contour.points[-1]
     return checked(uppermost([*pieces, *moved, *level], first, (last[0], highest(contour, last[0], last[0] + width))))
@@ -328,10 +316,7 @@ def ways_over(profile: Contour, z: float) -> tuple[float, float]:
 
 
 def edges_of(tool: Tool, height: float) -> Floats:
-    """What a tool covers above its tip up to a height, (k, 2) from the tip: between its edges, over its width.
-
-    Without angles and width it is a line, and what it passes under falls.
-    """
+    """What a tool covers above its tip up to a height, (k, 2) from the tip; without angles and width it is a line."""
     main, auxiliary = angles_of(tool)
     lean = [0.0 if abs(math.tan(a)) > 1e12 else height / math.tan(a) for a in (main, auxiliary)]
     return np.array([(0.0, 0.0), (tool.width, 0.0), (tool.width + lean[1], height), (-lean[0], height)])

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import beside
 from mnclab.path import corners as joints
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.rules import Compensation
 from mnclab.path.kinds import Rule
@@ -54,31 +55,25 @@ class Construction:
 
 
 def construct(programmed: Toolpath, rules: Compensation | None, unfinished: bool = False) -> Construction:
-    """The construction for a programmed contour; without corners where nothing is compensated.
-
-    `unfinished`: the program broke off, so the end of its last compensated element is unknown.
-    """
+    """The construction for a programmed contour; without corners where nothing is compensated. `unfinished`: the
+    program broke off, so the end of its last compensated element is unknown."""
     path = joints.apply(programmed, unfinished)
     view = PlaneView(path)
     rows = np.flatnonzero(view.moves)
     if rules is not None and len(rows):
         el = Elements.of(path, view, rows)
         if unfinished and el.on[-1]:
-            rows = rows[:-1]
-            el = Elements.of(path, view, rows)
-        if len(rows) and el.on.any():
+            el = Elements.of(path, view, rows[:-1])
+        if el.on.any():
             return _constructed(path, view, Equidistant(el, rules))
-    none = np.empty((0, 3))
-    return Construction(
-        path, view, None, none, np.empty(0, np.uint8), np.empty(0, np.int32), none, none, none, np.empty(0, np.int64)
-    )
+    none, index = np.empty((0, 3)), np.empty(0, np.int64)
+    return Construction(path, view, None, none, index.astype(np.uint8), index.astype(np.int32), none, none, none, index)
 
 
 def _constructed(path: Toolpath, view: PlaneView, found: Equidistant) -> Construction:
     el = found.el
-    after = np.append(el.exit[1:], False), np.append(el.change[1:], False)
     c = np.flatnonzero(el.on)
-    rule = _rules(found, *after)[c]
+    rule = _rules(found)[c]
     d = np.minimum(c + 1, len(el.rows) - 1)  # the element after; the same one where the program ends
     P, R, shift = el.end[c], el.R[c], el.R[c] * el.s[c]
     first, second = found.end[c], np.where((d > c)[:, None], found.begin[d], found.end[c])
@@ -102,20 +97,18 @@ def _constructed(path: Toolpath, view: PlaneView, found: Equidistant) -> Constru
     every = np.arange(len(c))
     place, leads = in_space(P, every), (el.entry[c] | el.change[c]) & (d > c)
     along = in_space(P + np.where(leads[:, None], el.t_in[d], -el.t_out[c]), every) - place
-    return Construction(
-        path, view, found, place, rule, path.line[row], along, pairs(*feet), pairs(first, second), both[order]
-    )
+    vectors = pairs(*feet), pairs(first, second), both[order]
+    return Construction(path, view, found, place, rule, path.line[row], along, *vectors)
 
 
-def _rules(found: Equidistant, before_exit: Mask, before_change: Mask) -> NDArray[np.uint8]:
+def _rules(found: Equidistant) -> NDArray[np.uint8]:
     """What is done at the end of each element (n,): as in the path, with the first and last corners named as such."""
-    rule = found.rule.copy()
-    inserted = np.append(found.insert[1:], False)
-    rule[inserted] = Rule.OUTSIDE_ARC
+    rule, el = found.rule.copy(), found.el
+    rule[:-1][found.insert[1:]] = Rule.OUTSIDE_ARC
     rule[found.apart] = Rule.INSIDE
-    built = np.isin(rule, (Rule.OUTSIDE_ARC, Rule.OUTSIDE_STRAIGHT))
-    rule[before_exit & ~built] = Rule.EXIT
-    rule[before_change & ~built] = Rule.CHANGE
+    free = ~np.isin(rule[:-1], (Rule.OUTSIDE_ARC, Rule.OUTSIDE_STRAIGHT))
+    rule[:-1][el.exit[1:] & free] = Rule.EXIT
+    rule[:-1][el.change[1:] & free] = Rule.CHANGE
     return rule
 
 

@@ -10,12 +10,9 @@ from numpy.typing import NDArray
 from mnclab.geometry.curves import Curves
 from mnclab.geometry.offsets import Element, beside
 from mnclab.geometry.vectors import left
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
-Mask = NDArray[np.bool_]
 
 
 class Elements(NamedTuple):
@@ -49,7 +46,6 @@ class Elements(NamedTuple):
 
     @classmethod
     def of(cls, path: Toolpath, view: PlaneView, rows: Index) -> Elements:
-        """The elements of a path."""
         take = slice(None) if len(rows) == len(path) else rows
         side, radius = path.side[take], path.radius[take]
         on = (side != 0) & (radius != 0)
@@ -71,7 +67,7 @@ class Elements(NamedTuple):
     @property
     def wall(self) -> Mask:
         """The elements beside which the tool cuts."""
-        return self.on & ~self.entry & ~self.change
+        return self.on & ~self.lead
 
     def offset(self, k: Index, at_end: bool, shift: Array, s: Array) -> Element:
         """Elements k (m,) moved by `shift` mm to the side `s` (m,), seen from their end or their start."""
@@ -81,11 +77,9 @@ class Elements(NamedTuple):
 
     def boxes(self, k: Index, contour: Index) -> tuple[Array, Array]:
         """Low and high corners (m, 2) of boxes round elements k (m,); those of each contour (n,) lie far from all others."""
-        bulge = np.where(
-            self.arc[k], np.nan_to_num(self.r[k]) * (1 - np.cos(np.minimum(np.abs(self.sweep[k]) / 2, np.pi))), 0
-        )
-        low, high = np.minimum(self.start[k], self.end[k]), np.maximum(self.start[k], self.end[k])
-        low, high = low - bulge[:, None], high + bulge[:, None]
+        sagitta = np.nan_to_num(self.r[k]) * (1 - np.cos(np.minimum(np.abs(self.sweep[k]) / 2, np.pi)))
+        bulge = np.where(self.arc[k], sagitta, 0)[:, None]
+        low, high = np.minimum(self.start[k], self.end[k]) - bulge, np.maximum(self.start[k], self.end[k]) + bulge
         away = (high.max(axis=0) - low.min(axis=0) + 4 * self.R.max())[0] * (contour[k] - contour[k[0]])
         low[:, 0] += away
         high[:, 0] += away

@@ -1,78 +1,16 @@
-"""The pass: a programmed contour becomes the path of the tool centre."""
+"""Where the offsets of a contour begin and end, for all of its elements at once."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from mnclab.geometry.vectors import left
-from mnclab.path.compensation.elements import Elements, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.joining import corners, remaining
-from mnclab.path.compensation.moving_ends import tool_centre_path
-from mnclab.path.compensation.rules import SPIKE_TURN, Compensation, Report
-from mnclab.path.fault import PathFault
-from mnclab.path.kinds import Kind, Rule
-from mnclab.path.plane import PlaneView
-from mnclab.path.toolpath import Toolpath
+from mnclab.path.compensation.rules import Compensation
+from mnclab.path.kinds import Rule
 
 PIECE = 1 << 14  # corners worked on at once
-
-
-def apply(
-    path: Toolpath,
-    rules: Compensation | None,
-    unfinished: bool = False,
-    gouge: str = "refuse",
-    report: Report | None = None,
-) -> Toolpath:
-    """The path of the tool centre; the path itself where nothing is compensated. Raises PathFault.
-
-    `unfinished`: the program broke off, so the end of the last compensated row is unknown and the row is left out.
-    `gouge` says what happens where the tool does not fit: "refuse" raises, "mark" cuts anyway, marks the rows in the
-    column `gouge` and adds to `report`, where remarks go as well.
-    """
-    if rules is None or not (path.side != 0).any():
-        return path
-    view = PlaneView(path)
-    rows = np.flatnonzero(view.moves)
-    el = Elements.of(path, view, rows)
-    if unfinished and len(rows) and el.on[-1]:
-        return apply(path[: rows[-1]], rules, False, gouge, report) if rows[-1] else path[:0]
-    if not el.on.any():
-        return path
-    report = Report() if report is None else report
-    _check_leads(path, el, rules)
-    equidistant = Equidistant(el, rules)
-    marked = equidistant.check(path, view, gouge, report)
-    equidistant.notice_spikes(path, report)
-    return tool_centre_path(path, view, equidistant, marked)
-
-
-def _check_leads(path: Toolpath, el: Elements, rules: Compensation) -> None:
-    """Entry, exit and change of side are straight lines."""
-    kind = path.kind[el.rows]
-    straight = (kind == Kind.LINE) | (rules.rapid & (kind == Kind.RAPID))
-
-    def refuse(bad: Mask, message: str, hint: str = "") -> None:
-        if bad.any():
-            raise PathFault(message, int(path.step[el.rows[int(np.argmax(bad))]]), hint)
-
-    refuse(
-        el.entry & ~straight,
-        "radius compensation begins only in a straight line at feed",
-        "write the entry as a linear move, then the contour",
-    )
-    refuse(el.exit & ~straight, "radius compensation ends only in a straight line at feed")
-    if not rules.change:
-        refuse(
-            el.change,
-            "the side of the compensation cannot change from one element to the next",
-            "write a straight line without compensation between them",
-        )
-    refuse(
-        el.change & ~straight,
-        "the side of the compensation changes only in a straight line at feed",
-        "write a linear move that leads to the other side",
-    )
 
 
 class Equidistant:
@@ -106,25 +44,3 @@ class Equidistant:
     def _remain(self, k: slice) -> None:
         found = remaining(self.el, k, self.begin[k], self.end[k], self.el.R[k])
         self.left_over[k], self.sweep[k] = found
-
-    def check(self, path: Toolpath, view: PlaneView, gouge: str, report: Report) -> Mask:
-        """Which elements (n,) cut into the contour; PathFault at the first of them unless they are to be marked."""
-        from mnclab.path.compensation.fit import check
-
-        return check(self, path, view, gouge, report)
-
-    def notice_spikes(self, path: Toolpath, report: Report) -> None:
-        """Straight corners that reach far out."""
-        el = self.el
-        far = np.zeros(len(el.rows), dtype=bool)
-        far[:-1] = (self.rule[:-1] == Rule.OUTSIDE_STRAIGHT) & (np.abs(self.turn[1:]) > SPIKE_TURN)
-        for k in np.flatnonzero(far):
-            angle = 180 - np.degrees(abs(self.turn[k + 1]))
-            reach = float(np.hypot(*(self.end[k] - el.end[k])))
-            report.notices.append(
-                PathFault(
-                    f"the straight corner of {angle:.3g} degrees reaches {reach:.4g} mm out",
-                    int(path.step[el.rows[k + 1]]),
-                    "G162 makes an arc at acute corners",
-                )
-            )

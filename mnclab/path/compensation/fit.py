@@ -15,17 +15,17 @@ own, each from a closed form or, for elements between two corners, from narrowin
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mnclab.geometry.chords import Chunks, Walls, around, chunks, facing
 from mnclab.geometry.curves import Curves, distance
 from mnclab.geometry.offsets import beside
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation import neighbours
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.elements import Elements
+from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import at_height, meet
 from mnclab.path.compensation.joining import ends, remaining
 from mnclab.path.compensation.passes import crossed, given_up, run_past
@@ -35,9 +35,6 @@ from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Rule
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
-
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
 
 EXACT = 1e-9  # mm
 HINT = "take a smaller tool"
@@ -62,8 +59,7 @@ def check(found: Equidistant, path: Toolpath, view: PlaneView, gouge: str, repor
     """Which elements (n,) cut into the contour. PathFault at the first, unless `gouge` is "mark"."""
     el = found.el
     marked = np.zeros(len(el.rows), dtype=bool)
-    # one number from each entry or change to the next
-    contour = np.cumsum(el.entry | el.change | el.exit, dtype=np.int64)
+    contour = np.cumsum(el.lead | el.exit, dtype=np.int64)  # one number from each entry or change to the next
     places = _places(found, contour)
     if not places:
         return marked
@@ -100,11 +96,8 @@ def _least(found: Equidistant, contour: Index, places: list[Places]) -> Array:
         before = least.copy()
         for place in places:
             np.minimum.at(least, contour[place.other], place.largest)
-        if (
-            (np.isinf(before) == np.isinf(least)).all()
-            and (least >= before - EXACT)[np.isfinite(least)].all()
-            or not (found.rule == Rule.OUTSIDE_STRAIGHT).any()
-        ):
+        settled = (np.isinf(before) == np.isinf(least)).all() and (least >= before - EXACT)[np.isfinite(least)].all()
+        if settled or not (found.rule == Rule.OUTSIDE_STRAIGHT).any():
             break
         el = found.el
         found = type(found)(el._replace(R=np.minimum(el.R, least[contour])), found.rules)
@@ -126,41 +119,26 @@ def _worded(place: Places, m: int, k: int, el: Elements, path: Toolpath, view: P
     )  # fmt: skip
 
 
-# --- elements and their neighbours ------------------------------------------------------------------------------------
-
-
 def _local(found: Equidistant) -> list[Places]:
     """Arcs that are too small, and elements that their corners use up."""
     el = found.el
-    wall = el.wall
-    curve = np.where(el.arc, el.r, np.inf)
-    toward = el.arc & (el.s * el.sweep > 0)
-    small = np.flatnonzero(wall & toward & (curve - el.R <= EXACT))
-    bound = np.where(el.arc, -1e-12, -EXACT)
+    curve = np.where(el.arc & (el.s * el.sweep > 0), el.r, np.inf)
+    small = np.flatnonzero(el.wall & (curve - el.R <= EXACT))
     lost = found.apart.copy()
     lost[:-1] |= found.apart[1:]
-    used_up = wall & (lost | ~(found.left_over > bound))
+    used_up = el.wall & (lost | ~(found.left_over > np.where(el.arc, -1e-12, -EXACT)))
     used_up[small] = False
-    short = np.flatnonzero(used_up)
-    result = [
-        Places(
-            "arc", small, small, el.r[small], el.R[small] - el.r[small], el.r[small],
-            "the inside arc of radius {r:.4g} is not greater than the tool radius {R:.4g}",
-        )
-    ]  # fmt: skip
+    short, r = np.flatnonzero(used_up), el.r[small]
+    text = "the inside arc of radius {r:.4g} is not greater than the tool radius {R:.4g}"
+    result = [Places("arc", small, small, r, el.R[small] - r, r, text)]
     if len(short):
         largest = narrowed(lambda at, R: _fits(el, short[at], R, found.rules), el.R[short])
         per_mm = np.where(el.arc[short], el.r[short], 1.0)
         lack = -np.nan_to_num(found.left_over[short], posinf=0.0, neginf=0.0) * per_mm
         missing = np.where(lack > EXACT, lack, el.R[short] - largest)
-        length = np.where(
-            el.arc[short], np.abs(el.sweep[short]) * el.r[short], np.hypot(*(el.end[short] - el.start[short]).T)
-        )
-        message = (
-            "the element is too short for the tool radius {R:.4g}: the offsets of its neighbours do not meet on it"
-        )
+        text = "the element is too short for the tool radius {R:.4g}: the offsets of its neighbours do not meet on it"
         hint = "take a smaller tool, or lengthen the element"
-        result.append(Places("element", short, short, length, missing, largest, message, hint))
+        result.append(Places("element", short, short, el.length(short), missing, largest, text, hint))
     return result
 
 
@@ -173,17 +151,19 @@ def _beside(found: Equidistant, contour: Index, lost: Index) -> Places:
     bad = np.flatnonzero(neighbours.clearance(el, look, el.R[look.k], rules) < room)
     bad = bad[~np.isin(look.k[bad], lost) & ~np.isin(look.wall[bad], lost)]
     look, room = look.take(bad), room[bad]
+    text = "the tool of radius {R:.4g} beside this element cuts into that of line {other}, {r:.6g} mm from its centre"
+    return Places("neighbour", look.k, look.wall, *_measured(el, look, room, rules), text)
+
+
+def _measured(el: Elements, look: neighbours.Pairs, room: Array, rules: Compensation) -> tuple[Array, Array, Array]:
+    """Of pairs that must be `room` (m,) apart the width that is there, what is missing, and the largest radius."""
     R = el.R[look.k]
-    width = R + neighbours.clearance(el, look, R, rules)
 
     def clear(which: Index, radius: Array) -> Mask:
         return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
 
-    largest = narrowed(clear, R, parts=4)
-    message = (
-        "the tool of radius {R:.4g} beside this element cuts into that of line {other}, {r:.6g} mm from its centre"
-    )
-    return Places("neighbour", look.k, look.wall, width, R - width, largest, message)
+    width = R + neighbours.clearance(el, look, R, rules)
+    return width, R - width, narrowed(clear, R, parts=4)
 
 
 def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
@@ -195,9 +175,7 @@ def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
 
 def narrowed(fits: Callable[[Index, Array], Mask], radius: Array, parts: int = 16) -> Array:
     """The largest radii (m,) below the given ones for which something fits, by dividing the interval again and again.
-
-    `fits(which, radius)` tells for the things `which` (n,) of the m whether they fit (n,); all fit at zero.
-    """
+    `fits(which, radius)` tells for the things `which` (n,) of the m whether they fit (n,); all fit at zero."""
     m = len(radius)
     low, high, which = np.zeros(m), radius.copy(), np.repeat(np.arange(m), parts - 1)
     steps = np.arange(1, parts) / parts
@@ -212,9 +190,6 @@ def narrowed(fits: Callable[[Index, Array], Mask], radius: Array, parts: int = 1
     return low
 
 
-# --- entry and exit ---------------------------------------------------------------------------------------------------
-
-
 def _leads(el: Elements) -> list[Places]:
     """Where the tool stands before it enters and after it left, it must be clear of the end of the contour."""
     n, result = len(el.rows), []
@@ -225,20 +200,16 @@ def _leads(el: Elements) -> list[Places]:
         R, width = el.R[k + step], np.hypot(*(el.end[k] - el.start[k]).T)
         bad = (width < R - EXACT) & meet(el, k, k + step)
         verb = "begins" if step > 0 else "ends"
-        message = (
+        text = (
             f"the {kind} {verb} {{r:.4g}} mm from the contour, where the tool of radius {{R:.4g}} cuts into it already"
         )
         hint = f"take a smaller tool, or let the {kind} {verb[:-1]} farther away"
         where = (k[bad], k[bad] + step, width[bad], (R - width)[bad], width[bad])
-        result.append(Places(kind, *where, message, hint))
+        result.append(Places(kind, *where, text, hint))
     return result
 
 
-# --- any number of blocks apart ---------------------------------------------------------------------------------------
-
-
-def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
-    """Bottlenecks, ends and straight corners."""
+def _global(found: Equidistant, contour: Index) -> list[Places]:
     el = found.el
     k = np.flatnonzero(el.wall)
     if not len(k):
@@ -248,16 +219,11 @@ def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
     joined = np.concatenate([[False], group[1:] == group[:-1]])
     n_in = beside(np.zeros((1, 2)), el.t_in[run], s)
     n_out = beside(np.zeros((1, 2)), el.t_out[run], s) if el.arc.any() else n_in
-    curves = Curves(el.start[run], el.end[run], el.centre[run], el.r[run], el.sweep[run])
-    walls = Walls(curves, n_in, n_out, joined, s, group)
+    walls = Walls(el.curves(run), n_in, n_out, joined, s, group)
     coarse = chunks(walls)
-    return [
-        _bottlenecks(found, contour, k, walls, coarse),
-        _crossed(found, contour),
-        *_ends(found, contour, k, walls, coarse),
-        *_rolled(found, contour, k, coarse),
-        *_tips(found, contour),
-    ]
+    facing_and_crossed = [_bottlenecks(found, contour, k, walls, coarse), _crossed(found, contour)]
+    leads = [*_ends(found, contour, k, walls, coarse), *_rolled(found, contour, k, coarse)]
+    return [*facing_and_crossed, *leads, *_tips(found, contour)]
 
 
 def _bottlenecks(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: Chunks) -> Places:
@@ -271,8 +237,8 @@ def _bottlenecks(found: Equidistant, contour: Index, k: Index, walls: Walls, coa
     bad[bad] = ~run_past(el, i[bad], j[bad])
     bad[bad] = ~given_up(found, contour, i[bad], j[bad])
     i, j, width = i[bad], j[bad], chords.length[bad]
-    message = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
-    return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, message)
+    text = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
+    return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, text)
 
 
 def _crossed(found: Equidistant, contour: Index) -> Places:
@@ -281,10 +247,8 @@ def _crossed(found: Equidistant, contour: Index) -> Places:
     bad = ~given_up(found, contour, first, last)
     first, last = first[bad], last[bad]
     none, R = np.zeros(len(first)), found.el.R[last]
-    message = (
-        "beside this element the tool of radius {R:.4g} goes through that of line {other}, which the contour crosses"
-    )
-    return Places("bottleneck", last, first, none, R, none, message, "end the contour where it meets itself")
+    text = "beside this element the tool of radius {R:.4g} goes through that of line {other}, which the contour crosses"
+    return Places("bottleneck", last, first, none, R, none, text, "end the contour where it meets itself")
 
 
 def _tips(found: Equidistant, contour: Index) -> list[Places]:
@@ -301,8 +265,8 @@ def _tips(found: Equidistant, contour: Index) -> list[Places]:
     bad = lack > EXACT + _misfit(el)[w]
     c, w, lack = c[bad], w[bad], lack[bad]
     largest = narrowed(lambda at, R: clearance(el, c[at], w[at], R, rules) >= 0, el.R[c])
-    message = "the straight corner after this element leads the tool of radius {R:.4g} into the element of line {other}"
-    return [Places("corner", c, w, el.R[c] - lack, lack, largest, message, "take a smaller tool, or G160")]
+    text = "the straight corner after this element leads the tool of radius {R:.4g} into the element of line {other}"
+    return [Places("corner", c, w, el.R[c] - lack, lack, largest, text, "take a smaller tool, or G160")]
 
 
 def _misfit(el: Elements) -> Array:
@@ -328,27 +292,25 @@ def _ends(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: Ch
             group = group[at_height(el, float(height), k[group])]
             if not len(group):
                 continue
-            c = walls.curves.take(group)
-            allowed = EXACT + slack[k[e]] + slack[k[group]]
+            around_it, allowed = walls.curves.take(group), EXACT + slack[k[e]] + slack[k[group]]
 
-            def clear(radius: Array, which: Index, c: Curves = c, P: Array = P, normal: Array = normal) -> Array:
+            def clear(
+                which: Index, radius: Array, c: Curves = around_it, P: Array = P, normal: Array = normal
+            ) -> Array:
                 return distance(P + radius[:, None] * normal, c.take(which)) - radius
 
-            bad = np.flatnonzero(clear(np.full(len(group), R), np.arange(len(group))) < -allowed)
-            if len(bad):
-                off = run_past(el, np.full(len(bad), k[e]), k[group[bad]])
-                off |= given_up(found, contour, np.full(len(bad), k[e]), k[group[bad]])
-                bad = bad[~off]
+            bad = np.flatnonzero(clear(np.arange(len(group)), np.full(len(group), R)) < -allowed)
+            one, other = np.full(len(bad), k[e]), k[group[bad]]
+            bad = bad[~run_past(el, one, other) & ~given_up(found, contour, one, other)]
             if not len(bad):
                 continue
-            largest = narrowed(partial(_clears, clear, bad, allowed[bad]), np.full(len(bad), R))
-            worst = int(np.argmin(largest))
-            width = R + clear(np.array([R]), bad[[worst]])
-            one = np.array([k[e]])
+            room = -allowed[bad]
+            largest = narrowed(lambda m, radius: clear(bad[m], radius) >= room[m], np.full(len(bad), R))  # noqa: B023
+            worst = [int(np.argmin(largest))]
+            width = R + clear(bad[worst], np.array([R]))
             verb = "leaves" if at_end else "arrives at"
-            message = f"where the tool of radius {{R:.4g}} {verb} the contour, the element of line {{other}} is {{r:.6g}} mm away"
-            other = k[group[bad[[worst]]]]
-            places.append(Places("end", one, other, width, R - width, largest[[worst]], message))
+            text = f"where the tool of radius {{R:.4g}} {verb} the contour, the element of line {{other}} is {{r:.6g}} mm away"
+            places.append(Places("end", k[[e]], k[group[bad[worst]]], width, R - width, largest[worst], text))
     return places
 
 
@@ -357,39 +319,26 @@ def _rolled(found: Equidistant, contour: Index, k: Index, coarse: Chunks) -> lis
     el, rules, slack, places = found.el, found.rules, _misfit(found.el), []
     c = np.flatnonzero(found.insert[1:] & (el.lead[:-1] | el.exit[1:]))
     near = [k[around(coarse, el.end[one], 2 * float(el.R[one]), len(k))] for one in c]
-    near = [
-        w[(contour[w] == contour[one]) & at_height(el, float(el.from_height[one + 1]), w)]
-        for one, w in zip(c, near, strict=True)
-    ]
+    here = zip(c, near, strict=True)
+    near = [w[(contour[w] == contour[one]) & at_height(el, float(el.from_height[one + 1]), w)] for one, w in here]
     if not near:
         return []
     every, wall = np.repeat(c, [len(w) for w in near]), np.concatenate(near)
     for kind, step in (("entry", 1), ("exit", 0)):
         of = el.lead[every] == bool(step)
         at, w = every[of], wall[of]
-        own, R = at + step, el.R[at]  # the wall at the lead
+        own = at + step  # the wall at the lead
         look = neighbours.Pairs(at, np.ones(len(at), dtype=bool), w, np.full(len(at), np.inf))
         room = -CLEAR / 2 - slack[own] - slack[w]
-        bad = np.flatnonzero(neighbours.clearance(el, look, R, rules) < room)
+        bad = np.flatnonzero(neighbours.clearance(el, look, el.R[at], rules) < room)
         off = run_past(el, own[bad], w[bad]) | given_up(found, contour, own[bad], w[bad])
         bad = bad[~off | (own == w)[bad]]
         if not len(bad):
             continue
-        look, R, room = look.take(bad), R[bad], room[bad]
-        width = R + neighbours.clearance(el, look, R, rules)
-
-        def clear(which: Index, radius: Array, look: neighbours.Pairs = look, room: Array = room) -> Mask:
-            return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
-
-        verb = "onto" if step else "off"
+        look = look.take(bad)
         through = "the contour through the element of line {other}, {r:.6g} mm from its centre"
-        message = f"the tool of radius {{R:.4g}} rolls {verb} {through}"
+        text = f"the tool of radius {{R:.4g}} rolls {'onto' if step else 'off'} {through}"
         hint = f"let the {kind} {'come from' if step else 'lead to'} the side of the tool"
-        places.append(
-            Places(kind, look.k + 1 - step, look.wall, width, R - width, narrowed(clear, R, parts=4), message, hint)
-        )
+        measured = _measured(el, look, room[bad], rules)
+        places.append(Places(kind, look.k + 1 - step, look.wall, *measured, text, hint))
     return places
-
-
-def _clears(clear: Callable[[Array, Index], Array], of: Index, allowed: Array, which: Index, radius: Array) -> Mask:
-    return clear(radius, of[which]) >= -allowed[which]

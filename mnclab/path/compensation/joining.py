@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import beside, meet
 from mnclab.geometry.vectors import cross, dot
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation.cusps import in_a_cusp, inside_cusps, rolls_through
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.rules import ACUTE_TURN, CUSP, ROUND, STRAIGHT, TANGENT, Compensation
 from mnclab.path.kinds import Rule
 
@@ -31,9 +32,7 @@ class Corners(NamedTuple):
 def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = None) -> Corners:
     """The corners c (m,) between elements c and c + 1, for the radii of the elements or others (m,)."""
     d = c + 1
-    run = len(c) > 1 and bool(
-        (c[1:] - c[:-1] == 1).all()
-    )  # corners that follow each other are not gathered but cut out
+    run = len(c) > 1 and bool((np.diff(c) == 1).all())  # corners that follow each other are not gathered but cut out
     b, a = (slice(c[0], c[-1] + 1), slice(d[0], d[-1] + 1)) if run else (c, d)  # before, after
     on = el.on[b]
     s = np.where(on, el.s[b], el.s[a])
@@ -67,13 +66,8 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
         S[to_first] = beside(P[to_first], t1[to_first], shift[to_first])
 
     corner = el.corner[a]
-    straight = (
-        outside
-        & ~reversal
-        & (s * across < 0)
-        & (corner != ROUND)
-        & ((corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN)))
-    )
+    straight = outside & ~reversal & (s * across < 0) & (corner != ROUND)
+    straight &= (corner == STRAIGHT) | (along >= np.cos(ACUTE_TURN))
     inside = bent & ~out & ~change & ~lead & ~leave
     apart = np.zeros(len(c), dtype=bool)
     for which, code in ((straight, Rule.OUTSIDE_STRAIGHT), (inside, Rule.INSIDE)):
@@ -98,10 +92,8 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
 
 
 def _meet(el: Elements, c: Index, d: Index, P: Array, R: Array, s: Array, both: Array, along: Array) -> Array:
-    """Where the offsets before and after corners P meet: between lines P + R (n1 + n2) / (1 + n1 . n2).
-
-    `both` (m, 2) is the sum of the tangents t1 and t2, `along` (m,) their product.
-    """
+    """Where the offsets before and after corners P meet: between lines P + R (n1 + n2) / (1 + n1 . n2). `both` (m, 2)
+    is the sum of the tangents t1 and t2, `along` (m,) their product."""
     with np.errstate(divide="ignore", invalid="ignore"):
         found = beside(P, both, R * s / (1 + along))
     k = np.flatnonzero(el.arc[c] | el.arc[d])

@@ -1,24 +1,79 @@
-"""The tool-centre path in rows: ends moved to the equidistant, arcs inserted about outside corners."""
+"""The pass: a programmed contour becomes the path of the tool centre.
+
+Ends of rows are moved to the equidistant, arcs inserted about outside corners.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS
-from mnclab.path.compensation.elements import Mask
-from mnclab.path.compensation.rules import CORNER
+from mnclab.path.columns import Array, Mask, gathered
+from mnclab.path.compensation.elements import Elements
+from mnclab.path.compensation.equidistant import Equidistant
+from mnclab.path.compensation.fit import check
+from mnclab.path.compensation.rules import CORNER, SPIKE_TURN, Compensation, Report
+from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind, Rule
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
+
+def apply(
+    path: Toolpath, rules: Compensation | None, unfinished: bool = False, gouge: str = "refuse", report: Report | None = None
+) -> Toolpath:  # fmt: skip
+    """The path of the tool centre; the path itself where nothing is compensated. Raises PathFault.
+
+    `unfinished`: the program broke off, so the end of the last compensated row is unknown and the row is left out.
+    `gouge` says what happens where the tool does not fit: "refuse" raises, "mark" cuts anyway, marks the rows in the
+    column `gouge` and adds to `report`, where remarks go as well.
+    """
+    if rules is None or not (path.side != 0).any():
+        return path
+    view = PlaneView(path)
+    rows = np.flatnonzero(view.moves)
+    el = Elements.of(path, view, rows)
+    if unfinished and len(rows) and el.on[-1]:
+        return apply(path[: rows[-1]], rules, False, gouge, report) if rows[-1] else path[:0]
+    if not el.on.any():
+        return path
+    report = Report() if report is None else report
+    _check_leads(path, el, rules)
+    found = Equidistant(el, rules)
+    marked = check(found, path, view, gouge, report)
+    _notice_spikes(path, found, report)
+    return _tool_centre_path(path, view, found, marked)
 
 
-def tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked: Mask) -> Toolpath:
+def _check_leads(path: Toolpath, el: Elements, rules: Compensation) -> None:
+    """Entry, exit and change of side are straight lines."""
+    kind = path.kind[el.rows]
+    bent = (kind != Kind.LINE) & ~(rules.rapid & (kind == Kind.RAPID))
+    for bad, message, hint in (
+        (el.entry & bent, "radius compensation begins only in a straight line at feed",
+         "write the entry as a linear move, then the contour"),
+        (el.exit & bent, "radius compensation ends only in a straight line at feed", ""),
+        (el.change & (not rules.change), "the side of the compensation cannot change from one element to the next",
+         "write a straight line without compensation between them"),
+        (el.change & bent, "the side of the compensation changes only in a straight line at feed",
+         "write a linear move that leads to the other side"),
+    ):  # fmt: skip
+        if bad.any():
+            raise PathFault(message, int(path.step[el.rows[int(np.argmax(bad))]]), hint)
+
+
+def _notice_spikes(path: Toolpath, found: Equidistant, report: Report) -> None:
+    """Straight corners that reach far out."""
+    el = found.el
+    straight = found.rule[:-1] == Rule.OUTSIDE_STRAIGHT
+    for k in np.flatnonzero(straight & (np.abs(found.turn[1:]) > SPIKE_TURN)):
+        angle, reach = 180 - np.degrees(abs(found.turn[k + 1])), float(np.hypot(*(found.end[k] - el.end[k])))
+        message = f"the straight corner of {angle:.3g} degrees reaches {reach:.4g} mm out"
+        report.notices.append(PathFault(message, int(path.step[el.rows[k + 1]]), "G162 makes an arc at acute corners"))
+
+
+def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked: Mask) -> Toolpath:
     """The rows of `path` along the equidistant; rows without motion in the plane stand where the one before ends."""
     el = found.el
     rows, n = el.rows, len(path)
@@ -33,8 +88,8 @@ def tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked
     ends = view.to_space(np.arange(n), _joined(flat, view.end[:, 2]))
     ends[keep] = path.end[keep]  # not compensated: exactly as it was
 
-    columns: dict[str, NDArray[Any]] = {name: getattr(path, name) for name in COLUMNS if name not in ("start", "end")}
-    columns["sweep"], columns["rule"], columns["gouge"] = path.sweep.copy(), np.zeros(n, np.uint8), np.zeros(n, bool)
+    columns = path.all_but_ends()
+    columns |= {"sweep": path.sweep.copy(), "rule": np.zeros(n, np.uint8), "gouge": np.zeros(n, bool)}
     columns["sweep"][rows], columns["rule"][rows], columns["gouge"][rows] = found.sweep, found.rule, marked
     labels = path.labels if CORNER in path.labels else (*path.labels, CORNER)
     k = np.flatnonzero(found.insert)
@@ -59,31 +114,18 @@ def tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marked
         source = np.repeat(np.arange(n), count)
         inserted = like + np.arange(len(k))
         for name, column in columns.items():
-            columns[name] = _spread(column, source, inserted, made.get(name))
+            columns[name] = gathered(column, source)
+            constant = column.strides[0] == 0
+            if name in made and not (constant and np.array_equal(column[0], made[name], equal_nan=True)):
+                columns[name] = np.array(columns[name], copy=constant or None)
+                columns[name][inserted] = made[name]
         ends = ends.take(source, axis=0, mode="clip")
         ends[inserted] = view.to_space(like, _joined(found.begin[k], w))
-    vertices = np.concatenate([path.start[:1], ends])
-    return Toolpath.chain(vertices, columns, labels=labels, joints=path.joints, origin=path.origin, lathe=path.lathe)
+    return path.through(np.concatenate([path.start[:1], ends]), columns, CORNER)
 
 
-def _joined(flat: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
+def _joined(flat: Array, w: Array) -> Array:
     """Points (n, 3) from coordinates in the plane (n, 2) and along its normal (n,)."""
     points = np.empty((len(flat), 3))
     points[:, 0], points[:, 1], points[:, 2] = flat[:, 0], flat[:, 1], w
     return points
-
-
-def _spread(column: NDArray[Any], source: NDArray[np.int64], at: NDArray[np.int64], value: Any) -> NDArray[Any]:
-    """A column gathered from its old rows, other values in the rows `at`; a constant one stays so."""
-    same = value is None or (
-        np.ndim(value) == 0 and (value == column[0] or (value != value and column[0] != column[0]))
-    )
-    if column.strides[0] == 0 and same:
-        return np.broadcast_to(column[0], (len(source), *column.shape[1:]))
-    if column.strides[0] == 0:
-        found = np.full((len(source), *column.shape[1:]), column[0])
-    else:
-        found = column.take(source, axis=0, mode="clip")  # faster than column[source]
-    if value is not None:
-        found[at] = value
-    return found

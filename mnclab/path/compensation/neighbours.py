@@ -9,20 +9,19 @@ tool's turn about a point. Farther apart `fit` has other means.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, gap, part
 from mnclab.geometry.vectors import dot
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
+from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import meet
 from mnclab.path.compensation.joining import corners, ends, remaining
 from mnclab.path.compensation.rules import CUSP, Compensation
-
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
 
 FAR = 4  # elements on each side that are looked at
 WITHIN = 3.0  # tool radii along the contour
@@ -40,8 +39,7 @@ class Pairs(NamedTuple):
     reach: Array
 
     def take(self, which: Index) -> Pairs:
-        """Some of them."""
-        return Pairs(self.k[which], self.corner[which], self.wall[which], self.reach[which])
+        return Pairs._make(column[which] for column in self)
 
 
 def looked_at(found: Equidistant, contour: Index) -> Pairs:
@@ -52,13 +50,10 @@ def looked_at(found: Equidistant, contour: Index) -> Pairs:
     back = bent > CUSP
     back[:-1] &= el.wall[:-1] & el.wall[1:]
     none = np.zeros(0, dtype=np.int64)
-    both = [(none, none, np.zeros(0))]
-    if back.any():
-        both.append(_across(el, contour, back))
+    both = [(none, none, np.zeros(0)), *([_across(el, contour, back)] if back.any() else [])]
     if found.rules.look_ahead:
         both += _near_each_other(el, contour, bent)
-    i, j = (np.concatenate([pair[which] for pair in both]) for which in (0, 1))
-    reach = np.concatenate([pair[2] for pair in both])
+    i, j, reach = (np.concatenate(column) for column in zip(*both))
     same = meet(el, i, j)
     i, j, reach = i[same], j[same], np.tile(reach[same], 2)
     row, wall = np.concatenate([i, j]), np.concatenate([j, i])
@@ -72,13 +67,10 @@ def _across(el: Elements, contour: Index, back: Mask) -> tuple[Index, Index, Arr
     """Walls i < j (m,) of one contour near each other, between which it turns `back` (n,)."""
     before: Index = np.cumsum(back, dtype=np.int64) - back  # cusps before each element
     k = np.flatnonzero(el.wall & np.isin(contour, contour[back]))
-    i, j = [k[:0]], [k[:0]]
-    for one, other in near(*el.boxes(k, contour), 2 * float(el.R[k].max())):
-        one, other = k[one], k[other]
-        keep = before[one] != before[other]
-        i, j = [*i, one[keep]], [*j, other[keep]]
-    first = np.concatenate(i)
-    return first, np.concatenate(j), np.full(len(first), np.inf)
+    pairs = [np.stack([k[one], k[other]]) for one, other in near(*el.boxes(k, contour), 2 * float(el.R[k].max()))]
+    i, j = np.concatenate([np.empty((2, 0), np.int64), *pairs], axis=1)
+    keep = before[i] != before[j]
+    return i[keep], j[keep], np.full(int(keep.sum()), np.inf)
 
 
 def _near_each_other(el: Elements, contour: Index, bent: Array) -> list[tuple[Index, Index, Array]]:

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 
 from mnclab.geometry.curves import Curves, distance, foot, share
 from mnclab.geometry.offsets import beside
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation.construction import Construction
-from mnclab.path.compensation.elements import Array, Index, Mask
+from mnclab.path.compensation.equidistant import Equidistant
 
 TIE = 1e-9  # mm: walls that are equally near vote together
 
@@ -45,9 +47,7 @@ class Overcut:
 
     def depth(self, p: Array) -> Array:
         """How far inside of what is cut away points p (m, 2) lie, mm; negative outside of it."""
-        swept = np.full(len(p), np.inf)
-        for k in range(len(self.tool.r)):
-            swept = np.minimum(swept, distance(p, _one(self.tool, k, len(p))))
+        swept = reduce(np.minimum, (distance(p, _one(self.tool, k, len(p))) for k in range(len(self.tool.r))))
         return np.minimum(self.radius - swept, self.behind(p))
 
     def behind(self, p: Array) -> Array:
@@ -82,31 +82,23 @@ def overcuts(made: Construction, steps: Iterable[int]) -> Iterator[Overcut]:
         return
     el = found.el
     bad = np.isin(made.path.step[el.rows], list(steps)) & (el.on | el.exit)
-    contour = np.cumsum(el.entry | el.change | el.exit, dtype=np.int64) - el.exit  # an exit belongs to what it leaves
+    contour = np.cumsum(el.lead | el.exit, dtype=np.int64) - el.exit  # an exit belongs to what it leaves
     for which in np.unique(contour[bad]):
         k = np.flatnonzero((contour == which) & el.wall)
         if not len(k):
             continue
         leads = np.flatnonzero((contour == which) & bad & ~el.wall)
-        tool = _rows(made, np.concatenate([k, leads]))
-        s = el.s[k]
-        origin = np.zeros((1, 2))
-        walls = Curves(el.start[k], el.end[k], el.centre[k], el.r[k], el.sweep[k])
+        tool = _rows(found, np.concatenate([k, leads]))
         row = int(el.rows[k[0]])
-        n_in, n_out = beside(origin, el.t_in[k], s), beside(origin, el.t_out[k], s)
-        yield Overcut(walls, n_in, n_out, tool, float(el.R[k[0]]), row, float(made.view.end[row, 2]))
+        n_in, n_out = (beside(np.zeros((1, 2)), t[k], el.s[k]) for t in (el.t_in, el.t_out))
+        yield Overcut(el.curves(k), n_in, n_out, tool, float(el.R[k[0]]), row, float(made.view.end[row, 2]))
 
 
-def _rows(made: Construction, k: Index) -> Curves:
+def _rows(found: Equidistant, k: Index) -> Curves:
     """The rows of the tool centre along elements k, and the arcs inserted before them."""
-    found = made.found
-    assert found is not None
-    el = found.el
-    start, end, centre, sweep = found.begin[k], found.end[k], el.centre[k], found.sweep[k]
-    c = k[found.insert[k]]
-    about = el.end[c - 1]
-    start, end = np.concatenate([start, found.end[c - 1]]), np.concatenate([end, found.begin[c]])
-    centre, sweep = np.concatenate([centre, about]), np.concatenate([sweep, found.turn[c]])
+    el, c = found.el, k[found.insert[k]]
+    start, end = np.concatenate([found.begin[k], found.end[c - 1]]), np.concatenate([found.end[k], found.begin[c]])
+    centre, sweep = np.concatenate([el.centre[k], el.end[c - 1]]), np.concatenate([found.sweep[k], found.turn[c]])
     arc: Mask = np.concatenate([el.arc[k], np.ones(len(c), dtype=bool)])
     return Curves(start, end, centre, np.where(arc, np.hypot(*(start - centre).T), np.nan), sweep)
 

@@ -8,19 +8,16 @@ next pass of a roughing, say, which leaves the last one by a loop and comes back
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, crossings, distance, part, share
 from mnclab.geometry.vectors import cross, dot, left
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
+from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import meet, retracted
 from mnclab.path.compensation.rules import CLEAR
-
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
 
 ENDS = 1e-6  # mm: a crossing so near to an end of an element is its joint
 ALONG = 1e-6  # rad: elements that meet at a smaller angle touch
@@ -44,10 +41,8 @@ def run_past(el: Elements, i: Index, j: Index) -> Mask:
 
 
 def crossed(el: Elements, contour: Index) -> tuple[Index, Index]:
-    """Walls first < last (m,) of a contour that cross as at an inside corner from the last to the first and run on.
-
-    Not on a retracted way, with a lift before it and a plunge after it: what it crosses is in the air.
-    """
+    """Walls first < last (m,) of a contour that cross as at an inside corner from the last to the first and run on. Not
+    on a retracted way, with a lift before it and a plunge after it: what it crosses is in the air."""
     k, found = np.flatnonzero(el.wall & ~retracted(el, contour)), []
     if not len(k):
         return k, k
@@ -66,9 +61,9 @@ def _run_on_inside(el: Elements, a: Index, b: Index) -> Mask:
     result = np.zeros(len(a), dtype=bool)
     for p in crossings(one, two):
         with np.errstate(invalid="ignore"):
-            to_one, to_two = share(p, one) * el.length(a) > ENDS, share(p, two) * el.length(b) > ENDS
-            on_one = (1 - share(p, one)) * el.length(a) > ENDS
-            on_two = (1 - share(p, two)) * el.length(b) > ENDS
+            at_one, at_two = share(p, one), share(p, two)
+            to_one, to_two = at_one * el.length(a) > ENDS, at_two * el.length(b) > ENDS
+            on_one, on_two = (1 - at_one) * el.length(a) > ENDS, (1 - at_two) * el.length(b) > ENDS
             inside = el.s[a] * cross(_tangent(two, p), _tangent(one, p)) > ALONG
             result |= np.isfinite(p[:, 0]) & inside & to_two & on_one & (to_one | on_two)
     return result
@@ -160,8 +155,6 @@ def _rows(found: Equidistant, k: Index) -> Curves:
 def _tangent(curve: Curves, p: Array) -> Array:
     """Unit tangents (n, 2) of curves at points p (n, 2) on them."""
     travel, spoke = curve.end - curve.start, p - curve.centre
-    along = np.where(
-        curve.arc[:, None], np.sign(curve.sweep)[:, None] * np.stack([-spoke[:, 1], spoke[:, 0]], 1), travel
-    )
+    along = np.where(curve.arc[:, None], np.sign(curve.sweep)[:, None] * left(spoke), travel)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.asarray(along / np.hypot(along[:, 0], along[:, 1])[:, None])

@@ -5,19 +5,16 @@ All other walls must stay clear of the tip, and their vertices of the rows that 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, distance
-from mnclab.path.compensation.elements import Array, Elements, Index
+from mnclab.path.columns import Array, Index
+from mnclab.path.compensation.elements import Elements
+from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.joining import corners, ends, remaining
 from mnclab.path.compensation.rules import Compensation
 from mnclab.path.kinds import Rule
-
-if TYPE_CHECKING:
-    from mnclab.path.compensation.equidistant import Equidistant
 
 LEAST = 1e-6  # mm: tips that reach out less are as good as round
 
@@ -34,10 +31,8 @@ def near_tips(found: Equidistant, contour: Index) -> tuple[Index, Index]:
     bulge = np.where(el.arc[w], 2 * np.nan_to_num(el.r[w]), 0.0)[:, None]
     tip, reach = found.end[c], np.hypot(*(found.end[c] - el.end[c]).T)[:, None]
     boxes = np.concatenate([tip - reach, low - bulge]), np.concatenate([tip + reach, high + bulge])
-    pairs = [(a, b) for a, b in near(*boxes, 0.0)]
-    if not pairs:
-        return c[:0], c[:0]
-    a, b = np.concatenate([p[0] for p in pairs]), np.concatenate([p[1] for p in pairs])
+    pairs = [np.empty((2, 0), np.int64), *(np.stack(pair) for pair in near(*boxes, 0.0))]
+    a, b = np.concatenate(pairs, axis=1)
     mixed = (a < len(c)) & (b >= len(c))
     corner, wall = c[a[mixed]], w[b[mixed] - len(c)]
     other = (contour[corner] == contour[wall]) & (wall != corner) & (wall != corner + 1)
@@ -46,12 +41,9 @@ def near_tips(found: Equidistant, contour: Index) -> tuple[Index, Index]:
 
 def clearance(el: Elements, c: Index, w: Index, radius: Array, rules: Compensation) -> Array:
     """How far walls w (m,) stay from the tool at the tips of corners c (m,), for a radius each; mm beyond the radius.
-
-    Infinite where the corner has no tip for that radius.
-    """
+    Infinite where the corner has no tip for that radius."""
     at = corners(el, c, rules, radius)
-    wall = Curves(el.start[w], el.end[w], el.centre[w], el.r[w], el.sweep[w])
-    least = distance(at.E, wall)  # and no vertex of a wall comes near the rows that lead to the tip and on
+    least = distance(at.E, el.curves(w))  # and no vertex of a wall comes near the rows that lead to the tip and on
     for k in (c, c + 1):
         begin, end, _ = ends(el, k, radius, rules)
         r = np.where(el.arc[k], np.abs(el.r[k] - el.s[k] * np.sign(el.sweep[k]) * radius), np.nan)

@@ -12,17 +12,16 @@ With the spoke q from the centre to the start, n the normal of the plane and φ 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import COLUMNS, Array, Index
+from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
-
-Array = NDArray[np.float64]
 
 
 class Bends:
     """The arcs of a path at `rows` (m,): vectors are (m, 3), mm."""
 
-    def __init__(self, path: Toolpath, rows: NDArray[np.integer], length: Array) -> None:
+    def __init__(self, path: Toolpath, rows: Index, length: Array) -> None:
         self.rows, self.length = rows, length
         self.start, axis, self.sweep = path.start[rows], path.axis[rows], path.sweep[rows]
         spoke = self.start - path.centre[rows]
@@ -40,7 +39,6 @@ class Bends:
         return np.cos(angle)[:, None], np.sin(angle)[:, None]
 
     def place(self, share: Array | float) -> Array:
-        """Points (m, 3)."""
         c, s = self._turn(share)
         behind = np.broadcast_to(share, len(self.rows))[:, None]
         return self.start - self.spoke + c * self.spoke + s * self.side + behind * self.drift
@@ -60,17 +58,9 @@ class Bends:
         """The curvature (m,), 1/mm."""
         return self.radius * self.rate**2
 
-    def axis_slope(self) -> Array:
-        """The greatest share (m, 3) of the path speed that each axis sees somewhere on a full turn."""
-        along = self.radius * np.abs(self.rate)
-        return along[:, None] * self.seen + np.abs(self.drift) / self.length[:, None]
 
-
-def divided(path: Toolpath, counts: NDArray[np.int64]) -> tuple[Toolpath, NDArray[np.int64]]:
+def divided(path: Toolpath, counts: Index) -> tuple[Toolpath, Index]:
     """The path with each row cut into `counts` (n,) equal parts, and the row (m,) of the path each part belongs to."""
-    from mnclab.path.columns import COLUMNS
-    from mnclab.path.kinds import Kind
-
     row = np.repeat(np.arange(len(path)), counts)
     k = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
     many = counts[row]
@@ -80,16 +70,13 @@ def divided(path: Toolpath, counts: NDArray[np.int64]) -> tuple[Toolpath, NDArra
     travel = end[cut] - start[cut]
     begin = start[cut].copy()
     start[cut] = begin + (k[cut] / many[cut])[:, None] * travel
-    end[cut] = np.where(
-        (k[cut] + 1 == many[cut])[:, None], end[cut], begin + ((k[cut] + 1) / many[cut])[:, None] * travel
-    )
+    last = (k + 1 == many)[:, None]
+    end[cut] = np.where(last[cut], end[cut], begin + ((k[cut] + 1) / many[cut])[:, None] * travel)
     arcs = cut[columns["kind"][cut] == Kind.ARC]
     if len(arcs):
         bends = Bends(path, row[arcs], path.lengths[row[arcs]])
         start[arcs] = bends.place(k[arcs] / many[arcs])
-        last = k[arcs] + 1 == many[arcs]
-        end[arcs] = np.where(last[:, None], path.end[row[arcs]], bends.place((k[arcs] + 1) / many[arcs]))
-    columns["sweep"] = columns["sweep"] / many
-    columns["time"] = columns["time"] / many
-    columns["exact"] = columns["exact"] & (k + 1 == many)
-    return Toolpath(columns, path.labels, path.joints, path.origin, path.lathe), row
+        end[arcs] = np.where(last[arcs], path.end[row[arcs]], bends.place((k[arcs] + 1) / many[arcs]))
+    columns |= {name: columns[name] / many for name in ("sweep", "time")}
+    columns["exact"] = columns["exact"] & last[:, 0]
+    return path.replace(**columns), row

@@ -32,45 +32,40 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Mask
 from mnclab.path.limits import Limits
 from mnclab.path.toolpath import Toolpath
 
 TANGENT = 5e-4  # rad
 
-Array = NDArray[np.float64]
 Columns = Sequence[Array]  # X, Y and Z
 Slack = float | Array  # how far a corner may be cut, mm; one for all, or one a corner
-Rule = Callable[[Columns, Columns, Array, Array, Array, Array, Slack], Array]
+Pair = tuple[Array, Array]  # of the row before the corner and the row after it
+Rule = Callable[[Columns, Columns, Pair, Pair, Slack], Array]
 
 
 def rule(limits: Limits) -> Rule:
     """v² (m,) from the tangents before and after, the path accelerations and the lengths of both rows, and the tolerance."""
-    accelerations, jerks = limits.axes("acceleration"), limits.axes("jerk")
-    jumps = limits.axes("corner_jump")
+    jerks, jumps = limits.axes("jerk"), limits.axes("corner_jump")
     smooth = bool(np.isfinite(jerks).any())
 
-    def tolerance(
-        before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array, slack: Slack
-    ) -> Array:  # fmt: skip
-        turn, slow, slower = _changes(before, after, accelerations, jerks if smooth else None)
+    def tolerance(before: Columns, after: Columns, accelerations: Pair, lengths: Pair, slack: Slack) -> Array:
+        turn, slow, slower = _changes(before, after, limits.axes("acceleration"), jerks if smooth else None)
         if not np.any(slack):
             return np.where(turn < TANGENT, np.inf, 0.0)
+        short = np.minimum(*lengths)
         with np.errstate(divide="ignore", invalid="ignore"):  # straight on, or a row of no length
             if not smooth:
-                w = np.minimum(8 * slack / (turn * slow), np.minimum(l0, l1) / slow)
+                w = np.minimum(8 * slack / (turn * slow), short / slow)
             else:
-                short = np.minimum(l0, l1)
                 w = np.minimum(6 * slack / (turn * slow), short / (2 * slow))
                 w = np.minimum(w, (6 * slack / (turn * np.sqrt(slower))) ** (4 / 3))
                 w = np.minimum(w, (short / (2 * np.sqrt(slower))) ** (4 / 3))
         w[turn < TANGENT] = np.inf
         return w
 
-    def deviation(
-        before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array, slack: Slack
-    ) -> Array:  # fmt: skip
+    def deviation(before: Columns, after: Columns, accelerations: Pair, lengths: Pair, slack: Slack) -> Array:
         half = before[0] * after[0]
         half += before[1] * after[1]
         half += before[2] * after[2]
@@ -78,18 +73,15 @@ def rule(limits: Limits) -> Rule:
         half *= 0.5
         np.sqrt(np.maximum(half, 0.0, out=half), out=half)  # sin(β/2) = cos(turn / 2)
         np.minimum(half, 1.0 - TANGENT**2 / 8, out=half)
-        w = np.minimum(a0, a1)
+        w = np.minimum(*accelerations)
         w *= slack
         w *= half
         w /= 1.0 - half
         w[(half >= 1.0 - TANGENT**2 / 8) & np.equal(slack, 0)] = np.inf
         return w
 
-    def jump(
-        before: Columns, after: Columns, a0: Array, a1: Array, l0: Array, l1: Array, slack: Slack
-    ) -> Array:  # fmt: skip
-        w = np.full(len(a0), np.inf)
-        turn = np.zeros(len(a0))
+    def jump(before: Columns, after: Columns, accelerations: Pair, lengths: Pair, slack: Slack) -> Array:
+        w, turn = np.full(len(before[0]), np.inf), np.zeros(len(before[0]))
         with np.errstate(divide="ignore", invalid="ignore"):
             for b, c, most in zip(before, after, jumps):
                 change = np.abs(c - b)
@@ -133,11 +125,9 @@ def bend_joints(before: Array, after: Array, limits: Limits, slack: Slack) -> Ar
     return np.where(size <= TANGENT * largest, np.inf, w)
 
 
-def curves(tangent: Array, length: Array, lines: NDArray[np.bool_], limits: Limits, slack: Slack) -> Array:
+def curves(tangent: Array, length: Array, lines: Mask, limits: Limits, slack: Slack) -> Array:
     """v² (n - 1,) at the corners between rows that are short lines of a curve, 0 elsewhere; for "tolerance" with jerk.
-
-    `tangent` (n, 3) and `length` (n,) of all rows; `lines` (n,) says which of them are lines.
-    """
+    `tangent` (n, 3) and `length` (n,) of all rows; `lines` (n,) says which of them are lines."""
     mean = (length[1:] + length[:-1]) / 2
     corner = lines[1:] & lines[:-1]
     turn = np.where(corner[:, None], tangent[1:] - tangent[:-1], 0.0)
@@ -146,8 +136,7 @@ def curves(tangent: Array, length: Array, lines: NDArray[np.bool_], limits: Limi
         around = np.concatenate([np.zeros((1, 3)), bend, np.zeros((1, 3))])
         change = np.abs(np.diff(around, axis=0)) / limits.axes("jerk")  # over each row
         cubed = length / change.max(axis=1)
-        w = np.minimum(
-            (limits.axes("acceleration") / np.abs(bend)).min(axis=1), np.cbrt(np.minimum(cubed[1:], cubed[:-1])) ** 2
-        )
+        w = np.cbrt(np.minimum(cubed[1:], cubed[:-1])) ** 2
+        w = np.minimum((limits.axes("acceleration") / np.abs(bend)).min(axis=1), w)
     fits = corner & (np.linalg.norm(turn, axis=1) * mean <= 8 * slack)
     return np.where(fits, np.nan_to_num(w, nan=0.0, posinf=np.inf), 0.0)

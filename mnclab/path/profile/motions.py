@@ -13,8 +13,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array
 from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
@@ -26,8 +26,6 @@ from mnclab.text.records import shapes
 PIECE = 1 << 15  # rows worked on at a time
 FULL = 0.9  # of an arc's acceleration may be centripetal; the rest is left for speeding up and braking
 ARC_JERK = (0.3, 0.6)  # of the jerk: the part that turning takes at most, and that turning while braking takes
-
-Array = NDArray[np.float64]
 
 
 @dataclass
@@ -45,8 +43,7 @@ class Rows:
     j: Array
     corner: Array
 
-    def __repr__(self) -> str:
-        return shapes(self)
+    __repr__ = shapes
 
 
 def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, override: float) -> Array:
@@ -79,10 +76,9 @@ def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, o
 def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array | None = None) -> Rows:
     """What the rows of a path allow; `caps` (n,), where they are numbers, replace what all of an arc would allow."""
     n = len(path)
-    speeds, accelerations, jerks = (limits.axes(name) for name in ("rapid", "acceleration", "jerk"))
+    speeds, slowest, jerks = (limits.axes(name) for name in ("rapid", "acceleration", "jerk"))
     jerky = bool(np.isfinite(jerks).any())
-    length, feed, cap, a = (np.empty(n) for _ in range(4))
-    rows = Rows(length, feed, cap, a, np.empty(n if jerky else 0), np.zeros(n + 1))
+    rows = Rows(np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n if jerky else 0), np.zeros(n + 1))
     rule, slack = corner_speeds.rule(limits), corner_speeds.tolerances(path, limits)
     last: list[Array] = []  # the tangent at the end of the piece before
     for i in range(0, n, PIECE):
@@ -107,7 +103,7 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array |
         feed = feeds(path, i, j, length, limits, override)
         with np.errstate(divide="ignore", over="ignore"):
             cap = np.minimum(1 / _slowest(size, speeds), feed)
-            a = 1 / _slowest(size, accelerations)
+            a = 1 / _slowest(size, slowest)
             if jerky:
                 rows.j[i:j] = 1 / _slowest(size, jerks)
         cap *= cap
@@ -125,13 +121,16 @@ def measure(path: Toolpath, limits: Limits, override: float = 1.0, caps: Array |
         if still is not None:
             cap[still], a[still], length[still] = 0.0, 1.0, 0.0
         rows.length[i:j], rows.feed[i:j], rows.cap[i:j], rows.a[i:j] = length, feed, cap, a
-        first = max(i - 1, 0)
+        first, second = (
+            slice(max(i - 1, 0), j - 1),
+            slice(max(i - 1, 0) + 1, j),
+        )  # the rows before and after the corners
         joined = [np.concatenate([one, each[:-1]]) for one, each in zip(last, before)] or [each[:-1] for each in before]
-        w = rule(joined, after if i else [each[1:] for each in after], rows.a[first : j - 1], rows.a[first + 1 : j],
-                 rows.length[first : j - 1], rows.length[first + 1 : j],
-                 slack[first : j - 1] if isinstance(slack, np.ndarray) else slack)  # fmt: skip
-        np.minimum(w, rows.cap[first : j - 1], out=w)
-        np.minimum(w, rows.cap[first + 1 : j], out=rows.corner[first + 1 : j])
+        accelerations, lengths = (rows.a[first], rows.a[second]), (rows.length[first], rows.length[second])
+        cut = slack[first] if isinstance(slack, np.ndarray) else slack
+        w = rule(joined, after if i else [each[1:] for each in after], accelerations, lengths, cut)
+        np.minimum(w, rows.cap[first], out=w)
+        np.minimum(w, rows.cap[second], out=rows.corner[second])
         last = [each[-1:].copy() for each in before]
     if jerky:
         if limits.corner_speed == "tolerance" and np.any(slack):
@@ -159,8 +158,7 @@ def _stops(path: Toolpath, rows: Rows) -> None:
         rows.corner[1:][path.exact] = 0.0
     alone = (path.kind == Kind.RAPID) | (path.kind >= Kind.PROBE)
     if alone.any():
-        rows.corner[:-1][alone] = 0.0
-        rows.corner[1:][alone] = 0.0
+        rows.corner[:-1][alone] = rows.corner[1:][alone] = 0.0
 
 
 def _bend_joints(path: Toolpath, rows: Rows, limits: Limits, slack: corner_speeds.Slack) -> None:

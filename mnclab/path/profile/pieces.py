@@ -7,11 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.timing import Plan
 from mnclab.text.records import shapes
-
-Array = NDArray[np.float64]
 
 
 class Pieces(NamedTuple):
@@ -22,7 +21,7 @@ class Pieces(NamedTuple):
     v: Array
     a: Array
     j: Array
-    row: NDArray[np.int64]
+    row: Index
 
     def __repr__(self) -> str:
         return shapes(self)
@@ -61,13 +60,13 @@ def _trapezoids(plan: Plan) -> Table:
     if plan.rapids is not None:
         moving[plan.rapids.rows] = False
     ds = np.empty((n, 3))
-    ds[:, 0] = (top - v0) * (top + v0) / (2 * plan.up)
-    ds[:, 2] = (top - v1) * (top + v1) / (2 * plan.down)
+    ds[:, 0] = (top - v0) * (top + v0) / (2 * plan.rows.a)
+    ds[:, 2] = (top - v1) * (top + v1) / (2 * plan.rows.a)
     ds[:, 1] = np.maximum(plan.rows.length - ds[:, 0] - ds[:, 2], 0.0)
     ds[~moving] = 0.0
     with np.errstate(divide="ignore", invalid="ignore"):
         dt = np.stack([2 * ds[:, 0] / (v0 + top), ds[:, 1] / top, 2 * ds[:, 2] / (v1 + top)], axis=1)
-    a = np.stack([plan.up, np.zeros(n), -plan.down], axis=1)
+    a = np.stack([plan.rows.a, np.zeros(n), -plan.rows.a], axis=1)
     v = np.stack([v0, top, top], axis=1)
     dt[ds <= 0] = 0.0
     if plan.ramps is not None:
@@ -95,9 +94,8 @@ def _rapids(plan: Plan) -> Table:
     begin, end = breaks[which, order], breaks[which, order + 1]
     middle = rapids.state(which, (begin + end) / 2)  # within the phases, whatever the rounding of their ends
     a, j = (np.einsum("ij,ij->i", column, direction[which]) for column in middle[2:])
-    at = [
-        np.einsum("ij,ij->i", rapids.state(which, t)[0] - rapids.start[which], direction[which]) for t in (begin, end)
-    ]
+    places = (rapids.state(which, t)[0] - rapids.start[which] for t in (begin, end))
+    at = [np.einsum("ij,ij->i", place, direction[which]) for place in places]
     half = (end - begin) / 2
     a -= j * half
     v = (at[1] - at[0]) / (2 * half) - a * half - j * (2 * half) ** 2 / 6

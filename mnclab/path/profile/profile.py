@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from functools import cached_property
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.listing import point
@@ -24,12 +26,14 @@ from mnclab.text.tables import html_table
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 #: What time goes to. "cutting" is what the programmed feed alone would take, "rapid" the axes' greatest speed;
 #: "acceleration" is all that speeding up, braking, corners and other limits of the machine add.
 CAUSES = ("cutting", "rapid", "probing", "acceleration", "dwell", "tool change", "spindle", "stop")
-_EVENTS = {Kind.DWELL: "dwell", Kind.TOOL: "tool change", Kind.SPINDLE: "spindle"}
+CAUSE = {
+    Kind.LINE: "cutting", Kind.ARC: "cutting", Kind.RAPID: "rapid", Kind.PROBE: "probing", Kind.DWELL: "dwell",
+    Kind.TOOL: "tool change", Kind.SPINDLE: "spindle", Kind.COOLANT: "stop", Kind.STOP: "stop",
+}  # fmt: skip
 
 
 class Instant(NamedTuple):
@@ -65,15 +69,9 @@ class Profile:
     """
 
     def __init__(
-        self,
-        path: Toolpath,
-        limits: Limits | None = None,
-        *,
-        override: float = 1.0,
-        rapid_motion: str = "line",
-        waits: NDArray[np.bool_] | None = None,
-        source: Any = None,
-    ) -> None:
+        self, path: Toolpath, limits: Limits | None = None, *, override: float = 1.0, rapid_motion: str = "line",
+        waits: Mask | None = None, source: Any = None,
+    ) -> None:  # fmt: skip
         self.path, self.limits, self.override = path, limits or Limits(), override
         self.source = source  # the Program, for pictures that show its lines
         self._more: dict[str, Any] = {"rapid_motion": rapid_motion, "waits": waits, "source": source}
@@ -100,52 +98,23 @@ class Profile:
         """Seconds from the first row to the end of the last."""
         return float(self.starts[-1])
 
-    # --- pieces ------------------------------------------------------------------------------------------------------
-
     @cached_property
     def pieces(self) -> Pieces:
-        """The columns, made when first asked for."""
         return Pieces._make(fixed(each) for each in pieces(self.plan))
 
-    @property
-    def t(self) -> Array:
-        """Time at the nodes (m + 1,), s."""
-        return self.pieces.t
-
-    @property
-    def s(self) -> Array:
-        """Length of path behind the nodes (m + 1,), mm."""
-        return self.pieces.s
-
-    @property
-    def v(self) -> Array:
-        """Speed along the path at the nodes (m + 1,), mm/s."""
-        return self.pieces.v
-
-    @property
-    def a(self) -> Array:
-        """Acceleration along the path at the start of each piece (m,), mm/s²."""
-        return self.pieces.a
-
-    @property
-    def j(self) -> Array:
-        """Jerk along the path (m,), mm/s³."""
-        return self.pieces.j
-
-    @property
-    def move(self) -> NDArray[np.int64]:
-        """The row of the path that each piece belongs to (m,)."""
-        return self.pieces.row
+    t = property(attrgetter("pieces.t"))
+    s = property(attrgetter("pieces.s"))
+    v = property(attrgetter("pieces.v"))
+    a = property(attrgetter("pieces.a"))
+    j = property(attrgetter("pieces.j"))
+    move = property(attrgetter("pieces.row"))
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """The columns (m,) at the start of each piece and its row, for pandas, polars or pyarrow."""
-        p = self.pieces
-        return {"t": p.t[:-1], "s": p.s[:-1], "v": p.v[:-1], "a": p.a, "j": p.j, "move": p.row}
+        return {name: getattr(self, name)[: len(self)] for name in ("t", "s", "v", "a", "j", "move")}
 
     def __len__(self) -> int:
         return len(self.pieces.row)
-
-    # --- at a time ---------------------------------------------------------------------------------------------------
 
     def at(self, t: ArrayLike) -> Instant:
         """The tool at `t` seconds (a number or an array (k,)); before the start and after the end it stands."""
@@ -171,7 +140,7 @@ class Profile:
             return found
         return Instant(*(each[0] if each.ndim == 2 else each[0].item() for each in found))
 
-    def _axes(self, row: NDArray[np.int64], within: Array, v: Array, a: Array, t: Array) -> tuple[Array, Array, Array]:
+    def _axes(self, row: Index, within: Array, v: Array, a: Array, t: Array) -> tuple[Array, Array, Array]:
         """Place, velocity and acceleration (k, 3) of the axes, `within` mm after the start of the row."""
         path = self.path
         length = path.lengths[row]
@@ -188,22 +157,17 @@ class Profile:
             rate[arcs] = tangent[arcs] * a[arcs, None] + bends.curvature(along) * v[arcs, None] ** 2
         velocity = tangent * v[:, None]
         rapids = self.plan.rapids
-        if rapids is not None:
-            own = np.flatnonzero(np.isin(row, self._rapid_rows))
-            if len(own):
-                which = np.searchsorted(self._rapid_rows, row[own])
-                since = np.clip(t[own] - self.starts[row[own]], 0.0, rapids.seconds[which])
-                place[own], velocity[own], rate[own], _ = rapids.state(which, since)
+        if rapids is not None and (own := np.flatnonzero(np.isin(row, self._rapid_rows))).size:
+            which = np.searchsorted(self._rapid_rows, row[own])
+            since = np.clip(t[own] - self.starts[row[own]], 0.0, rapids.seconds[which])
+            place[own], velocity[own], rate[own], _ = rapids.state(which, since)
         return place, velocity, rate
 
     @cached_property
-    def _rapid_rows(self) -> NDArray[np.int64]:
-        """The rows of the path whose axes go by themselves."""
+    def _rapid_rows(self) -> Index:
         rapids = self.plan.rapids
         assert rapids is not None
         return rapids.rows if self.plan.row is None else self.plan.row[rapids.rows]
-
-    # --- where the time goes -----------------------------------------------------------------------------------------
 
     @cached_property
     def lost(self) -> Array:
@@ -214,14 +178,11 @@ class Profile:
             ideal = np.where(p.rows.length > 0, p.rows.length / speed, p.seconds)
         if p.rapids is not None:
             ideal[p.rapids.rows] = p.rapids.ideal
-        lost = np.maximum(p.seconds - ideal, 0.0)
-        return self._of_rows(lost)
+        return self._of_rows(np.maximum(p.seconds - ideal, 0.0))
 
     def time_by(self, key: str) -> dict[Any, float]:
-        """Seconds by "line", "tool", "kind" or "cause" (`CAUSES`); the values sum to `time`.
-
-        A line of a program that was called is a pair (program, line). An Alarm for another key.
-        """
+        """Seconds by "line", "tool", "kind" or "cause" (`CAUSES`); the values sum to `time`. A line of a program that
+        was called is a pair (program, line). An Alarm for another key."""
         path, key = self.path, choice(key, "key", ("line", "tool", "kind", "cause"))
         if key == "cause":
             return self._causes()
@@ -238,18 +199,11 @@ class Profile:
         return {(line if program == 0 else (program, line)): time for (program, line), time in zip(names, total)}
 
     def _causes(self) -> dict[Any, float]:
-        kind, useful = self.path.kind, self.seconds - self.lost
-        of_kind = np.bincount(kind, useful, max(Kind) + 1)
-        found = dict.fromkeys(CAUSES, 0.0)
-        found["rapid"], found["probing"] = float(of_kind[Kind.RAPID]), float(of_kind[Kind.PROBE])
-        found["cutting"] = float(of_kind[Kind.LINE] + of_kind[Kind.ARC])
-        found["acceleration"] = float(self.lost.sum())
-        for event, cause in _EVENTS.items():
-            found[cause] = float(of_kind[event])
-        found["stop"] = float(of_kind[Kind.COOLANT] + of_kind[Kind.STOP])
+        of_kind = np.bincount(self.path.kind, self.seconds - self.lost, max(Kind) + 1)
+        found = dict.fromkeys(CAUSES, 0.0) | {"acceleration": float(self.lost.sum())}
+        for kind, cause in CAUSE.items():
+            found[cause] += float(of_kind[kind])
         return {cause: seconds for cause, seconds in found.items() if seconds > 0}
-
-    # --- shown -------------------------------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
         causes = ", ".join(f"{cause} {seconds:.3f}" for cause, seconds in self.time_by("cause").items())
@@ -263,8 +217,7 @@ class Profile:
     def plot(self, **options: Any) -> Figure:
         """Programmed and reached feed, acceleration and jerk over time, stops, limits, and which of them governs where.
 
-        `over="path"` shows them over the path length, `axes=True` adds X, Y and Z; all options are explained in
-        `mnclab.show.plot.profile.plot_profile`.
+        `over="path"` shows them over the path length, `axes=True` adds X, Y and Z; see `mnclab.show.plot.profile.plot_profile`.
         """
         from mnclab.show.plot.profile import plot_profile
 

@@ -7,21 +7,19 @@ is the projection of the tool on the line from start to end, so that the pieces 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.limits import Limits
 from mnclab.path.profile import ramps
 from mnclab.path.toolpath import Toolpath
 
 SAME = 1e-12  # s
 
-Array = NDArray[np.float64]
-
 
 class Rapids:
     """The rapid rows (m,) of a path: `seconds` (m,), `top` speed (m,) and what each axis does."""
 
-    def __init__(self, path: Toolpath, rows: NDArray[np.int64], limits: Limits, motion: str) -> None:
+    def __init__(self, path: Toolpath, rows: Index, limits: Limits, motion: str) -> None:
         self.rows = rows
         self.start, self.travel = path.start[rows], path.end[rows] - path.start[rows]
         distance = np.abs(self.travel)
@@ -41,9 +39,8 @@ class Rapids:
         seconds[moves] = ramps.phases(flat[moves], still, still, above, a[moves], j[moves])
         #: Seconds (m, 3, 7) of the phases of each axis.
         self.phases = seconds.reshape(-1, 3, 7)
-        self._starts = [
-            each.reshape(-1, 3, 7) for each in ramps.starts(seconds, np.zeros(len(flat)), np.where(flat > 0, a, 0.0), j)
-        ]
+        begin = ramps.starts(seconds, np.zeros(len(flat)), np.where(flat > 0, a, 0.0), j)
+        self._starts = [each.reshape(-1, 3, 7) for each in begin]
         self.seconds = self.phases.sum(axis=2).max(axis=1)
 
     def breaks(self) -> Array:
@@ -55,16 +52,13 @@ class Rapids:
             breaks[:, k] = np.where(breaks[:, k + 1] - breaks[:, k] < SAME, breaks[:, k + 1], breaks[:, k])
         return breaks
 
-    def state(self, which: NDArray[np.int64], t: Array) -> tuple[Array, Array, Array, Array]:
+    def state(self, which: Index, t: Array) -> tuple[Array, Array, Array, Array]:
         """Place, velocity, acceleration and jerk (q, 3) of some of the rows, `t` (q,) seconds after their start."""
-        begin = np.cumsum(self.phases[which], axis=2)
-        phase = (begin <= t[:, None, None]).sum(axis=2)  # 7: the axis has arrived
+        ends = np.cumsum(self.phases[which], axis=2)
+        phase = (ends <= t[:, None, None]).sum(axis=2)  # 7: the axis has arrived
         done = phase == 7
         phase = np.minimum(phase, 6)[:, :, None]
-        dt = (
-            t[:, None]
-            - (np.take_along_axis(begin, phase, 2) - np.take_along_axis(self.phases[which], phase, 2))[..., 0]
-        )
+        dt = t[:, None] - np.take_along_axis(ends - self.phases[which], phase, 2)[..., 0]
         s, v, a, j = (np.take_along_axis(each[which], phase, 2)[..., 0] for each in self._starts)
         sign, distance = np.sign(self.travel[which]), np.abs(self.travel[which])
         place = np.where(done, distance, s + dt * (v + dt * (a / 2 + dt * j / 6)))

@@ -24,6 +24,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.profile import ramps
 from mnclab.path.profile.lookahead import reachable, running_sum
 from mnclab.path.profile.motions import Rows
@@ -32,9 +33,6 @@ SHARE = 0.5  # of a ramp from rest to the greatest speed: the least length of a 
 SHARP = 0.64  # of its neighbours: a corner with less v² gets a knot
 ROUNDS = 200
 STEPS = 60  # of Newton for the time at a place; seven or so are usual
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 
 class Groups:
@@ -66,19 +64,15 @@ class Groups:
         return up + cruise + down, up, up + cruise
 
     def items(self, row_seconds: Array, left_out: Index) -> tuple[NDArray[np.generic], ...]:
-        """Pieces: row, order, seconds, length, speed, acceleration, jerk; `left_out` rows have none.
-
-        `row_seconds` (n,) is the time of the rows, which for rows without length is not in the groups.
-        """
+        """Pieces: row, order, seconds, length, speed, acceleration, jerk; `left_out` rows have none. `row_seconds` (n,)
+        is the time of the rows, which for rows without length is not in the groups."""
         seconds, starts = self.phases()
         ends = np.cumsum(seconds, axis=1)
         begins = ends - seconds
         used = seconds > 0
         phase = np.flatnonzero(used)  # of all phases of all groups, in order
         first = self.knots[:-1]
-        inside = np.ones(len(self.group), dtype=bool)
-        inside[first] = False
-        inside = np.flatnonzero(inside)  # rows that begin within a group
+        inside = np.delete(np.arange(len(self.group)), first)  # rows that begin within a group
         at = np.concatenate([begins.ravel()[phase], self.since[inside]])
         group = np.concatenate([phase // 7, self.group[inside]])
         which = np.concatenate([phase, np.full(len(inside), -1)])
@@ -126,9 +120,7 @@ def smooth(rows: Rows, w: Array) -> tuple[Array, Array, Array, Groups]:
         return v, groups.top, whole, groups
     nodes = np.zeros(n + 1)
     nodes[knots] = v
-    inside = np.ones(n + 1, dtype=bool)
-    inside[knots] = False
-    at = np.flatnonzero(inside)
+    at = np.delete(np.arange(n + 1), knots)
     groups.since[at], nodes[at] = _when(groups, groups.group[at], behind[at] - behind[first[groups.group[at]]])
     end = np.append(groups.since[1:], 0.0)
     end[knots[1:] - 1] = whole
@@ -153,15 +145,10 @@ def _knots(rows: Rows, w: Array) -> Index:
     chosen |= rows.corner == 0
     corner, cap = rows.corner, rows.cap
     chosen[1:n] |= np.minimum(cap[1:], cap[:-1]) < SHARP * np.maximum(cap[1:], cap[:-1])
-    inner = corner[1:n]
-    around = np.maximum(corner[:-2], corner[2:])
-    chosen[1:n] |= (inner < SHARP * around) & (inner <= w[1:n])
-    still = rows.length == 0  # an event is a group of its own
-    chosen[:-1] |= still
-    chosen[1:] |= still
-    long = share >= 1.0
-    chosen[:-1] |= long
-    chosen[1:] |= long
+    chosen[1:n] |= (corner[1:n] < SHARP * np.maximum(corner[:-2], corner[2:])) & (corner[1:n] <= w[1:n])
+    alone = (share >= 1.0) | (rows.length == 0)  # an event is a group of its own
+    chosen[:-1] |= alone
+    chosen[1:] |= alone
     return np.flatnonzero(chosen)
 
 

@@ -12,8 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile.bends import divided
@@ -28,41 +28,31 @@ from mnclab.text.records import shapes
 
 SURFACE = 64  # parts of a row at constant cutting speed, in each of which the feed is constant
 
-Array = NDArray[np.float64]
-
 
 @dataclass
 class Plan:
     """The planned rows (n,) of `path`; `row` (n,) of the path that was asked for, None if they are the same.
 
-    `v` (n + 1,) the speeds at the nodes, `top` (n,) the greatest speed within a row, `up` and `down` (n,) the
-    accelerations used (mm, s), `seconds` (n,); `groups` under a jerk limit.
-    `ramps` are rows that are one ramp from end to end, whatever `up` and `down` say.
+    `v` (n + 1,) the speeds at the nodes, `top` (n,) the greatest speed within a row (mm, s), `seconds` (n,); `groups`
+    under a jerk limit. `ramps` are rows that are one ramp from end to end, the others speed up and brake with `rows.a`.
     """
 
     path: Toolpath
-    row: NDArray[np.int64] | None
+    row: Index | None
     rows: Rows
     v: Array
     top: Array
-    up: Array
-    down: Array
     seconds: Array
     rapids: Rapids | None = None
-    ramps: NDArray[np.int64] | None = None
+    ramps: Index | None = None
     groups: Groups | None = None
 
-    def __repr__(self) -> str:
-        return shapes(self)
+    __repr__ = shapes
 
 
 def plan(
-    path: Toolpath,
-    limits: Limits,
-    override: float = 1.0,
-    rapid_motion: str = "line",
-    waits: NDArray[np.bool_] | None = None,
-) -> Plan:
+    path: Toolpath, limits: Limits, override: float = 1.0, rapid_motion: str = "line", waits: Mask | None = None
+) -> Plan:  # fmt: skip
     """Plan a path under limits; `override` is the feed override, 1 for 100 %.
 
     `rapid_motion` holds unless the limits say otherwise; `waits` (n,) says which SPINDLE rows wait until the spindle
@@ -76,12 +66,17 @@ def plan(
         path, row = divided(path, np.where(turning & path.is_motion, SURFACE, 1))
         waits = None if waits is None else waits[row]
     rows = measure(path, limits, override)
-    found = _s_curves(path, row, rows) if len(rows.j) else _trapezoids(path, row, rows)
-    slow = _slow_arcs(found)
-    if not len(rows.j) and slow.any():
-        found, parts = _turned(found, slow, limits, override)
-        waits = None if waits is None else waits[parts]
-        path, rows = found.path, found.rows
+    if len(rows.j):
+        v, top, seconds, groups = smooth(rows, reachable(rows.corner, 2 * rows.a * rows.length))
+        found = Plan(path, row, rows, v, top, seconds, groups=groups)
+    else:
+        found = _trapezoids(path, row, rows)
+        slow = (path.kind == Kind.ARC) & (rows.length > 0)
+        slow[slow] = found.top[slow] < rows.feed[slow] * (1 - 1e-12)
+        if slow.any():  # arcs that do not reach their feed
+            found, parts = _turned(found, slow, limits, override)
+            waits = None if waits is None else waits[parts]
+            path, rows = found.path, found.rows
     _events(found, limits, waits)
     motion = limits.rapid_motion or rapid_motion
     if motion != "line" and (rapid := np.flatnonzero((path.kind == Kind.RAPID) & (rows.length > 0))).size:
@@ -90,7 +85,7 @@ def plan(
     return found
 
 
-def _trapezoids(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows, w: Array | None = None) -> Plan:
+def _trapezoids(path: Toolpath, row: Index | None, rows: Rows, w: Array | None = None) -> Plan:
     """Speeds at the nodes (v² may be given) and times of the rows, each up, along and down at constant acceleration."""
     n = len(path)
     gain = 2 * rows.a
@@ -111,21 +106,11 @@ def _trapezoids(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows, w: Ar
             rest /= 2 * root
         rest += 2 * root - v[i:-1][:PIECE] - v[i + 1 :][:PIECE]
         np.divide(rest, a, out=seconds[part])
-    still = rows.length == 0
-    if still.any():
-        seconds[still] = 0.0
-    return Plan(path, row, rows, v, top, rows.a, rows.a, seconds)
+    seconds[rows.length == 0] = 0.0
+    return Plan(path, row, rows, v, top, seconds)
 
 
-def _slow_arcs(found: Plan) -> NDArray[np.bool_]:
-    """Arcs (n,) that do not reach their feed."""
-    arcs = (found.path.kind == Kind.ARC) & (found.rows.length > 0)
-    if not arcs.any():
-        return arcs
-    return np.asarray(arcs & (found.top < found.rows.feed * (1 - 1e-12)))
-
-
-def _turned(found: Plan, slow: NDArray[np.bool_], limits: Limits, override: float) -> tuple[Plan, NDArray[np.int64]]:
+def _turned(found: Plan, slow: Mask, limits: Limits, override: float) -> tuple[Plan, Index]:
     """The plan with some arcs cut finer, and the row (m,) that each of its rows was part of."""
     counts = np.where(slow, np.maximum(np.ceil(np.abs(found.path.sweep) / PART), FEWEST), 1).astype(np.int64)
     path, part = divided(found.path, counts)
@@ -143,14 +128,7 @@ def _turned(found: Plan, slow: NDArray[np.bool_], limits: Limits, override: floa
     return again, part
 
 
-def _s_curves(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows) -> Plan:
-    """The same under a jerk limit."""
-    w = reachable(rows.corner, 2 * rows.a * rows.length)
-    v, top, seconds, groups = smooth(rows, w)
-    return Plan(path, row, rows, v, top, rows.a, rows.a, seconds, groups=groups)
-
-
-def _events(found: Plan, limits: Limits, waits: NDArray[np.bool_] | None) -> None:
+def _events(found: Plan, limits: Limits, waits: Mask | None) -> None:
     """Time for dwells, tool changes and for the spindle to reach its speed."""
     kind, seconds = found.path.kind, found.seconds
     if (turns := (found.rows.length == 0) & np.isfinite(found.path.time)).any():  # rotary axes alone

@@ -117,10 +117,16 @@ def test_remanent_parameters_come_from_the_program_before(inside) -> None:
     assert [alarm.message for alarm in refused.alarms] == ["no value was given to QL5"]
 
 
-@pytest.mark.parametrize("wrong", [{"Q2000": 1}, {"Q1": "A"}, {"QS1": 5}, {"X": 1}, {"Q1": math.nan}, {"Q1": [1]}])
+@pytest.mark.parametrize("wrong", [{"Q2000": 1}, {"Q1": "A"}, {"QS1": 5}, {"X": 1}])
 def test_values_that_no_parameter_can_have(wrong: dict[str, object], inside) -> None:
     (alarm,) = inside("2 L X+1", mnc.Setup(variables=wrong)).alarms
     assert "cannot be" in alarm.message
+
+
+@pytest.mark.parametrize("wrong", [math.nan, [1]])
+def test_what_is_no_value_of_any_parameter_is_refused_by_the_setup(wrong: object) -> None:
+    with pytest.raises(mnc.Alarm, match=r"variables\['Q1'\] must be a"):
+        mnc.Setup(variables={"Q1": wrong})
 
 
 def test_a_control_without_variables_takes_none() -> None:

@@ -41,7 +41,6 @@ class Reaming(PreparedCycle):
     dwell_bottom: float = addresses.dwell_bottom()
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 4 of the manual."""
         bottom, out = self.surface + self.depth, self.retract_feed or self.feed
         work = ream(bottom, above=self.level, feed=self.feed, retract=out, dwell=self.dwell_bottom)
         return called(m, self.level, work)
@@ -61,7 +60,6 @@ class Boring(PreparedCycle):
     spindle_angle: float = addresses.angle("A", "spindle angle for the withdrawal", 30)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A hole along the spindle, where the tool leaves its wall."""
         if self.disengage:
             yield from tilted(m)
 
@@ -93,14 +91,12 @@ class BackBoring(PreparedCycle):
     spindle_angle: float = addresses.angle("A", "spindle angle for entry and exit", 30)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """The counterbore stays below the upper surface."""
         depth, thickness = self.counterbore_depth, self.thickness
         if depth >= thickness:
             yield "counterbore_depth", f"must be less than the thickness {thickness:g}, got {depth:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A hole along the spindle."""
-        yield from tilted(m)
+        return tilted(m)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 6 of the manual; levels are those of the end of the bar."""
@@ -132,13 +128,11 @@ class BoreMilling(PreparedCycle):
     milling_mode: float = addresses.choice("L", "kind of milling with M3", MODE, 1, default=1)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """The hole drilled before is narrower; no more turns than a hole can have."""
         if self.predrilled_diameter >= self.diameter:
             yield "predrilled_diameter", f"must be less than D {self.diameter:g}, got {self.predrilled_diameter:g}"
         yield from too_many("pitch", lambda: turns(self.clearance - self.depth, self.pitch))
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The hole is not narrower than the tool, and leaves no core where none was drilled out."""
         tool = 2 * m.radius
         if self.diameter < tool:
             yield "diameter", f"must be at least the tool diameter {tool:g}, got {self.diameter:g}"
@@ -147,7 +141,6 @@ class BoreMilling(PreparedCycle):
             yield "diameter", f"must be at most {most}: a core would remain"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 5 of the manual."""
         inner = self.diameter - 4 * m.radius
         if m.cycle and 0 < self.predrilled_diameter < inner:
             ring = f"C {self.predrilled_diameter:g} leaves a ring: the tool reaches in to {inner:g}"

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
 from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.mnc.cycles.prepared import PreparedCycle, called, kept
-from mnclab.machine.cycle import CycleTable, param, too_many
+from mnclab.machine.cycle import CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import is_round, tool
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, gun_drill
 from mnclab.machining.steps import Go, Say, Step, Wait, Write
-from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 
 TO: dict[float, str] = {0: "to the depth H", 1: "to the diameter D"}
 ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: "stopped (M5)"}
 ONE_PASS = {"default": None, "default_means": "one pass"}
+NO_LIMIT = {"default": None, "default_means": "no limit", "note": "needed where K is greater than 0"}
 TURNING = {3: 1, 4: -1, 5: 0}
 
 
@@ -37,15 +36,12 @@ class Drilling(PreparedCycle):
     dwell_bottom: float = addresses.dwell_bottom()
 
     def levels(self) -> tuple[float, ...]:
-        """Infeeds count from the surface."""
         return infeeds(self.surface, self.surface + self.depth, self.infeed)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """No more infeeds than a hole can have."""
-        yield from too_many("infeed", self.levels)
+        return too_many("infeed", self.levels)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 7 of the manual."""
         work = drill(
             self.levels(), above=self.level, feed=self.feed, reenter=self.clearance,
             dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,
@@ -61,9 +57,7 @@ class UniversalDrilling(PreparedCycle):
     depth: float = addresses.depth()
     infeed: float | None = addresses.distance("P", "depth of the first infeed", 6, **ONE_PASS)
     surface: float = addresses.surface()
-    min_infeed: float | None = addresses.distance(
-        "M", "least infeed", 2, default=None, default_means="no limit", note="needed where K is greater than 0"
-    )
+    min_infeed: float | None = addresses.distance("M", "least infeed", 2, **NO_LIMIT)
     feed: float | None = addresses.feed("drilling feed")
     retract_feed: float | None = addresses.other_feed("V", "feed out of the hole", 400)
     dwell_top: float = addresses.dwell_top()
@@ -78,27 +72,22 @@ class UniversalDrilling(PreparedCycle):
     )
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """M99 in this block is a least infeed, which somebody may not have meant."""
         if values.get("min_infeed") == 99:
             m.warn(f"{cls.code} M99 is a least infeed of 99 mm, no cycle call", given["min_infeed"])
         return values
 
     def levels(self) -> tuple[float, ...]:
-        """Infeeds count from the surface."""
         bottom = self.surface + self.depth
         return infeeds(self.surface, bottom, self.infeed, self.decrement, self.min_infeed or 0.0)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """A decrement has a least infeed; no more infeeds than a hole can have."""
         if self.decrement and self.min_infeed is None:
             yield "decrement", f"{self.decrement:g} needs M, the least infeed"
         yield from too_many("infeed", self.levels)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 6 of the manual."""
         out = self.retract_feed or self.feed
         work = drill(
             self.levels(), above=self.level, feed=self.feed, reenter=self.clearance, withdraw=out,
@@ -127,7 +116,6 @@ class Centring(PreparedCycle):
     dwell_bottom: float = addresses.dwell_bottom()
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """What L chooses is given, and negative."""
         name, value = ("diameter", self.diameter) if self.mode else ("depth", self.depth)
         if value is None:
             yield name, f"is missing: L is {self.mode:g}"
@@ -135,7 +123,6 @@ class Centring(PreparedCycle):
             yield name, f"must be less than 0, got {value:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """A diameter needs a point angle."""
         if self.mode and not 0 < m.tool.angle < 180:
             yield "mode", f"1 needs the point angle of tool {m.tool.number} in the tool table"
         if self.mode and not is_round(m):
@@ -182,13 +169,11 @@ class GunDrilling(PreparedCycle):
     dwell_depth: float = addresses.allowance("K", "depth of a dwell on the way", 10, note="0: none")
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """The dwell and the start point lie above the bottom."""
         for name in ("dwell_depth", "start_depth"):
             if (value := getattr(self, name)) >= -self.depth:
                 yield name, f"must be less than the depth {-self.depth:g}, got {value:g}"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """There is a speed to drill with."""
         if not self.speed(m):
             yield "drilling_speed", "is missing, and no spindle speed was programmed before"
 
@@ -198,7 +183,6 @@ class GunDrilling(PreparedCycle):
         return self.drilling_speed or (drilled if m.speed == left else m.speed)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 5 of the manual."""
         speed = self.speed(m)
         entry = speed if self.entry_speed is None else self.entry_speed
         work = gun_drill(

@@ -6,28 +6,23 @@ bottom.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import partial
 from typing import Any, ClassVar
 
 from mnclab.controls.word_address import holes
-from mnclab.machine.cycle import Cycle, CycleTable, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS, depth_scale
 from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, ream
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Step
-from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 
 POSITION = "X Y U V Z W R"
 PAIRS = (("x", "x_increment"), ("y", "y_increment"), ("bottom", "depth_from_r"))
-
-
-# --- addresses -----------------------------------------------------------------------------------------------------------
 
 
 def increment(address: str, axis: str, example: float) -> Any:
@@ -42,22 +37,13 @@ depth_from_r = partial(
 dwell = partial(param, "P", "dwell at the bottom", "s", default=0, at_least=0, example=0.5)
 
 
-# --- cycles --------------------------------------------------------------------------------------------------------------
+class FixedCycle(holes.AtHole, Cycle):
+    """A cycle at a hole whose levels may be increments."""
 
-
-class FixedCycle(Cycle, ABC):
-    """A cycle at a hole; each declares the parameters named here, and says in `work` what happens below level R."""
-
-    x: float | None
-    y: float | None
-    bottom: float
-    r_level: float
     peck_depth: float | None = None
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """Levels are worked out when they are programmed: bottom and r_level become coordinates, x and y the hole."""
         for one, other in PAIRS:
             if one in given and other in given:
@@ -88,29 +74,11 @@ class FixedCycle(Cycle, ABC):
         return values
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """The bottom lies below level R; no more pecks than a hole can have."""
-        yield from holes.upside_down(self.bottom, self.r_level)
+        yield from super().contradictions()
         yield from too_many("peck_depth", self.levels)
 
     def levels(self) -> tuple[float, ...]:
-        """Pecks count from level R."""
         return infeeds(self.r_level, self.bottom, self.peck_depth)
-
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """No radius compensation, no machine coordinates."""
-        yield from holes.out_of_place(m)
-
-    def about(self, m: Machine) -> tuple[float, float]:
-        """The hole."""
-        return holes.axis_of(m, self.x, self.y)
-
-    def moves(self, m: Machine) -> Iterator[Step]:
-        """Over the hole, level R, the work, and up."""
-        return holes.at_hole(m, self.x, self.y, self.r_level, self.work(m))
-
-    @abstractmethod
-    def work(self, m: Machine) -> Iterator[Step]:
-        """The steps from level R and back to it."""
 
 
 @CYCLES("G83", "Deep-hole drilling", runs="position", source="MNC 9.1", triggers=POSITION)
@@ -131,9 +99,7 @@ class DeepHoleDrilling(FixedCycle):
     feed: float | None = holes.feed()
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """The first hole without K after one with K is remarked on: K is not modal."""
         if "peck_depth" not in given and kept.get("pecked"):
             fault = "G83 K (depth of one peck) is not modal: this hole is drilled in one pass"
@@ -152,6 +118,7 @@ class Tapping(FixedCycle):
     """Taps at each position with the spindle as it turns, reversed at the bottom and again at level R, until G80."""
 
     does: ClassVar[str] = TAPS
+    needs = (holes.no_pitch,)
 
     x: float | None = holes.position("X", 20)
     x_increment: float | None = increment("U", "X", 15)
@@ -162,11 +129,6 @@ class Tapping(FixedCycle):
     r_level: float = holes.r_level()
     dwell: float = dwell()
     feed: float | None = holes.feed()
-
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As all fixed cycles; and there is a pitch."""
-        yield from super().check(m)
-        yield from holes.no_pitch(m)
 
     def work(self, m: Machine) -> Iterator[Step]:
         """The cycle runs at a feed per revolution; F in mm/min is divided by the speed."""
@@ -189,5 +151,4 @@ class Reaming(FixedCycle):
     feed: float | None = holes.feed()
 
     def work(self, m: Machine) -> Iterator[Step]:
-        """In at feed, dwell, out at feed."""
         return ream(self.bottom, above=self.r_level, feed=None, retract=None, dwell=self.dwell)

@@ -38,7 +38,6 @@ class MillingCycle(Cycle):
     feed: float | None
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Tool, feed, compensation; and no machine coordinates."""
         yield from out_of_place(m)
         if m.radius <= 0:
             yield "", f"needs a tool with a radius, got {m.radius:g}"
@@ -59,12 +58,11 @@ class LineMilling(MillingCycle):
         "K", "number of lines", "count", type="integer", at_least=0, example=6, note="0 mills nothing"
     )
     plunge_feed: float = addresses.own_feed("V", "feed down to the height", 150)
-    feed: float | None = addresses.feed("milling feed", 500)
+    feed: float | None = addresses.feed("milling feed", example=500)
     stepover_feed: float | None = addresses.other_feed("T", "feed to the next line", 250)
-    clearance: float = addresses.clearance("clearance above the milling height")
+    clearance: float = addresses.clearance(meaning="clearance above the milling height")
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """Not more lines than somebody would wait for."""
         if self.passes > MOST:
             yield "passes", f"must be at most {MOST}, got {self.passes:g}"
 
@@ -76,7 +74,6 @@ class LineMilling(MillingCycle):
         return tuple(first + (last - first) * k / (count - 1) for k in range(count))
 
     def remarks(self, radius: float) -> Iterator[str]:
-        """What somebody may not have meant."""
         width, count = self.length_y, int(self.passes)
         if not count:
             yield "K (number of lines) is 0: nothing is milled"
@@ -86,7 +83,6 @@ class LineMilling(MillingCycle):
             yield f"K{count} lines leave strips uncut: they lie {step:g} mm apart, the tool is {2 * radius:g} mm wide"
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """The start corner is absolute."""
         return ORIGIN
 
     def moves(self, m: Machine) -> Iterator[Step]:
@@ -114,17 +110,16 @@ class FaceMilling(MillingCycle):
     level_to: float = addresses.coordinate("W", "height down to which to mill", -5)
     length_x: float = addresses.side("A", "length along X", 60)
     length_y: float = addresses.side("B", "length along Y", 40)
-    clearance: float = addresses.clearance("clearance above the milling height")
+    clearance: float = addresses.clearance(meaning="clearance above the milling height")
     max_infeed: float = addresses.distance("P", "greatest infeed", 2)
     overlap: float = addresses.overlap(1.999, 1.5)
-    feed: float | None = addresses.feed("milling feed", 500)
+    feed: float | None = addresses.feed("milling feed", example=500)
     positioning_feed: float = addresses.own_feed("V", "positioning feed", 2000)
     side_clearance: float = addresses.distance("I", "clearance at the side", 3)
     allowance: float = addresses.allowance("U", "finishing allowance", 0.5, note="the last infeed")
     finish_feed: float | None = addresses.other_feed("T", "finishing feed", 800)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """Downwards, and not all of it is allowance."""
         height = self.level_from - self.level_to
         if height < 0:
             yield "level_to", f"must not lie above Z, got W {self.level_to:g} and Z {self.level_from:g}"
@@ -133,7 +128,6 @@ class FaceMilling(MillingCycle):
         yield from too_many("max_infeed", self.levels)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """As all milling cycles; and not too many lines."""
         yield from super().check(m)
         yield from too_many("overlap", lambda: self.across(m.radius))
         yield from few_passes("max_infeed", len(self.levels()), len(self.across(m.radius)))
@@ -181,11 +175,9 @@ class FaceMilling(MillingCycle):
             yield Layer("finishing" if finishing else name, level, passes, feed, link, down)
 
     def about(self, m: Machine) -> tuple[float, float]:
-        """The start corner is absolute."""
         return ORIGIN
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 9 of the manual."""
         if not self.levels():
             yield Say("Z and W are the same height: nothing is milled")
             return

@@ -30,119 +30,18 @@ STRAIGHT_OR_HELIX: dict[float, str] = {0: "vertical", 1: "helical"}
 PLUNGE = STRAIGHT_OR_HELIX | {2: "reciprocating"}
 ENTRIES = ("vertical", "helix", "ramp")
 
-# --- addresses of both ---------------------------------------------------------------------------------------------------
-
 scope = partial(addresses.choice, "M", "scope of work", SCOPE, 0, default=0)
-depth = partial(addresses.depth, "depth from the surface to the floor", -10)
+depth = partial(addresses.depth, meaning="depth from the surface to the floor", example=-10)
 infeed = partial(addresses.distance, "P", "infeed of each layer", 4)
-side_allowance = partial(addresses.allowance, "U", "allowance of the walls", 0.5, "0: the walls are not finished")
-floor_allowance = partial(addresses.allowance, "W", "allowance of the floor", 0.5, "0: the floor is not finished")
-finish_infeed = partial(addresses.allowance, "I", "infeed when finishing the walls", 5, "0: one infeed")
+side_allowance = partial(addresses.allowance, "U", "allowance of the walls", 0.5, note="0: the walls are not finished")
+floor_allowance = partial(addresses.allowance, "W", "allowance of the floor", 0.5, note="0: the floor is not finished")
+finish_infeed = partial(addresses.allowance, "I", "infeed when finishing the walls", 5, note="0: one infeed")
 overlap = partial(addresses.overlap, 1.4, 1)
 plunge = partial(addresses.choice, "J", "plunge strategy", example=1, default=0)
-feed = partial(addresses.feed, "milling feed", 500)
+feed = partial(addresses.feed, "milling feed", example=500)
 plunge_feed = partial(addresses.own_feed, "V", "feed of the plunge", 150)
 milling_mode = partial(addresses.choice, "L", "kind of milling with M3", MODE, 1, default=1)
 finish_feed = partial(addresses.other_feed, "T", "finishing feed", 300)
-
-# --- cycles --------------------------------------------------------------------------------------------------------------
-
-
-@CYCLES("G343", "Rectangular pocket", runs="definition", source="MNC 10.3")
-class RectangularPocket(MillingCycle):
-    """Mills a rectangular pocket about the place of the tool: roughing, walls, floor."""
-
-    scope: float = scope()
-    length_x: float = addresses.side("A", "pocket length along X", 60)
-    length_y: float = addresses.side("B", "pocket length along Y", 40)
-    corner_radius: float = param(
-        "R", "corner radius", default=0, at_least=0, example=8, note="at least the tool radius is taken"
-    )
-    rotation: float = addresses.angle("E", "angle of the pocket", 15)
-    surface: float = addresses.surface()
-    depth: float = depth()
-    infeed: float = infeed()
-    clearance: float = addresses.clearance()
-    side_allowance: float = side_allowance()
-    floor_allowance: float = floor_allowance()
-    finish_infeed: float = finish_infeed()
-    overlap: float = overlap()
-    plunge: float = plunge(choices=PLUNGE, note="1 and 2 need the plunge angle of the tool")
-    feed: float | None = feed()
-    plunge_feed: float = plunge_feed()
-    milling_mode: float = milling_mode()
-    finish_feed: float | None = finish_feed()
-
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        """As all pockets; and the corners fit."""
-        yield from too_deep(self)
-        half = min(self.length_x, self.length_y) / 2
-        if self.corner_radius > half:
-            yield "corner_radius", f"must be at most half the shorter side, {half:g}, got {self.corner_radius:g}"
-
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """Both sides exceed tool and allowances (MNC-G343-AB0); as all pockets."""
-        yield from super().check(m)
-        least = 2 * (m.radius + self.side_allowance)
-        for name, length in (("length_x", self.length_x), ("length_y", self.length_y)):
-            if length <= least:
-                yield name, f"must be greater than the tool diameter and twice U, {least:g}, got {length:g}"
-        yield from faults(self, m)
-
-    def shape(self, radius: float) -> Pocket:
-        """Rectangles from the centre outwards, each begun where the longer axis leaves it; that is X where both are the same."""
-        return rectangular(
-            self.length_x, self.length_y, radius, self.overlap * radius, corner=self.corner_radius, climb=climb(self),
-            angle=math.radians(self.rotation),
-        )  # fmt: skip
-
-    def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 8 of the manual."""
-        return mill(self, m)
-
-
-@CYCLES("G344", "Circular pocket", runs="definition", source="MNC 10.4")
-class CircularPocket(MillingCycle):
-    """Mills a circular pocket about the place of the tool: roughing, walls, floor."""
-
-    scope: float = scope()
-    diameter: float = param("D", "diameter of the finished pocket", above=0, example=50)
-    surface: float = addresses.surface()
-    depth: float = depth()
-    infeed: float = infeed()
-    clearance: float = addresses.clearance()
-    side_allowance: float = side_allowance()
-    floor_allowance: float = floor_allowance()
-    finish_infeed: float = finish_infeed()
-    overlap: float = overlap()
-    plunge: float = plunge(choices=STRAIGHT_OR_HELIX, note="1 needs the plunge angle of the tool")
-    feed: float | None = feed()
-    plunge_feed: float = plunge_feed()
-    milling_mode: float = milling_mode()
-    finish_feed: float | None = finish_feed()
-
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        """As all pockets."""
-        yield from too_deep(self)
-
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """The tool and its allowance fit; as all pockets."""
-        yield from super().check(m)
-        if self.diameter < (least := 2 * (m.radius + self.side_allowance)):
-            yield "diameter", f"must be at least the tool diameter and twice U, {least:g}, got {self.diameter:g}"
-        yield from faults(self, m)
-
-    def shape(self, radius: float) -> Pocket:
-        """Circles from the centre outwards; none where the tool fills the pocket."""
-        shape = circular(self.diameter, radius, self.overlap * radius, climb=climb(self))
-        return shape._replace(arcs=quarter_circles)
-
-    def moves(self, m: Machine) -> Iterator[Step]:
-        """Steps 1 to 8 of the manual."""
-        return mill(self, m)
-
-
-AnyPocket = RectangularPocket | CircularPocket
 
 
 def climb(pocket: AnyPocket) -> bool:
@@ -225,3 +124,90 @@ def mill(pocket: AnyPocket, m: Machine) -> Iterator[Step]:
     down, off = way_in(pocket, m), min(pocket.side_allowance + pocket.clearance, shape.room(0.0).half_width)
     yield from mill_pocket(shape, todo, down, down, over_walls=todo.above, off_floor=off)
     yield Go("to the start point", end)
+
+
+@CYCLES("G343", "Rectangular pocket", runs="definition", source="MNC 10.3")
+class RectangularPocket(MillingCycle):
+    """Mills a rectangular pocket about the place of the tool: roughing, walls, floor."""
+
+    scope: float = scope()
+    length_x: float = addresses.side("A", "pocket length along X", 60)
+    length_y: float = addresses.side("B", "pocket length along Y", 40)
+    corner_radius: float = param(
+        "R", "corner radius", default=0, at_least=0, example=8, note="at least the tool radius is taken"
+    )
+    rotation: float = addresses.angle("E", "angle of the pocket", 15)
+    surface: float = addresses.surface()
+    depth: float = depth()
+    infeed: float = infeed()
+    clearance: float = addresses.clearance()
+    side_allowance: float = side_allowance()
+    floor_allowance: float = floor_allowance()
+    finish_infeed: float = finish_infeed()
+    overlap: float = overlap()
+    plunge: float = plunge(choices=PLUNGE, note="1 and 2 need the plunge angle of the tool")
+    feed: float | None = feed()
+    plunge_feed: float = plunge_feed()
+    milling_mode: float = milling_mode()
+    finish_feed: float | None = finish_feed()
+
+    moves = mill
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        yield from too_deep(self)
+        half = min(self.length_x, self.length_y) / 2
+        if self.corner_radius > half:
+            yield "corner_radius", f"must be at most half the shorter side, {half:g}, got {self.corner_radius:g}"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        """Both sides exceed tool and allowances (MNC-G343-AB0); as all pockets."""
+        yield from super().check(m)
+        least = 2 * (m.radius + self.side_allowance)
+        for name, length in (("length_x", self.length_x), ("length_y", self.length_y)):
+            if length <= least:
+                yield name, f"must be greater than the tool diameter and twice U, {least:g}, got {length:g}"
+        yield from faults(self, m)
+
+    def shape(self, radius: float) -> Pocket:
+        """Rectangles from the centre outwards, each begun where the longer axis leaves it; that is X where both are the same."""
+        return rectangular(
+            self.length_x, self.length_y, radius, self.overlap * radius, corner=self.corner_radius, climb=climb(self),
+            angle=math.radians(self.rotation),
+        )  # fmt: skip
+
+
+@CYCLES("G344", "Circular pocket", runs="definition", source="MNC 10.4")
+class CircularPocket(MillingCycle):
+    """Mills a circular pocket about the place of the tool: roughing, walls, floor."""
+
+    scope: float = scope()
+    diameter: float = param("D", "diameter of the finished pocket", above=0, example=50)
+    surface: float = addresses.surface()
+    depth: float = depth()
+    infeed: float = infeed()
+    clearance: float = addresses.clearance()
+    side_allowance: float = side_allowance()
+    floor_allowance: float = floor_allowance()
+    finish_infeed: float = finish_infeed()
+    overlap: float = overlap()
+    plunge: float = plunge(choices=STRAIGHT_OR_HELIX, note="1 needs the plunge angle of the tool")
+    feed: float | None = feed()
+    plunge_feed: float = plunge_feed()
+    milling_mode: float = milling_mode()
+    finish_feed: float | None = finish_feed()
+
+    contradictions, moves = too_deep, mill
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        yield from super().check(m)
+        if self.diameter < (least := 2 * (m.radius + self.side_allowance)):
+            yield "diameter", f"must be at least the tool diameter and twice U, {least:g}, got {self.diameter:g}"
+        yield from faults(self, m)
+
+    def shape(self, radius: float) -> Pocket:
+        """Circles from the centre outwards; none where the tool fills the pocket."""
+        shape = circular(self.diameter, radius, self.overlap * radius, climb=climb(self))
+        return shape._replace(arcs=quarter_circles)
+
+
+AnyPocket = RectangularPocket | CircularPocket

@@ -27,17 +27,15 @@ class RigidTapping(PreparedCycle):
     does: ClassVar[str] = TAPS
 
     clearance: float = addresses.clearance()
-    depth: float = addresses.depth("depth of the thread from the surface")
+    depth: float = addresses.depth(meaning="depth of the thread from the surface")
     pitch: float = param("P", "pitch", "mm/rev", note="positive right-hand, negative left-hand", example=1.25)
     surface: float = addresses.surface()
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
-        """There is a pitch."""
         if self.pitch == 0:
             yield "pitch", "must not be 0"
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
-        """There is a speed."""
         if not m.speed:
             yield "", "needs a spindle speed: write S before"
 

@@ -12,7 +12,8 @@ import math
 
 import numpy as np
 
-from mnclab.controls.tnc_620.language.motion import SIDES, coordinates, feed, heading, refuse_rapid, scaled, side
+from mnclab.controls.tnc_620.language.checks import above_zero
+from mnclab.controls.tnc_620.language.motion import SIDED, SIDES, coordinates, feed, heading, refuse_rapid, scaled, side
 from mnclab.controls.tnc_620.language.pole import polar_point
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
@@ -21,18 +22,13 @@ from mnclab.path.kinds import Kind
 from mnclab.path.leads import Lead, way
 
 FUNCTIONS = FunctionTable()
-END = " R0 RL RR F FMAX FAUTO"
 
 
 def positive(m: Machine, words: Words, address: str, meaning: str, most: float = INF) -> float:
     """A length or an angle of the form, as written."""
     if address not in words:
-        m.alarm(f"{words.code} needs {address} ({meaning})", None)
-    value = m.value(words[address])
-    if not 0 < value <= most:
-        limit = f" and at most {most:g}" if most < INF else ""
-        m.alarm(f"{words.code} {address} ({meaning}) must be greater than 0{limit}, got {value:g}", words[address])
-    return value
+        m.alarm(f"{words.code} needs {address} ({meaning})")
+    return above_zero(m, words[address], f"{words.code} {address} ({meaning})", most)
 
 
 def form(words: Words) -> str:
@@ -49,29 +45,26 @@ def shape(m: Machine, words: Words) -> Lead:
         return lead._replace(radius=scaled(m, positive(m, words, "R", "radius of the arc")))
     angle = math.radians(positive(m, words, "CCA", "centre angle of the arc", 360))
     if "R" not in words:
-        m.alarm(f"{words.code} needs R (radius of the arc)", None)
+        m.alarm(f"{words.code} needs R (radius of the arc)")
     radius = m.value(words["R"])
     if radius == 0:
         m.alarm(f"{words.code} R (radius of the arc) must not be 0", words["R"])
     return lead._replace(radius=scaled(m, radius), angle=angle)
 
 
-# --- approach ---------------------------------------------------------------------------------------------------------
-
-
-@FUNCTIONS("APPR LT,", "Approach on a tangent line", takes="X Y Z LEN" + END, source="8.12")
-@FUNCTIONS("APPR LN,", "Approach on a line square to the contour", takes="X Y Z LEN" + END, source="8.12")
-@FUNCTIONS("APPR CT,", "Approach on a tangent arc", takes="X Y Z CCA R" + END, source="8.12")
-@FUNCTIONS("APPR LCT,", "Approach on a line and a tangent arc", takes="X Y Z R" + END, source="8.12")
-@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes="PR PA Z LEN" + END, source="8.12")
-@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes="PR PA Z LEN" + END, source="8.12")
-@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes="PR PA Z CCA R" + END, source="8.12")
-@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes="PR PA Z R" + END, source="8.12")
+@FUNCTIONS("APPR LT,", "Approach on a tangent line", takes=f"X Y Z LEN {SIDED}", source="8.12")
+@FUNCTIONS("APPR LN,", "Approach on a line square to the contour", takes=f"X Y Z LEN {SIDED}", source="8.12")
+@FUNCTIONS("APPR CT,", "Approach on a tangent arc", takes=f"X Y Z CCA R {SIDED}", source="8.12")
+@FUNCTIONS("APPR LCT,", "Approach on a line and a tangent arc", takes=f"X Y Z R {SIDED}", source="8.12")
+@FUNCTIONS("APPR PLT,", "Approach on a tangent line, polar", takes=f"PR PA Z LEN {SIDED}", source="8.12")
+@FUNCTIONS("APPR PLN,", "Approach on a square line, polar", takes=f"PR PA Z LEN {SIDED}", source="8.12")
+@FUNCTIONS("APPR PCT,", "Approach on a tangent arc, polar", takes=f"PR PA Z CCA R {SIDED}", source="8.12")
+@FUNCTIONS("APPR PLCT,", "Approach on a line and a tangent arc, polar", takes=f"PR PA Z R {SIDED}", source="8.12")
 def approach(m: Machine, words: Words) -> None:
     """To the first contour point, compensated from there on; the line to the auxiliary point keeps the feed before."""
     refuse_rapid(m, words)
     before = lead_feed(m)
-    f, to = feed(m, words), first_point(m, words)
+    f, to = feed(m, words), point(m, words, "the first contour point")
     begin_side(m, words)
     lead = shape(m, words)
     lead = lead._replace(feed=m.feed_of(f) if lead.form == "LCT" else before)
@@ -80,51 +73,46 @@ def approach(m: Machine, words: Words) -> None:
 
 def lead_feed(m: Machine) -> float:
     """The feed of the line to the auxiliary point: rapid if the block before was, else the feed as it was."""
-    last = m.recorder.last()
-    kind = last[0] if last else None
-    for path in () if last else reversed(m.settled):
-        if len(motion := path.kind[path.is_motion]):
-            kind = motion[-1]
-            break
+    if last := m.recorder.last():
+        kind = last[0]
+    else:
+        settled = (path.kind[path.is_motion] for path in reversed(m.settled))
+        kind = next((motion[-1] for motion in settled if len(motion)), None)
     return INF if kind == Kind.RAPID else m.feed_of(None)
 
 
-def first_point(m: Machine, words: Words) -> dict[str, float]:
-    """The first contour point, and the depth if there is one."""
+def point(m: Machine, words: Words, meaning: str) -> dict[str, float]:
+    """Where an approach ends, or a departure of the form LCT; z where it is written."""
     to = coordinates(m, words)
     if words.code.split()[1].startswith("P"):
         to["x"], to["y"] = polar_point(m, words)
     elif "x" not in to or "y" not in to:
-        m.alarm(f"{words.code} needs X and Y of the first contour point", None)
+        m.alarm(f"{words.code} needs X and Y of {meaning}")
     return to
 
 
 def begin_side(m: Machine, words: Words) -> None:
     """RL or RR; R0 where the form needs no side. What was compensated before ends where the tool stands."""
     given = [words[name] for name in SIDES if name in words]
-    code = words.code
     if not given and not m.side:
-        m.alarm(f"{code} needs RL or RR", None, hint="the side on which the tool runs beside the contour")
+        m.alarm(f"{words.code} needs RL or RR", hint="the side on which the tool runs beside the contour")
     if form(words) in ("LN", "CT") and given and given[0].address == "R0":
-        m.alarm(f"{code} needs RL or RR: without a side it has no direction", given[0])
+        m.alarm(f"{words.code} needs RL or RR: without a side it has no direction", given[0])
     if m.side and not m.recorded_only:
         m.observe()
     side(m, words, begins=True)
 
 
-# --- departure --------------------------------------------------------------------------------------------------------
-
-
-@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN F FAUTO", source="8.10")
-@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN F FAUTO", source="8.10")
-@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R F FAUTO", source="8.10")
-@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R F FAUTO", source="8.10")
-@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R F FAUTO", source="8.10")
+@FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R F FAUTO FU FZ", source="8.10")
 def departure(m: Machine, words: Words) -> None:
     """From the last contour point; at its end the compensation is off, and the register is where the tool stands."""
     f, lead = feed(m, words), shape(m, words)._replace(departs=True)
     if form(words) in ("LN", "CT") and not m.side:
-        m.alarm(f"{words.code} needs radius compensation: without a side it has no direction", None)
+        m.alarm(f"{words.code} needs radius compensation: without a side it has no direction")
     travel = heading(m, words)
     if m.recorded_only:  # a recorded contour ends at its last point
         m.change("side", 0)
@@ -136,18 +124,13 @@ def departure(m: Machine, words: Words) -> None:
 
 def last_point(m: Machine, words: Words, lead: Lead, travel: tuple[float, float]) -> tuple[float, float, float]:
     """Where a departure ends: written for LCT, else where the form leads the tool that touches the contour."""
-    z = coordinates(m, words, "Z").get("z", m.programmed[2])
     if lead.form == "LCT":
-        if words.code == "DEP PLCT":
-            return *polar_point(m, words), z
-        to = coordinates(m, words, "XY")
-        if "x" not in to or "y" not in to:
-            m.alarm(f"{words.code} needs X and Y of its end", None)
-        return to["x"], to["y"], z
+        to = point(m, words, "its end")
+        return to["x"], to["y"], to.get("z", m.programmed[2])
     first, second, _ = PLANES[m.plane]
     here, along = np.array(m.tip), np.array(m.heading())
     normal = np.array([-along[second], along[first]]) * lead.side
     place, t = here[[first, second]] + m.radius * normal, along[[first, second]]
     here[[first, second]] = way(lead._replace(side=-lead.side), place, place, -t).by
     x, y, _ = m.to_program(here)
-    return x, y, z
+    return x, y, coordinates(m, words, "Z").get("z", m.programmed[2])

@@ -7,17 +7,18 @@ from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 
 FUNCTIONS = FunctionTable()
-ORIENTATION = "spindle angle"  # what Cycle 13 remembers, degrees
-HANDWHEEL = " ".join(f"M118:{axis}" for axis in "XYZABC")
-
 TURNING = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise"}
+COOLANT = {"M7": "Second coolant on", "M8": "Coolant on"}
 BOTH = {"M13": "Spindle on clockwise, coolant on", "M14": "Spindle on counter-clockwise, coolant on"}
 
 
-@FUNCTIONS("M3 M4", TURNING, group="spindle", phase="start", source="4.11, example")
+@FUNCTIONS("M3 M4 M13 M14", TURNING | BOTH, group="spindle", phase="start", source="4.11, example")
 def spindle_on(m: Machine, words: Words) -> None:
-    """Before the motion of the block, at the speed of TOOL CALL."""
-    m.spindle(turning=1 if words.code == "M3" else -1)
+    """Before the motion of the block, at the speed of TOOL CALL; M13 and M14 together with M8."""
+    m.spindle(turning=1 if words.code in ("M3", "M13") else -1)
+    if words.code in BOTH:
+        m.coolant()
+        m.set_modal("coolant", "M8")
 
 
 @FUNCTIONS("M5", "Spindle stop", group="spindle", phase="end", power_on="M5", source="12.9")
@@ -26,26 +27,11 @@ def spindle_off(m: Machine, words: Words) -> None:
     m.spindle(turning=0)
 
 
-@FUNCTIONS(
-    "M7 M8", {"M7": "Second coolant on", "M8": "Coolant on"}, group="coolant", phase="start", source="4.5"
-)  # fmt: skip
-def coolant_on(m: Machine, words: Words) -> None:
-    """Before the motion of the block; what M7 switches is up to the machine."""
-    m.coolant()
-
-
 @FUNCTIONS("M9", "Coolant off", group="coolant", phase="end", power_on="M9", source="4.4")
-def coolant_off(m: Machine, words: Words) -> None:
-    """After the motion of the block."""
+@FUNCTIONS("M7 M8", COOLANT, group="coolant", phase="start", source="4.5")
+def coolant(m: Machine, words: Words) -> None:
+    """On before the motion of the block, off after it; what M7 switches is up to the machine."""
     m.coolant()
-
-
-@FUNCTIONS("M13 M14", BOTH, group="spindle", phase="start", source="4.11, example")
-def spindle_and_coolant(m: Machine, words: Words) -> None:
-    """M3 or M4 together with M8."""
-    m.spindle(turning=1 if words.code == "M13" else -1)
-    m.coolant()
-    m.set_modal("coolant", "M8")
 
 
 @FUNCTIONS("M6", "Tool change", phase="end", modal=False, source="5.11, example")
@@ -65,7 +51,7 @@ def orient(m: Machine, words: Words) -> None:
     m.set_modal("spindle", "M5")
 
 
-@FUNCTIONS("M118", "Handwheel superimposition", takes=HANDWHEEL, source="1.2")
+@FUNCTIONS("M118", "Handwheel superimposition", takes="M118:X M118:Y M118:Z M118:A M118:B M118:C", source="1.2")
 def handwheel(m: Machine, words: Words) -> None:
     """Nothing moves: there is no handwheel whose steps could be added."""
     m.warn("M118 changes nothing here: there is no handwheel", words.words[0])

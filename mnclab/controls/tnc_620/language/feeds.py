@@ -1,4 +1,4 @@
-"""The feed of a block in all its forms: F, FMAX, FAUTO, FU, FZ (3.1; catalogue: F, TOOL CALL).
+"""The feed of a block in all its forms: F, FMAX, FAUTO, FU, FZ, and M103, M109 to M111 (3.1; catalogue: F, TOOL CALL, M103).
 
 FU is a feed per revolution and FZ one per tooth; both follow the speed of the spindle. Where a cycle is defined they
 become mm/min with the speed and the tool of that moment, as FAUTO does; FMAX stays a word.
@@ -6,32 +6,37 @@ become mm/min with the speed and the tool of that moment, as FAUTO does; FMAX st
 
 from __future__ import annotations
 
-from dataclasses import replace
+from typing import Any
 
+from mnclab.controls.tnc_620.language.checks import above_zero, one_of
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import INF, Machine
+from mnclab.path.feed_rules import FeedRule
 from mnclab.text.program import Word
 
-FORMS = ("F", "FMAX", "FAUTO", "FU", "FZ")
+FUNCTIONS = FunctionTable()
+FORMS = "F FMAX FAUTO FU FZ"
 MEANINGS = {"F": "feed rate", "FU": "feed per revolution", "FZ": "feed per tooth"}
+EDGES = {"M109": "everywhere", "M110": "inside", "M111": ""}
+TITLES = {
+    "M109": "Constant feed at the cutting edge on arcs", "M110": "Constant feed at the edge, reduction only",
+    "M111": "End of M109 and M110",
+}  # fmt: skip
 
 
 def feed(m: Machine, words: Words) -> float | None:
     """Set the feed of this and the following blocks; inf for FMAX, which counts in its block alone."""
-    given = [words[name] for name in FORMS if name in words]
-    if not given:
+    word = one_of(m, words, FORMS.split(), "one feed")
+    if word is None:
         return None
-    if len(given) > 1:
-        m.alarm(f"{given[0]} and {given[1]} stand in one block: one feed is allowed", given[1])
-    word = given[0]
     if word.address == "FMAX":
         return INF
     memory(m).feed_per_tooth = None
     if word.address == "FAUTO":
         set_feed(m, auto_feed(m, word))
         return None
-    value = positive(m, word)
+    value = above_zero(m, word, f"{word.address} ({MEANINGS[word.address]})")
     if word.address == "FZ":
         memory(m).feed_per_tooth = value
         value *= teeth(m, word)
@@ -45,16 +50,7 @@ def set_feed(m: Machine, value: float | None, per_rev: bool = False) -> None:
     m.change("feed", value)
 
 
-def positive(m: Machine, word: Word) -> float:
-    """The number of a feed."""
-    value = m.value(word)
-    if value <= 0:
-        m.alarm(f"{word.address} ({MEANINGS[word.address]}) must be greater than 0, got {value:g}", word)
-    return value
-
-
 def teeth(m: Machine, word: Word) -> int:
-    """Of the tool in the spindle."""
     if m.tool.teeth <= 0:
         m.alarm(f"{word} needs the number of teeth of tool {m.tool.number} (column CUT of the tool table)", word)
     return m.tool.teeth
@@ -67,7 +63,6 @@ def with_another_tool(m: Machine) -> None:
 
 
 def auto_feed(m: Machine, word: Word) -> float:
-    """The feed of the TOOL CALL block, mm/min."""
     value = memory(m).auto_feed
     if value is None:
         m.alarm("FAUTO needs a feed in the TOOL CALL block", word, hint="write TOOL CALL … F500")
@@ -89,9 +84,24 @@ def named(m: Machine, word: Word) -> float | str:
     return value * m.speed * (teeth(m, word) if per == "FZ" else 1)
 
 
-def in_all_forms(functions: FunctionTable) -> FunctionTable:
-    """Functions that take FAUTO take FU and FZ as well."""
-    return FunctionTable({
-        code: replace(found, takes=(*found.takes, "FU", "FZ")) if "FAUTO" in found.takes else found
-        for code, found in functions.items()
-    })  # fmt: skip
+def from_here(m: Machine, **changed: Any) -> None:
+    """Another rule from this block on, in a new list: a recorded label leaves the old one."""
+    last = m.feed_rules[-1] if m.feed_rules else FeedRule(0)
+    m.feed_rules = [*m.feed_rules, last._replace(step=m.step, **changed)]
+
+
+@FUNCTIONS("M103", "Feed factor of plunging moves", takes="M103:F", phase="start", source="3.4")
+def plunging(m: Machine, words: Words) -> None:
+    """M103 F20: no faster downwards than 20 % of the feed, from this block on; without F the feed is as programmed."""
+    share = 100.0
+    if (word := words.get("M103:F")) is not None:
+        if word.value is None:
+            m.alarm("M103 F needs a number", word, hint="for example M103 F20: 20 percent")
+        share = above_zero(m, word, "M103 F (percent of the feed downwards)")
+    from_here(m, plunging=share / 100)
+
+
+@FUNCTIONS("M109 M110 M111", TITLES, group="edge feed", phase="start", power_on="M111", source="8.6")
+def edge_feed(m: Machine, words: Words) -> None:
+    """From this block on the feed of compensated arcs counts at the edge (M110: only where that is slower), or at the centre."""
+    from_here(m, edge=EDGES[words.code])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import operator
 
 from mnclab.controls.tnc_620.language.parameters import PREASSIGNED, text
 from mnclab.controls.tnc_620.state import memory
@@ -39,24 +39,17 @@ def call_label(m: Machine, words: Words) -> None:
         return
     first, here = m.flow.index_of(name, m.span_of(word)), m.flow.current
     if first >= here:
-        m.alarm(
-            f"CALL LBL {name} REP: the section must begin before this block", word, hint="REP repeats what stands above"
-        )
+        m.alarm(f"CALL LBL {name} REP: the section must begin before this block", word, "REP repeats what stands above")
     m.flow.repeat(m, first, here, int(m.value(words["REP"])), m.span_of(word))
 
 
-CONDITIONS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
-    "FN 9": ("Jump if equal", lambda one, other: one == other),
-    "FN 10": ("Jump if not equal", lambda one, other: one != other),
-    "FN 11": ("Jump if greater", lambda one, other: one > other),
-    "FN 12": ("Jump if less", lambda one, other: one < other),
-}
+CONDITIONS = {"FN 9": operator.eq, "FN 10": operator.ne, "FN 11": operator.gt, "FN 12": operator.lt}
+JUMPS = {
+    "FN 9": "Jump if equal", "FN 10": "Jump if not equal", "FN 11": "Jump if greater", "FN 12": "Jump if less",
+}  # fmt: skip
 
 
-@FUNCTIONS(
-    ", ".join(CONDITIONS), {code: title for code, (title, _) in CONDITIONS.items()},
-    takes="first second parameter state label", source="Klartext, not described",
-)  # fmt: skip
+@FUNCTIONS(", ".join(JUMPS), JUMPS, takes="first second parameter state label", source="Klartext, not described")
 def jump(m: Machine, words: Words) -> None:
     """Goes on at a label if the condition holds; numbers are equal when they are exactly so."""
     word = words["label"]
@@ -69,7 +62,7 @@ def jump(m: Machine, words: Words) -> None:
         first, second = words["first"], words["second"]
         one, other = m.value(first), m.value(second)
         m.flow.compare(first.value, second.value, one - other)
-        holds = CONDITIONS[words.code][1](one, other)
+        holds = CONDITIONS[words.code](one, other)
     name = label_name(m, word)
     if name == "0":
         m.alarm(f"{words.code} GOTO LBL 0: LBL 0 is the end of a subprogram and no place to go to", word)
@@ -78,7 +71,7 @@ def jump(m: Machine, words: Words) -> None:
         m.flow.jump(m, name, m.span_of(word))
 
 
-def call_program(m: Machine, name: str, what: str, word: Word | None) -> None:
+def call_program(m: Machine, name: str, what: str, word: Word | None = None) -> None:
     """Run another program here, with its own QL parameters; `what` is the statement that calls it."""
     place = m.span_of(word)
     index = files.called(m, name, what, place)
@@ -110,5 +103,5 @@ def call_selected(m: Machine, words: Words) -> None:
     """Runs the program that SEL PGM has chosen."""
     name = memory(m).selected_program
     if name is None:
-        m.alarm("CALL SELECTED PGM: no program was chosen", None, hint='write SEL PGM "NAME" before it')
-    call_program(m, name, "CALL SELECTED PGM", None)
+        m.alarm("CALL SELECTED PGM: no program was chosen", hint='write SEL PGM "NAME" before it')
+    call_program(m, name, "CALL SELECTED PGM")

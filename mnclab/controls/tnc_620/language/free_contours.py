@@ -16,24 +16,26 @@ from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
+from mnclab.controls.tnc_620.language.checks import counted, first
 from mnclab.controls.tnc_620.language.free_words import describe
-from mnclab.controls.tnc_620.language.motion import TOLERANCE, feed, refuse_rapid, side
+from mnclab.controls.tnc_620.language.motion import SIDED, TOLERANCE, feed, refuse_rapid, side
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import free_choice
-from mnclab.geometry.free_contour import FreeContour, Pair, Piece, known
+from mnclab.geometry.free_contour import Element, FreeContour, Pair, Piece, known
 from mnclab.geometry.newton import Exhausted
 from mnclab.geometry.quadratic_form import Form
 from mnclab.geometry.readings import Contradiction, TooManyReadings
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
-from mnclab.machine.waiting import Moment, as_of, moment
+from mnclab.machine.waiting import Reading, as_of, reading
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 
-BOTH = "X Y PR PA LEN AN P1X P1Y P2X P2Y PDX PDY D CLSD RX RY RPR RPA RAN R0 RL RR F FMAX FAUTO"
+BOTH = f"X Y PR PA LEN AN P1X P1Y P2X P2Y PDX PDY D CLSD RX RY RPR RPA RAN {SIDED}"
 LINE = f"{BOTH} PAR DP"
 ARC = f"{BOTH} P3X P3Y R DR CCA CCX CCY CCPR CCPA RCCX RCCY RCCPR RCCPA"
+LINES = {"FL": "Free line", "FLT": "Free tangential line"}
 MOST_COMPARED = 2000  # elements in all solutions, when those that do not cross themselves are sought
 
 
@@ -50,7 +52,7 @@ class Block(NamedTuple):
 
     number: str
     code: str
-    moment: Moment
+    moment: Reading
     feed: float
     joints: list[Any]
 
@@ -61,30 +63,26 @@ class Chain:
     def __init__(self, m: Machine) -> None:
         x, y, self.z = m.programmed
         if math.isnan(x) or math.isnan(y):
-            m.alarm("a free contour needs a point to begin from", None, hint="write L X… Y… before it")
+            m.alarm("a free contour needs a point to begin from", hint="write L X… Y… before it")
         self.start = (x, y)
         self.contour = FreeContour(self.start, _heading(m))
         self.blocks: list[Block] = []
         self.chosen = False
         self.closed = False
 
-    # --- while it waits -------------------------------------------------------------------------------------------------
-
     def mark(self, joint: Any) -> bool:
-        """A rounding or chamfer after the last element."""
         if self.blocks[-1].joints:
             return False
         self.blocks[-1].joints.append(joint)
         return True
 
     def add(self, m: Machine, words: Words, f: float) -> None:
-        """One more element."""
         tangent, arc = words.code in ("FLT", "FCT"), words.code in ("FC", "FCT")
         if tangent and not self.blocks and self.contour.arriving is None:
-            m.alarm(f"{words.code} needs a path element in the working plane directly before it", None)
+            m.alarm(f"{words.code} needs a path element in the working plane directly before it")
         number = str(m.flow.program[m.flow.current].number)
         k = self.contour.arc(tangent, words.code) if arc else self.contour.line(tangent, words.code)
-        self.blocks.append(Block(number, words.code, moment(m), f, []))
+        self.blocks.append(Block(number, words.code, reading(m), f, []))
         describe(self, m, words, k)
         self.follow(m)
 
@@ -97,17 +95,14 @@ class Chain:
         except (TooManyReadings, Exhausted) as error:
             if isinstance(error, Exhausted):
                 self.refuse_open(m)
-            m.alarm(
-                "the free contour has too many solutions to follow", None, hint="write FSELECT after earlier blocks"
-            )
+            m.alarm("the free contour has too many solutions to follow", hint="write FSELECT after earlier blocks")
 
     def refuse(self, m: Machine, error: Contradiction) -> NoReturn:
-        """The alarm of a datum that no contour fulfils."""
         label, block = error.label, self.blocks[-1]
         if isinstance(label, Word):
             missed = "" if math.isnan(error.gap) else f", it is missed by {error.gap:.4f} mm"
             m.alarm(f"{block.code} {label} contradicts what is known of the contour{missed}", label)
-        m.alarm(f"{block.code} has no solution: the element cannot be joined to what is known of the contour", None)
+        m.alarm(f"{block.code} has no solution: the element cannot be joined to what is known of the contour")
 
     def earlier(self, m: Machine, word: Word) -> Earlier:
         """The element of a block number, told in this contour or an earlier one."""
@@ -134,13 +129,10 @@ class Chain:
             self.contour.same(self.contour.end(k), start, word)
             memory(m).free_start, self.closed = None, True
 
-    # --- when it is over ------------------------------------------------------------------------------------------------
-
     def make(self, m: Machine) -> None:
-        """Settle everything and move."""
         self.follow(m, thoroughly=True)
-        contour = self.contour
         self.refuse_open(m)
+        contour = self.contour
         solutions = [contour.pieces(reading) for reading in contour.readings]
         which = 0 if len(solutions) == 1 else self.likely(m, solutions)
         values = contour.readings[which].values
@@ -161,12 +153,10 @@ class Chain:
         kept = memory(m)
         for k, block in enumerate(self.blocks):
             element = self.contour.elements[k]
-            if element.normal is not None:
-                normal = element.normal
-            else:
+            normal = element.normal
+            if normal is None:
                 assert element.centre is not None
-                spoke, radius = element.centre - element.start, element.radius.at(values)
-                normal = spoke.times(1 / radius)
+                normal = (element.centre - element.start).times(1 / element.radius.at(values))
             n, end, start = (_fixed(pair, values) for pair in (normal, element.end, element.start))
             kept.free_elements[block.number] = Earlier(end, n, n.dot(start))
         if kept.free_start is not None:
@@ -179,56 +169,45 @@ class Chain:
         if reading is None:
             return
         open_ = set(contour.open_unknowns(reading))
-        first, parts = len(contour.elements) - 1, ["end point"]
-        for k, element in enumerate(contour.elements):
-            named = {
-                "direction": element.normal and element.normal.x, "place": element.offset,
-                "centre": element.centre and element.centre.x, "radius": element.radius, "end point": element.end.x,
-            }  # fmt: skip
-            known_not = [name for name, form in named.items() if form is not None and form.variables & open_]
-            if element.end.y.variables & open_ and "end point" not in known_not:
-                known_not.append("end point")
-            if known_not:
-                first, parts = k, known_not
-                break
-        missing, block = contour.missing(reading), self.blocks[first]
-        what = f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else parts[0]
+        parts = [_open_parts(element, open_) for element in contour.elements]
+        k = next((k for k, names in enumerate(parts) if names), len(parts) - 1)
+        *others, last = parts[k] or ["end point"]
+        unknown = f"{', '.join(others)} and {last}" if others else last
+        block, missing = self.blocks[k], contour.missing(reading)
         need = "too much of it is open" if missing is None else "no solution was found"
         if missing:
             need = f"{missing} more {'datum is' if missing == 1 else 'data are'} needed"
-        m.alarm(
-            f"{block.code}: the free contour is not determined, {need}; not known here: {what}",
-            m.flow.span_of_step(block.moment.step),
-        )
+        what = f"{block.code}: the free contour is not determined, {need}; not known here: {unknown}"
+        m.alarm(what, m.flow.span_of_step(block.moment.step))
 
     def likely(self, m: Machine, solutions: list[list[Piece]]) -> int:
         """The one solution that closes, stays inside the blank and does not cross itself; an alarm if it is not alone."""
-        left = list(range(len(solutions)))
         blank = memory(m).stock
-
-        def inside(pieces: list[Piece]) -> bool:
-            return (
-                blank is None
-                or not blank.maximum
-                or free_choice.is_within(pieces, blank.minimum[:2], blank.maximum[:2])
-            )
-
-        for test in (lambda pieces: free_choice.is_closed(pieces, self.start), inside):
-            left = [k for k in left if test(solutions[k])] or left
+        left = [k for k, pieces in enumerate(solutions) if free_choice.is_closed(pieces, self.start)]
+        left = left or list(range(len(solutions)))
+        if blank is not None and blank.maximum:
+            low, high = blank.minimum[:2], blank.maximum[:2]
+            left = [k for k in left if free_choice.is_within(solutions[k], low, high)] or left
         if len(left) * len(self.blocks) <= MOST_COMPARED:
             left = [k for k in left if not free_choice.crosses_itself(solutions[k])] or left
         block, count = self.blocks[-1], len(solutions)
         span = m.flow.span_of_step(block.moment.step)
         if len(left) > 1:
-            m.alarm(
-                f"{block.code}: the free contour has {count} solutions here", span,
-                hint=f"choose one with FSELECT 1 to FSELECT {count}",
-            )  # fmt: skip
-        m.warn(
-            f"{block.code}: of {count} solutions the one is taken that fits the blank and closes best", span,
-            hint=f"FSELECT {left[0] + 1} says so",
-        )  # fmt: skip
+            hint = f"choose one with FSELECT 1 to FSELECT {count}"
+            m.alarm(f"{block.code}: the free contour has {count} solutions here", span, hint)
+        what = f"{block.code}: of {count} solutions the one is taken that fits the blank and closes best"
+        m.warn(what, span, f"FSELECT {left[0] + 1} says so")
         return left[0]
+
+
+def _open_parts(element: Element, unknowns: set[int]) -> list[str]:
+    """What of an element is not known."""
+    named = (
+        ("direction", element.normal and element.normal.x), ("place", element.offset),
+        ("centre", element.centre and element.centre.x), ("radius", element.radius),
+        ("end point", element.end.x), ("end point", element.end.y),
+    )  # fmt: skip
+    return list(dict.fromkeys(name for name, form in named if form is not None and form.variables & unknowns))
 
 
 def _fixed(pair: Pair, values: np.ndarray[Any, Any]) -> Pair:
@@ -246,8 +225,10 @@ def _heading(m: Machine) -> float | None:
     return math.atan2(y, x) if abs(z) < 1e-9 and math.hypot(x, y) > 1e-9 else None
 
 
-def element(m: Machine, words: Words) -> None:
-    """Add a block to the chain that waits, or begin one."""
+@FUNCTIONS("FC FCT", {"FC": "Free arc", "FCT": "Free tangential arc"}, takes=ARC, collects=True, source="8.13, example")
+@FUNCTIONS("FL FLT", LINES, takes=LINE, collects=True, source="8.13, example")
+def free_element(m: Machine, words: Words) -> None:
+    """A line or an arc told by what is known of it; FLT and FCT join the element before tangentially."""
     own = feed(m, words)
     if words.code in ("FC", "FCT"):
         refuse_rapid(m, words)
@@ -258,27 +239,15 @@ def element(m: Machine, words: Words) -> None:
     m.pending.add(m, words, f)
 
 
-@FUNCTIONS("FL FLT", {"FL": "Free line", "FLT": "Free tangential line"}, takes=LINE, collects=True, source="8.13, example")
-def free_line(m: Machine, words: Words) -> None:
-    """A line told by what is known of it; FLT joins the element before tangentially."""
-    element(m, words)
-
-
-@FUNCTIONS("FC FCT", {"FC": "Free arc", "FCT": "Free tangential arc"}, takes=ARC, collects=True, source="8.13, example")
-def free_arc(m: Machine, words: Words) -> None:
-    """An arc told by what is known of it; FCT joins the element before tangentially."""
-    element(m, words)
-
-
 @FUNCTIONS("FPOL", "Pole of free contours", takes="X Y", collects=True, source="8.13, example")
 def free_pole(m: Machine, words: Words) -> None:
     """The pole of polar data of free elements, until the next one; no motion."""
     for axis in "XY":
         if axis not in words:
-            m.alarm(f"FPOL needs {axis}, the coordinate of the pole", words.words[0] if len(words) else None)
+            m.alarm(f"FPOL needs {axis}, the coordinate of the pole", first(words))
         if words[axis].incremental and m.pending:
             m.alarm(f"FPOL {axis} (pole) must be absolute inside a free contour", words[axis])
-    x, y = (m.value(words[axis]) + (m.programmed[k] if words[axis].incremental else 0.0) for k, axis in enumerate("XY"))
+    x, y = (counted(m, words[axis], at) for axis, at in zip("XY", m.programmed, strict=False))
     memory(m).free_pole = (x, y)
     m.log("free pole", (x, y))
 
@@ -287,9 +256,9 @@ def free_pole(m: Machine, words: Words) -> None:
 def select(m: Machine, words: Words) -> None:
     """Go on with one of the solutions of the free elements so far."""
     if not isinstance(m.pending, Chain):
-        m.alarm("FSELECT must follow a block of a free contour", words.words[0] if len(words) else None)
+        m.alarm("FSELECT must follow a block of a free contour", first(words))
     if "number" not in words:
-        m.alarm("FSELECT needs the number of a solution", None)
+        m.alarm("FSELECT needs the number of a solution")
     word, contour = words["number"], m.pending.contour
     number, count = m.value(word), len(contour.readings)
     if number != int(number) or not 1 <= number <= count:

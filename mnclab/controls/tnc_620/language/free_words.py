@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from mnclab.controls.tnc_620.language.checks import above_zero, not_negative
+from mnclab.controls.tnc_620.language.motion import sense
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.free_contour import FreeContour, Pair, known, normal_of
 from mnclab.geometry.quadratic_form import Form
@@ -21,24 +23,20 @@ if TYPE_CHECKING:
 
 MEANINGS = {"LEN": "length", "R": "radius", "CCA": "central angle", "D": "distance", "DP": "distance of parallels"}
 
+COUNTED = ("X", "Y", "PR", "PA", "AN", "CCX", "CCY", "CCPR", "CCPA")
 #: What stands in the words of free contours, for explanations; an address with R before it is the block that it counts from.
-KNOWN = {
+WORDS = {
     "AN": "angle of the line, or of the tangent where the arc begins", "CCX": "centre along X", "CCY": "centre along Y",
     "CCPR": "polar radius of the centre", "CCPA": "polar angle of the centre", "PAR": "block of the parallel line",
     "PDX": "point beside the element, X", "PDY": "point beside the element, Y", "CLSD": "beginning or end of a closed contour",
+    "D": "distance from the point beside the element", "DP": MEANINGS["DP"],
     **{f"P{n}{axis}": f"point {n} on the element, {axis}" for n in (1, 2, 3) for axis in "XY"},
+    **{f"R{address}": f"block that {address} counts from" for address in COUNTED},
 }  # fmt: skip
-COUNTED = ("X", "Y", "PR", "PA", "AN", "CCX", "CCY", "CCPR", "CCPA")
-WORDS = (
-    KNOWN
-    | {f"R{address}": f"block that {address} counts from" for address in COUNTED}
-    | {"D": "distance from the point beside the element", "DP": MEANINGS["DP"]}
-)
 
 
 def describe(chain: Chain, m: Machine, words: Words, k: int) -> None:
-    """Every word of the block of element k."""
-    contour, arc = chain.contour, words.code in ("FC", "FCT")
+    contour = chain.contour
     place(chain, m, words, contour.end(k), "", k)
     angle(chain, m, words, k)
     if "LEN" in words:
@@ -47,7 +45,7 @@ def describe(chain: Chain, m: Machine, words: Words, k: int) -> None:
         if point := pair(chain, m, words, name + "X", name + "Y", k):
             contour.through(k, point, words[name + "X"])
     beside(chain, m, words, k)
-    if arc:
+    if words.code in ("FC", "FCT"):
         of_arc(chain, m, words, k)
     elif "PAR" in words:
         other = chain.earlier(m, words["PAR"])
@@ -60,14 +58,10 @@ def describe(chain: Chain, m: Machine, words: Words, k: int) -> None:
 
 
 def of_arc(chain: Chain, m: Machine, words: Words, k: int) -> None:
-    """Sense, radius, centre and central angle."""
     contour, sign = chain.contour, 0
     if "DR" in words:
-        word = words["DR"]
-        if word.value not in ("+", "-"):
-            m.alarm(f"{words.code} DR (sense of rotation) must be DR+ or DR-, got {word}", word)
-        sign = 1 if word.value == "+" else -1
-        contour.sense(k, sign, word)
+        sign = sense(m, words)
+        contour.sense(k, sign, words["DR"])
     if "R" in words:
         contour.radius(k, positive(m, words, "R"), sign, words["R"])
     centre = contour.elements[k].centre
@@ -83,31 +77,25 @@ def of_arc(chain: Chain, m: Machine, words: Words, k: int) -> None:
 
 
 def positive(m: Machine, words: Words, address: str) -> float:
-    """A number above zero that cannot be incremental."""
+    return above_zero(m, absolute(m, words, address), f"{words.code} {address} ({MEANINGS[address]})")
+
+
+def absolute(m: Machine, words: Words, address: str) -> Word:
+    """A word that cannot be incremental."""
     word = words[address]
-    value = absolute(m, words, word)
-    if value <= 0:
-        m.alarm(f"{words.code} {address} ({MEANINGS[address]}) must be greater than 0, got {value:g}", word)
-    return value
-
-
-def absolute(m: Machine, words: Words, word: Word) -> float:
-    """The number of a word that cannot be incremental."""
     if word.incremental:
-        m.alarm(f"{words.code} {word.address} cannot be incremental", word)
-    return m.value(word)
+        m.alarm(f"{words.code} {address} cannot be incremental", word)
+    return word
 
 
 def place(chain: Chain, m: Machine, words: Words, point: Pair, kind: str, k: int) -> None:
     """Coordinates of the end point, or (`kind` CC) of the centre: X Y PR PA, counted from a block with R…."""
     contour = chain.contour
-    for axis in "XY":
+    for i, axis in enumerate("XY"):
         begin = reference(chain, m, words, kind + axis, k)
-        if kind + axis in words:
-            word = words[kind + axis]
-            of, from_ = (point.x, begin.x) if axis == "X" else (point.y, begin.y)
-            value = m.value(word)
-            contour.equal(of - from_ - value if word.incremental else of - value, word)
+        if (word := words.get(kind + axis)) is not None:
+            away = point[i] - begin[i] if word.incremental else point[i]
+            contour.equal(away - m.value(word), word)
     polar(chain, m, words, point, kind, k)
 
 
@@ -135,13 +123,10 @@ def polar(chain: Chain, m: Machine, words: Words, point: Pair, kind: str, k: int
     spot = 2 * k + (2 if kind == "" else 1)
     distance: Form | None = None
     if far is not None:
-        value = m.value(far)
         if far.incremental:
-            distance = radius_of(contour, begins["PR"] - known(*pole), spot, far) + value
-        elif value < 0:
-            m.alarm(f"{words.code} {far.address} (polar radius) must be at least 0, got {value:g}", far)
+            distance = radius_of(contour, begins["PR"] - known(*pole), spot, far) + m.value(far)
         else:
-            distance = Form(value)
+            distance = Form(not_negative(m, far, f"{words.code} {far.address} (polar radius)"))
     if turn is None:
         assert distance is not None
         contour.equal(away.dot(away) - distance * distance, far)
@@ -191,17 +176,18 @@ def angle(chain: Chain, m: Machine, words: Words, k: int) -> None:
 
 def pair(chain: Chain, m: Machine, words: Words, x: str, y: str, k: int) -> Pair | None:
     """A point of two coordinates; I counts from the start of the element."""
-    given = [words[address] for address in (x, y) if address in words]
-    if not given:
+    if x not in words and y not in words:
         return None
-    if len(given) == 1:
-        m.alarm(f"{words.code} {given[0].address} needs {y if given[0].address == x else x} beside it", given[0])
+    for one, other in ((x, y), (y, x)):
+        if other not in words:
+            m.alarm(f"{words.code} {one} needs {other} beside it", words[one])
     start = chain.contour.elements[k].start
-    first, second = (m.value(word) for word in given)
-    return Pair(
-        start.x + first if given[0].incremental else Form(first),
-        start.y + second if given[1].incremental else Form(second),
-    )
+    return Pair(counted_from(m, words[x], start.x), counted_from(m, words[y], start.y))
+
+
+def counted_from(m: Machine, word: Word, start: Form) -> Form:
+    value = m.value(word)
+    return start + value if word.incremental else Form(value)
 
 
 def beside(chain: Chain, m: Machine, words: Words, k: int) -> None:
@@ -213,7 +199,5 @@ def beside(chain: Chain, m: Machine, words: Words, k: int) -> None:
         return
     if "D" not in words:
         m.alarm(f"{words.code} PDX PDY need D, the distance of the element from that point", words["PDX"])
-    value = absolute(m, words, words["D"])
-    if value < 0:
-        m.alarm(f"{words.code} D (distance) must be at least 0, got {value:g}", words["D"])
+    value = not_negative(m, absolute(m, words, "D"), f"{words.code} D (distance)")
     chain.contour.beside(k, point, value, words["D"])

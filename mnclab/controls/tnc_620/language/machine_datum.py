@@ -27,14 +27,13 @@ def machine_datum(m: Machine, words: Words) -> None:
     m.at_block_end(lambda: setattr(memory(m), "machine_datum", None))
 
 
-def machine_target(
-    m: Machine, counted: tuple[Word, Place], written: dict[int, tuple[float, bool]]
-) -> dict[str, Any]:
-    """The point of the program that these values (axis -> value, whether incremental) mean under M91 or M92 (`counted`)."""
-    (word, datum), target = counted, list(m.tip)
-    for axis, (value, incremental) in written.items():
+def machine_target(m: Machine, active: tuple[Word, Place], written: dict[int, Word]) -> dict[str, Any]:
+    """The point of the program that the words of these axes mean under M91 or M92 (`active`)."""
+    (word, datum), target = active, list(m.tip)
+    for axis, coordinate in written.items():
         length = m.tool.effective_length if axis == 2 else 0.0  # Z is the spindle reference, above the tip
-        target[axis] = target[axis] + value if incremental else datum[axis] + value - length
+        value = m.value(coordinate)
+        target[axis] = target[axis] + value if coordinate.incremental else datum[axis] + value - length
     if m.side:
         m.alarm(f"{word} cannot begin radius compensation", word, "write RL or RR in the block after")
     point = m.to_program(target)

@@ -1,4 +1,4 @@
-"""Straight lines and arcs: L, C, CR, CT, with feed and radius compensation (catalogue: coordinates, F, R0 RL RR)."""
+"""Straight lines and arcs: L, C, CR, CT, polar LP, CP, CTP, with feed and side of the tool (catalogue: coordinates, R0 RL RR)."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ import math
 from typing import Any
 
 from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
-from mnclab.controls.tnc_620.language.feeds import feed
+from mnclab.controls.tnc_620.language.checks import counted, one_of
+from mnclab.controls.tnc_620.language.feeds import FORMS, feed
 from mnclab.controls.tnc_620.language.machine_datum import machine_target
-from mnclab.controls.tnc_620.language.pole import polar_point, pole
+from mnclab.controls.tnc_620.language.pole import angle_here, polar_point, pole
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.arcs import tangent_arc_of_one
 from mnclab.machine.control import Function, FunctionTable, Words
@@ -22,45 +23,34 @@ from mnclab.text.program import Word
 FUNCTIONS = FunctionTable()
 AXES = "XYZ"
 SIDES = {"R0": 0, "RL": 1, "RR": -1}
-NAMES = {0: "R0", 1: "RL", -1: "RR"}
+#: FMAX holds for its block alone, and the manual's own program C210 (6.10) has such a move after it.
+FEED_NEEDED = "write F or FMAX; with the setting feed_needed = False such a move is at rapid, with a warning"
+SIDED = f"R0 RL RR {FORMS}"
+SAME = 1e-9  # rad: an end at the angle of the start is a whole turn
 TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue: C)
 
 
 def coordinates(m: Machine, words: Words, axes: str = AXES) -> dict[str, Any]:
     """Targets of the axes that are written, as arguments of a verb (`x=`, …); IX counts from the register."""
-    if (counted := memory(m).machine_datum) is not None:
-        written = {k: words[axis] for k, axis in enumerate(AXES) if axis in axes and axis in words}
-        return machine_target(m, counted, {k: (m.value(word), word.incremental) for k, word in written.items()})
-    found: dict[str, Any] = {}
-    for k, axis in enumerate(AXES):
-        if axis in axes and axis in words:
-            value = m.value(words[axis])
-            found[axis.lower()] = m.programmed[k] + value if words[axis].incremental else value
-    return found
+    written = {k: words[axis] for k, axis in enumerate(AXES) if axis in axes and axis in words}
+    if (active := memory(m).machine_datum) is not None:
+        return machine_target(m, active, written)
+    return {"xyz"[k]: counted(m, word, m.programmed[k]) for k, word in written.items()}
 
 
 def side(m: Machine, words: Words, begins: bool) -> None:
     """R0 RL RR: only a straight line or an approach begins or ends the compensation; others may repeat it."""
-    given = [words[name] for name in SIDES if name in words]
-    if len(given) > 1:
-        m.alarm(f"{given[0]} and {given[1]} stand in one block: one of R0, RL, RR is allowed", given[1])
-    for word in given:
-        wanted = SIDES[word.address]
-        if wanted != m.side and not begins:
-            verb = "end" if wanted == 0 else "begin"
-            m.alarm(
-                f"{word} cannot {verb} the radius compensation in {words.code}",
-                word,
-                hint="write it in a straight line L",
-            )
-        m.change("side", wanted)
+    word = one_of(m, words, SIDES, "one of R0, RL, RR")
+    if word is None:
+        return
+    wanted = SIDES[word.address]
+    if wanted != m.side and not begins:
+        what = f"{word} cannot {'begin' if wanted else 'end'} the radius compensation in {words.code}"
+        m.alarm(what, word, "write it in a straight line L")
+    m.change("side", wanted)
 
 
-#: FMAX holds for its block alone, and the manual's own program C210 (6.10) has such a move after it.
-FEED_NEEDED = "write F or FMAX; with the setting feed_needed = False such a move is at rapid, with a warning"
-
-
-@FUNCTIONS("L", "Straight line", takes="X Y Z A B C PR PA R0 RL RR F FMAX FAUTO", source="4.11, example")
+@FUNCTIONS("L", "Straight line", takes=f"X Y Z A B C PR PA {SIDED}", source="4.11, example")
 def line(m: Machine, words: Words) -> None:
     """From the present position to the programmed point at feed, or with FMAX at rapid; axes not written keep their value."""
     f = feed(m, words)
@@ -80,10 +70,18 @@ def line(m: Machine, words: Words) -> None:
     if to:
         if f is None and m.feed is None:
             if m.settings["feed_needed"]:
-                m.alarm("no feed rate was programmed before this move", None, FEED_NEEDED)
+                m.alarm("no feed rate was programmed before this move", hint=FEED_NEEDED)
             m.warn("no feed rate was programmed before this move: it is at rapid")
             f = math.inf
         m.line(**to, f=f)
+
+
+@FUNCTIONS("LP", "Straight line, polar", takes=f"PR PA {SIDED}", source="10.1, example")
+def polar_line(m: Machine, words: Words) -> None:
+    """To a point given by its distance and angle from the pole CC."""
+    f = feed(m, words)
+    side(m, words, begins=True)
+    m.line(*polar_point(m, words), f=f)
 
 
 def rotary_angles(m: Machine, words: Words) -> Angles:
@@ -91,17 +89,14 @@ def rotary_angles(m: Machine, words: Words) -> Angles:
     found = list(angles(m))
     for k, axis in enumerate(AXES_OF_ROTATION):
         if axis in words:
-            value = m.value(words[axis])
-            found[k] = to_rotary(m, k, value + to_angle(m, k, found[k]) if words[axis].incremental else value)
+            found[k] = to_rotary(m, k, counted(m, words[axis], to_angle(m, k, found[k])))
     return found[0], found[1], found[2]
 
 
 def sense(m: Machine, words: Words) -> int:
     """DR+ counter-clockwise (1), DR- clockwise (-1)."""
     if "DR" not in words:
-        m.alarm(
-            f"{words.code} needs the sense of rotation", None, hint="write DR+ (counter-clockwise) or DR- (clockwise)"
-        )
+        m.alarm(f"{words.code} needs the sense of rotation", hint="write DR+ (counter-clockwise) or DR- (clockwise)")
     word = words["DR"]
     if word.value not in ("+", "-"):
         m.alarm(f"{words.code} DR (sense of rotation) must be DR+ or DR-, got {word}", word)
@@ -109,14 +104,11 @@ def sense(m: Machine, words: Words) -> int:
 
 
 def turning_sense(what: Function, word: Word, _: int) -> str:
-    """Which sense of rotation a DR gives."""
-    senses = {"+": "counter-clockwise", "-": "clockwise"}
-    if word.address != "DR" or not isinstance(word.value, str) or word.value not in senses:
-        return ""
-    return f"sense of rotation ({senses[word.value]})"
+    sense = {"+": "counter-clockwise", "-": "clockwise"}.get(str(word.value))
+    return f"sense of rotation ({sense})" if sense and word.address == "DR" else ""
 
 
-@FUNCTIONS("C", "Circular path around CC", takes="X Y DR R0 RL RR F FMAX FAUTO", source="8.3, example")
+@FUNCTIONS("C", "Circular path around CC", takes=f"X Y DR {SIDED}", source="8.3, example")
 def circle(m: Machine, words: Words) -> None:
     """An arc around the centre CC; an end equal to the start is a full circle."""
     f = feed(m, words)
@@ -126,7 +118,30 @@ def circle(m: Machine, words: Words) -> None:
     m.arc(**coordinates(m, words, "XY"), sense=turning, centre=dict(enumerate(about)), f=f, tolerance=TOLERANCE)
 
 
-@FUNCTIONS("CR", "Circular path with radius", takes="X Y R DR R0 RL RR F FMAX FAUTO", source="9.2")
+@FUNCTIONS("CP", "Circular path, polar; helix", takes=f"PA Z DR {SIDED}", source="10.1, example")
+def polar_circle(m: Machine, words: Words) -> None:
+    """Around the pole CC on the present radius: to the angle PA, or by the angle IPA of any number of turns."""
+    f = feed(m, words)
+    side(m, words, begins=False)
+    turning, (u, v) = sense(m, words), pole(m, words)
+    refuse_rapid(m, words)
+    if "PA" not in words:
+        m.alarm("CP needs PA (polar angle of the end) or IPA (angle travelled)")
+    word, here = words["PA"], angle_here(m, words)
+    value, level = m.value(word), coordinates(m, words, "Z").get("z")
+    if not word.incremental:
+        away = turning * (math.radians(value) - here) % math.tau
+        travel = away if SAME < away < math.tau - SAME else math.tau
+        m.turn((u, v), turning * travel, level, f)
+        return
+    if value == 0:
+        m.alarm("CP IPA (angle travelled) must not be 0", word)
+    if (value > 0) != (turning > 0):
+        m.alarm(f"CP IPA{value:+g} and DR{'+' if turning > 0 else '-'} turn in opposite senses", word)
+    m.turn((u, v), math.radians(value), level, f)
+
+
+@FUNCTIONS("CR", "Circular path with radius", takes=f"X Y R DR {SIDED}", source="9.2")
 def circle_by_radius(m: Machine, words: Words) -> None:
     """An arc of a radius: up to half a turn, with a negative radius more."""
     f = feed(m, words)
@@ -134,7 +149,7 @@ def circle_by_radius(m: Machine, words: Words) -> None:
     turning, to = sense(m, words), coordinates(m, words, "XY")
     refuse_rapid(m, words)
     if "R" not in words:
-        m.alarm("CR needs the radius R", None)
+        m.alarm("CR needs the radius R")
     radius = m.value(words["R"])
     if radius == 0:
         m.alarm("CR R (radius) must not be 0", words["R"])
@@ -144,7 +159,7 @@ def circle_by_radius(m: Machine, words: Words) -> None:
     m.arc(**to, sense=turning, radius=radius, f=f, word=words["R"])
 
 
-@FUNCTIONS("CT", "Circular path with tangential connection", takes="X Y R0 RL RR F FMAX FAUTO", source="8.13, example")
+@FUNCTIONS("CT", "Circular path with tangential connection", takes=f"X Y {SIDED}", source="8.13, example")
 def tangential_circle(m: Machine, words: Words) -> None:
     """An arc that goes on where the element before it points; straight ahead it is a line."""
     f = feed(m, words)
@@ -152,19 +167,27 @@ def tangential_circle(m: Machine, words: Words) -> None:
     refuse_rapid(m, words)
     to = coordinates(m, words, "XY")
     if not to:
-        m.alarm("CT needs X or Y of its end", None)
-    x, y, _ = m.target(to.get("x"), to.get("y"), None)
-    tangent_arc(m, words, (x, y), f)
+        m.alarm("CT needs X or Y of its end")
+    tangent_arc(m, words, m.target(to.get("x"), to.get("y"), None)[:2], f)
+
+
+@FUNCTIONS("CTP", "Tangential arc, polar", takes=f"PR PA {SIDED}", source="Klartext, not described")
+def polar_tangent_arc(m: Machine, words: Words) -> None:
+    """An arc that goes on where the element before it points, to a polar point."""
+    f = feed(m, words)
+    side(m, words, begins=False)
+    refuse_rapid(m, words)
+    tangent_arc(m, words, polar_point(m, words), f)
 
 
 def tangent_arc(m: Machine, words: Words, to: tuple[float, float], f: float | None) -> None:
     """From where the tool stands, tangent to the element before, to a point of the plane."""
-    start, travel = (m.programmed[0], m.programmed[1]), heading(m, words)
+    start, travel = m.programmed[:2], heading(m, words)
     if math.dist(start, to) < 1e-3:
-        m.alarm(f"{words.code} needs an end other than its start", None)
+        m.alarm(f"{words.code} needs an end other than its start")
     found = tangent_arc_of_one(start, to, travel)
     if found is None:
-        m.alarm(f"{words.code}: the end lies straight behind the element before, no tangential arc leads there", None)
+        m.alarm(f"{words.code}: the end lies straight behind the element before, no tangential arc leads there")
     centre, turning = found
     if turning == 0:
         m.line(*to, f=f)
@@ -176,12 +199,12 @@ def heading(m: Machine, words: Words) -> tuple[float, float]:
     """The unit tangent at the end of the path element directly before, in program coordinates of the plane."""
     before, travel = m.recorder.last(), m.heading()
     if before is None or travel is None:
-        m.alarm(f"{words.code} needs a path element directly before it", None, hint="whose end gives the direction")
+        m.alarm(f"{words.code} needs a path element directly before it", hint="whose end gives the direction")
     if abs(travel[PLANES[m.plane][2]]) > 1e-9:
-        m.alarm(f"{words.code} needs a path element in the working plane directly before it", None)
+        m.alarm(f"{words.code} needs a path element in the working plane directly before it")
     if isinstance(before[1], Corner):
         word = "RND" if before[1].label == "rounding" else "CHF"
-        m.alarm(f"{words.code} cannot follow {word}: its direction is that of the element before", None)
+        m.alarm(f"{words.code} cannot follow {word}: its direction is that of the element before")
     here, on = m.to_program(m.tip), m.to_program(a + b for a, b in zip(m.tip, travel, strict=True))
     u, v = on[0] - here[0], on[1] - here[1]
     length = math.hypot(u, v)
@@ -194,6 +217,5 @@ def scaled(m: Machine, length: float) -> float:
 
 
 def refuse_rapid(m: Machine, words: Words) -> None:
-    """Arcs run at feed."""
     if "FMAX" in words:
         m.alarm(f"{words.code} runs at feed: FMAX is for straight lines", words["FMAX"])

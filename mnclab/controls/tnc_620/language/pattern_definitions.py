@@ -6,15 +6,18 @@ What is defined or selected last counts, also where a called program did it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.controls.tnc_620.language.checks import counted, not_negative, whole
 from mnclab.controls.tnc_620.reading.pattern_words import ADDRESSES, CLOSED, FORMS
 from mnclab.controls.tnc_620.state import memory
-from mnclab.controls.tnc_620.tables.point_tables import PointTable, read_points
+from mnclab.controls.tnc_620.tables import point_tables
+from mnclab.controls.tnc_620.tables.table_files import read_table
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machining import patterns
@@ -44,12 +47,6 @@ class Pattern(NamedTuple):
     table: bool
 
 
-def activate(m: Machine, pattern: Pattern) -> None:
-    """The pattern of the following CYCL CALL PAT."""
-    memory(m).pattern = pattern
-    m.log("pattern", len(pattern.points))
-
-
 TAKES = " ".join(f"{address}*" for address in (*FORMS, *ADDRESSES, CLOSED))
 
 
@@ -57,156 +54,142 @@ TAKES = " ".join(f"{address}*" for address in (*FORMS, *ADDRESSES, CLOSED))
 def pattern_def(m: Machine, words: Words) -> None:
     """Positions, rows, grids, frames and circles, one after the other; nothing moves."""
     points = np.empty((0, 3))
-    for head, given in elements(m, words):
-        more = FORM[head.address](m, Element(head, given), points[-1] if len(points) else None)
+    for element in elements(m, words):
+        more = FORM[element.head.address](element, points[-1] if len(points) else None)
         if len(points) + len(more) > MOST:
-            m.alarm(f"PATTERN DEF has more than {MOST} points", head)
+            m.alarm(f"PATTERN DEF has more than {MOST} points", element.head)
         points = np.concatenate([points, more])
     if not len(points):
-        m.alarm(f"PATTERN DEF needs at least one of {', '.join(FORMS)}", None)
+        m.alarm(f"PATTERN DEF needs at least one of {', '.join(FORMS)}")
     m.flow.spend(len(points) // POINTS_A_BLOCK)
     activate(m, Pattern(points, np.full(len(points), np.nan), False))
-
-
-class Element(NamedTuple):
-    """One element: the word of its form, and its parameters by address."""
-
-    head: Word
-    given: Mapping[str, Word]
-
-    @property
-    def name(self) -> str:
-        """As it is written: POS1."""
-        return f"{self.head.address}{self.head.value:g}"
-
-    def say(self, address: str) -> str:
-        """How an alarm names a parameter."""
-        return f"PATTERN DEF {self.name} {address} ({MEANINGS[address]})"
-
-    def number(self, m: Machine, address: str) -> float:
-        """A parameter that must be there."""
-        if address not in self.given:
-            m.alarm(f"{self.say(address)} is missing", self.head)
-        return m.value(self.given[address])
-
-    def radians(self, m: Machine, address: str) -> float:
-        """An angle."""
-        return math.radians(self.number(m, address))
-
-    def whole(self, m: Machine, address: str) -> int:
-        """A number of positions, from 1."""
-        value = self.number(m, address)
-        if not 1 <= value <= MOST or value != int(value):
-            m.alarm(f"{self.say(address)} must be a whole number from 1 to {MOST}, got {value:g}", self.given[address])
-        return int(value)
-
-
-def elements(m: Machine, words: Words) -> Iterator[tuple[Word, dict[str, Word]]]:
-    """The elements of a block in the order written, each with its words."""
-    head: Word | None = None
-    given: dict[str, Word] = {}
-    seen: dict[str, int] = {}
-    for word in sorted(words.words, key=lambda word: word.place):
-        if head is None:
-            head, given = word, {}
-            check_number(m, word, seen)
-        elif word.address == CLOSED:
-            yield head, given
-            head = None
-        else:
-            check_word(m, head, word, given)
-            given[word.address] = word
-    if head is not None:
-        m.alarm(f"PATTERN DEF {head.address}{head.value:g}: its bracket is not closed", head, hint="write )")
-
-
-def check_number(m: Machine, head: Word, seen: dict[str, int]) -> None:
-    """Elements of a form are numbered from 1 to 9, in their order."""
-    expected = seen.get(head.address, 0) + 1
-    if expected > LARGEST_NUMBER:
-        m.alarm(f"PATTERN DEF has more than {LARGEST_NUMBER} elements {head.address}", head)
-    if head.value != expected:
-        m.alarm(f"PATTERN DEF {head.address}{head.value:g} stands where {head.address}{expected} is expected", head)
-    seen[head.address] = expected
-
-
-def check_word(m: Machine, head: Word, word: Word, given: Mapping[str, Word]) -> None:
-    """A parameter of the form, once; increments only from one position to the next."""
-    name = f"PATTERN DEF {head.address}{head.value:g}"
-    if word.address not in FORMS[head.address]:
-        m.alarm(f"{name} does not take {word.address}", word, hint=f"it takes {' '.join(FORMS[head.address])}")
-    if word.address in given:
-        m.alarm(f"{name} {word.address} is written twice", word, hint="keep one of them")
-    if word.incremental and (head.address != "POS" or head.value == 1):
-        m.alarm(f"{name} {word.address} must be absolute", word, hint="POS2 to POS9 may count from the one before")
-
-
-# --- forms: the points (n, 3) of an element ---------------------------------------------------------------------------
-
-
-def position(m: Machine, element: Element, before: Floats | None) -> Floats:
-    """POS: one point, absolute or counted from the one before, axis by axis."""
-    point = [element.number(m, axis) for axis in "XYZ"]
-    for k, axis in enumerate("XYZ"):
-        if element.given[axis].incremental and before is not None:
-            point[k] += before[k]
-    return np.array([point])
-
-
-def row(m: Machine, element: Element, before: Floats | None) -> Floats:
-    """ROW: from a starting point in one direction."""
-    start = element.number(m, "X"), element.number(m, "Y")
-    return level(
-        m,
-        element,
-        patterns.row(start, element.number(m, "D"), element.whole(m, "NUM"), element.radians(m, "ROT")),
-    )
-
-
-def grid(m: Machine, element: Element, before: Floats | None) -> Floats:
-    """PAT and FRAME: columns and rows, of FRAME the outer ones."""
-    start = element.number(m, "X"), element.number(m, "Y")
-    spacing = element.number(m, "DX"), element.number(m, "DY")
-    count = element.whole(m, "NUMX"), element.whole(m, "NUMY")
-    if count[0] * count[1] > MOST:
-        m.alarm(f"PATTERN DEF {element.name} has more than {MOST} positions", element.head)
-    lean = element.radians(m, "ROTX"), element.radians(m, "ROTY")
-    make = patterns.grid if element.head.address == "PAT" else patterns.frame
-    return level(m, element, make(start, spacing, count, element.radians(m, "ROT"), lean))
-
-
-def circle(m: Machine, element: Element, before: Floats | None) -> Floats:
-    """CIRC: a whole circle; PITCHCIRC: part of one, by its step or by the angle of its last point."""
-    centre, diameter = (element.number(m, "X"), element.number(m, "Y")), element.number(m, "D")
-    if diameter < 0:
-        m.alarm(f"PATTERN DEF {element.name} D (diameter) must be at least 0, got {diameter:g}", element.given["D"])
-    start, count = element.radians(m, "START"), element.whole(m, "NUM")
-    if element.head.address == "CIRC":
-        step = patterns.TURN / count
-    elif "STEP" in element.given and "END" in element.given:
-        m.alarm(f"PATTERN DEF {element.name} has both STEP and END", element.given["END"], hint="keep one of them")
-    elif "END" in element.given:
-        step = patterns.step_between(start, element.radians(m, "END"), count)
-    else:
-        step = element.radians(m, "STEP")
-    return level(m, element, patterns.circle(centre, diameter / 2, start, step, count))
-
-
-def level(m: Machine, element: Element, points: Floats) -> Floats:
-    """Points of the plane (n, 2) on the workpiece surface of their element."""
-    return np.column_stack([points, np.full(len(points), element.number(m, "Z"))])
-
-
-FORM = {"POS": position, "ROW": row, "PAT": grid, "FRAME": grid, "CIRC": circle, "PITCHCIRC": circle}
-
-
-# --- point tables -----------------------------------------------------------------------------------------------------
 
 
 @FUNCTIONS("SEL PATTERN,", "Point table", takes="file", source="3.4")
 def sel_pattern(m: Machine, words: Words) -> None:
     """The points of a file NAME.PNT; nothing moves."""
-    table: PointTable = read_points(m, words["file"])
+    _, table = read_table(m, words["file"], "SEL PATTERN", "point table", ".PNT", point_tables.parse)
     m.flow.spend(len(table.points))
-    shown = table.points[~table.hidden], table.clearance[~table.hidden]
-    activate(m, Pattern(*shown, True))
+    activate(m, Pattern(table.points[~table.hidden], table.clearance[~table.hidden], True))
+
+
+def activate(m: Machine, pattern: Pattern) -> None:
+    memory(m).pattern = pattern
+    m.log("pattern", len(pattern.points))
+
+
+class Element(NamedTuple):
+    """One element: the word of its form, and its parameters by address."""
+
+    m: Machine
+    head: Word
+    given: dict[str, Word]
+
+    @property
+    def name(self) -> str:
+        """As it is written: PATTERN DEF POS1."""
+        return f"PATTERN DEF {self.head.address}{self.head.value:g}"
+
+    def say(self, address: str) -> str:
+        return f"{self.name} {address} ({MEANINGS[address]})"
+
+    def add(self, word: Word) -> None:
+        """A parameter of the form, once; increments only from one position to the next."""
+        form, name = self.head.address, f"{self.name} {word.address}"
+        if word.address not in FORMS[form]:
+            self.m.alarm(f"{self.name} does not take {word.address}", word, f"it takes {' '.join(FORMS[form])}")
+        if word.address in self.given:
+            self.m.alarm(f"{name} is written twice", word, "keep one of them")
+        if word.incremental and (form != "POS" or self.head.value == 1):
+            self.m.alarm(f"{name} must be absolute", word, "POS2 to POS9 may count from the one before")
+        self.given[word.address] = word
+
+    def word(self, address: str) -> Word:
+        if address not in self.given:
+            self.m.alarm(f"{self.say(address)} is missing", self.head)
+        return self.given[address]
+
+    def number(self, address: str) -> float:
+        return self.m.value(self.word(address))
+
+    def radians(self, address: str) -> float:
+        return math.radians(self.number(address))
+
+    def count(self, address: str) -> int:
+        return whole(self.m, self.word(address), self.say(address), 1, MOST)
+
+    def place(self) -> tuple[float, float]:
+        return self.number("X"), self.number("Y")
+
+    def at_surface(self, points: Floats) -> Floats:
+        """Points of the plane (n, 2) on the workpiece surface of the element (n, 3)."""
+        return np.column_stack([points, np.full(len(points), self.number("Z"))])
+
+
+def elements(m: Machine, words: Words) -> Iterator[Element]:
+    element: Element | None = None
+    seen: Counter[str] = Counter()
+    for word in sorted(words.words, key=lambda word: word.place):
+        if element is None:
+            element = Element(m, word, {})
+            seen[word.address] += 1
+            check_number(element, seen[word.address])
+        elif word.address == CLOSED:
+            yield element
+            element = None
+        else:
+            element.add(word)
+    if element is not None:
+        m.alarm(f"{element.name}: its bracket is not closed", element.head, "write )")
+
+
+def check_number(element: Element, expected: int) -> None:
+    """Elements of a form are numbered from 1 to 9, in their order."""
+    m, head = element.m, element.head
+    if expected > LARGEST_NUMBER:
+        m.alarm(f"PATTERN DEF has more than {LARGEST_NUMBER} elements {head.address}", head)
+    if head.value != expected:
+        m.alarm(f"{element.name} stands where {head.address}{expected} is expected", head)
+
+
+def position(element: Element, before: Floats | None) -> Floats:
+    """POS: one point, absolute or counted from the one before, axis by axis."""
+    begin = np.zeros(3) if before is None else before
+    return np.array([[counted(element.m, element.word(axis), at) for axis, at in zip("XYZ", begin, strict=True)]])
+
+
+def row(element: Element, before: Floats | None) -> Floats:
+    """ROW: from a starting point in one direction."""
+    start, step, count = element.place(), element.number("D"), element.count("NUM")
+    return element.at_surface(patterns.row(start, step, count, element.radians("ROT")))
+
+
+def grid(element: Element, before: Floats | None) -> Floats:
+    """PAT and FRAME: columns and rows, of FRAME the outer ones."""
+    start, spacing = element.place(), (element.number("DX"), element.number("DY"))
+    count = element.count("NUMX"), element.count("NUMY")
+    if count[0] * count[1] > MOST:
+        element.m.alarm(f"{element.name} has more than {MOST} positions", element.head)
+    lean = element.radians("ROTX"), element.radians("ROTY")
+    make = patterns.grid if element.head.address == "PAT" else patterns.frame
+    return element.at_surface(make(start, spacing, count, element.radians("ROT"), lean))
+
+
+def circle(element: Element, before: Floats | None) -> Floats:
+    """CIRC: a whole circle; PITCHCIRC: part of one, by its step or by the angle of its last point."""
+    centre = element.place()
+    diameter = not_negative(element.m, element.word("D"), f"{element.name} D (diameter)")
+    start, count = element.radians("START"), element.count("NUM")
+    if element.head.address == "CIRC":
+        step = patterns.TURN / count
+    elif "STEP" in element.given and "END" in element.given:
+        element.m.alarm(f"{element.name} has both STEP and END", element.given["END"], "keep one of them")
+    elif "END" in element.given:
+        step = patterns.step_between(start, element.radians("END"), count)
+    else:
+        step = element.radians("STEP")
+    return element.at_surface(patterns.circle(centre, diameter / 2, start, step, count))
+
+
+#: Each makes the points (n, 3) of an element.
+FORM = {"POS": position, "ROW": row, "PAT": grid, "FRAME": grid, "CIRC": circle, "PITCHCIRC": circle}

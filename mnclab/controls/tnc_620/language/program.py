@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from mnclab.controls.tnc_620.cycles.chain import cancel
 from mnclab.controls.tnc_620.language import parameters
+from mnclab.controls.tnc_620.language.checks import counted, first
 from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
@@ -14,6 +15,7 @@ from mnclab.machine.setup import Datum
 from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
+STOPS = {"M0": "Program stop", "M1": "Optional stop"}
 
 Corner = tuple[float, float, float]
 
@@ -80,13 +82,14 @@ def finish(m: Machine) -> None:
 def least_corner(m: Machine, words: Words) -> None:
     """Tool axis and the corner with the least coordinates; for pictures only, no motion."""
     if "axis" not in words:
-        m.alarm("BLK FORM 0.1 needs the tool axis", None, hint="for example BLK FORM 0.1 Z X+0 Y+0 Z-20")
+        m.alarm("BLK FORM 0.1 needs the tool axis", hint="for example BLK FORM 0.1 Z X+0 Y+0 Z-20")
     if (blank := memory(m).stock) is not None and blank.maximum is None:
         m.alarm("BLK FORM 0.1 stands twice: BLK FORM 0.2 belongs behind the first", words["axis"])
     axis = str(words["axis"].value)
     if axis not in ("X", "Y", "Z"):
         m.alarm(f"BLK FORM 0.1: the tool axis must be X, Y or Z, got {axis}", words["axis"])
-    keep(m, Blank(axis, corner(m, words, None)))
+    memory(m).stock = Blank(axis, corner(m, words))
+    m.log("stock", memory(m).stock)
 
 
 @FUNCTIONS("BLK FORM 0.2,", "Blank: greatest corner", takes="X Y Z", source="4.11, example")
@@ -94,46 +97,30 @@ def greatest_corner(m: Machine, words: Words) -> None:
     """The corner with the greatest coordinates; IX IY IZ count from the least corner."""
     blank = memory(m).stock
     if blank is None or blank.maximum is not None:
-        m.alarm("BLK FORM 0.2 needs BLK FORM 0.1 before it", words.words[0] if len(words) else None)
+        m.alarm("BLK FORM 0.2 needs BLK FORM 0.1 before it", first(words))
     greatest = corner(m, words, blank.minimum)
     for axis, low, high in zip("XYZ", blank.minimum, greatest, strict=True):
         if not high > low:
             m.alarm(f"BLK FORM 0.2 {axis} (greatest corner) must be greater than {low:g}, got {high:g}", words[axis])
-    keep(m, blank._replace(maximum=greatest))
+    memory(m).stock = blank._replace(maximum=greatest)
+    m.log("stock", memory(m).stock)
 
 
-def corner(m: Machine, words: Words, least: Corner | None) -> Corner:
-    """The three coordinates of a corner."""
-    found = []
-    for k, axis in enumerate("XYZ"):
+def corner(m: Machine, words: Words, least: Corner | None = None) -> Corner:
+    for axis in "XYZ":
+        what = f"{words.code} {axis} (coordinate of the corner)"
         if axis not in words:
-            m.alarm(
-                f"{words.code} {axis} (coordinate of the corner) is missing", words.words[0] if len(words) else None
-            )
-        value = m.value(words[axis])
-        if words[axis].incremental:
-            if least is None:
-                m.alarm(f"{words.code} {axis} (coordinate of the corner) must be absolute", words[axis])
-            value += least[k]
-        found.append(value)
-    return found[0], found[1], found[2]
-
-
-def keep(m: Machine, blank: Blank) -> None:
-    """Remember the blank."""
-    memory(m).stock = blank
-    m.log("stock", blank)
+            m.alarm(f"{what} is missing", first(words))
+        if words[axis].incremental and least is None:
+            m.alarm(f"{what} must be absolute", words[axis])
+    x, y, z = (counted(m, words[axis], at) for axis, at in zip("XYZ", least or (0.0, 0.0, 0.0), strict=True))
+    return x, y, z
 
 
 @FUNCTIONS("STOP", "Program stop", phase="end", source="Klartext, not described")
+@FUNCTIONS("M0 M1", STOPS, phase="end", modal=False, source="Klartext, not described")
 def stop(m: Machine, words: Words) -> None:
-    """Wait for the operator."""
-    m.stop()
-
-
-@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="Klartext, not described")
-def program_stop(m: Machine, words: Words) -> None:
-    """Wait for the operator after the motion of the block."""
+    """Wait for the operator, after the motion of the block."""
     m.stop()
 
 
@@ -141,8 +128,6 @@ def program_stop(m: Machine, words: Words) -> None:
 def program_end(m: Machine, words: Words) -> None:
     """The run ends after this block; subprograms may follow it."""
     if m.flow.called:
-        m.alarm(
-            f"{words.code} ends the run and cannot stand in a program that was called", words.words[0],
-            "a called program ends with END PGM",
-        )  # fmt: skip
+        what = f"{words.code} ends the run and cannot stand in a program that was called"
+        m.alarm(what, words.words[0], "a called program ends with END PGM")
     finish(m)

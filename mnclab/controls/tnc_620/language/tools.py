@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from mnclab.controls.tnc_620.language.checks import above_zero, first, not_negative
 from mnclab.controls.tnc_620.language.feeds import set_feed, with_another_tool
 from mnclab.controls.tnc_620.state import memory
 from mnclab.machine.control import FunctionTable, Words
@@ -20,14 +21,11 @@ DELTAS = {"DL": "dl", "DR": "dr", "DR2": "corner"}  # words and the dimensions t
 def tool_call(m: Machine, words: Words) -> None:
     """Puts the tool into the spindle with its deltas; without a tool only speed, feed and deltas change."""
     if m.side:
-        m.alarm(
-            "TOOL CALL cannot change the tool under radius compensation",
-            words.words[0] if len(words) else None,
-            "write R0 first",
-        )
+        m.alarm("TOOL CALL cannot change the tool under radius compensation", first(words), "write R0 first")
     if "axis" in words and words["axis"].value != "Z":
         m.alarm(f"TOOL CALL: the tool axis {words['axis'].value} is not built yet, Z is", words["axis"])
-    speed, feed = numbers(m, words, "S", "spindle speed", 0), numbers(m, words, "F", "feed rate", None)
+    speed = not_negative(m, words["S"], "TOOL CALL S (spindle speed)") if "S" in words else None
+    feed = above_zero(m, words["F"], "TOOL CALL F (feed rate)") if "F" in words else None
     deltas = {DELTAS[name]: m.value(words[name]) for name in DELTAS if name in words}
     word = words.get("tool", words.get("text"))
     if word or deltas:
@@ -52,17 +50,6 @@ def put_in(m: Machine, tool: Tool | None, deltas: dict[str, float], words: Words
     with_another_tool(m)
 
 
-def numbers(m: Machine, words: Words, address: str, meaning: str, least: float | None) -> float | None:
-    """The value of S or F; None if it is not written."""
-    if address not in words:
-        return None
-    value = m.value(words[address])
-    if value < 0 or (least is None and value == 0):
-        allowed = "greater than 0" if least is None else f"at least {least:g}"
-        m.alarm(f"TOOL CALL {address} ({meaning}) must be {allowed}, got {value:g}", words[address])
-    return value
-
-
 def find(m: Machine, word: Word, code: str) -> Tool:
     """The tool of a number, of a name, or of the name in a text parameter."""
     tools, name = m.tables.tools, word.value
@@ -78,11 +65,8 @@ def find(m: Machine, word: Word, code: str) -> Tool:
         m.alarm(f'{code} "{name}" has no row in the tool table', word, hint=f"names: {known}")
     number = m.value(word)
     if number not in tools:
-        m.alarm(
-            f"{code} {number:g} has no row in the tool table",
-            word,
-            hint=f"tools: {', '.join(map(str, sorted(tools)))}",
-        )
+        known = ", ".join(map(str, sorted(tools)))
+        m.alarm(f"{code} {number:g} has no row in the tool table", word, f"tools: {known}")
     return tools[number]  # type: ignore[index]  # an index such as 5.2 is a row of its own
 
 
@@ -91,19 +75,15 @@ def tool_def(m: Machine, words: Words) -> None:
     """With a tool table it only names the next tool; without one it defines length and radius. Nothing moves."""
     word = words.get("tool", words.get("text"))
     if word is None:
-        m.alarm("TOOL DEF needs the number of the tool", None, hint="for example TOOL DEF 5 L+100 R+4")
-    for address in ("L", "R"):
-        if address in words and m.setup.tools:
-            m.alarm(
-                f"TOOL DEF {address}: the tool table is active, it holds the dimensions of the tools", words[address]
-            )
+        m.alarm("TOOL DEF needs the number of the tool", hint="for example TOOL DEF 5 L+100 R+4")
     if m.setup.tools:
+        for given in (words[address] for address in ("L", "R") if address in words):
+            m.alarm(f"TOOL DEF {given.address}: the tool table is active, it holds the dimensions of the tools", given)
         find(m, word, "TOOL DEF")
         return
     number = word.value if isinstance(word.value, str) else m.value(word)
     if isinstance(number, str) or number != int(number) or not 0 < number <= LAST:
         m.alarm(f"TOOL DEF: the tool must be a whole number from 1 to {LAST}", word)
-    length, radius = (m.value(words[address]) if address in words else 0.0 for address in ("L", "R"))
-    if radius < 0:
-        m.alarm(f"TOOL DEF R (radius) must be at least 0, got {radius:g}", words["R"])
+    length = m.value(words["L"]) if "L" in words else 0.0
+    radius = not_negative(m, words["R"], "TOOL DEF R (radius)") if "R" in words else 0.0
     m.write_table("tools", int(number), Tool(radius=radius, length=length, number=int(number)))

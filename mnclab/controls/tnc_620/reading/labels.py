@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from functools import partial
 
 from mnclab.controls.tnc_620.reading.formulas import operand
-from mnclab.controls.tnc_620.reading.words import FLAGS, TEXT, Cursor, Fault
+from mnclab.controls.tnc_620.reading.words import FLAGS, TEXT, WHOLE, Cursor, Fault, Read
 from mnclab.text import strings
 
-Read = Callable[[Cursor], None]
-
-_WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 _TEXT_PARAMETER = re.compile(r"[ \t]*QS[ \t]?\d{1,6}(?!\d)", FLAGS)
 _REPEAT = re.compile(r"REP[ \t]*(\d{1,9})(?:[ \t]*/[ \t]*\d{1,9})?", FLAGS)
 _IF = re.compile(r"[ \t]*IF(?![A-Z])", FLAGS)
@@ -30,7 +27,7 @@ def label(cursor: Cursor, parameter: bool = False) -> str:
         if not found.group(1).strip():
             raise Fault("the name of a label is empty", begin, cursor.at - begin)
         return f'"{found.group(1)}"'
-    if found := cursor.match(_WHOLE):
+    if found := cursor.match(WHOLE):
         value = float(found.group(1))
         if value > 65535:
             raise Fault(f"a label must be a number from 0 to 65535, got {value:g}", begin, cursor.at - begin)
@@ -44,9 +41,8 @@ def label(cursor: Cursor, parameter: bool = False) -> str:
 
 def set_label(cursor: Cursor) -> None:
     """LBL: a jump target; LBL 0 is an end and none."""
-    begin = cursor.blanks()
+    begin, builder = cursor.blanks(), cursor.builder
     name = label(cursor)
-    builder = cursor.builder
     if name in builder.labels:
         raise Fault(f"LBL {name} is set twice", begin, cursor.at - begin, "a label stands for one place in the program")
     if name != "0":
@@ -61,36 +57,27 @@ def call_label(cursor: Cursor) -> None:
         cursor.add("REP", float(found.group(1)), begin)
 
 
-def jump(number: int) -> Read:
+def jump(cursor: Cursor, number: int) -> None:
     """FN 9 to FN 12: two operands, a comparison, and the label to go to."""
     word = COMPARISONS[number]
     example = f"FN {number}: IF +Q1 {word} +Q3 GOTO LBL 5"
-
-    def read(cursor: Cursor) -> None:
-        if not cursor.match(_IF):
-            raise Fault(f"FN {number} needs IF", cursor.blanks(), hint=f"for example {example}")
-        begin = cursor.blanks()
-        if number == 9 and (found := cursor.match(_DEFINED)):
-            cursor.builder.word("parameter", found.group(1).upper(), found.start(1), len(found.group(1)))
-            cursor.builder.word("state", found.group(2).upper(), found.start(2), len(found.group(2)))
-        else:
-            operand(cursor, "first", example)
-            begin = cursor.blanks()
-            if not cursor.match(re.compile(rf"{word}(?![A-Z])", FLAGS)):
-                raise Fault(f"FN {number} compares with {word}", begin, hint=f"for example {example}")
-            operand(cursor, "second", example)
-        begin = cursor.blanks()
-        if not cursor.match(_GOTO):
-            raise Fault("GOTO LBL is missing", begin, hint=f"for example {example}")
-        label(cursor, parameter=True)
-
-    return read
+    hint = f"for example {example}"
+    cursor.expect(_IF, f"FN {number} needs IF", hint)
+    if number == 9 and (found := cursor.match(_DEFINED)):
+        for k, address in enumerate(("parameter", "state"), start=1):
+            cursor.builder.word(address, found.group(k).upper(), found.start(k), len(found.group(k)))
+    else:
+        operand(cursor, "first", example)
+        cursor.expect(re.compile(rf"{word}(?![A-Z])", FLAGS), f"FN {number} compares with {word}", hint)
+        operand(cursor, "second", example)
+    cursor.expect(_GOTO, "GOTO LBL is missing", hint)
+    label(cursor, parameter=True)
 
 
-JUMPS: dict[int, Read] = {number: jump(number) for number in COMPARISONS}
+JUMPS: dict[int, Read] = {number: partial(jump, number=number) for number in COMPARISONS}
 
 
-def program_name_of(cursor: Cursor, address: str, what: str) -> None:
+def name_of_program(cursor: Cursor, address: str = "name", what: str = "CALL PGM") -> None:
     """The name of another program up to the end of the line, with or without quotes."""
     begin = cursor.blanks()
     name = cursor.rest().rstrip()
@@ -101,23 +88,16 @@ def program_name_of(cursor: Cursor, address: str, what: str) -> None:
     cursor.add(address, name, begin)
 
 
-def call_program(cursor: Cursor) -> None:
-    """CALL PGM: the name of another program."""
-    program_name_of(cursor, "name", "CALL PGM")
-
-
 def select_program(cursor: Cursor) -> None:
-    """SEL PGM: the name of another program, also in a QS parameter."""
     begin = cursor.blanks()
     if _TEXT_PARAMETER.fullmatch(cursor.rest().rstrip()):
         value = strings.parse_text(cursor.rest(), cursor.builder.span(begin))
         cursor.at = cursor.stop
         cursor.add("name", value, begin)
     else:
-        program_name_of(cursor, "name", "SEL PGM")
+        name_of_program(cursor, what="SEL PGM")
 
 
 def program_of_cycle(cursor: Cursor) -> None:
-    """12.1: the word PGM and the name of a program."""
     cursor.match(_PGM)
-    program_name_of(cursor, "PGM", "CYCL DEF 12")
+    name_of_program(cursor, "PGM", "CYCL DEF 12")

@@ -29,6 +29,7 @@ from mnclab.text.words import Scan, characters, scan
 
 _UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
+_BEFORE_COMMENT = re.compile(r'(?:[^;"]++|"[^"]*+(?:"|$))*+')
 _SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
 _PLAIN = "FRXYZ"  # letters of plain lines
@@ -55,17 +56,12 @@ def read(text: str, name: str = "program") -> Program:
     lines = _Lines(builder, inch)
     for line in np.flatnonzero(~plain).tolist():
         lines.read(line)
-    _check_end(builder, bulk, lines.end)
-    return builder.build(bulk)
-
-
-def _check_end(builder: ProgramBuilder, bulk: BulkBlocks, end: int | None) -> None:
-    """Warn about blocks after END PGM."""
-    if end is not None:
+    if lines.end is not None:
         heads = builder.heads
-        after = heads[(heads[:, 0] > end) & (heads[:, 1] > 0), 0].astype(int).tolist() + bulk.start[bulk.start > end].tolist()
-        if after:
-            builder.alarm("nothing after END PGM is obeyed", min(after), severity="warning")
+        starts = np.append(heads[heads[:, 1] > 0, 0], bulk.start)
+        if (after := starts[starts > lines.end]).size:
+            builder.alarm("nothing after END PGM is obeyed", int(after.min()), severity="warning")
+    return builder.build(bulk)
 
 
 class _Lines:
@@ -105,11 +101,11 @@ class _Lines:
                 start = begin + len(head.group()) - len(head.group().lstrip(" \t"))
                 self.block(start, bool(head.group(1) or head.group(3)), Cursor(self.builder, at, stop, self.inch))
         except Fault as fault:
+            self.faulty = True
             self.builder.alarm(fault.message, fault.offset, fault.length, fault.hint)
-            self.faulty = True
         except Alarm as alarm:  # from the reader of formulas, which knows its place
-            self.builder.alarms.append(alarm)
             self.faulty = True
+            self.builder.alarms.append(alarm)
 
     def bounds(self, line: int) -> tuple[int, int, int, bool]:
         """Begin and end of the words, the place of the comment or -1, and whether the line ends in ~."""
@@ -120,19 +116,13 @@ class _Lines:
         if begin == 0 and content.startswith("\ufeff"):
             begin, content = 1, content[1:]
         tilde = content.endswith("~")
-        if tilde:
-            content = content[:-1]
-        comment, quoted = -1, False
-        if ";" in content:
-            for k, c in enumerate(content):
-                quoted ^= c == '"'
-                if c == ";" and not quoted:
-                    comment, content = begin + k, content[:k]
-                    break
+        content = content.removesuffix("~")
+        comment = -1
+        if ";" in content and (words := _BEFORE_COMMENT.match(content)) and words.end() < len(content):
+            comment, content = begin + words.end(), words.group()
         return begin, begin + len(content.rstrip(" \t")), comment, tilde
 
     def goes_on(self, at: int, stop: int) -> bool:
-        """Whether a line without a number belongs to the block before it."""
         if self.statement is None or self.statement.more is None or self.over or self.text[at] == "*":
             return False
         try:
@@ -142,7 +132,6 @@ class _Lines:
         return begins is None or (begins.keyword in ("Q", "QS") and self.statement.more is cycle_parameters)
 
     def go_on(self, cursor: Cursor) -> None:
-        """A further line of the block before."""
         if self.statement is None or self.faulty:
             return
         if self.statement.more is cycle_parameters:
@@ -172,45 +161,33 @@ class _Lines:
             self.statement, self.faulty = statement, was_faulty
             if was_faulty:
                 return
-            self.check_part(before, statement, begin, cursor.at - begin, skip)
+            if statement.part <= before.part:
+                what = f"{statement.keyword}.{statement.part} stands after {before.keyword}.{before.part}"
+                raise Fault(what, begin, cursor.at - begin)
+            if skip != self.skip:
+                raise Fault("all sub-blocks of a cycle must be marked with / or none", begin, cursor.at - begin)
         else:
             self.builder.block(start, statement.keyword if statement else "", skip)
             self.statement, self.skip = statement, skip
             if statement is None:
                 raise self.unknown(cursor)
-            self.check_order(statement, begin, cursor.at - begin)
+            if statement.keyword == "BEGIN PGM":
+                if self.begun:
+                    raise Fault("BEGIN PGM stands twice: a file holds one program", begin, cursor.at - begin)
+                self.begun = True
+            if statement.keyword == "END PGM" and self.end is None:
+                self.end = begin
             if statement.part > 0:
-                raise Fault(
-                    f"{statement.keyword}.{statement.part} stands without {statement.keyword}.0 before it",
-                    begin,
-                    cursor.at - begin,
-                )
+                what = f"{statement.keyword}.{statement.part} stands without {statement.keyword}.0 before it"
+                raise Fault(what, begin, cursor.at - begin)
         statement.read(cursor)
         self.close(cursor)
 
     def close(self, cursor: Cursor) -> None:
-        """The end of a line: nothing may be left, and no word may be missing a partner."""
         if not cursor.done:
             raise cursor.unexpected()
 
-    def check_part(self, before: Statement, now: Statement, begin: int, length: int, skip: bool) -> None:
-        """Sub-blocks follow each other, all marked with / or none."""
-        if now.part <= before.part:
-            raise Fault(f"{now.keyword}.{now.part} stands after {before.keyword}.{before.part}", begin, length)
-        if skip != self.skip:
-            raise Fault("all sub-blocks of a cycle must be marked with / or none", begin, length)
-
-    def check_order(self, statement: Statement, begin: int, length: int) -> None:
-        """BEGIN PGM stands once; END PGM is the last block that counts."""
-        if statement.keyword == "BEGIN PGM":
-            if self.begun:
-                raise Fault("BEGIN PGM stands twice: a file holds one program", begin, length)
-            self.begun = True
-        if statement.keyword == "END PGM" and self.end is None:
-            self.end = begin
-
     def unknown(self, cursor: Cursor) -> Fault:
-        """The fault of a line that begins with no statement."""
         found = _WORD.match(self.text, cursor.at, cursor.stop)
         word = found.group().upper() if found else ""
         if not word.isascii() or not word.isalpha() or word == "G":
@@ -222,9 +199,8 @@ class _Lines:
             first = " ".join(cursor.rest().upper().split(maxsplit=2)[:2])[: 2 * MOST_LETTERS]
             near = get_close_matches(first, [*WORDS, *KEYWORDS_ONLY, "CYCL DEF", "TCH PROBE"], 1, 0.7)
             near = near or get_close_matches(word, [*WORDS, *KEYWORDS_ONLY], 2, 0.6)
-        return Fault(
-            f"{word} is no statement of this control", cursor.at, len(word), f"near: {', '.join(near)}" if near else ""
-        )
+        hint = f"near: {', '.join(near)}" if near else ""
+        return Fault(f"{word} is no statement of this control", cursor.at, len(word), hint)
 
 
 def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_], BulkBlocks]:
@@ -238,9 +214,8 @@ def _plain_lines(found: Scan, text: str, inch: bool) -> tuple[NDArray[np.bool_],
     first = first_words(count)
     good = (count > 1) & (count <= 1 + len(_PLAIN))
     if "~" in text:  # the line after it goes on with a block
-        good &= ~np.isin(
-            with_words, np.searchsorted(found.starts, np.flatnonzero(characters(text) == ord("~")), "right")
-        )
+        tildes = np.flatnonzero(characters(text) == ord("~"))
+        good &= ~np.isin(with_words, np.searchsorted(found.starts, tildes, "right"))
 
     address, form = np.empty(len(found.letter), np.int16), np.empty(len(found.letter), np.uint8)
     columns: list[NDArray[Any]] = [found.value, found.offset, found.length]

@@ -7,23 +7,14 @@ is read by its keyword alone: the run refuses it by name where it stands.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.reading import sub_blocks
+from mnclab.controls.tnc_620.reading import labels
 from mnclab.controls.tnc_620.reading.formulas import FN, assignment, declared_text, text_assignment, text_formula
-from mnclab.controls.tnc_620.reading.labels import (
-    JUMPS,
-    call_label,
-    call_program,
-    program_of_cycle,
-    select_program,
-    set_label,
-)
 from mnclab.controls.tnc_620.reading.pattern_words import PatternWords
-from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, TEXT, Cursor, Fault
-
-Read = Callable[[Cursor], None]
+from mnclab.controls.tnc_620.reading.sub_blocks import READERS
+from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, TEXT, Cursor, Fault, Read
 
 
 class Statement(NamedTuple):
@@ -31,15 +22,13 @@ class Statement(NamedTuple):
 
     keyword: str
     read: Read
-    more: Read | None = None
-    """Reads a further line that has no block number; None when only a line ending in ~ can be continued."""
-    part: int = -1
-    """k of a sub-block n.k, -1 for everything else."""
+    more: Read | None = None  # reads a further line without a block number; None: only a line ending in ~ goes on
+    part: int = -1  # k of a sub-block n.k
 
 
-def plain(cursor: Cursor) -> None:
-    """Words alone."""
-    cursor.words()
+plain: Read = Cursor.words
+with_radius: Read = partial(Cursor.words, radius=True)  # R0 is a radius
+with_axis: Read = partial(Cursor.words, bare="XYZUVW")  # a letter names the tool axis
 
 
 def ignored(cursor: Cursor) -> None:
@@ -47,37 +36,16 @@ def ignored(cursor: Cursor) -> None:
     cursor.at = cursor.stop
 
 
-def with_radius(cursor: Cursor) -> None:
-    """Words where R0 is a radius."""
-    cursor.words(radius=True)
-
-
-def with_axis(cursor: Cursor) -> None:
-    """Words with a letter that names the tool axis."""
-    cursor.words(bare="XYZUVW")
-
-
-def leading(name: str) -> Read:
+def leading(cursor: Cursor, name: str) -> None:
     """A number without an address, then words."""
-
-    def read(cursor: Cursor) -> None:
-        begin = cursor.blanks()
-        value = cursor.value()
-        if value is not None:
-            cursor.add(name, value, begin)
-        cursor.words()
-
-    return read
+    begin = cursor.blanks()
+    if (value := cursor.value()) is not None:
+        cursor.add(name, value, begin)
+    cursor.words()
 
 
-def tool_call(cursor: Cursor) -> None:
-    """Number or name of the tool, its axis, and words."""
-    tool(cursor)
-    with_axis(cursor)
-
-
-def tool(cursor: Cursor) -> None:
-    """A tool by number, by name in quotes or in a text parameter; nothing if none of them is there."""
+def tool(cursor: Cursor, words: Read) -> None:
+    """Perhaps a tool by number, by name in quotes or in a text parameter, then words."""
     begin = cursor.blanks()
     if found := cursor.match(TEXT):
         cursor.add("tool", found.group(1).strip(), begin)
@@ -85,29 +53,23 @@ def tool(cursor: Cursor) -> None:
         cursor.add("text", f"QS{int(found.group(1))}", begin)
     elif (value := cursor.value()) is not None:
         cursor.add("tool", value, begin)
-
-
-def tool_def(cursor: Cursor) -> None:
-    """The tool, and its length and radius when no tool table is active."""
-    tool(cursor)
-    cursor.words(radius=True)
+    words(cursor)
 
 
 def program_name(cursor: Cursor) -> None:
     """BEGIN PGM and END PGM: name and unit."""
     begin = cursor.blanks()
-    parts = cursor.rest().rsplit(None, 1)
-    if not parts or parts[-1].upper() not in ("MM", "INCH"):
+    *name, unit = cursor.rest().rsplit(None, 1) or [""]
+    if unit.upper() not in ("MM", "INCH"):
         cursor.at = cursor.stop
-        raise Fault(
-            "the unit of the program is missing: MM or INCH must follow its name", begin, max(1, len(" ".join(parts)))
-        )
-    unit_at = begin + cursor.rest().rindex(parts[-1])
-    if len(parts) == 2:
-        cursor.at = begin + len(parts[0])
-        cursor.add("name", parts[0], begin)
-    cursor.at = unit_at + len(parts[-1])
-    cursor.add("unit", parts[-1].upper(), unit_at)
+        what = "the unit of the program is missing: MM or INCH must follow its name"
+        raise Fault(what, begin, max(1, len(" ".join((*name, unit)))))
+    if name:
+        cursor.at = begin + len(name[0])
+        cursor.add("name", name[0], begin)
+    at = cursor.text.rindex(unit, begin, cursor.stop)
+    cursor.at = at + len(unit)
+    cursor.add("unit", unit.upper(), at)
     cursor.at = cursor.stop
 
 
@@ -117,20 +79,17 @@ def file_name(cursor: Cursor) -> None:
     if found := cursor.match(TEXT):
         name = found.group(1).strip()
     else:
-        name = cursor.rest().strip()
-        cursor.at = cursor.stop
+        name, cursor.at = cursor.rest().strip(), cursor.stop
     if not name:
         raise Fault("the name of a file is missing", begin, hint='for example SEL PATTERN "HOLES"')
     cursor.add("file", name, begin)
 
 
-# --- cycles -----------------------------------------------------------------------------------------------------------
-
-
 def cycle_parameters(cursor: Cursor) -> None:
     """Lines `Q200=+2`; a name before the first of them is a comment in the language of the dialog."""
     builder = cursor.builder
-    if not any(name.startswith("Q") for name in _addresses(cursor)):
+    names = list(builder.addresses)
+    if not any(names[word[0]].startswith("Q") for word in builder.block_words):
         first = _PARAMETER_HEAD.search(cursor.text, cursor.at, cursor.stop)
         name_of_cycle(cursor, first.start() if first else cursor.stop)
     while not cursor.done:
@@ -139,7 +98,7 @@ def cycle_parameters(cursor: Cursor) -> None:
         if found is None:
             raise cursor.unexpected()
         name = f"Q{(found.group(1) or '').upper()}{found.group(2)}"
-        value: object = None
+        value: object
         if text := cursor.match(TEXT):
             value = text.group(1)
         elif named := cursor.match(_STRING):
@@ -147,81 +106,29 @@ def cycle_parameters(cursor: Cursor) -> None:
         elif word := cursor.match(_FEED_WORD):
             value = re.sub(r"[ \t]", "", word.group()).upper().replace(",", ".")
         else:
-            value = cursor.value()
-        if value is None:
-            raise Fault(f"{name} needs a number", begin, found.end() - begin)
+            value = cursor.needed(f"{name} needs a number", begin, found.end() - begin)
         builder.word(name, value, begin, cursor.at - begin)
 
 
-def name_of_cycle(cursor: Cursor, stop: int = -1) -> None:
+def name_of_cycle(cursor: Cursor, stop: int | None = None) -> None:
     """The name is free; what looks like a word in it would be lost, which is said."""
-    stop = cursor.stop if stop < 0 else stop
+    stop = cursor.stop if stop is None else stop
     for found in _LIKE_A_WORD.finditer(cursor.text, cursor.at, stop):
         message = f"{found.group()} is read as part of the cycle's name and not obeyed"
         cursor.builder.alarm(message, found.start(), len(found.group()), severity="warning")
     cursor.at = stop
 
 
-def _addresses(cursor: Cursor) -> list[str]:
-    """Addresses of the words that the block has so far."""
-    names = list(cursor.builder.addresses)
-    return [names[word[0]] for word in cursor.builder.block_words]
-
-
-def contour_labels(cursor: Cursor) -> None:
-    """14.1: the numbers of the labels, `1/2/3/4`, after a word in the language of the dialog."""
-    cursor.match(_DIALOG)
-    while not cursor.done:
-        cursor.match(_SLASH)
-        begin = cursor.blanks()
-        found = cursor.match(_WHOLE)
-        if found is None:
-            raise Fault("a contour label must be a whole number", begin)
-        cursor.add("LBL", float(found.group(1)), begin)
-
-
-def datum_shift(cursor: Cursor) -> None:
-    """7.1 …: axis words, or the row of a datum table."""
-    begin = cursor.blanks()
-    if cursor.match(_ROW):
-        value = cursor.value()
-        if value is None:
-            raise Fault("# needs the number of a row", begin)
-        cursor.add("#", value, begin)
-    cursor.words()
-
-
-#: How sub-blocks n.1, n.2 … are read; the others are known by their number alone.
-PARTS: dict[str, Read] = {
-    "CYCL DEF 7": datum_shift,
-    **sub_blocks.READERS,
-    "CYCL DEF 10": plain,
-    "CYCL DEF 11": plain,
-    "CYCL DEF 12": program_of_cycle,
-    "CYCL DEF 14": contour_labels,
-}
-
-
-def definition(keyword: str, part: int) -> Statement:
-    """CYCL DEF and TCH PROBE in both formats."""
-    if part < 0:
-        return Statement(keyword, cycle_parameters, cycle_parameters)
-    if part == 0:
-        return Statement(keyword, ignored if keyword.startswith("TCH PROBE") else name_of_cycle, None, 0)
-    read = PARTS.get(f"{keyword}.{part}", PARTS.get(keyword, ignored))
-    return Statement(keyword, read, read, part)
-
-
-# --- recognizing ------------------------------------------------------------------------------------------------------
-
 _FORMS = "LT LN CT LCT PLT PLN PCT PLCT".split()
 WORDS: dict[str, Read] = {
     "L": plain, "CC": plain, "C": plain, "CT": plain, "LP": plain, "CP": plain, "CTP": plain, "CR": with_radius,
-    "RND": with_radius, "CHF": leading("length"), "FPOL": plain, "FL": plain, "FLT": plain, "FC": with_radius,
-    "FCT": with_radius, "FSELECT": leading("number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
-    "CYCL CALL": plain, "LBL": set_label, "CALL LBL": call_label, "TOOL CALL": tool_call, "TOOL DEF": tool_def,
-    "CALL PGM": call_program, "SEL PGM": select_program, "CALL SELECTED PGM": plain, "DECLARE STRING": declared_text,
-    "SEL PATTERN": file_name, "SEL TABLE": file_name, "PATTERN DEF": plain,  # whose lines PatternWords reads
+    "RND": with_radius, "CHF": partial(leading, name="length"), "FPOL": plain, "FL": plain, "FLT": plain, "FC": with_radius,
+    "FCT": with_radius, "FSELECT": partial(leading, name="number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
+    "CYCL CALL": plain, "LBL": labels.set_label, "CALL LBL": labels.call_label, "CALL PGM": labels.name_of_program,
+    "SEL PGM": labels.select_program, "CALL SELECTED PGM": plain,
+    "TOOL CALL": partial(tool, words=with_axis), "TOOL DEF": partial(tool, words=with_radius),
+    "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
+    "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
@@ -240,16 +147,14 @@ _CYCLE = re.compile(
 _FN = re.compile(r"FN[ \t]*(\d{1,3})[ \t]*:?", FLAGS)
 _TARGET = re.compile(r"Q([LRSC]?)[ \t]?(\d{1,6})[ \t]*=", FLAGS)
 _M = re.compile(r"M[ \t]*\d", FLAGS)
-_WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 _PARAMETER_HEAD = re.compile(r"\bQ([LRS]?)[ \t]*(\d{1,4})[ \t]*=[ \t]*", FLAGS)
 _FEED_WORD = re.compile(rf"[ \t]*(?:F[ \t]*(?:AUTO|MAX)|F[UZ][ \t]*{NUMBER}|PREDEF)(?![A-Z])", FLAGS)
 _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 #: A coordinate, another number with a sign, an M function, a feed, a speed.
-_LIKE_A_WORD = re.compile(r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS)
-_DIALOG = re.compile(r"[^\d;~]*")
+_LIKE_A_WORD = re.compile(
+    r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS
+)
 _TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
-_SLASH = re.compile(r"[ \t]*/")
-_ROW = re.compile(r"#")
 
 
 def recognize(cursor: Cursor) -> Statement | None:
@@ -266,7 +171,7 @@ def recognize(cursor: Cursor) -> Statement | None:
         return Statement(keyword, WORDS[keyword])
     if found := cursor.match(_FN):
         number = int(found.group(1))
-        return Statement(f"FN {number}", FN.get(number) or JUMPS.get(number) or ignored)
+        return Statement(f"FN {number}", FN.get(number) or labels.JUMPS.get(number) or ignored)
     begin = cursor.at
     if found := cursor.match(_TARGET):
         kind = found.group(1).upper()
@@ -291,8 +196,15 @@ def _known_by_name(cursor: Cursor, keyword: str, begin: int) -> Statement:
 
 
 def _cycle(cursor: Cursor, found: re.Match[str]) -> Statement:
+    """A definition in either format: parameters below it, or sub-blocks n.0, n.1, …"""
     word = " ".join(found.group(1).upper().split())
     if found.group(2) is None:
         raise Fault(f"{word} needs the number of a cycle", cursor.at)
-    part = -1 if found.group(3) is None else int(found.group(3))
-    return definition(f"{word} {int(found.group(2))}", part)
+    keyword = f"{word} {int(found.group(2))}"
+    if found.group(3) is None:
+        return Statement(keyword, cycle_parameters, cycle_parameters)
+    part = int(found.group(3))
+    if part == 0:
+        return Statement(keyword, ignored if word == "TCH PROBE" else name_of_cycle, None, 0)
+    read = READERS.get(f"{keyword}.{part}", READERS.get(keyword, ignored))
+    return Statement(keyword, read, read, part)

@@ -9,6 +9,7 @@ the word `DR` with the text `+` or `-`. Values without an address in the text ge
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -27,6 +28,7 @@ BLANKS = " \t"
 NUMBER = r"(?:\d+(?:[.,]\d*)?|[.,]\d+)"
 SIGNED = re.compile(rf"[ \t]*(?:([+-])[ \t]*)?({NUMBER})", FLAGS)
 PARAMETER = re.compile(r"[ \t]*(?:[+-][ \t]*)?Q[LR]?\d+", FLAGS)
+WHOLE = re.compile(r"[ \t]*(\d{1,9})(?![\d.,])", FLAGS)
 TEXT = re.compile(r'[ \t]*"([^"]*)"')
 
 FEEDS = ("FMAX", "FAUTO")
@@ -34,6 +36,7 @@ _OPERATION = re.compile(r"[*/^][ \t]*[\dQ(]", FLAGS)
 _LETTERS = re.compile("[A-Z]{2,}", FLAGS)
 _FEEDS = re.compile(r"F[ \t]*(MAX|AUTO)(?![A-Z])", FLAGS)
 _SIDES = re.compile(r"(?:(RL|RR|RO)(?![A-Z])|(R0)(?![\d.,]))", FLAGS)
+_SIGN = re.compile("[+-]")
 _SENSE = re.compile(r"DR[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
 
 _ADDRESSES = (
@@ -55,8 +58,13 @@ OWN = {
     94: re.compile(r"[ABC](?![A-Z])", FLAGS), 138: re.compile(r"[ABC](?![A-Z])", FLAGS),
 }  # fmt: skip
 
+LETTER_O = "the letter O stands where the digit 0 was meant"
 _G_NAME = re.compile(r"G[ \t]*(\d{1,4})(?!\d)", FLAGS)
 _LOOKS_LATIN = dict(zip("АВСЕНКМОРТХУІавсенкмортхуі", "ABCEHKMOPTXYIabcehkmoptxyi", strict=True))
+
+
+def from_inches(value: float | Expression) -> float | Expression:
+    return value * INCH if isinstance(value, float) else replace(value, scale=INCH)
 
 
 class Fault(Exception):
@@ -82,11 +90,9 @@ class Cursor:
 
     @property
     def done(self) -> bool:
-        """Whether only blanks are left."""
         return self.blanks() >= self.stop
 
     def rest(self) -> str:
-        """What is left of the line."""
         return self.text[self.at : self.stop]
 
     def match(self, pattern: re.Pattern[str]) -> re.Match[str] | None:
@@ -96,15 +102,21 @@ class Cursor:
             self.at = found.end()
         return found
 
+    def expect(self, pattern: re.Pattern[str], fault: str, hint: str = "") -> re.Match[str]:
+        """Take what must stand here; `fault` says so."""
+        begin = self.blanks()
+        found = self.match(pattern)
+        if found is None:
+            raise Fault(fault, begin, hint=hint)
+        return found
+
     def add(self, address: str, value: Any, offset: int, flag: int = 0) -> None:
         """A word from `offset` to here; `value` as in `text.program.Word`."""
         if self.inch and address in LENGTHS and isinstance(value, float | Expression):
-            value = value * INCH if isinstance(value, float) else replace(value, scale=INCH)
+            value = from_inches(value)
         self.builder.word(address, value, offset, self.at - offset, flag)
         if self.builder.blocks and self.builder.full == self.builder.blocks[-1][0]:
             self.at = self.stop
-
-    # --- values ---------------------------------------------------------------------------------------------------------
 
     def number(self) -> float | None:
         """A number with its sign; None if there is none here."""
@@ -128,11 +140,15 @@ class Cursor:
         return self.expression(found.start(), found.end())
 
     def expression(self, begin: int, end: int) -> Expression:
-        """The formula that stands between two places."""
-        begin += len(self.text[begin:end]) - len(self.text[begin:end].lstrip())
-        return parse(self.text[begin:end], self.builder.span(begin))
+        formula = self.text[begin:end].lstrip()
+        return parse(formula, self.builder.span(end - len(formula)))
 
-    # --- words ----------------------------------------------------------------------------------------------------------
+    def needed(self, fault: str, begin: int, length: int = 1) -> float | Expression:
+        """A number or a Q parameter that must be here; `fault` says so at the place `begin`."""
+        value = self.value()
+        if value is None:
+            raise Fault(fault, begin, length)
+        return value
 
     def words(self, bare: str = "", radius: bool = False) -> None:
         """Words up to the end of the line.
@@ -142,8 +158,7 @@ class Cursor:
         while not self.done:
             self.word(bare, radius)
 
-    def word(self, bare: str, radius: bool) -> None:
-        """One word."""
+    def word(self, bare: str = "", radius: bool = False) -> None:
         begin = self.at
         if found := self.match(_FEEDS):
             self.add("F" + found.group(1).upper(), None, begin)
@@ -153,12 +168,9 @@ class Cursor:
             self.add("DR", found.group(1), begin)
         elif found := self.match(_NAMED):
             address = found.group(2).upper()
-            if address == "CLSD" and self.text[self.at : self.at + 1] in ("+", "-"):
-                self.at += 1
-                self.add(address, self.text[self.at - 1], begin)
-                return
-            value = self.value()
-            if value is not None:
+            if address == "CLSD" and (sign := self.match(_SIGN)):
+                self.add(address, sign.group(), begin)
+            elif (value := self.value()) is not None:
                 self.add(address, value, begin, INCREMENTAL if found.group(1) else 0)
                 if address == "M" and value in OWN:
                     self.own_words(int(value))
@@ -197,9 +209,7 @@ class Cursor:
             named = ISO_NAMES.get(f"G{int(found[1])}") if found else None
             other = f"; {found[0].upper()} is {named}" if found and named else "; write L, C, CR or CYCL DEF"
             return Fault("G has no meaning here", self.at, hint=f"G words belong to DIN/ISO programs{other}")
-        hint = (
-            "the letter O stands where the digit 0 was meant" if c in "Oo" and self.text[self.at - 1].isdigit() else ""
-        )
+        hint = LETTER_O if c in "Oo" and self.text[self.at - 1].isdigit() else ""
         if _OPERATION.match(self.text, self.at, self.stop):
             hint = "a formula stands in a block of its own, for example Q10 = Q1 / 2"
         return Fault(f"{c!r} has no meaning here", self.at, hint=hint)
@@ -213,10 +223,13 @@ class Cursor:
                 return Fault(f"{word} has no meaning in this block", self.at, value.end() - found.start())
         hint = ""
         if after in ("O", "o"):
-            hint = "the letter O stands where the digit 0 was meant"
+            hint = LETTER_O
         elif after == "=":
             hint = "no = between an address and its number"
         elif letters := _LETTERS.match(self.text, self.at, self.stop):
             hint = near(letters.group(), FEEDS, 1)
         what = f", found {after!r}" if after else ""
         return Fault(f"{name} needs a number{what}", self.at, found.end() - found.start(), hint)
+
+
+Read = Callable[[Cursor], None]

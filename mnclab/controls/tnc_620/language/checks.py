@@ -1,0 +1,50 @@
+"""Words of a block and their numbers: which is given, from where it counts, within which limits it lies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from mnclab.machine.control import Words
+from mnclab.machine.machine import INF, Machine
+from mnclab.text.program import Word
+
+
+def first(words: Words) -> Word | None:
+    """The word that an alarm about the whole block points at."""
+    return words.words[0] if words.words else None
+
+
+def one_of(m: Machine, words: Words, addresses: Iterable[str], allowed: str) -> Word | None:
+    """The word that is written of several that exclude each other."""
+    given = [words[address] for address in addresses if address in words]
+    if len(given) > 1:
+        m.alarm(f"{given[0]} and {given[1]} stand in one block: {allowed} is allowed", given[1])
+    return given[0] if given else None
+
+
+def counted(m: Machine, word: Word, before: float) -> float:
+    """The value of a word; an incremental one counts from `before`."""
+    value = m.value(word)
+    return before + value if word.incremental else value
+
+
+def above_zero(m: Machine, word: Word, name: str, most: float = INF) -> float:
+    value = m.value(word)
+    if not 0 < value <= most:
+        limit = f" and at most {most:g}" if most < INF else ""
+        m.alarm(f"{name} must be greater than 0{limit}, got {value:g}", word)
+    return value
+
+
+def not_negative(m: Machine, word: Word, name: str) -> float:
+    value = m.value(word)
+    if value < 0:
+        m.alarm(f"{name} must be at least 0, got {value:g}", word)
+    return value
+
+
+def whole(m: Machine, word: Word, name: str, least: int, most: int) -> int:
+    value = m.value(word)
+    if value != int(value) or not least <= value <= most:
+        m.alarm(f"{name} must be a whole number from {least} to {most}, got {value:g}", word)
+    return int(value)
