@@ -28,6 +28,10 @@ Result = TypeVar("Result")
 CLEAN, ALARMS, USAGE, INTERRUPTED = 0, 1, 2, 130
 FIRST_LESSON = "00_first_path.ipynb"
 
+SUFFIXES = (
+    "svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; ngc (plain blocks); stl, gltf, glb, vtk"
+)
+
 EPILOG = f"""\
 exit status: 0 clean, 1 alarms (or an unreadable file), 2 a wrong command line, 130 Ctrl-C
 warnings are shown too, but leave the status at 0
@@ -68,8 +72,11 @@ def obeyed(arguments: Sequence[str] | None) -> int:
     if rest and chosen.do is not lab:
         commands.error(f"unrecognized arguments: {' '.join(rest)}")
     chosen.rest = rest
-    status: int = chosen.do(chosen)
-    return status
+    try:
+        return int(chosen.do(chosen))
+    except Alarm as alarm:  # there is no program in the file
+        say(alarm, chosen.file)
+        return ALARMS
 
 
 def give_up_printing() -> None:
@@ -92,59 +99,48 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"mnclab {mnclab.__version__}")
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    def command(name: str, do: Any, does: str, **more: Any) -> argparse.ArgumentParser:
-        sub = commands.add_parser(name, help=does, description=f"{does[0].upper()}{does[1:]}.", **more)
+    def command(name: str, do: Any, does: str, file: str = "file", **more: Any) -> argparse.ArgumentParser:
+        sub = commands.add_parser(name, help=does, description=f"{does[0].upper()}{does[1:]}.")
         sub.set_defaults(do=do)
+        if file:
+            sub.add_argument(file, metavar="FILE", **more)
         return sub
+
+    def output(sub: argparse.ArgumentParser, says: str) -> None:
+        sub.add_argument("-o", "--output", required=True, metavar="OUT", help=says)
 
     def options(sub: argparse.ArgumentParser, json_says: str = "") -> None:
         sub.add_argument("--control", choices=list(mnclab.controls), help="default: from the file's suffix or its text")
-        sub.add_argument(
-            "--setup", metavar="S.toml", help="tools, datums, blank, start, settings (mnclab --help shows one)"
-        )
+        says = "tools, datums, blank, start, settings (mnclab --help shows one)"
+        sub.add_argument("--setup", metavar="S.toml", help=says)
         if json_says:
             sub.add_argument("--json", action="store_true", help=json_says)
 
-    sub = command("check", check, "run programs and report their alarms")
-    sub.add_argument("files", nargs="+", metavar="FILE")
+    sub = command("check", check, "run programs and report their alarms", "files", nargs="+")
     options(sub, "a list of files with their alarms on stdout instead")
     sub = command("run", run, "run a program and print its moves, one a line")
-    sub.add_argument("file", metavar="FILE")
     options(sub, "summary, alarms and columns of the path on stdout instead")
-    sub = command(
-        "plot", plot, "run a program and save what it does: a picture, a page to play it, a file for other programs"
-    )
-    sub.add_argument("file", metavar="FILE")
-    sub.add_argument(
-        "-o",
-        "--output",
-        required=True,
-        metavar="OUT",
-        help="the suffix says what: svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; "
-        "ngc (plain blocks); stl, gltf, glb, vtk",
-    )
-    sub.add_argument(
-        "--compensation", action="store_true", help="contour, tool-centre path and how its corners were found"
-    )
+    kinds = "a picture, a page to play it, a file for other programs"
+    sub = command("plot", plot, f"run a program and save what it does: {kinds}")
+    output(sub, f"the suffix says what: {SUFFIXES}")
+    says = "contour, tool-centre path and how its corners were found"
+    sub.add_argument("--compensation", action="store_true", help=says)
     sub.add_argument("--rules", type=words, metavar="G160,G161", help="with --compensation: a picture for each rule")
     sub.add_argument("--radii", type=numbers, metavar="2,5", help="with --compensation: a picture for each radius, mm")
     options(sub)
     sub = command("report", report, "run a program and write a report: figures, tools, times, picture, alarms, listing")
-    sub.add_argument("file", metavar="FILE")
-    sub.add_argument("-o", "--output", required=True, metavar="OUT", help="an .html or a .pdf file")
+    output(sub, "an .html or a .pdf file")
     sub.add_argument("--title", help="default: the name of the file")
     options(sub)
     sub = command("time", time, "say how long a program takes on a machine, and where the time goes")
-    sub.add_argument("file", metavar="FILE")
     options(sub, "the times on stdout as one object instead")
     sub.add_argument("--machine", metavar="M", help="a named machine, or a .toml file (default: limits of the setup)")
     sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
-    sub = command("help", explain, "show the parameters of a cycle or the meaning of a function")
-    sub.add_argument(
-        "code", nargs="+", metavar="CODE", help="such as G83 or CYCL DEF 200; the name of a control: all its codes"
-    )
+    sub = command("help", explain, "show the parameters of a cycle or the meaning of a function", "")
+    codes = "such as G83 or CYCL DEF 200; the name of a control: all its codes"
+    sub.add_argument("code", nargs="+", metavar="CODE", help=codes)
     sub.add_argument("--control", choices=list(mnclab.controls), help="default: the only one that has the code")
-    command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow")
+    command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow", "")
     return top
 
 
@@ -178,14 +174,10 @@ def sensible(do: Callable[..., Result], *arguments: Any) -> Result:
         sys.exit(USAGE)
 
 
-def obey(chosen: argparse.Namespace) -> mnclab.Run | None:
-    """Run a file as the command line says; None, and a line on stderr, if there is no program in it."""
+def obey(chosen: argparse.Namespace) -> mnclab.Run:
+    """Run a file as the command line says; an Alarm if there is no program in it."""
     setup = None if chosen.setup is None else sensible(load, chosen.setup)
-    try:
-        return mnclab.run(program(chosen.file), chosen.control, setup)
-    except Alarm as alarm:
-        say(alarm, chosen.file)
-        return None
+    return mnclab.run(program(chosen.file), chosen.control, setup)
 
 
 def check(chosen: argparse.Namespace) -> int:
@@ -210,8 +202,6 @@ def check(chosen: argparse.Namespace) -> int:
 def run(chosen: argparse.Namespace) -> int:
     """Print the moves of a program."""
     result = obey(chosen)
-    if result is None:
-        return ALARMS
     if chosen.json:
         from mnclab.show.export import document
 
@@ -224,8 +214,6 @@ def run(chosen: argparse.Namespace) -> int:
 def plot(chosen: argparse.Namespace) -> int:
     """Save a picture of what a program does, or its table of moves."""
     result = obey(chosen)
-    if result is None:
-        return ALARMS
     if chosen.compensation or chosen.rules or chosen.radii:
         options = {"rules": chosen.rules, "radii": chosen.radii}
         sensible(save, result, chosen.output, lambda run: run.plot_compensation(**options))
@@ -237,8 +225,6 @@ def plot(chosen: argparse.Namespace) -> int:
 def report(chosen: argparse.Namespace) -> int:
     """Write a report of a run."""
     result = obey(chosen)
-    if result is None:
-        return ALARMS
     sensible(result.report, chosen.output, chosen.title)
     return verdict(result)
 
@@ -247,8 +233,6 @@ def time(chosen: argparse.Namespace) -> int:
     """Print how long a program takes: in all, by cause, by tool, and the lines that cost most."""
     machine = None if chosen.machine is None else sensible(load_machine, chosen.machine)
     result = obey(chosen)
-    if result is None:
-        return ALARMS
     limits = machine.limits if machine else result.setup.limits
     profile = sensible(lambda: result.profile(limits, override=chosen.override / 100))
     if chosen.json:

@@ -19,7 +19,7 @@ from mnclab.text.alarm import ALARM, Alarm
 from mnclab.text.code_pages import decode
 from mnclab.text.file import read as read_file
 from mnclab.text.given import shown
-from mnclab.text.nearest import hint, nearest
+from mnclab.text.nearest import hint
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program
 
@@ -92,14 +92,12 @@ def _text_of(source: str | Path, control: str | None) -> tuple[str, str, str]:
         raise Alarm(f"a program is a text or a Path, got {shown(source)}", hint='mnclab.run("G0 X5\\n", "mnc")')
     path = Path(source)
     if isinstance(source, str):
-        if "\n" in source or "\r" in source or len(source) > 4096 or "\0" in source:
-            return source, "program", "str"
-        if not _is_file(source) and not _names_a_file(source, control):
+        plainly = len(source) > 4096 or not {"\n", "\r", "\0"}.isdisjoint(source)
+        if plainly or not (_is_file(source) or _names_a_file(source, control)):
             return source, "program", "str"
     if "\0" not in str(path) and not os.path.lexists(path):
-        near = _files_near(path)
-        if isinstance(source, str):
-            near = f"{near}; a program ends with a line end" if near else "a program ends with a line end"
+        told = (_files_near(path), "a program ends with a line end" if isinstance(source, str) else "")
+        near = "; ".join(filter(None, told))
         raise Alarm(f"{path} cannot be read: there is no such file", hint=near)
     text, encoding = decode(read_file(path, path))
     return text, str(path), encoding
@@ -145,25 +143,19 @@ def choose(control: str | None, name: str, text: str) -> Control:
     """The control that was named, or the one that the suffix or the text points to; an Alarm when none or two do."""
     if control is not None:
         if not isinstance(control, str) or control not in CONTROLS:
-            near = nearest(str(control)[:40], CONTROLS, 1)
-            raise Alarm(
-                f"there is no control {shown(control)}",
-                hint=f"known: {', '.join(CONTROLS)}" + (f"; near: {near[0]}" if near else ""),
-            )
+            near = hint(str(control)[:40], CONTROLS, 1)
+            known = f"known: {', '.join(CONTROLS)}"
+            raise Alarm(f"there is no control {shown(control)}", hint=f"{known}; {near}" if near else known)
         return CONTROLS[control]
-    everyone = [CONTROLS[known] for known in CONTROLS]
     suffix = Path(name).suffix.lower()
-    by_suffix = [one for one in everyone if suffix and suffix in one.suffixes]
+    by_suffix = [one for one in CONTROLS.values() if suffix and suffix in one.suffixes]
     if len(by_suffix) == 1:
         return by_suffix[0]
-    fitting = [one for one in by_suffix or everyone if one.looks_like and one.looks_like(text)]
+    fitting = [one for one in by_suffix or CONTROLS.values() if one.looks_like and one.looks_like(text)]
     if len(fitting) == 1:
         return fitting[0]
-    which = (
-        "more than one control fits"
-        if fitting
-        else "nothing in the text or the file's name says which control it is for"
-    )
+    nothing = "nothing in the text or the file's name says which control it is for"
+    which = "more than one control fits" if fitting else nothing
     raise Alarm(f"{which}: name it", hint=f"control= one of {', '.join(CONTROLS)}")
 
 
@@ -172,6 +164,7 @@ class Help:
 
     def __init__(self, entry: Function | type[Cycle] | tuple[Setting, ...] | Control, control: Control) -> None:
         self.entry, self.control = entry, control
+        self._iso = [name for name, known in control.names.items() if known == getattr(entry, "code", None)]
 
     def __str__(self) -> str:
         entry = self.entry
@@ -187,8 +180,7 @@ class Help:
             takes = f"\ntakes {' '.join(entry.takes)}" if entry.takes else ""
             group = f", group {entry.group}" if entry.group else ""
             return f"{entry.code}  {entry.title}  ({self.control.name} {entry.source}{group})\n{entry.doc}{takes}"
-        iso = [name for name, code in self.control.names.items() if code == entry.code]
-        return help_text(entry) + (f"\n\nDIN/ISO {', '.join(iso)}" if iso else "")
+        return help_text(entry) + (f"\n\nDIN/ISO {', '.join(self._iso)}" if self._iso else "")
 
     __repr__ = __str__
 
@@ -199,7 +191,7 @@ class Help:
             return settings_html(self.entry)
         if isinstance(self.entry, Function):
             return f"<pre>{escape(str(self))}</pre>"
-        iso = ", ".join(f"<code>{name}</code>" for name, code in self.control.names.items() if code == self.entry.code)
+        iso = ", ".join(f"<code>{name}</code>" for name in self._iso)
         return help_html(self.entry) + (f"<p>DIN/ISO {iso}</p>" if iso else "")
 
 
@@ -217,17 +209,15 @@ def help(code: str | Control = "", control: str | None = None) -> Help:
     chosen = choose(control, "", "") if control is not None else _only_one_with(code)
     if code == chosen.name or not code.strip():
         return Help(chosen, chosen)
-    settings = {setting.name: setting for setting in chosen.settings}
-    if code.strip().lower() in ("settings", *settings):
-        return Help(tuple(one for name, one in settings.items() if code.strip().lower() in ("settings", name)), chosen)
+    if settings := tuple(one for one in chosen.settings if code.strip().lower() in ("settings", one.name)):
+        return Help(settings, chosen)
     wanted = _normal(code, chosen)
-    if wanted in chosen.cycles:
-        return Help(chosen.cycles[wanted], chosen)
-    if wanted in chosen.functions:
-        return Help(chosen.functions[wanted], chosen)
+    if entry := chosen.cycles.get(wanted) or chosen.functions.get(wanted):
+        return Help(entry, chosen)
     if wanted in chosen.refused:
         raise Alarm(f"{wanted}: {chosen.refused[wanted]}")
-    near = hint(wanted, (*chosen.functions, *chosen.cycles, "settings", *settings), 5)
+    names = (setting.name for setting in chosen.settings)
+    near = hint(wanted, (*chosen.functions, *chosen.cycles, "settings", *names), 5)
     raise Alarm(f"{chosen.name} has no code {code!r}", hint=near)
 
 

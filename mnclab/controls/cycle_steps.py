@@ -1,8 +1,8 @@
 """A cycle looked at without a program: its steps in a table.
 
-The cycle is bound as a program would bind it, and its steps are carried out on a machine that nobody else has; so the table
-shows where each of them ends. What the cycle asks of the machine (a tool, a spindle that turns or stands) is looked for among
-the tools of the setup; a touch finds the part where it is aimed at; what needs a program is an Alarm.
+The cycle is bound as a program would bind it, and its steps are carried out on a machine that nobody else has; so the
+table shows where each of them ends. What the cycle asks of the machine (a tool, a spindle that turns or stands) is looked
+for among the tools of the setup; a touch finds the part where it is aimed at; what needs a program is an Alarm.
 """
 
 from __future__ import annotations
@@ -59,15 +59,14 @@ class CycleSteps(Sequence[Step]):
 
     @property
     def title(self) -> str:
-        given = (
-            f"{address}={value if isinstance(value, str) else shown(value)}" for address, value in self.values.items()
-        )
-        return " ".join((f"{self.cycle.code} {self.cycle.title}:", *given))
+        given = {address: v if isinstance(v, str) else shown(v) for address, v in self.values.items()}
+        return " ".join((f"{self.cycle.code} {self.cycle.title}:", *map("=".join, given.items())))
 
     def cells(self) -> Iterator[tuple[str, ...]]:
         for step, end, feed in self.rows:
             places = ("", "", "") if end is None else map(figure, end)
-            yield type(step).__name__.lower(), step.label, *places, feed, details(step)
+            detail = DETAILS[type(step)](step) if type(step) in DETAILS else ""
+            yield type(step).__name__.lower(), step.label, *places, feed, detail
 
     def __str__(self) -> str:
         return f"{self.title}\n{text_table(HEAD, self.cells())}"
@@ -78,29 +77,18 @@ class CycleSteps(Sequence[Step]):
         return f"<p>{self.title}</p>{html_table(HEAD, self.cells(), numbers=(2, 3, 4, 5))}"
 
 
-def details(step: Step) -> str:
-    """What a step does beside going to its end."""
-    match step:
-        case Turn():
-            return f"{figure(math.degrees(step.angle))}°"
-        case Thread():
-            return f"{figure(step.pitch)} mm/rev"
-        case Wait():
-            return f"{figure(step.seconds)} s"
-        case Spin():
-            return SPINDLE[step.turning] + (f", {figure(step.speed)} rev/min" if step.turning and step.speed else "")
-        case Orient():
-            return f"at {figure(step.angle)}°"
-        case Coolant():
-            return "on" if step.on else "off"
-        case Swivel():
-            return " ".join(f"{axis}{figure(angle)}°" for axis, angle in zip("ABC", step.angles, strict=True))
-        case Say():
-            return step.text
-        case Write():
-            return f"{step.what} {'' if step.key is None else step.key} = {shown(step.value)}"
-        case _:
-            return ""
+#: What a step does beside going to its end.
+DETAILS: dict[type[Step], Callable[[Any], str]] = {
+    Turn: lambda step: f"{figure(math.degrees(step.angle))}°",
+    Thread: lambda step: f"{figure(step.pitch)} mm/rev",
+    Wait: lambda step: f"{figure(step.seconds)} s",
+    Spin: lambda s: SPINDLE[s.turning] + (f", {figure(s.speed)} rev/min" if s.turning and s.speed else ""),
+    Orient: lambda step: f"at {figure(step.angle)}°",
+    Coolant: lambda step: "on" if step.on else "off",
+    Swivel: lambda step: " ".join(f"{axis}{figure(angle)}°" for axis, angle in zip("ABC", step.angles, strict=True)),
+    Say: lambda step: step.text,
+    Write: lambda step: f"{step.what} {'' if step.key is None else step.key} = {shown(step.value)}",
+}
 
 
 def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any) -> CycleSteps:

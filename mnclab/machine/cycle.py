@@ -79,18 +79,11 @@ class Parameter:
         """The limits in words, empty when any number is allowed."""
         if self.choices:
             return "one of " + ", ".join(f"{choice:g}" for choice in self.choices)
-        parts = [
-            f"{words} {limit:.10g}"
-            for words, limit in (
-                ("greater than", self.above),
-                ("at least", self.at_least),
-                ("less than", self.below),
-                ("at most", self.at_most),
-            )
-            if limit is not None
-        ]
-        if self.type == "integer":
-            parts.insert(0, "a whole number")
+        limits = {
+            "greater than": self.above, "at least": self.at_least, "less than": self.below, "at most": self.at_most,
+        }  # fmt: skip
+        parts = ["a whole number"] if self.type == "integer" else []
+        parts += [f"{words} {limit:.10g}" for words, limit in limits.items() if limit is not None]
         return " and ".join(parts)
 
     def refuses(self, value: float) -> bool:
@@ -106,28 +99,12 @@ class Parameter:
 
 
 def param(
-    address: str | tuple[str, ...],
-    meaning: str,
-    unit: str = "mm",
-    *,
-    default: Any = MISSING,
-    default_means: str = "",
-    choices: Mapping[float, str] | None = None,
-    above: float | None = None,
-    at_least: float | None = None,
-    below: float | None = None,
-    at_most: float | None = None,
-    incremental: bool = False,
-    modal: bool = False,
-    instead: str = "",
-    also: tuple[str, ...] = (),
-    type: str = "number",
-    predef: bool = False,
-    note: str = "",
-    mark: int = 0,
-    several: bool = False,
-    example: float | None = None,
-) -> Any:
+    address: str | tuple[str, ...], meaning: str, unit: str = "mm", *, default: Any = MISSING, default_means: str = "",
+    choices: Mapping[float, str] | None = None, above: float | None = None, at_least: float | None = None,
+    below: float | None = None, at_most: float | None = None, incremental: bool = False, modal: bool = False,
+    instead: str = "", also: tuple[str, ...] = (), type: str = "number", predef: bool = False, note: str = "",
+    mark: int = 0, several: bool = False, example: float | None = None,
+) -> Any:  # fmt: skip
     """Declare one parameter of a cycle in one line of its class.
 
     No `default` means required, unless `instead` of it another is given (a parameter by its name);
@@ -170,12 +147,8 @@ class Cycle:
     @cache
     def parameters(cls) -> tuple[Parameter, ...]:
         """The declared parameters, in order."""
-        declared = []
-        for item in fields(cls):
-            if "parameter" in item.metadata:
-                parameter: Parameter = item.metadata["parameter"]
-                declared.append(replace(parameter, name=item.name))
-        return tuple(declared)
+        declared = ((item.name, item.metadata.get("parameter")) for item in fields(cls))
+        return tuple(replace(parameter, name=name) for name, parameter in declared if parameter)
 
     @classmethod
     def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:

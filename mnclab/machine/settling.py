@@ -30,12 +30,10 @@ def settle(m: Machine, unfinished: bool = False) -> None:
     if not len(piece):
         return
     m.programmed_pieces.append(piece)
-    labels = m.recorder
-    for joint in labels.joints:
-        labels.label(joint.label)
-    if (piece.side != 0).any():
-        labels.label(compensation.CORNER)
-    piece = piece.annotated(labels=tuple(labels.labels), joints=tuple(labels.joints))
+    recorder = m.recorder
+    for label in (*(joint.label for joint in recorder.joints), *([compensation.CORNER] if piece.side.any() else ())):
+        recorder.label(label)
+    piece = piece.annotated(labels=tuple(recorder.labels), joints=tuple(recorder.joints))
     start = end_of_settled(m)
     if start is not None and start != tuple(piece.start[0].tolist()):
         piece = piece.replace(start=np.concatenate([[start], piece.start[1:]]))
@@ -44,10 +42,10 @@ def settle(m: Machine, unfinished: bool = False) -> None:
         passed = _passes(m, piece, unfinished, report)
     except PathFault as fault:
         m.cut = fault.step
-        m.gouges += report.gouges
         m.settled.append(_before(m, piece[piece.step < fault.step]))
         raise Alarm(fault.message, m.flow.span_of_step(fault.step), hint=fault.hint) from None
-    m.gouges += report.gouges
+    finally:
+        m.gouges += report.gouges
     for message, step, hint in report.remarks():
         m.alarms.append(Alarm(message, m.flow.span_of_step(step), WARNING, hint))
     m.altered |= passed is not piece
@@ -65,12 +63,10 @@ def stop_at_travel(m: Machine) -> None:
     m.cut = int(path.step[found.row])
     m.settled = [path[path.step < m.cut]]
     axis, (low, high) = "XYZ"[found.axis], travel[found.axis].tolist()
-    raise Alarm(
-        f"{axis} leaves the travel of the machine: the spindle would be at {axis}{found.position:.3f} in machine "
-        f"coordinates, and goes from {low:g} to {high:g}",
-        m.flow.span_of_step(m.cut),
-        hint="Limits(travel=…) says how far the axes go, and counts the spindle reference, not the tip of the tool",
-    )
+    place = f"{axis}{found.position:.3f} in machine coordinates, and goes from {low:g} to {high:g}"
+    hint = "Limits(travel=…) says how far the axes go, and counts the spindle reference, not the tip of the tool"
+    message = f"{axis} leaves the travel of the machine: the spindle would be at {place}"
+    raise Alarm(message, m.flow.span_of_step(m.cut), hint=hint)
 
 
 def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.Report | None = None) -> Toolpath:
@@ -104,11 +100,8 @@ def paths(m: Machine) -> tuple[Toolpath, Toolpath]:
     if m.cut is not None:
         programmed = programmed[programmed.step < m.cut]
     if m.cut is None and not m.altered:
-        both = [programmed]
-    else:
-        both = [programmed, concatenate(m.settled)]
-    shown = [_shown(m, path) for path in both]
-    return shown[0], shown[-1]
+        return (_shown(m, programmed),) * 2
+    return _shown(m, programmed), _shown(m, concatenate(m.settled))
 
 
 def _shown(m: Machine, path: Toolpath) -> Toolpath:
@@ -120,15 +113,11 @@ def _shown(m: Machine, path: Toolpath) -> Toolpath:
         path = path.replace(start=vertices[:-1], end=vertices[1:], centre=centre)
         if not np.isnan(path.surface).all():
             path = path.replace(spindle_x=path.spindle_x - origin[0])
-    recorder = m.recorder
-    return path.annotated(
-        labels=tuple(recorder.labels), joints=tuple(recorder.joints), origin=tuple(origin), lathe=m.control.lathe
-    )
+    notes = {"labels": tuple(m.recorder.labels), "joints": tuple(m.recorder.joints), "origin": tuple(origin)}
+    return path.annotated(**notes, lathe=m.control.lathe)
 
 
 def shifted(m: Machine) -> Iterator[compensation.Gouge]:
     """The places where the tool did not fit, relative to the origin of the paths."""
-    origin = m.origin or (0.0, 0.0, 0.0)
     for gouge in m.gouges:
-        x, y, z = (a - b for a, b in zip(gouge.place, origin, strict=True))
-        yield gouge._replace(place=(x, y, z))
+        yield gouge._replace(place=tuple(np.subtract(gouge.place, m.origin or (0.0, 0.0, 0.0)).tolist()))

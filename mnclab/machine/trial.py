@@ -18,28 +18,12 @@ TrialWords = Sequence[tuple[str, Any]]  # address and value
 
 #: A piece of a meaning -> a first value, mm where it is a length; the first that fits and is allowed counts.
 FIRST = (
-    ("diameter of the finished", 30.0),
-    ("end of the passes", -20.0),
-    ("stock removed", 2.0),
-    ("position along X", 20.0),
-    ("position along Y", 10.0),
-    ("along X", 20.0),
-    ("along Y", 10.0),
-    ("second set-up clearance", 20.0),
-    ("2nd set-up clearance", 20.0),
-    ("clearance", 2.0),
-    ("peck", 5.0),
-    ("infeed", 5.0),
-    ("plunging depth", 5.0),
-    ("depth", -20.0),
-    ("depth", 20.0),
-    ("surface", 0.0),
-    ("level", 2.0),
-    ("bottom", -20.0),
-    ("", 0.0),
-    ("", 5.0),
-    ("", -5.0),
-)
+    ("diameter of the finished", 30.0), ("end of the passes", -20.0), ("stock removed", 2.0),
+    ("position along x", 20.0), ("position along y", 10.0), ("along x", 20.0), ("along y", 10.0),
+    ("second set-up clearance", 20.0), ("2nd set-up clearance", 20.0), ("clearance", 2.0),
+    ("peck", 5.0), ("infeed", 5.0), ("plunging depth", 5.0), ("depth", -20.0), ("depth", 20.0),
+    ("surface", 0.0), ("level", 2.0), ("bottom", -20.0), ("", 0.0), ("", 5.0), ("", -5.0),
+)  # fmt: skip
 #: What may be left out, but is worth seeing at first.
 WRITTEN = ("position along", "peck", "infeed")
 BY_UNIT = {"mm/min": 120.0, "s": 0.0, "rev/min": 1000.0, "0.0001 mm/rev": 2000.0}
@@ -73,7 +57,7 @@ def first_value(parameter: Parameter) -> float | str:
         return float(next(iter(parameter.choices)))
     meaning, scale = parameter.meaning.lower(), SCALE.get(parameter.unit, 1.0)
     likely = [BY_UNIT[parameter.unit]] if parameter.unit in BY_UNIT else []
-    likely += [value * scale for piece, value in FIRST if piece.lower() in meaning]
+    likely += [value * scale for piece, value in FIRST if piece in meaning]
     return next((value for value in likely if not parameter.refuses(value)), 0.0)
 
 

@@ -262,12 +262,11 @@ class Course:
 
     def too_many_rows(self, m: Machine, count: int) -> NoReturn:
         """Stop where the path would have so many rows."""
-        allowed = int(m.settings["most_rows"])
-        raise Alarm(
-            f"the path would have {count} rows, more than the setting most_rows ({allowed}) and {ROWS_A_BLOCK} for each "
-            f"block of the text allow{self.loops.told(self.programs)}",
-            self.span_of_block(self.current),
+        allowed = (
+            f"the setting most_rows ({int(m.settings['most_rows'])}) and {ROWS_A_BLOCK} for each block of the text"
         )
+        message = f"the path would have {count} rows, more than {allowed} allow{self.loops.told(self.programs)}"
+        raise Alarm(message, self.span_of_block(self.current))
 
     def begin_many(self, m: Machine, first: int, count: int) -> int:
         """Note the execution of blocks in a row; the number of the first step."""

@@ -201,15 +201,12 @@ class Interpreter:
             refuse_marks(cycle, code, head)
         marks = {p.name: head for p in cycle.parameters() if head.flag & p.mark}
         values, words = values | dict.fromkeys(marks, 1.0), words | marks
+        definition = Definition(cycle, code, values, words, head, program=machine.program)
         again = machine.position_cycle
-        same = again is not None and (again.cycle is cycle or (cycle.shares and again.cycle.shares))
-        if again is not None and same:  # written again or not, what is modal holds
+        if again and (again.cycle is cycle or (cycle.shares and again.cycle.shares)):  # what is modal holds
             modal = {p.name for p in cycle.parameters() if p.modal}
             values = {k: v for k, v in again.values.items() if k in modal} | values
-            definition = Definition(cycle, code, values, words, head, again.extra)
-        else:
-            definition = Definition(cycle, code, values, words, head)
-        definition.program = machine.program
+            definition.extra = again.extra
         definition.values = cycle.prepare(values, words, machine, definition.extra)
         if self.control.storage == "variables" and cycle.in_variables:
             store(machine, definition)

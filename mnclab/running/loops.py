@@ -104,19 +104,13 @@ class Loops:
             self.seen[key] = _Seen(m.step, passes, dict(m.variables), m.step)
             return
         if self._decided(m, seen.step) or (seen.values == m.variables and m.variables.state_read <= seen.kept):
-            raise Alarm(
-                "the program never gets out of this loop: nothing that decides where it goes on changes from one round to "
-                "the next",
-                span,
-                hint="change in the loop what its condition reads, or repeat it with a count",
-            )
+            why = "nothing that decides where it goes on changes from one round to the next"
+            hint = "change in the loop what its condition reads, or repeat it with a count"
+            raise Alarm(f"the program never gets out of this loop: {why}", span, hint=hint)
         if seen.count >= ROUNDS and self._runs_away(seen.step):
-            raise Alarm(
-                f"the program does not get out of this loop: in {seen.count} rounds its conditions moved away from being met "
-                "otherwise",
-                span,
-                hint="the count runs the wrong way, or the condition asks for the opposite",
-            )
+            why = f"in {seen.count} rounds its conditions moved away from being met otherwise"
+            hint = "the count runs the wrong way, or the condition asks for the opposite"
+            raise Alarm(f"the program does not get out of this loop: {why}", span, hint=hint)
         seen.step, seen.count = m.step, seen.count + 1
         if seen.count == seen.next_kept:  # ever further apart: values that come again after many rounds are found, too
             seen.values, seen.kept, seen.next_kept = dict(m.variables), m.step, 2 * seen.count

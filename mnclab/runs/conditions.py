@@ -27,27 +27,17 @@ Array = NDArray[Any]
 
 _TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d*)?|\.\d+)|([A-Za-z_#]\w*)|(<=|>=|==|!=|[-+*/^()<>=]))", re.ASCII)
 FUNCTIONS: dict[str, Callable[[Array], Array]] = {
-    "abs": np.abs,
-    "sqrt": np.sqrt,
-    "sin": lambda a: np.sin(np.radians(a)),
-    "cos": lambda a: np.cos(np.radians(a)),
-    "tan": lambda a: np.tan(np.radians(a)),
-}
+    "abs": np.abs, "sqrt": np.sqrt, "sin": lambda a: np.sin(np.radians(a)),
+    "cos": lambda a: np.cos(np.radians(a)), "tan": lambda a: np.tan(np.radians(a)),
+}  # fmt: skip
 COMPARISONS: dict[str, Callable[[Array], Array]] = {
-    "<": lambda gap: gap < -SAME,
-    "<=": lambda gap: gap <= SAME,
-    ">": lambda gap: gap > SAME,
-    ">=": lambda gap: gap >= -SAME,
-    "==": lambda gap: np.abs(gap) <= SAME,
-    "!=": lambda gap: np.abs(gap) > SAME,
-}
+    "<": lambda gap: gap < -SAME, "<=": lambda gap: gap <= SAME, "==": lambda gap: np.abs(gap) <= SAME,
+    ">": lambda gap: gap > SAME, ">=": lambda gap: gap >= -SAME, "!=": lambda gap: np.abs(gap) > SAME,
+}  # fmt: skip
 ARITHMETIC: dict[str, Callable[[Array, Array], Array]] = {
-    "+": np.add,
-    "-": np.subtract,
-    "*": np.multiply,
+    "+": np.add, "-": np.subtract, "*": np.multiply, "^": np.power,
     "/": lambda a, b: np.where(b == 0, np.nan, np.divide(a, b)),
-    "^": np.power,
-}
+}  # fmt: skip
 OR, AND, NOT, COMPARISON, SUM, PRODUCT, POWER = range(7)
 LEVELS = {
     "or": OR, "and": AND, "=": COMPARISON, **dict.fromkeys(COMPARISONS, COMPARISON),
@@ -85,8 +75,7 @@ class Node:
         if self.what == "comparison":
             with np.errstate(all="ignore"):
                 gap = np.asarray(self.gap(values))
-            known = ~np.isnan(gap)
-            found = COMPARISONS[self.name](gap)
+            known, found = ~np.isnan(gap), COMPARISONS[self.name](gap)
             return Truth(found & known, ~found & known)
         one, *others = [part.truth(values) for part in self.parts]
         for other in others:
@@ -260,12 +249,11 @@ class _Reader(Climber[Node]):
         self.at += 1
         return Node("function", (self.numeric(inner, place),), name=function) if function else inner
 
-    def logical(self, node: Node, place: int) -> Node:
-        if not node.logical:
-            raise Alarm("a comparison was expected here", self.tokens[place].span)
+    def logical(self, node: Node, place: int, wanted: bool = True) -> Node:
+        if node.logical != wanted:
+            expected = "a comparison was expected here" if wanted else "a number was expected here, not a comparison"
+            raise Alarm(expected, self.tokens[place].span)
         return node
 
     def numeric(self, node: Node, place: int) -> Node:
-        if node.logical:
-            raise Alarm("a number was expected here, not a comparison", self.tokens[place].span)
-        return node
+        return self.logical(node, place, wanted=False)

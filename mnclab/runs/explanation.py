@@ -34,14 +34,13 @@ class Explanation:
         self.program = run.programs[run.steps.program[moment.step]]
         last = int(self.program.lines()[1][run.steps.block[moment.step]])
         self.alarms = tuple(_alarms(run, self.program, span.line, last))
-        history = run.history
-        self.changed = [
-            (name, said(name, history.value(name, moment.step - 1)) if moment.step else "", said(name, value))
-            for name, value in moment.changed.items()
-        ]
-        self.changed = [change for change in self.changed if change[1] != change[2]]
+        self.changed = []
+        for name, value in moment.changed.items():
+            old = said(name, run.history.value(name, moment.step - 1)) if moment.step else ""
+            if (new := said(name, value)) != old:
+                self.changed.append((name, old, new))
         self.skipped = bool(moment.block.skip and run.settings.get("block_skip"))
-        self.meanings = tuple(meanings(run, moment, dict((name, (a, b)) for name, a, b in self.changed)))
+        self.meanings = tuple(meanings(run, moment, {name: (old, new) for name, old, new in self.changed}))
         self.stages = tuple(stages(run, moment))
         path = run.toolpath[moment.rows]
         shown = len(path) if len(path) <= SHOWN + 1 else SHOWN  # a line that says "1 more" is no shorter
@@ -55,6 +54,9 @@ class Explanation:
         again = f" (execution {times})" if times > 1 else ""
         return f"line {self.moment.line}{again}: {text}"
 
+    def _moves_told(self) -> list[str]:
+        return [*self.moves, *([f"… {self.more_moves} more"] if self.more_moves else [])]
+
     def __str__(self) -> str:
         lines = [self.title]
         if self.skipped:
@@ -65,50 +67,35 @@ class Explanation:
             source = f"  [{m.source}]" if m.source else ""
             changed = f"  ({m.changed})" if m.changed else ""
             lines.append(f"  {m.word.ljust(wide)}  {m.says}{changed}{source}")
-        if self.moves:
-            lines.append("  moves")
-            lines += [f"    {move}" for move in self.moves]
-            lines += [f"    … {self.more_moves} more"] if self.more_moves else []
-        if self.changed:
-            lines.append("  changed")
-            lines += [
-                f"    {name}: {before} -> {after}" if before else f"    {name}: {after}"
-                for name, before, after in self.changed
-            ]
-        lines.append("  from the program to the tool")
         wide = max(len(stage.name) for stage in self.stages)
-        lines += [
-            f"    {s.name.ljust(wide)}  {point(np.array(s.point))}{'  ' + s.note if s.note else ''}"
-            for s in self.stages
-        ]
+        parts = {
+            "moves": self._moves_told(),
+            "changed": [
+                f"{name}: {before} -> {now}" if before else f"{name}: {now}" for name, before, now in self.changed
+            ],
+            "from the program to the tool": [
+                f"{s.name.ljust(wide)}  {point(np.array(s.point))}  {s.note}".rstrip() for s in self.stages
+            ],
+        }
+        for title, told in parts.items():
+            lines += [f"  {title}", *(f"    {line}" for line in told)] if told else []
         return "\n".join(lines)
 
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        def table(head: tuple[str, ...], rows: list[tuple[str, ...]], numbers: tuple[int, ...] = ()) -> str:
-            return html_table(head, rows, numbers=numbers) if rows else ""
-
-        parts = [f"<h4>{escape(self.title)}</h4>"]
-        if self.skipped:
-            parts.append("<p>passed over: block skip is on</p>")
-        parts += [alarm._repr_html_() for alarm in self.alarms]
-        parts.append(
-            table(
-                ("word", "means", "changed", "section"), [(m.word, m.says, m.changed, m.source) for m in self.meanings]
-            )
-        )
-        if self.moves:
-            more = [f"… {self.more_moves} more"] if self.more_moves else []
-            parts.append("<pre>" + escape("\n".join([*self.moves, *more])) + "</pre>")
-        parts.append(table(("value", "before", "after"), [(n, a, b) for n, a, b in self.changed]))
-        parts.append(
-            table(
-                ("from the program to the tool", "X", "Y", "Z", ""),
-                [(s.name, *map(figure, s.point), s.note) for s in self.stages],
-                numbers=(1, 2, 3),
-            )
-        )
+        moves = "\n".join(self._moves_told())
+        words = [(m.word, m.says, m.changed, m.source) for m in self.meanings]
+        stages = [(s.name, *map(figure, s.point), s.note) for s in self.stages]
+        parts = [
+            f"<h4>{escape(self.title)}</h4>",
+            "<p>passed over: block skip is on</p>" if self.skipped else "",
+            *(alarm._repr_html_() for alarm in self.alarms),
+            html_table(("word", "means", "changed", "section"), words) if words else "",
+            f"<pre>{escape(moves)}</pre>" if moves else "",
+            html_table(("value", "before", "after"), self.changed) if self.changed else "",
+            html_table(("from the program to the tool", "X", "Y", "Z", ""), stages, numbers=(1, 2, 3)),
+        ]
         return f"<div>{''.join(parts)}</div>"
 
 

@@ -36,13 +36,10 @@ class Meaning(NamedTuple):
 def meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> list[Meaning]:
     """Every word of a block, in the order written; the keyword of a conversational block first."""
     block, program = moment.block, run.programs[run.steps.program[moment.step]]
-    plan = _plan(run, moment)
+    plan, here = _plan(run, moment), _Here(run, moment)
     if plan is None:
-        return [
-            Meaning(written(program, word), _value(run, moment, word), "", "not obeyed: the block is refused", "", "")
-            for word in block.words
-        ]
-    here = _Here(run, moment)
+        refused = "", "not obeyed: the block is refused", "", ""
+        return [Meaning(_written(program, word), _value(run, moment, word), *refused) for word in block.words]
 
     def before(action: Action, index: int) -> int:
         """How many words of the same address the function takes before one."""
@@ -53,31 +50,26 @@ def meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> l
         what = action.what
         for index in (action.head, *action.takes):
             word = block.words[index] if index >= 0 else None
-            if index == action.head and isinstance(what, Function):
-                says, source = _title(here, what, word), what.source
-            elif index == action.head:
-                says, source = f"cycle: {what.title}", what.source
+            source = what.source if index == action.head else ""
+            if index == action.head:
+                says = _title(here, what, word) if isinstance(what, Function) else f"cycle: {what.title}"
             elif isinstance(what, Function):
                 assert word is not None
                 told = run.control.told and run.control.told(what, word, before(action, index))
                 meaning = told or _UNIT.sub(r" (\1)", _meaning(here, what, word))
-                says, source = f"{meaning} of {what.code} ({what.title})", ""
+                says = f"{meaning} of {what.code} ({what.title})"
             else:
                 assert word is not None
-                says, source = _parameter(here, what, action.code, word, before(action, index)), ""
+                says = _parameter(here, what, action.code, word, before(action, index))
             kept = word is None and action.code != block.keyword  # modal, not written in this block
-            shown = written(program, word) if word is not None else f"({action.code})" if kept else block.keyword
-            if kept:
-                says = f"{says}, active from before"
-            value = _value(run, moment, word) if word is not None else ""
-            if value:
-                says += f" = {value}"
-            name = _changes(what, word)
-            old, new = changed.get(name, ("", ""))
-            happened = f"{name}: {old or 'none'} -> {new}" if name in changed and index == action.head else ""
+            shown = _written(program, word) if word is not None else f"({action.code})" if kept else block.keyword
+            value = _value(run, moment, word)
+            says += (", active from before" if kept else "") + (f" = {value}" if value else "")
+            name, happened = _changes(what), ""  # in the history
             if word is not None and word.address.startswith("Q") and word.address in changed:
-                old, new = changed[word.address]
-                happened = f"{old or 'none'} -> {new}"
+                happened = _became(*changed[word.address])
+            elif name in changed and index == action.head:
+                happened = f"{name}: {_became(*changed[name])}"
             place = len(block.words) if kept and block.keyword else index
             found[place] = [Meaning(shown, value, action.code, says, source, happened)]
             if word is not None and run.control.marks:
@@ -86,8 +78,11 @@ def meanings(run: Run, moment: Moment, changed: dict[str, tuple[str, str]]) -> l
     return [meaning for index in sorted(found) for meaning in found[index]]
 
 
-def written(program: Program, word: Word) -> str:
-    """A word as the program writes it."""
+def _became(old: str, new: str) -> str:
+    return f"{old or 'none'} -> {new}"
+
+
+def _written(program: Program, word: Word) -> str:
     line, column, length, _ = word.span
     return program.line_text(line)[column - 1 : column - 1 + length].strip() or str(word)
 
@@ -149,9 +144,9 @@ def _meaning(here: _Here, what: Function, word: Word) -> str:
         relative = word.incremental or (here.incremental and own in control.relative)
         return _increment(says) if relative else says
     if address in ("X", "Y", "Z"):
-        lathe = f", {'diameter' if here.settings.get('diameter') else 'radius'}" if control.lathe and address == "X" else ""
-        relative = word.incremental or here.incremental
-        return (f"increment along {address}" if relative else f"coordinate {address}") + lathe
+        across = "diameter" if here.settings.get("diameter") else "radius"
+        says = f"increment along {address}" if word.incremental or here.incremental else f"coordinate {address}"
+        return f"{says}, {across}" if control.lathe and address == "X" else says
     if address in ("F", "S"):
         return here.feed if address == "F" else here.speed
     if (axis := address.rpartition(":")[2]) in ("A", "B", "C"):
@@ -166,10 +161,9 @@ def _parameter(here: _Here, cycle: type[Cycle], code: str, word: Word, which: in
         return f"word of {code}"
     parameter = alike[min(which, len(alike) - 1)]
     relative = parameter.note.removeprefix("under G91 ") if here.incremental else parameter.note
+    meaning = _increment(parameter.meaning) if word.incremental else parameter.meaning
     if relative != parameter.note:
         meaning = f"{parameter.meaning}, {relative}"
-    else:
-        meaning = _increment(parameter.meaning) if word.incremental else parameter.meaning
     unit = "mm/rev" if parameter.unit == "mm/min" and here.active("per_rev") else parameter.unit
     return f"{meaning}{f', {unit}' if unit else ''} ({code})"
 
@@ -181,11 +175,9 @@ def _increment(meaning: str) -> str:
     return f"increment on the {meaning}" if meaning.startswith("diameter") else f"{meaning}, incremental"
 
 
-def _changes(what: Function | type[Cycle], word: Word | None) -> str:
+def _changes(what: Function | type[Cycle]) -> str:
     """The name in the history that a function changes."""
-    if isinstance(what, Function):
-        return what.group or BY_WORD.get(what.code, "")
-    return "cycle"
+    return (what.group or BY_WORD.get(what.code, "")) if isinstance(what, Function) else "cycle"
 
 
 def _value(run: Run, moment: Moment, word: Word | None) -> str:

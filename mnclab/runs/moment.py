@@ -52,7 +52,9 @@ class Moment(NamedTuple):
         wide = max(len(title) for title, _ in page) + 4
         lines = [f"line {self.line}: {self.block}"]
         for title, value in page:
-            lines += wrap(value or "nothing", WIDTH, initial_indent=f"  {title}".ljust(wide), subsequent_indent=" " * wide)
+            lines += wrap(
+                value or "nothing", WIDTH, initial_indent=f"  {title:{wide - 2}}", subsequent_indent=" " * wide
+            )
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:

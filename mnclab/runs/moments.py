@@ -52,26 +52,18 @@ COLUMN = {
     "side": "+1 compensated to the left, -1 to the right, 0 not",
     "line": "line of the program; one within a block of several lines means the block",
 }
-
-
 FOLLOW_RADIUS = {"spindle", "feed"}
 
 
 class Moments(tuple["Moment", ...]):
-    """The moments at which a condition becomes true, in order; shown as a table.
-
-    `exact`: whether nothing can lie between two looks.
-    """
+    """The moments at which a condition becomes true, in order; `exact`: whether nothing can lie between two looks."""
 
     condition = ""
     exact = True
 
     def rows(self) -> list[tuple[str, ...]]:
-        found: list[tuple[str, ...]] = []
-        for moment in self:
-            share = f"{100 * moment.share:.4g} %" if moment.row >= 0 else ""
-            found.append((str(moment.line), str(moment.block), point(np.array(moment.point)), share))
-        return found
+        shares = (f"{100 * moment.share:.4g} %" if moment.row >= 0 else "" for moment in self)
+        return [(str(m.line), str(m.block), point(np.array(m.point)), share) for m, share in zip(self, shares)]
 
     def __str__(self) -> str:
         if not self:
@@ -152,18 +144,14 @@ class _Search:
     def looks(self) -> tuple[Looks, NDArray[np.int64]]:
         """Where to look, in order; and for each place the one at which what is seen there begins."""
         row, share = self.divided()
-        middle = (row[1:] == row[:-1]) & (share[1:] > share[:-1])
-        between = np.flatnonzero(middle)
-        order = np.concatenate([np.arange(len(row)), between + 0.5])  # a middle comes after the place it begins at
-        rows = np.concatenate([row, row[between]])
-        shares = np.concatenate([share, (share[between] + share[between + 1]) / 2])
-        begin = np.concatenate([np.arange(len(row)), between])
+        between = np.flatnonzero((row[1:] == row[:-1]) & (share[1:] > share[:-1]))
         still = np.setdiff1d(np.arange(len(self.run.steps.block)), self.step)
-        steps = np.concatenate([self.step[rows], still])
-        rows = np.concatenate([rows, np.full(len(still), -1)])
-        shares = np.concatenate([shares, np.ones(len(still))])
-        order = np.concatenate([order, np.full(len(still), -1.0)])
-        begin = np.concatenate([begin, np.arange(len(row) + len(between), len(rows))])
+        every, none, count = np.arange(len(row)), np.full(len(still), -1), len(row) + len(between)
+        rows = np.concatenate([row, row[between], none])
+        shares = np.concatenate([share, (share[between] + share[between + 1]) / 2, np.ones(len(still))])
+        steps = np.concatenate([self.step[rows[:count]], still])
+        begin = np.concatenate([every, between, np.arange(count, len(rows))])
+        order = np.concatenate([every, between + 0.5, none])  # a middle comes after the place it begins at
         by_time = np.lexsort((order, steps))
         where = np.empty(len(rows), dtype=np.int64)
         where[by_time] = np.arange(len(rows))
@@ -172,21 +160,14 @@ class _Search:
     def divided(self) -> tuple[Rows, Array]:
         """Rows and shares (k,), in order, between which no comparison changes."""
         count = len(self.path)
-        every = np.arange(count)
         spatial = [node for node in self.condition.comparisons if _names(node) & self.along]
         if not spatial or not count:
-            return every, np.zeros(count)
-        mixed = any(map(_mixed, spatial))
-        arc = self.path.kind == Kind.ARC
-        rows, shares = [], []
-        straight = np.flatnonzero(self.path.is_motion & ~arc)
+            return np.arange(count), np.zeros(count)
+        mixed, arc = any(map(_mixed, spatial)), self.path.kind == Kind.ARC
+        straight, still, bent = map(np.flatnonzero, (self.path.is_motion & ~arc, ~self.path.is_motion, arc))
         cuts = np.linspace(0, 1, LOOKS + 1 if mixed else 2)
-        rows.append(np.repeat(straight, len(cuts)))
-        shares.append(np.tile(cuts, len(straight)))
-        still = np.flatnonzero(~self.path.is_motion)
-        rows.append(still)
-        shares.append(np.ones(len(still)))
-        bent = np.flatnonzero(arc)
+        rows = [np.repeat(straight, len(cuts)), still]
+        shares = [np.tile(cuts, len(straight)), np.ones(len(still))]
         if len(bent):
             quarters = np.abs(self.path.sweep[bent]).max() / (np.pi / 2)
             cuts = np.linspace(0, 1, int(np.ceil(quarters * (LOOKS if mixed else 1))) + 1)
@@ -195,11 +176,8 @@ class _Search:
             rows.append(np.repeat(bent, inside.shape[1]))
             shares.append(inside.ravel())
         row, share = _sorted(np.concatenate(rows), np.concatenate(shares))
-        roots = [self.roots(node, row, share) for node in spatial]
-        return _sorted(
-            np.concatenate([row, *(found for found, _ in roots)]),
-            np.concatenate([share, *(found for _, found in roots)]),
-        )
+        found = zip((row, share), *(self.roots(node, row, share) for node in spatial), strict=True)
+        return _sorted(*map(np.concatenate, found))
 
     def turns(self, node: Node, row: Rows) -> Array:
         """Shares (n, k) of arcs at which the sides of a linear comparison, one less the other, turn back."""

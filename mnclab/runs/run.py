@@ -1,15 +1,14 @@
 """Running a program: text and machine in, path, history and alarms out.
 
-Frames were to be indices in the history; they change so seldom that the log holds the matrices themselves, one name for
-each frame of the chain ("frame datum"), and `run.frames` is the chain at the end.
+Frames change so seldom that the history holds the matrices themselves, one name for each frame of the chain ("frame
+datum"), instead of indices; `run.frames` is the chain at the end.
 """
 
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 from html import escape
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +24,6 @@ from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
-from mnclab.path.toolpath import Toolpath
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import still_spindle
@@ -64,8 +62,6 @@ class Run:
         flow = course(machine)
         self.programs = tuple(flow.programs)
         self.steps = Steps._make(fixed(column) for column in flow.steps())
-        self.programmed: Toolpath
-        self.toolpath: Toolpath
         self.programmed, self.toolpath = paths(machine)
         self.alarms = by_place([*alarms, *still_spindle.remarks(machine, self.toolpath)])
         for alarm in self.alarms:
@@ -101,10 +97,9 @@ class Run:
         return not any(alarm.severity == ALARM for alarm in self.alarms)
 
     def at(self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0) -> Moment:
-        """The machine after the `pass_`-th execution of a line (of one of `programs`), or after a step.
+        """The machine after the `pass_`-th execution of a line (of one of `programs`), or after a step; else an Alarm.
 
         A line within a block of several lines means the block.
-        An Alarm if there is none.
         """
         if step is None:
             if line is None:
@@ -120,15 +115,12 @@ class Run:
         which = int(self.steps.program[step])
         block = self.programs[which][int(self.steps.block[step])]
         block = replace(block, span=block.span._replace(program=which))
-        position = self.history.value("position", step)
-        path = self.toolpath
+        position, path = self.history.value("position", step), self.toolpath
         a, b = np.searchsorted(path.step, [step, step + 1]).tolist() if len(path) else (0, 0)
         tip = path.end[b - 1] if b else path.start[0] if len(path) else np.array(self.setup.start)
-        state, changed = self.history.at(step), self.history.changes(step)
-        row = b - 1 if b > a else -1
-        return Moment(
-            step, block.span.line, block, position, state, changed, slice(a, b), row, 1.0, tuple(tip.tolist())
-        )
+        state, changed, row = self.history.at(step), self.history.changes(step), b - 1 if b > a else -1
+        line, point = block.span.line, tuple(tip.tolist())
+        return Moment(step, line, block, position, state, changed, slice(a, b), row, point=point)
 
     @property
     def stock(self) -> Blank | None:
@@ -160,9 +152,9 @@ class Run:
     def when(self, condition: str) -> Moments:
         """The moments at which a condition becomes true: `run.when("z < -5")`, `run.when("Q5 > 3")`.
 
-        Names are those of variables, and x y z d (tool tip, mm), a b c (rotary axes, degrees), feed, spindle, tool, radius,
-        side, line. The place is exact, within lines and arcs too, unless coordinates are multiplied or in a function; see
-        `runs.moments`, and `.exact` of the result.
+        Names are those of variables, and x y z d (tool tip, mm), a b c (rotary axes, degrees), feed, spindle, tool,
+        radius, side, line. The place is exact, within lines and arcs too, unless coordinates are multiplied or in a
+        function; see `runs.moments`, and `.exact` of the result.
         """
         if not isinstance(condition, str):
             raise Alarm(f"a condition is a text, got {shown(condition)}", hint='run.when("z < -5")')
@@ -171,28 +163,22 @@ class Run:
     def explain(
         self, line: int | None = None, pass_: int = 1, step: int | None = None, program: int = 0
     ) -> Explanation:
-        """A block in plain words: what each word means and changed, and the way from the programmed point to the tool.
-
-        The block is named as for `at`.
-        """
+        """A block (named as for `at`) in plain words: what each word means and changed, and the way to the tool."""
         return Explanation(self, self.at(line, pass_, step, program))
 
     def profile(self, limits: Limits | str | None = None, *, override: float = 1.0) -> Profile:
-        """When the tool is where, and how fast, under the limits of a machine: those of the setup, others, or those
-        of a named machine ("small-mill"; see `data/machines`).
+        """When the tool is where, and how fast, under the limits of the setup, others, or those of a named machine
+        ("small-mill"; see `data/machines`).
 
-        `override` is the feed override, 1 for 100 %, from 0.001 to 100. How a rapid goes is the
-        control's (its setting `rapid_motion`) unless the limits say;
-        the program waits for the spindle unless its supervision is off (MNC G25).
+        `override` is the feed override, 1 for 100 %, from 0.001 to 100. How a rapid goes is the control's (its setting
+        `rapid_motion`) unless the limits say; the program waits for the spindle unless its supervision is off (MNC G25).
         """
         path, spindle = self.toolpath, self.toolpath.kind == Kind.SPINDLE
         waits = np.ones(len(path), dtype=bool)
         if "supervision" in self.history:
             waits[spindle] = [self.history.value("supervision", int(step)) != "G25" for step in path.step[spindle]]
         motion = str(self.settings.get("rapid_motion", "line"))
-        if isinstance(limits, str):
-            limits = load(limits).limits
-        limits = self.setup.limits if limits is None else limits
+        limits = self.setup.limits if limits is None else load(limits).limits if isinstance(limits, str) else limits
         if not isinstance(limits, Limits):
             raise Alarm(f"limits must be Limits or the name of a machine, got {shown(limits)}", hint='"small-mill"')
         return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
@@ -209,11 +195,9 @@ class Run:
         """Views of the path: from above and the side for a mill, X and Z for a lathe.
 
         `colour` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
-        colour of the cuts shows;
-        `arrows=False`, `marks=False` and `stock=False` leave out arrowheads, crosses at zero points and poles, and
-        the outline of the blank; `view` "XY",
-        "XZ", "YZ" or "ZX"; `frame` "all" or "cuts"; `size` in inches; `ax` axes of one's own. All of them are
-        explained in `mnclab.show.plot.path.plot_path`.
+        colour of the cuts shows; `arrows=False`, `marks=False` and `stock=False` leave out arrowheads, crosses at zero
+        points and poles, and the outline of the blank; `view` "XY", "XZ", "YZ" or "ZX"; `frame` "all" or "cuts"; `size`
+        in inches; `ax` axes of one's own. All of them are explained in `mnclab.show.plot.path.plot_path`.
         """
         from mnclab.show.plot.path import plot_run
 
@@ -256,8 +240,7 @@ class Run:
         return scene(self, colour, **options)
 
     def save(self, path: str | Path, **options: Any) -> Path:
-        """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player), dxf,
-        ngc, stl, gltf, glb, vtk.
+        """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player), dxf, ngc, stl, gltf, glb, vtk.
 
         Pictures take the options of `plot`; `true_size=True` makes an svg in true millimetres.
         """
@@ -266,10 +249,7 @@ class Run:
         return save(self, path, **options)
 
     def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
-        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program.
-
-        `options` are those of `plot`.
-        """
+        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program; `options` of `plot`."""
         from mnclab.show.report import save_report
 
         return save_report(self, path, title, **options)
@@ -278,10 +258,10 @@ class Run:
 
     def summary(self) -> dict[str, Any]:
         path = self.toolpath
-        lengths, rapid = path.lengths, path.kind == 0
+        lengths, rapid = path.lengths, path.kind == Kind.RAPID
         with np.errstate(divide="ignore", invalid="ignore"):
             cutting_time = np.where(~rapid & (lengths > 0), lengths / path.feed * 60, 0.0)
-        dwell = np.nansum(np.where(path.kind == 4, path.time, 0.0))
+        dwell = np.nansum(np.where(path.kind == Kind.DWELL, path.time, 0.0))
         return {
             "program": self.program.title,
             "control": self.control.title,
@@ -296,39 +276,20 @@ class Run:
 
     def __repr__(self) -> str:
         s = self.summary()
-        head = (
-            f"<Run {s['program']} on {self.control.name}: "
-            f"{several(s['blocks'], 'block')}, {several(s['moves'], 'move')}, "
-            f"cutting {s['cutting length']:.3f} mm, rapid {s['rapid length']:.3f} mm, {s['time at feed']:.1f} s at feed>"
-        )
+        counts = f"{several(s['blocks'], 'block')}, {several(s['moves'], 'move')}"
+        lengths = f"cutting {s['cutting length']:.3f} mm, rapid {s['rapid length']:.3f} mm"
+        head = f"<Run {s['program']} on {self.control.name}: {counts}, {lengths}, {s['time at feed']:.1f} s at feed>"
         shown, more = first_of(self.alarms)
         return "\n".join([head, *map(str, shown), *filter(None, [more])])
 
     def _repr_html_(self) -> str:
         s = self.summary()
-        cells = {
-            "blocks": str(s["blocks"]),
-            "moves": str(s["moves"]),
-            "cutting": f"{s['cutting length']:.3f} mm",
-            "rapid": f"{s['rapid length']:.3f} mm",
-            "time at feed": f"{s['time at feed']:.1f} s",
-        }
-        table = html_table(tuple(cells), [tuple(cells.values())], numbers=range(len(cells)))
+        lengths = f"{s['cutting length']:.3f} mm", f"{s['rapid length']:.3f} mm"
+        cells = str(s["blocks"]), str(s["moves"]), *lengths, f"{s['time at feed']:.1f} s"
+        table = html_table(("blocks", "moves", "cutting", "rapid", "time at feed"), [cells], numbers=range(len(cells)))
         title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
         verdict = "" if self.alarms else "<p>no alarms</p>"
         return f"<div>{title}{table}{verdict}{card_html(self.alarms)}</div>"
-
-
-@contextmanager
-def collector_paused() -> Iterator[None]:
-    """Without the garbage collector: running makes no reference cycles, and it would look at every kept row again."""
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            gc.enable()
 
 
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
@@ -338,23 +299,21 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     setup = (Setup() if setup is None else setup).kept()  # somebody may have written into its tables, and may again
     interpreter = Interpreter(control, setup, program)
     machine, alarms = interpreter.machine, interpreter.alarms
-    broken = False
+    broken, collecting = False, gc.isenabled()
+    gc.disable()  # running makes no reference cycles, and the collector would look at every kept row again
     try:
-        with collector_paused():
-            interpreter.run()
-    except Stop:
+        interpreter.run()
+    except (Stop, Alarm) as stop:
         broken = True
-    except Alarm as alarm:
-        broken = True
-        alarms.append(alarm)
-    try:
-        machine.settle(unfinished=broken)
-    except Alarm as alarm:
-        alarms.append(alarm)
-    try:
-        stop_at_travel(machine)
-    except Alarm as alarm:
-        alarms.append(alarm)
+        alarms += [stop] if isinstance(stop, Alarm) else []
+    finally:
+        if collecting:
+            gc.enable()
+    for finish in (partial(machine.settle, unfinished=broken), partial(stop_at_travel, machine)):
+        try:
+            finish()
+        except Alarm as alarm:
+            alarms.append(alarm)
     result = Run(program, setup, control, machine, alarms + machine.alarms)
     if strict and not result.ok:
         raise next(found for found in result.alarms if found.severity == ALARM)

@@ -32,16 +32,14 @@ def stages(run: Run, moment: Moment) -> list[Stage]:
     for name, matrix in reversed(chain):
         here = frames.apply(matrix, here)
         found.append(Stage(f"after {name}", _tuple(here), described(matrix)))
-    origin = run.toolpath.origin
-    machine = here
+    path, last, tip, note = run.toolpath, moment.rows.stop - 1, np.array(moment.point), ""
     if not chain:
-        found.append(Stage("machine coordinates", _tuple(machine), "no frame is active"))
-    if origin.any():
-        found.append(Stage("from the first work offset", _tuple(machine - origin), f"at machine {point(origin)}"))
-    tip = np.array(moment.point)
-    path, last = run.toolpath, moment.rows.stop - 1
-    note = ""
-    away = float(np.linalg.norm(tip - (machine - origin)))
+        found.append(Stage("machine coordinates", _tuple(here), "no frame is active"))
+    if path.origin.any():
+        found.append(
+            Stage("from the first work offset", _tuple(here - path.origin), f"at machine {point(path.origin)}")
+        )
+    away = float(np.linalg.norm(tip - (here - path.origin)))
     if last >= 0 and path.side[last] and away > 1e-9:
         side = "left" if path.side[last] > 0 else "right"
         note = f"tool radius {figure(float(path.radius[last]))} to the {side}: {figure(away)} mm away"
@@ -50,14 +48,9 @@ def stages(run: Run, moment: Moment) -> list[Stage]:
     found.append(Stage("tool tip", _tuple(tip), note))
     tool = run.tables.tools.get(int(path.tool[last])) if last >= 0 else None
     if tool is not None and not path.lathe:
-        length = np.array([0.0, 0.0, tool.effective_length])
-        found.append(
-            Stage(
-                "spindle, machine coordinates",
-                _tuple(tip + origin + length),
-                f"tool length {figure(tool.effective_length)}",
-            )
-        )
+        spindle = tip + path.origin + [0.0, 0.0, tool.effective_length]
+        note = f"tool length {figure(tool.effective_length)}"
+        found.append(Stage("spindle, machine coordinates", _tuple(spindle), note))
     return found
 
 

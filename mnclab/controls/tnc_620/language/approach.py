@@ -73,6 +73,7 @@ def approach(m: Machine, words: Words) -> None:
 
 def lead_feed(m: Machine) -> float:
     """The feed of the line to the auxiliary point: rapid if the block before was, else the feed as it was."""
+    kind: Kind | None
     if last := m.recorder.last():
         kind = last[0]
     else:
