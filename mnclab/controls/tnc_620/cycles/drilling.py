@@ -16,7 +16,6 @@ from mnclab.machining.holes.drilling import drill, ream
 from mnclab.machining.steps import Go, Say, Step, Wait
 
 CYCLES = CycleTable()
-
 CENTRED: dict[float, str] = {0: "to the depth Q201", 1: "to the diameter Q344"}
 
 

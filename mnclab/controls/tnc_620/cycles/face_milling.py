@@ -111,7 +111,7 @@ class FaceMilling(Cycle):
     def layers(self, m: Machine) -> Iterator[Layer]:
         """Every second level backwards; the finishing infeed at its own feed."""
         passes, levels = self.lines(m), self.levels()
-        for k, (name, level) in enumerate(zip(numbered("level", len(levels)), levels, strict=True)):
+        for k, (name, level) in enumerate(zip(numbered("level", len(levels)), levels)):
             finishing = bool(self.floor_allowance) and k == len(levels) - 1
             feed = self.finishing_feed if finishing else self.feed
             link = feed if self.strategy == 1 else self.prepositioning_feed

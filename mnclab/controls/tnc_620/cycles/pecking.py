@@ -18,7 +18,6 @@ from mnclab.machining.holes.drilling import Guided, drill, guided, gun_drill
 from mnclab.machining.steps import Go, Step, Write
 
 CYCLES = CycleTable()
-
 ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: "stopped (M5)"}
 TURNING = {3: 1, 4: -1, 5: 0}
 

@@ -6,6 +6,7 @@ depth works upwards from A = S - Q200, where the setting "depth_error" allows it
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import ClassVar
 
@@ -38,10 +39,8 @@ class AtSurface(Cycle):
     @property
     def down(self) -> float:
         """+1 where the cycle works downwards, -1 upwards, 0 where it has nothing to do."""
-        for depth in self.depths().values():
-            if depth:
-                return -1.0 if depth > 0 else 1.0
-        return 0.0
+        first = next(filter(None, self.depths().values()), 0.0)
+        return -math.copysign(1.0, first) if first else 0.0
 
     @property
     def left_out(self) -> Say:

@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from mnclab.controls.tnc_620.cycles.slots import AnySlot
 
 CYCLES = CycleTable()
-
 ENTRIES = ("vertical", "helix", "ramp")
 CORNER = {0: "the tool is at the centre"} | addresses.CORNERS
 SIGNS = ((0, 0), (1, 1), (-1, 1), (-1, -1), (1, -1))  # from the tool to the centre, in half sides

@@ -31,7 +31,6 @@ from mnclab.machining.milling.pocket_steps import Down
 from mnclab.machining.steps import Step
 
 CYCLES = CycleTable()
-
 PLUNGE: dict[float, str] = {0: "vertical", 1: "reciprocating", 2: "reciprocating"}
 LENGTHWISE: dict[float, str] = {
     0: "the tool is at the centre of the slot", 1: "at its left end", 2: "at the centre of the left arc",

@@ -17,7 +17,6 @@ from mnclab.machining.steps import Say, Spin, Step, Thread, Wait, Write
 from mnclab.path.recorder import NAN
 
 CYCLES = CycleTable()
-
 FILTERS: dict[float, str] = {0: "finishing: more exact", 1: "roughing: faster"}
 LOADS: dict[float, str] = {0: "forget the values found before", 1: "weigh: the axes move to find the load"}
 
@@ -105,10 +104,9 @@ class ThreadCutting(Cycle):
             yield "", "needs a spindle speed: write S in TOOL CALL"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        if not self.thread_depth:
-            return
-        opposite = (self.thread_pitch > 0) != (self.thread_depth > 0)
-        yield Spin("spindle on", 1 if opposite else -1)
-        yield Thread("cut the thread", m.programmed[2] + self.thread_depth, abs(self.thread_pitch))
-        yield Spin("stop the spindle", 0)
-        yield Wait("wait for the spindle", m.settings["thread_wait"])
+        if self.thread_depth:
+            opposite = (self.thread_pitch > 0) != (self.thread_depth > 0)
+            yield Spin("spindle on", 1 if opposite else -1)
+            yield Thread("cut the thread", m.programmed[2] + self.thread_depth, abs(self.thread_pitch))
+            yield Spin("stop the spindle", 0)
+            yield Wait("wait for the spindle", m.settings["thread_wait"])

@@ -30,7 +30,6 @@ from mnclab.machining.milling.stud_steps import Stud, mill_stud
 from mnclab.machining.steps import Step
 
 CYCLES = CycleTable()
-
 ASIDE = 2.0  # mm, from the blank to the edge of the tool at the start, and off the stud after a pass
 APPROACH = {0: "on the right of the stud"} | addresses.CORNERS
 CIRCLES: dict[float, str] = {0: "the size is that of the inscribed circle", 1: "of the circumscribed circle"}

@@ -18,7 +18,6 @@ from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Go, Spin, Step, Write
 
 CYCLES = CycleTable()
-
 ROUNDED = 0.001  # mm; pitches that differ by no more are the same, for F and S are entered rounded
 
 

@@ -26,7 +26,6 @@ from mnclab.machining.holes.thread_milling import Path, centre_feed, chamfer, co
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()
-
 ORDER: dict[float, str] = {0: "before thread milling", 1: "after thread milling"}
 CORE = 5 / 8 * math.sqrt(3)  # pitches by which the core of an ISO metric nut is narrower than its nominal diameter
 

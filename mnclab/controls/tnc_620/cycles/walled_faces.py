@@ -74,10 +74,6 @@ class WalledFaceMilling(AtSurface):
     surface_position: float = choice("Q367", "surface position", POSITION, default=-1, example=-1)
 
     @property
-    def roughs(self) -> bool:
-        return self.machining_operation != 2
-
-    @property
     def finishes_floor(self) -> bool:
         return self.machining_operation != 1 and self.floor_allowance > 0
 
@@ -103,7 +99,7 @@ class WalledFaceMilling(AtSurface):
     def levels(self, tool: Tool) -> list[Level]:
         """Of roughing, then of finishing: one, more where the edges are shorter."""
         parts = []
-        if self.roughs:
+        if self.machining_operation != 2:
             parts.append(("level", self.surface, self.rough_levels(tool), self.milling_feed))
         if self.finishes_floor:
             last = rows(self.left_over, self.end_tool_axis, min(self.floor_allowance, edges(tool)))[1:]
@@ -142,9 +138,9 @@ class WalledFaceMilling(AtSurface):
 
     def along(self, radius: float, allowance: float) -> tuple[Contour, ...]:
         """The ways along the walls, longer by Q357 in the milling direction."""
-        beyond = [radius, radius]
-        beyond[int(self.milling_direction) - 1] += self.side_clearance
-        return self.walled.along(radius, outside=(beyond[0], beyond[1]), allowance=allowance)
+        longer = radius + self.side_clearance
+        outside = (longer, radius) if self.milling_direction == 1 else (radius, longer)
+        return self.walled.along(radius, outside=outside, allowance=allowance)
 
     def contradictions(self) -> Iterator[Fault]:
         for name in ("limit_1", "limit_2", "limit_3"):
@@ -164,8 +160,8 @@ class WalledFaceMilling(AtSurface):
         for name in ("first_side_length", "second_side_length"):
             if getattr(self, name) == 0:
                 yield name, "must not be 0"
-        finishes = self.finishes_side or self.finishes_floor
-        used = {"milling_feed": self.roughs, "finishing_feed": finishes, "prepositioning_feed": True}
+        roughs, finishes = self.machining_operation != 2, self.finishes_side or self.finishes_floor
+        used = {"milling_feed": roughs, "finishing_feed": finishes, "prepositioning_feed": True}
         yield from not_zero(self, *(name for name, needed in used.items() if needed), purpose="to mill with")
         yield from self.check_walls(m.radius)
         yield from too_many("max_plunging_depth", partial(self.rough_levels, tool(m)))
