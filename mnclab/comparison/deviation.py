@@ -35,8 +35,7 @@ class Traces:
     row: NDArray[np.int64]
     nearest: Array
 
-    def __repr__(self) -> str:
-        return shapes(self)
+    __repr__ = shapes
 
     @property
     def distance(self) -> Array:
@@ -125,8 +124,8 @@ def deviation(
     check_number(step, "step (mm)", above=0, at_least=longest / MOST)
     strokes = [_strokes(path, chord_error) for path in (one, other)]
     looks = [_places(*parts, step) for parts in strokes]
-    traces = [Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1])]
-    return Deviation((one, other), names, traces[0], traces[1], step, times)
+    first, second = (Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1]))
+    return Deviation((one, other), names, first, second, step, times)
 
 
 def _strokes(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[np.int64]]:
@@ -176,11 +175,8 @@ def _nearest(places: Array, start: Array, end: Array) -> Array:
 
 
 def _on_strokes(here: Array, start: Array, end: Array, boxes: NDArray[np.int64]) -> Array:
-    """The nearest place (m, 3) on the strokes of some boxes.
-
-    Which stroke is nearest is found with matrix products, which are quick and lose half of the digits; where on that
-    stroke, with differences.
-    """
+    """The nearest place (m, 3) on the strokes of some boxes. Which stroke is nearest is found with matrix products,
+    which are quick and lose half of the digits; where on that stroke, with differences."""
     which = (boxes[:, None] * GROUP + np.arange(GROUP)).ravel()
     which = which[which < len(start)]
     middle = here.mean(axis=0)

@@ -29,7 +29,6 @@ from mnclab.machining.milling.layers import toolpath
 from mnclab.machining.milling.strategies import STRATEGIES, clear
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, faults_as_alarms, shown
 from mnclab.text.progress import progress
@@ -65,17 +64,13 @@ class Trial(Tried):
     """One strategy on one area: its passes, the whole path, and what comes of it."""
 
     titles: ClassVar = COLUMNS
-    name: str
     region: Region
     clearing: Clearing
-    path: Toolpath
     engagement: Engagement
     depth: float
     feed: float
     limit: float
     allowance: float
-    limits: Limits | None
-    rapid_rate: float
 
     @property
     def entries(self) -> np.ndarray:
@@ -162,8 +157,8 @@ def compare(
             moves, counted = level_moves(clearing, entry, depth, climb)
             found = engagement(moves, radius, spacing=radius / DISCS)
             found = found.chosen(np.array(counted, dtype=bool)[found.move])
-            most = np.radians(limit)
-            trials.append(Trial(name, region, clearing, path, found, depth, feed, most, allowance, limits, rapid))
+            way = name, path, limits, rapid
+            trials.append(Trial(*way, region, clearing, found, depth, feed, np.radians(limit), allowance))
             done(len(trials))
     return Comparison(tuple(trials))
 

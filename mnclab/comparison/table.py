@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Generic, TypeVar
 
@@ -19,6 +20,7 @@ Titles = dict[
 ]  # of every column what it is, how it is written, and its value
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class Tried:
     """What is compared: a path under axis limits, or else with rapids at a rate in mm/min."""
 
@@ -30,7 +32,6 @@ class Tried:
 
     @property
     def row(self) -> dict[str, Any]:
-        """The values of the columns."""
         return {name: value(self) for name, (_, _, value) in self.titles.items()}
 
     def __repr__(self) -> str:
@@ -72,7 +73,6 @@ class Table(Generic[Trial]):
 
     @cached_property
     def rows(self) -> tuple[dict[str, Any], ...]:
-        """One dict of the columns a trial."""
         return tuple(trial.row for trial in self.trials)
 
     def columns(self) -> dict[str, np.ndarray]:

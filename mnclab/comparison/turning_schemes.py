@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -78,14 +78,10 @@ class TurningTrial(Tried):
     """One scheme on one profile: its plan, the whole path, and what comes of it."""
 
     titles: ClassVar = COLUMNS
-    name: str
     plan: Plan
     profile: Contour
     blank: float
     tools: tuple[Tool, ...]
-    path: Toolpath
-    limits: Limits | None
-    rapid_rate: float
 
     @cached_property
     def reached(self) -> Contour:
@@ -107,10 +103,7 @@ class TurningTrial(Tried):
         """Material, what of it the tool can reach, and what of it the strokes cover, as shapely areas."""
         material = under(self.profile, self.blank).intersection(self._box(0.0, self.blank))
         reach = material.intersection(swept(self._outlines[0], self.reached))
-        cut = None
-        for rapid, cover in self._cover:
-            if not rapid:
-                cut = cover if cut is None else cut.union(cover)
+        cut = reduce(lambda one, other: one.union(other), (cover for rapid, cover in self._cover if not rapid))
         return material, reach if len(self.tools) == 1 else material, cut
 
     def _box(self, low: float, high: float) -> Any:
@@ -215,7 +208,7 @@ def compare(
         else:
             plan = how if isinstance(how, Plan) else how(contour, blank, depth, tools[0])
         path = toolpath(plan, by_role, spindle, surface, tools)
-        trials.append(TurningTrial(name, plan, contour, blank, tools, path, limits, rapid))
+        trials.append(TurningTrial(name, path, limits, rapid, plan, contour, blank, tools))
     return TurningComparison(tuple(trials))
 
 

@@ -19,7 +19,7 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
 from mnclab.machine.touching import Contact
 from mnclab.machine.true_size import MILLS
-from mnclab.path.listing import figure
+from mnclab.path.listing import figure, point
 from mnclab.running.binding import store, value_of
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import Place, run_cycle
@@ -33,23 +33,24 @@ from mnclab.machining.steps import (  # isort: skip
     Along, Blocks, Call, Coolant, Each, Go, Orient, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
 )  # fmt: skip
 
+Point = tuple[float, float, float]
 HEAD = ("step", "label", "x", "y", "z", "feed", "")
 SPINDLE = {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}
 
 
 class Row(NamedTuple):
-    """A step, where the tool stands after a motion (mm; x and y from where the cycle counts), and its feed in words."""
+    """A step, where the tool stands after a motion (mm, in the program), and its feed in words."""
 
     step: Step
-    end: tuple[float, float, float] | None = None
+    end: Point | None = None
     feed: str = ""
 
 
 class CycleSteps(Sequence[Step]):
-    """The steps of a cycle, and the values (by address) that they were made with; shown as a table."""
+    """The steps of a cycle from a place on, and the values (by address) that they were made with; shown as a table."""
 
-    def __init__(self, cycle: type[Cycle], values: dict[str, Any], rows: Sequence[Row]) -> None:
-        self.cycle, self.values, self.rows = cycle, values, tuple(rows)
+    def __init__(self, cycle: type[Cycle], values: dict[str, Any], start: Point, rows: Sequence[Row]) -> None:
+        self.cycle, self.values, self.start, self.rows = cycle, values, start, tuple(rows)
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -60,7 +61,8 @@ class CycleSteps(Sequence[Step]):
     @property
     def title(self) -> str:
         given = {address: v if isinstance(v, str) else shown(v) for address, v in self.values.items()}
-        return " ".join((f"{self.cycle.code} {self.cycle.title}:", *map("=".join, given.items())))
+        said = " ".join((f"{self.cycle.code} {self.cycle.title}:", *map("=".join, given.items())))
+        return f"{said}, called at {point(self.start)}"
 
     def cells(self) -> Iterator[tuple[str, ...]]:
         for step, end, feed in self.rows:
@@ -107,8 +109,10 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
     for machine in situations(found.control, cycle, setup or Setup()):
         rows: list[Row] = []
         try:
-            run_cycle(machine, define(machine, cycle, given), noting(machine, cycle, rows))
-            return CycleSteps(cycle, {p.address: given[p.name] for p in cycle.parameters() if p.name in given}, rows)
+            definition, start = define(machine, cycle, given), machine.programmed
+            run_cycle(machine, definition, noting(machine, cycle, rows))
+            shown_values = {p.address: given[p.name] for p in cycle.parameters() if p.name in given}
+            return CycleSteps(cycle, shown_values, start, rows)
         except Alarm as alarm:
             faults.append(Alarm(alarm.message, hint=alarm.hint))  # without its place in a program
     raise faults[0]
@@ -181,13 +185,14 @@ def read(m: Machine, parameter: Parameter, cycle: type[Cycle], word: Word) -> An
 def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterable[Step], Place], Iterable[Step]]:
     """What notes the steps on their way, with where they end; it obeys the steps that a machine alone cannot."""
 
-    def note(step: Step, about: Place) -> None:
+    def note(step: Step) -> None:
+        if isinstance(step, Wait) and not step.seconds:
+            return
         moved = isinstance(step, Go | Turn | Along | Thread | Swivel | Touch)
-        x, y, z = m.programmed
         feed = getattr(step, "feed", None) if not isinstance(step, Thread) else math.nan
         feed = m.feed if feed is None else feed
         words = "rapid" if feed == math.inf else "" if feed is None or math.isnan(feed) else figure(feed)
-        rows.append(Row(step, (x - about[0], y - about[1], z), words) if moved else Row(step))
+        rows.append(Row(step, m.programmed, words) if moved else Row(step))
 
     def through(steps: Iterable[Step], about: Place) -> Generator[Step, Any, Any]:
         asking = steps if isinstance(steps, Generator) else (step for step in steps)
@@ -203,15 +208,15 @@ def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterabl
                         yield from through(step.visit(x, y), about)
                 case Touch():
                     yield Go(step.label, step.z, step.feed, step.x, step.y)
-                    note(step, about)
+                    note(step)
                     answer = touched(m, step)
                 case Call():
-                    note(step, about)
+                    note(step)
                 case Blocks() | Record():
                     raise Alarm(f"{cycle.code} needs a program, whose blocks it runs", hint="mnclab.run(…) runs one")
                 case _:
                     answer = yield step
-                    note(step, about)
+                    note(step)
 
     return through
 

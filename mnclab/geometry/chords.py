@@ -57,10 +57,7 @@ class Chords(NamedTuple):
 
 
 def facing(walls: Walls, width: Floats, coarse: Chunks) -> Chords:
-    """The shortest chord of every pair of walls that is shorter than `width` (n,) mm, the same within a group.
-
-    `coarse` are their `chunks`.
-    """
+    """The shortest chord of every pair of walls (`coarse` are their chunks) below `width` (n,) mm, the same in a group."""
     none = np.zeros(0, dtype=np.int64)
     found = [Chords(none, none, np.empty((0, 2)), np.empty((0, 2)), np.empty(0))]
     found += [chords(walls, i, j) for i, j in _pairs(walls, width, coarse)]

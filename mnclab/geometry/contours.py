@@ -243,8 +243,6 @@ class Contour:
         bulge[[0, -1]] = np.tan(self.sweeps[i] * np.array([1 - u, u]) / 4)
         return Contour(points, bulge)
 
-    # ---- beneath ----
-
     def _blocks(self, points: ArrayLike) -> Iterator[Floats]:
         """Points `(k, 2)` in blocks, one at least: points by elements must fit into memory."""
         spots = np.asarray(points, dtype=float).reshape(-1, 2)

@@ -75,8 +75,8 @@ def distance(p: Floats, curve: Curves) -> Floats:
 
 def gap(a: Curves, b: Curves) -> Floats:
     """The least distance (n,) between curves a and b, each from its own; 0 where they cross."""
-    least = np.minimum(distance(a.start, b), distance(a.end, b))
-    least = np.minimum(least, np.minimum(distance(b.start, a), distance(b.end, a)))
+    ends = distance(a.start, b), distance(a.end, b), distance(b.start, a), distance(b.end, a)
+    least = np.minimum.reduce(ends)
     for p in crossings(a, b):
         least[np.isfinite(p[:, 0])] = 0.0
     for one, other in ((a, b), (b, a)):

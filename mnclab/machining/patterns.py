@@ -61,9 +61,6 @@ def circle(centre: Pair, radius: float, start: float, step: float, count: int) -
 
 
 def step_between(start: float, end: float, count: int, closed: bool = False) -> float:
-    """The angle from point to point when `count` points lie from `start` to `end`.
-
-    The last one lies on `end`; on a `closed` circle the end is the start again, and the last lies one step before.
-    """
+    """The angle from point to point of `count` from `start` to `end`; on a `closed` circle the last lies one step before it."""
     gaps = count if closed else count - 1
     return (end - start) / gaps if gaps else 0.0

@@ -16,6 +16,9 @@ from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
 
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 T = TypeVar("T", bound=np.generic)
 
 
@@ -47,7 +50,7 @@ class Column(NamedTuple):
         return np.broadcast_to(value, (rows, *self.shape))
 
 
-def gathered(column: NDArray[Any], source: NDArray[np.int64]) -> NDArray[Any]:
+def gathered(column: NDArray[Any], source: Index) -> NDArray[Any]:
     """A column read at rows `source` (m,); a constant one stays so and costs nothing."""
     if len(column) and column.strides[0] == 0:
         return np.broadcast_to(column[0], (len(source), *column.shape[1:]))

@@ -10,10 +10,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import Element, meet
 from mnclab.geometry.vectors import cross, dot, left
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind
 from mnclab.path.plane import PlaneView
@@ -55,11 +55,8 @@ NOTHING = 1e-9  # mm
 
 
 def apply(path: Toolpath, unfinished: bool = False) -> Toolpath:
-    """The path with its corners replaced; itself when it has none. Raises PathFault.
-
-    `unfinished`: the program broke off, so the end of a last row that waits for its joint is unknown and the row is
-    left out.
-    """
+    """The path with its corners replaced; itself when it has none. Raises PathFault. `unfinished`: the program broke
+    off, so the end of a last row that waits for its joint is unknown and the row is left out."""
     which = [isinstance(joint, Corner) for joint in path.joints]
     rows = np.flatnonzero((path.joint >= 0) & np.array([*which, False])[path.joint])
     if not len(rows):
@@ -74,7 +71,7 @@ def apply(path: Toolpath, unfinished: bool = False) -> Toolpath:
 class _Work:
     """Ends and sweeps of rows as they are trimmed, and the rows to insert."""
 
-    def __init__(self, path: Toolpath, rows: NDArray[np.int64]) -> None:
+    def __init__(self, path: Toolpath, rows: Index) -> None:
         self.path, self.rows, self.view = path, rows, PlaneView(path)
         self.begin, self.end, self.sweep = self.view.start.copy(), self.view.end.copy(), path.sweep.copy()
         self.inserted: list[tuple[int, dict[str, Any]]] = []  # before which row, and what differs from it, in (u, v, w)
@@ -129,7 +126,7 @@ class _Work:
                 return feed
         raise PathFault(f"{joint} stands between two rapid moves and needs a feed", joint.step, "write F in its block")
 
-    def round(self, row: int, follow: int, offset: float) -> tuple[bool, NDArray[np.float64], dict[str, Any]]:
+    def round(self, row: int, follow: int, offset: float) -> tuple[bool, Array, dict[str, Any]]:
         """Trim two elements for the arc between them: whether it fits, its end (2,), and its columns."""
         first, second = self.element(row, True, offset), self.element(follow, False, offset)
         centre = meet(first, second, self.view.end[row : row + 1, :2])[0]
@@ -140,12 +137,12 @@ class _Work:
         arc = {"kind": Kind.ARC, "centre": (*centre, self.view.end[row, 2]), "sweep": sweep}
         return self.trim(row, follow, begin, end), end, arc
 
-    def trim(self, row: int, follow: int, begin: NDArray[np.float64], end: NDArray[np.float64]) -> bool:
+    def trim(self, row: int, follow: int, begin: Array, end: Array) -> bool:
         """End one element earlier and begin the next later; False if nothing would be left of one of them."""
         self.end[row, :2], self.begin[follow, :2] = begin, end
         return self.remains(row) and self.remains(follow)
 
-    def foot(self, row: int, centre: NDArray[np.float64]) -> NDArray[np.float64]:
+    def foot(self, row: int, centre: Array) -> Array:
         """The point of an element nearest to a centre."""
         if self.view.arc[row]:
             spoke = centre - self.view.centre[row]
@@ -170,7 +167,7 @@ class _Work:
         angle, sense = np.arctan2(cross(a, b), dot(a, b)), np.sign(self.view.sweep[row])
         return float(angle + sense * 2 * np.pi if angle * sense < 0 else angle)
 
-    def used_up(self) -> NDArray[np.bool_]:
+    def used_up(self) -> Mask:
         """Rows (n,) of which the corners at both their ends have left nothing: a stop there would be no one's wish."""
         nothing = np.abs(self.end - self.begin).max(axis=1, initial=0.0) < NOTHING
         return np.isin(np.arange(len(self.path)), list(self.trimmed)) & nothing & (np.abs(self.sweep) < np.pi)

@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from mnclab.path.columns import Array
 
 
 def spindle_speed(surface: ArrayLike, radius: ArrayLike, limit: ArrayLike) -> Array:
@@ -25,10 +25,8 @@ def spindle_speed(surface: ArrayLike, radius: ArrayLike, limit: ArrayLike) -> Ar
 
 
 def mean_turn(surface: float, radii: Array, limit: float) -> float:
-    """Mean time of one turn, min, along a way that is straight between equally distant places at `radii` (k,).
-
-    A turn takes max(2 π |r| / (1000 v), 1 / limit); its integral over r is known, so the mean of a straight way is exact.
-    """
+    """Mean time of one turn, min, along a way that is straight between equally distant places at `radii` (k,). A turn
+    takes max(2 π |r| / (1000 v), 1 / limit); its integral over r is known, so the mean of a straight way is exact."""
     slope, least = 2 * math.pi / (1000 * surface), 1 / limit
     kink = least / slope
     size = np.abs(radii)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 
@@ -41,18 +42,16 @@ def apply(path: Toolpath, rules: list[FeedRule]) -> Toolpath:
     return path.replace(feed=path.feed * factor, per_rev=path.per_rev * factor)
 
 
-def plunging(path: Toolpath, share: NDArray[np.float64]) -> NDArray[np.float64]:
+def plunging(path: Toolpath, share: Array) -> Array:
     """Factor (n,) of the feed that keeps its component downwards, along -Z, at a share (n,) of the programmed feed."""
     drop, length = path.start[:, 2] - path.end[:, 2], path.lengths
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(drop > 0, np.minimum(1.0, share * length / drop), 1.0)
 
 
-def at_edge(path: Toolpath, where: NDArray[np.str_]) -> NDArray[np.float64]:
-    """Factor (n,) that makes the feed of the centre that of the cutting edge on compensated arcs.
-
-    Inside an arc the edge has the longer way and the centre is slowed down; "everywhere" outside it is made faster, too.
-    """
+def at_edge(path: Toolpath, where: NDArray[np.str_]) -> Array:
+    """Factor (n,) that makes the feed of the centre that of the cutting edge on compensated arcs. Inside an arc the
+    edge has the longer way and the centre is slowed down; "everywhere" outside it is made faster, too."""
     radius = np.linalg.norm(path.start - path.centre, axis=1)  # of the way of the centre
     inside = path.side * np.sign(path.sweep) > 0
     contour = np.where(inside, radius + path.radius, radius - path.radius)

@@ -18,16 +18,14 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mnclab.geometry.vectors import cross, dot, left
-from mnclab.path.columns import gathered
+from mnclab.path.columns import Array, gathered
 from mnclab.path.fault import PathFault
 from mnclab.path.kinds import Kind
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
 
-Point = NDArray[np.float64]
 NEAR = 1e-9  # mm
 CHANGED = ("kind", "centre", "sweep", "feed", "label", "joint")  # columns that a lead gives its rows
 MISFIT = 0.1  # mm: more than arcs may miss their ends by
@@ -62,16 +60,17 @@ class Lead(NamedTuple):
 class Way(NamedTuple):
     """The auxiliary point H (2,), and the arc from there to Q: its centre (2,) or None for a line, and its sweep."""
 
-    by: Point
-    centre: Point | None = None
+    by: Array
+    centre: Array | None = None
     sweep: float = 0.0
 
+    def centre_at(self, height: float) -> Array | None:
+        return None if self.centre is None else np.append(self.centre, height)
 
-def way(lead: Lead, start: Point, to: Point, t: Point) -> Way:
-    """The way from `start` to the place `to` where the contour begins with the tangent `t` (all (2,)).
 
-    A departure is asked for backwards: the side, the tangent and the sweep turn over. Raises PathFault.
-    """
+def way(lead: Lead, start: Array, to: Array, t: Array) -> Way:
+    """The way from `start` to the place `to` where the contour begins with the tangent `t` (all (2,)). A departure is
+    asked for backwards: the side, the tangent and the sweep turn over. Raises PathFault."""
     normal = lead.side * left(t)
     match lead.form:
         case "LT":
@@ -85,7 +84,7 @@ def way(lead: Lead, start: Point, to: Point, t: Point) -> Way:
     return _line_and_arc(lead, start, to, t)
 
 
-def _line_and_arc(lead: Lead, start: Point, to: Point, t: Point) -> Way:
+def _line_and_arc(lead: Lead, start: Array, to: Array, t: Array) -> Way:
     """LCT: the arc bends towards the side of the tangent on which the start lies, and the line touches it."""
     beside, along = float(cross(t, start - to)), float(dot(start - to, t))
     if abs(beside) < NEAR:
@@ -107,7 +106,7 @@ def _line_and_arc(lead: Lead, start: Point, to: Point, t: Point) -> Way:
     return Way(by, centre, sense * angle) if NEAR < angle < math.tau - NEAR else Way(to)
 
 
-def _turned(v: Point, angle: float) -> Point:
+def _turned(v: Array, angle: float) -> Array:
     c, s = math.cos(angle), math.sin(angle)
     return np.array([c * v[0] - s * v[1], s * v[0] + c * v[1]])
 
@@ -118,7 +117,7 @@ def apply(path: Toolpath, contour: Toolpath, unfinished: bool = False) -> Toolpa
     `contour` is the same before the compensation: its elements give the tangents. `unfinished`: the program broke
     off, so an approach may still wait for its contour and is left out.
     """
-    rows = [int(row) for row in np.flatnonzero(path.joint >= 0) if isinstance(_joint(path, int(row)), Lead)]
+    rows = [row for row in np.flatnonzero(path.joint >= 0).tolist() if isinstance(_joint(path, row), Lead)]
     if not rows:
         return path
     view, before = PlaneView(path), PlaneView(contour)
@@ -161,35 +160,30 @@ def _alone(lead: Lead) -> PathFault:
 class _Part(NamedTuple):
     """A row of a lead in the coordinates of its plane: end (3,), and centre (3,) and sweep of an arc."""
 
-    end: Point
-    centre: Point | None = None
+    end: Array
+    centre: Array | None = None
     sweep: float = 0.0
     feed: float = math.nan  # nan: that of the block
 
 
-def _at(found: Way, height: float) -> Point | None:
-    """The centre (3,) at the height where its arc begins."""
-    return None if found.centre is None else np.append(found.centre, height)
-
-
-def _approach(view: PlaneView, row: int, lead: Lead, t: Point, contact: Point) -> list[_Part]:
+def _approach(view: PlaneView, row: int, lead: Lead, t: Array, contact: Array) -> list[_Part]:
     """To H, with the depth, and on to the contact Q with the contour."""
     start = view.start[row]
     found = way(lead, start[:2], contact[:2], t)
     by = np.append(found.by, contact[2])
-    return _moving(start, _Part(by, feed=lead.feed), _Part(contact, _at(found, contact[2]), found.sweep))
+    return _moving(start, _Part(by, feed=lead.feed), _Part(contact, found.centre_at(contact[2]), found.sweep))
 
 
-def _departure(view: PlaneView, row: int, lead: Lead, t: Point) -> list[_Part]:
+def _departure(view: PlaneView, row: int, lead: Lead, t: Array) -> list[_Part]:
     """From the contact with the contour to the end; the height is reached along the last row."""
     start, end = view.start[row], view.end[row]
     found = way(lead._replace(side=-lead.side), end[:2], start[:2], -t)
     if lead.form != "LCT":
-        return [_Part(end, _at(found, start[2]), -found.sweep)]
-    return _moving(start, _Part(np.append(found.by, start[2]), _at(found, start[2]), -found.sweep), _Part(end))
+        return [_Part(end, found.centre_at(start[2]), -found.sweep)]
+    return _moving(start, _Part(np.append(found.by, start[2]), found.centre_at(start[2]), -found.sweep), _Part(end))
 
 
-def _moving(start: Point, first: _Part, last: _Part) -> list[_Part]:
+def _moving(start: Array, first: _Part, last: _Part) -> list[_Part]:
     """Those of two rows that move; the last one if none does."""
     both = ((start, first), (first.end, last))
     return [part for begin, part in both if part.sweep or float(np.abs(part.end - begin).max()) > NEAR] or [last]

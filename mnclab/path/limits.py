@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, plain, shown
 from mnclab.text.records import written
@@ -56,8 +56,7 @@ class Limits:
     spindle_acceleration: float | None = None
     tool_change: float = 0.0
 
-    def __repr__(self) -> str:
-        return written(self)
+    __repr__ = written
 
     def __post_init__(self) -> None:
         for name in ("rapid", "acceleration", "jerk", "spindle", "spindle_acceleration"):
@@ -95,7 +94,7 @@ class Limits:
             if not pair[0] < pair[1]:
                 raise Alarm(f"limit travel of {axis} must go up, got {pair[0]:g} to {pair[1]:g}", hint=TRAVEL)
 
-    def axes(self, name: str) -> NDArray[np.float64]:
+    def axes(self, name: str) -> Array:
         """A limit (3,) for X, Y, Z in mm and s; infinite where there is none."""
         value = getattr(self, name)
         per_second = 60.0 if name in ("rapid", "corner_jump") else 1.0

@@ -29,7 +29,7 @@ def figure(value: float, decimals: int = 4) -> str:
     return "0" if text in ("-0", "") else text
 
 
-def point(xyz: np.ndarray) -> str:
+def point(xyz: np.ndarray | tuple[float, ...]) -> str:
     """`X1 Y2 Z3`."""
     return " ".join(f"{axis}{figure(value)}" for axis, value in zip("XYZ", xyz, strict=True))
 

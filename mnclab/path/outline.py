@@ -15,18 +15,15 @@ def outline(path: Toolpath) -> Contour:
 
     Arcs of more than half a turn become two, since a bulge tan(sweep / 4) has no whole circle.
     """
-    view = PlaneView(path)
-    points: list[tuple[float, float]] = []
-    bulges: list[float] = []
+    view, points, bulges = PlaneView(path), list[np.ndarray](), list[float]()
     for row in np.flatnonzero(view.moves):
         sweep, start = float(view.sweep[row]) if view.arc[row] else 0.0, view.start[row, :2]
-        parts = 2 if abs(sweep) > np.pi else 1
-        for k in range(parts):
-            points.append(tuple((start if k == 0 else _turned(start, view.centre[row], sweep / 2)).tolist()))
-            bulges.append(float(np.tan(sweep / parts / 4)))
-    end = view.end[np.flatnonzero(view.moves)[-1], :2]
+        halves = [start, _turned(start, view.centre[row], sweep / 2)] if abs(sweep) > np.pi else [start]
+        points += halves
+        bulges += [float(np.tan(sweep / len(halves) / 4))] * len(halves)
+    end = view.end[row, :2]
     if np.hypot(*(end - points[0])) > 1e-6:
-        points.append((float(end[0]), float(end[1])))
+        points.append(end)
         bulges.append(0.0)
     return Contour(np.array(points), np.array(bulges))
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 
-Array = NDArray[np.float64]
 
-
-def spokes(path: Toolpath, rows: NDArray[np.integer]) -> tuple[Array, Array]:
+def spokes(path: Toolpath, rows: Index) -> tuple[Array, Array]:
     """Of arcs: from the centre to the start within the plane, and the same a quarter turn on, (n, 3) each."""
     axis = path.axis[rows]
     spoke = path.start[rows] - path.centre[rows]
@@ -19,7 +17,7 @@ def spokes(path: Toolpath, rows: NDArray[np.integer]) -> tuple[Array, Array]:
     return spoke, np.cross(axis, spoke)
 
 
-def points_at(path: Toolpath, rows: NDArray[np.integer], share: Array) -> Array:
+def points_at(path: Toolpath, rows: Index, share: Array) -> Array:
     """Points (n, 3) of `rows` (n,) at shares (n,) of their way; of events, where the tool is."""
     start, end = path.start[rows], path.end[rows]
     xyz = start + share[:, None] * (end - start)
@@ -30,7 +28,7 @@ def points_at(path: Toolpath, rows: NDArray[np.integer], share: Array) -> Array:
     return xyz
 
 
-def on_arcs(path: Toolpath, rows: NDArray[np.integer], share: Array) -> Array:
+def on_arcs(path: Toolpath, rows: Index, share: Array) -> Array:
     """Points (n, 3) of arcs at shares (n,) of their way."""
     u, v = spokes(path, rows)
     sweep, middle = path.sweep[rows], path.start[rows] - u
@@ -56,7 +54,7 @@ def turns_of_sum(cosine: Array, sine: Array, pitch: Array, sweep: Array) -> Arra
     return np.where((share > 0) & (share < 1), share, 0.0)
 
 
-def turning_points(path: Toolpath, rows: NDArray[np.integer]) -> Array:
+def turning_points(path: Toolpath, rows: Index) -> Array:
     """Shares (n, k) of arcs where a coordinate turns back, in any order; 0 where there are fewer than k."""
     u, v = spokes(path, rows)
     sweep = path.sweep[rows]

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 
-Array = NDArray[np.float64]
-
 
 def basis(axis: Array) -> Array:
-    """Unit vectors (n, 3, 3): first and second axis of the plane and its normal.
-
-    For a normal along Z, X or Y the first axis is X, Y or Z: the planes XY, YZ and ZX of the controls.
-    """
+    """Unit vectors (n, 3, 3): first and second axis of the plane and its normal. For a normal along Z, X or Y the first
+    axis is X, Y or Z: the planes XY, YZ and ZX of the controls."""
     first = np.roll(axis, 1, axis=-1)
     skew = np.abs((first * axis).sum(axis=-1)) > 1e-12
     if skew.any():
@@ -71,7 +67,7 @@ class PlaneView:
         sense = np.sign(self.sweep)[:, None]
         return sense * np.stack([-spoke[:, 1], spoke[:, 0]], axis=-1) / np.where(length > 0, length, 1.0)
 
-    def to_space(self, rows: NDArray[np.int64], uvw: Array) -> Array:
+    def to_space(self, rows: Index, uvw: Array) -> Array:
         """Points (m, 3) of the planes of `rows` in machine axes."""
         if self.flat:
             return uvw

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.kinds import Kind
 from mnclab.path.places import on_arcs, spokes
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 FINEST = 100_000  # pieces of one arc at most
 
 
-def points(path: Toolpath, chord_error: float = 0.01) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def points(path: Toolpath, chord_error: float = 0.01) -> tuple[Array, Index]:
     """Points (m, 3) along the motion rows and the row (m,) each belongs to.
 
     The first point is where the first motion begins; then every row ends with its own end point. An arc of radius r
@@ -35,9 +35,8 @@ def points(path: Toolpath, chord_error: float = 0.01) -> tuple[NDArray[np.float6
     radius = np.zeros(len(rows))
     radius[arc] = np.linalg.norm(spokes(path, rows[arc])[0], axis=1)
     step = 2 * np.arccos(np.clip(1 - chord_error / np.maximum(radius, chord_error), 0.0, 1.0))
-    pieces = (
-        np.where(arc, np.ceil(np.abs(path.sweep[rows]) / np.maximum(step, 1e-6)), 1).clip(1, FINEST).astype(np.int64)
-    )
+    pieces = np.where(arc, np.ceil(np.abs(path.sweep[rows]) / np.maximum(step, 1e-6)), 1)
+    pieces = pieces.clip(1, FINEST).astype(np.int64)
     row = np.repeat(np.arange(len(rows)), pieces)
     k = np.arange(len(row)) - np.repeat(np.cumsum(pieces) - pieces, pieces) + 1
     share = k / pieces[row]

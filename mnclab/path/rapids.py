@@ -10,8 +10,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import PerAxis
 from mnclab.path.toolpath import Toolpath
@@ -19,9 +19,7 @@ from mnclab.path.toolpath import Toolpath
 
 def broken(path: Toolpath, speed: PerAxis) -> Toolpath:
     """The path with every rapid along several axes divided where one of them arrives; `speed` mm/min, per axis or all.
-
-    Speeds alone count: acceleration is left to the profile. The path itself where nothing is divided.
-    """
+    Speeds alone count: acceleration is left to the profile. The path itself where nothing is divided."""
     speeds = np.broadcast_to(np.asarray(speed, dtype=np.float64), (3,)) if np.ndim(speed) == 0 else np.array(speed)[:3]
     travel = path.end - path.start
     arrival = np.sort(np.abs(travel) / speeds, axis=1)  # (n, 3): when an axis, the second and the last has arrived
@@ -32,7 +30,7 @@ def broken(path: Toolpath, speed: PerAxis) -> Toolpath:
     if not (first_stop | second_stop).any():
         return path
 
-    def points(rows: NDArray[np.bool_], when: NDArray[np.float64]) -> NDArray[np.float64]:
+    def points(rows: Mask, when: Array) -> Array:
         with np.errstate(divide="ignore", invalid="ignore"):
             share = np.minimum(when[rows, None] * speeds / np.abs(travel[rows]), 1.0)
         return path.start[rows] + travel[rows] * np.where(travel[rows] == 0, 0.0, share)

@@ -14,7 +14,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS, Column, fields
+from mnclab.path.columns import COLUMNS, Array, Column, fields
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath, concatenate
 
@@ -56,12 +56,11 @@ class Recorder:
         self._count = 0
         self.most = INF
         self.refuse: Callable[[int], NoReturn] = _refuse
-        self.expected = 0
-        """How many rows there will be, roughly: room that is never used costs nothing, room made anew costs much."""
+        self.expected = 0  # rows, roughly: room that is never used costs nothing, room made anew costs much
         self.start = start
 
     @property
-    def start(self) -> NDArray[np.float64]:
+    def start(self) -> Array:
         """Where (3,) the next path begins. Set it between two paths only."""
         return self._vertices[0]
 
@@ -113,12 +112,12 @@ class Recorder:
         """So many rows are to come; room made once is not made anew."""
         self.expected = max(self.expected, self._count + len(self.rows) // len(ROW) + count)
 
-    def room(self, count: int) -> NDArray[np.float64]:
+    def room(self, count: int) -> Array:
         """Where the vertices (count + 1, 3) of the next rows will lie; the first one is the end of the last row."""
         self._flush()
         return self._room(count)
 
-    def _room(self, count: int) -> NDArray[np.float64]:
+    def _room(self, count: int) -> Array:
         needed = self._count + count + 1
         if self.taken + needed - 1 > self.most:
             self.refuse(self.taken + needed - 1)
@@ -148,7 +147,7 @@ class Recorder:
                 self.refuse(self.made + 1)
             self._flush()
 
-    def bulk(self, columns: dict[str, NDArray[Any]], ends: NDArray[np.float64]) -> None:
+    def bulk(self, columns: dict[str, NDArray[Any]], ends: Array) -> None:
         """Rows (n,) as columns: `kind` and what differs from `PLAIN`; one value stands for all.
 
         A column but `kind` may also be (k, n / k), which is read row by row: what repeats need not be written out.
@@ -157,7 +156,7 @@ class Recorder:
         self._flush()
         self._append(columns, ends)
 
-    def _append(self, columns: dict[str, NDArray[Any]], ends: NDArray[np.float64]) -> None:
+    def _append(self, columns: dict[str, NDArray[Any]], ends: Array) -> None:
         room = self._room(len(ends))[1:]
         if room.__array_interface__["data"] != ends.__array_interface__["data"]:
             room[:] = ends
@@ -165,27 +164,23 @@ class Recorder:
         self._count += len(ends)
         self._look_out()
 
-    def _last_motion(self) -> tuple[dict[str, NDArray[Any]], int] | None:
-        """The columns and the row in them of the last line, arc or rapid not yet taken."""
+    def _last_motion(self) -> tuple[dict[str, NDArray[Any]], int, Array] | None:
+        """The columns, the row in them and the joints of the last line, arc or rapid not yet taken."""
         self._flush()
         for chunk in reversed(self._done):
-            moves = np.flatnonzero(chunk["kind"] <= Kind.PROBE)
-            if len(moves):
-                row = int(moves[-1])
-                return None if chunk["kind"][row] == Kind.PROBE else (chunk, row)
+            if len(moves := np.flatnonzero(chunk["kind"] <= Kind.PROBE)):
+                joints = np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape)
+                return None if chunk["kind"][moves[-1]] == Kind.PROBE else (chunk, int(moves[-1]), joints)
         return None
 
     def mark(self, joint: Any) -> bool:
         """Put a joint on the last motion; False if there is none, or if it has one already."""
         last = self._last_motion()
-        if last is None:
+        if last is None or last[2][last[1]] >= 0:
             return False
-        chunk, row = last
-        joints = np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape).copy()
-        if joints[row] >= 0:
-            return False
-        joints[row] = len(self.joints)
-        chunk["joint"] = joints
+        chunk, row, joints = last
+        chunk["joint"] = joints.copy()
+        chunk["joint"][row] = len(self.joints)
         self.joints.append(joint)
         return True
 
@@ -194,16 +189,16 @@ class Recorder:
         found = self._last_motion()
         if found is None:
             return None
-        chunk, row = found
-        number = int(np.broadcast_to(chunk.get("joint", PLAIN["joint"]), chunk["kind"].shape)[row])
+        chunk, row, joints = found
+        number = int(joints[row])
         return Kind(int(chunk["kind"][row])), self.joints[number] if number >= 0 else None
 
-    def heading(self) -> NDArray[np.float64] | None:
+    def heading(self) -> Array | None:
         """The unit tangent (3,) at the end of the last motion; None if it has none."""
         last = self._last_motion()
         if last is None:
             return None
-        chunk, row = last
+        chunk, row, _ = last
         end = chunk["end"][row]
         if chunk["kind"][row] == Kind.ARC:
             state, turn = (_column(name, [chunk[name]], [len(chunk["kind"])])[row] for name in ("state", "sweep"))
@@ -211,9 +206,9 @@ class Recorder:
             spoke = end - chunk["centre"][row]
             travel = np.cross(axis, spoke) * np.sign(turn)
         else:
-            before = [self.start, *(c["end"][-1] for c in self._done)]
-            index = next(i for i, c in enumerate(self._done) if c is chunk)
-            travel = end - (chunk["end"][row - 1] if row else before[index])
+            index = next(i for i, each in enumerate(self._done) if each is chunk)
+            before = self._done[index - 1]["end"][-1] if index else self.start
+            travel = end - (chunk["end"][row - 1] if row else before)
         length = float(np.linalg.norm(travel))
         return travel / length if length > 0 else None
 
@@ -242,7 +237,7 @@ class Recorder:
         self._vertices, self._count = self._vertices[self._count :], 0  # the next path begins where this one ends
         return self._path(columns, vertices)
 
-    def _path(self, columns: dict[str, NDArray[Any]], vertices: NDArray[np.float64]) -> Toolpath:
+    def _path(self, columns: dict[str, NDArray[Any]], vertices: Array) -> Toolpath:
         if columns:
             which = columns.pop("state")
             used = self.states if which.strides[0] else [self.states[int(which[0])]]
@@ -261,7 +256,7 @@ def _refuse(count: int) -> NoReturn:
     raise ValueError(f"there would be {count} rows")
 
 
-def _plain(name: str, part: NDArray[np.float64]) -> NDArray[Any]:
+def _plain(name: str, part: Array) -> NDArray[Any]:
     """A column of single rows (n, k); where one value serves for all of them it is that value, which costs nothing."""
     vector, dtype = bool(SINGLE[name].parts), SINGLE[name].dtype
     usual = PLAIN.get(name) if name != "state" else part[0]

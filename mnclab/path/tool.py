@@ -48,8 +48,7 @@ class Tool:
     auxiliary_angle: float = 0.0
     width: float = 0.0
 
-    def __repr__(self) -> str:
-        return written(self)
+    __repr__ = written
 
     def __post_init__(self) -> None:
         for each in fields(self):
@@ -74,10 +73,8 @@ class Tool:
 
     @property
     def effective_radius(self) -> float:
-        """Radius with its delta, mm."""
         return self.radius + self.dr
 
     @property
     def effective_length(self) -> float:
-        """Length with its delta, mm."""
         return self.length + self.dl

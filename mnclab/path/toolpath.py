@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS, Columns, Move
+from mnclab.path.columns import COLUMNS, Array, Columns, Index, Mask, Move
 from mnclab.path.kinds import MOTION_KINDS, Kind
 from mnclab.text.alarm import several
 from mnclab.text.columns import fixed
@@ -51,11 +51,11 @@ class Toolpath(Columns):
         self.lathe = lathe
 
     @classmethod
-    def chain(cls, vertices: NDArray[np.float64], columns: dict[str, NDArray[Any]], **more: Any) -> Toolpath:
+    def chain(cls, vertices: Array, columns: dict[str, NDArray[Any]], **more: Any) -> Toolpath:
         """A continuous path through `vertices` (n + 1, 3); the other columns (n, ...)."""
         return cls({**columns, "start": vertices[:-1], "end": vertices[1:]}, **more)
 
-    def through(self, vertices: NDArray[np.float64], columns: dict[str, NDArray[Any]], *labels: str) -> Toolpath:
+    def through(self, vertices: Array, columns: dict[str, NDArray[Any]], *labels: str) -> Toolpath:
         """What this path becomes: a chain with its joints, origin and labels, and more `labels`."""
         more = {"joints": self.joints, "origin": self.origin, "lathe": self.lathe}
         return Toolpath.chain(vertices, columns, labels=tuple(dict.fromkeys((*self.labels, *labels))), **more)
@@ -101,7 +101,7 @@ class Toolpath(Columns):
         return _unpacked, (self._n, kept, self.labels, self.joints, self.origin, self.lathe)
 
     @property
-    def is_motion(self) -> NDArray[np.bool_]:
+    def is_motion(self) -> Mask:
         return np.asarray(self.kind <= max(MOTION_KINDS))
 
     @property
@@ -109,7 +109,7 @@ class Toolpath(Columns):
         return self[self.is_motion]
 
     @cached_property
-    def lengths(self) -> NDArray[np.float64]:
+    def lengths(self) -> Array:
         """Length of each row along the path, mm (n,); zero for events."""
         travel = self.end - self.start
         straight = np.linalg.norm(travel, axis=1)
@@ -126,7 +126,7 @@ class Toolpath(Columns):
         return float(self.lengths.sum())
 
     @property
-    def bounds(self) -> NDArray[np.float64]:
+    def bounds(self) -> Array:
         """Smallest and greatest coordinates (2, 3) of the motion, arcs included; nan without motion."""
         from mnclab.path.travel import extents
 
@@ -136,7 +136,7 @@ class Toolpath(Columns):
         low, high = extents(motion)
         return np.stack([np.minimum(motion.start, low).min(axis=0), np.maximum(motion.start, high).max(axis=0)])
 
-    def points(self, chord_error: float = 0.01) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    def points(self, chord_error: float = 0.01) -> tuple[Array, Index]:
         """Points (m, 3) along the motion within `chord_error` mm of every arc, and the row (m,) of each."""
         from mnclab.path.points import points
 

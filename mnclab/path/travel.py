@@ -14,12 +14,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 
-Array = NDArray[np.float64]
 NOISE = 1e-6  # mm
 
 
@@ -32,10 +31,8 @@ class Beyond(NamedTuple):
 
 
 def first_beyond(path: Toolpath, start: Array, travel: Array) -> Beyond | None:
-    """The first row that leads out of `travel` (3, 2), mm; None if none does.
-
-    `start` (3,) is the spindle reference before the path, machine coordinates; a machine that stands outside may return.
-    """
+    """The first row that leads out of `travel` (3, 2), mm; None if none does. `start` (3,) is the spindle reference
+    before the path, machine coordinates; a machine that stands outside may return."""
     if not len(path):
         return None
     jump = np.where((path.kind == Kind.TOOL)[:, None], path.start - path.end, 0.0)
@@ -45,7 +42,7 @@ def first_beyond(path: Toolpath, start: Array, travel: Array) -> Beyond | None:
     out = (np.maximum(short, over) > NOISE) & path.is_motion[:, None]
     if not out.any():
         return None
-    row = int(np.flatnonzero(out.any(axis=1))[0])
+    row = int(out.any(axis=1).argmax())
     axis = int(np.argmax(np.where(out[row], np.maximum(short[row], over[row]), -np.inf)))
     return Beyond(row, axis, float((low if short[row, axis] > NOISE else high)[row, axis]))
 

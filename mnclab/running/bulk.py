@@ -54,9 +54,9 @@ class PlainWords:
 
     motions: Mapping[float | None, tuple[str, int]]
     ready: Callable[[Machine], bool]
-    absolute: Callable[[Machine], bool] = lambda m: True
+    absolute: Callable[[Machine], bool] = lambda m: m.modal.get("dimension", "G90") == "G90"
     keyword: str = ""
-    tolerance: Callable[[Machine], float] = lambda m: 0.01
+    tolerance: Callable[[Machine], float] = lambda m: float(m.settings.get("arc_tolerance", 0.01))
     helices: Callable[[Machine, int], bool] = lambda m, count: False
     letters: str = LETTERS
     straight_arcs: bool = False

@@ -15,7 +15,7 @@ from typing import Any
 from mnclab.controls.choice import choose, read_text
 from mnclab.controls.choice import run as run_text
 from mnclab.machine.setup import Setup
-from mnclab.show.forms import DRAWING, picture_of, verdict
+from mnclab.show.forms import DRAWING, SIZE, verdict
 from mnclab.text.alarm import Alarm
 from mnclab.text.code_pages import decode
 from mnclab.text.extras import require
@@ -35,8 +35,7 @@ class Document:
     """A file and what was read from it: line ends and code page are kept, a change by somebody else is noticed."""
 
     def __init__(self, path: Path) -> None:
-        self.path, self.encoding, self.ends, self.content = path, "utf-8", "\n", b""
-        self.text = ""
+        self.path, self.encoding, self.ends, self.content, self.text = path, "utf-8", "\n", b"", ""
         try:
             os.stat(path)
         except FileNotFoundError:
@@ -119,7 +118,8 @@ def editor(path: str | Path, control: str | None = None, setup: Setup | None = N
             return
         try:
             run = run_text(read_text(source, document.path.name, control, str(document.path.parent)), None, setup)
-            drawn, told = picture_of(run, view), verdict(run)
+            figure: Any = run.plot(view=view, size=SIZE)
+            drawn, told = figure.html(), verdict(run)
         except Alarm as alarm:
             if live.source == source:
                 alarms.value = alarm._repr_html_()

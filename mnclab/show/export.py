@@ -73,8 +73,7 @@ def write_svg(run: Any, path: Path, true_size: bool = False, **options: Any) -> 
 
 def write_csv(run: Any, path: Path) -> None:
     """The columns of the toolpath under their names; `kind` and `label` as text, numbers with all their digits."""
-    columns = {name: _texts(column) for name, column in run.toolpath.columns().items()}
-    columns |= {"kind": _kinds(run.toolpath), "label": _labels(run.toolpath)}
+    columns = {name: _texts(column) for name, column in run.toolpath.columns().items()} | _words(run.toolpath)
     with path.open("w", encoding="utf-8", errors="replace", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
@@ -90,35 +89,26 @@ def write_json(run: Any, path: Path) -> None:
 
 def document(run: Any) -> dict[str, Any]:
     """Summary, alarms and columns of a run, ready for JSON: nan (no value) and inf (rapid feed) are null."""
-    path = run.toolpath
-    columns: dict[str, Any] = {name: _plain(column) for name, column in path.columns().items()}
-    columns |= {"kind": _kinds(path), "label": _labels(path)}
+    path, summary = run.toolpath, run.summary()
+    for name, value in summary.items():
+        if isinstance(value, float):
+            summary[name] = round(value, 6) if np.isfinite(value) else None
     return {
-        "summary": {name: _figure(value) for name, value in run.summary().items()},
+        "summary": summary,
         "ok": run.ok,
         "alarms": [named(alarm).as_dict() for alarm in run.alarms],
         "lathe": path.lathe,
         "origin": path.origin.tolist(),
         "meaning": {name: ", ".join(filter(None, (each.meaning, each.unit))) for name, each in COLUMNS.items()},
-        "columns": columns,
+        "columns": {name: _plain(column) for name, column in path.columns().items()} | _words(path),
     }
 
 
-def _figure(value: Any) -> Any:
-    """A figure of the card: six decimals, null where it has no end."""
-    if not isinstance(value, float):
-        return value
-    return round(value, 6) if np.isfinite(value) else None
-
-
-def _kinds(path: Toolpath) -> list[str]:
-    """RAPID, LINE, … for every row."""
+def _words(path: Toolpath) -> dict[str, list[Any]]:
+    """The columns that are names: RAPID, LINE, … and labels."""
     names = {kind.value: kind.name for kind in Kind}
-    return [names[kind] for kind in path.kind.tolist()]
-
-
-def _labels(path: Toolpath) -> list[str]:
-    return [path.labels[label] for label in path.label.tolist()]
+    kinds, labels = path.kind.tolist(), path.label.tolist()
+    return {"kind": [names[kind] for kind in kinds], "label": [path.labels[label] for label in labels]}
 
 
 def _texts(column: NDArray[Any]) -> Iterable[str]:

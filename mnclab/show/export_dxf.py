@@ -17,13 +17,9 @@ from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
 
 CHORD = 0.001  # mm, of helices
-#: Kind -> layer, colour number of AutoCAD, line type.
-LAYERS = {
-    Kind.RAPID: ("RAPID", 1, "DASHED"),
-    Kind.LINE: ("FEED", 5, "CONTINUOUS"),
-    Kind.ARC: ("FEED", 5, "CONTINUOUS"),
-    Kind.PROBE: ("PROBING", 6, "CONTINUOUS"),
-}
+#: Layer, colour number of AutoCAD, line type.
+RAPID, FEED, PROBING = ("RAPID", 1, "DASHED"), ("FEED", 5, "CONTINUOUS"), ("PROBING", 6, "CONTINUOUS")
+LAYERS = {Kind.RAPID: RAPID, Kind.LINE: FEED, Kind.ARC: FEED, Kind.PROBE: PROBING}
 Tag = tuple[int, Any]
 
 
@@ -46,17 +42,8 @@ def tags(path: Toolpath) -> Iterator[Tag]:
     yield from [(0, "ENDSEC"), (0, "SECTION"), (2, "TABLES")]
     yield from [(0, "TABLE"), (2, "LTYPE"), (70, 2)]
     yield from [(0, "LTYPE"), (2, "CONTINUOUS"), (70, 0), (3, "Solid line"), (72, 65), (73, 0), (40, 0.0)]
-    yield from [
-        (0, "LTYPE"),
-        (2, "DASHED"),
-        (70, 0),
-        (3, "Rapids"),
-        (72, 65),
-        (73, 2),
-        (40, 5.0),
-        (49, 3.0),
-        (49, -2.0),
-    ]
+    yield from [(0, "LTYPE"), (2, "DASHED"), (70, 0), (3, "Rapids"), (72, 65), (73, 2), (40, 5.0)]
+    yield from [(49, 3.0), (49, -2.0)]
     yield from [(0, "ENDTAB"), (0, "TABLE"), (2, "LAYER"), (70, 3)]
     for name, colour, dashes in dict.fromkeys(LAYERS.values()):
         yield from [(0, "LAYER"), (2, name), (70, 0), (62, colour), (6, dashes)]

@@ -24,6 +24,8 @@ from mnclab.show.given_away import named
 
 CHORD = 0.001
 DECIMALS = 6  # a millionth of a millimetre: LinuxCNC compares the radii of an arc's ends
+#: The columns of a path that blocks are made of.
+WORDS = "kind line label start end centre axis sweep rotary feed time spindle tool exact synchronous step".split()
 #: Number of a normal's axis -> plane, first and second axis, their words of the centre.
 PLANES = {2: ("G17", 0, 1, "IJ"), 1: ("G18", 2, 0, "KI"), 0: ("G19", 1, 2, "JK")}
 COOLANT = ("M7", "M8", "M9")
@@ -83,15 +85,10 @@ class Writer:
         self.label = (0, "")
 
     def rows(self, path: Toolpath) -> Iterator[str]:
-        """The blocks of a path."""
-        names = (
-            "kind line label start end centre axis sweep rotary feed time spindle tool exact synchronous step".split()
-        )
-        columns = [getattr(path, name) for name in names]
-        columns[names.index("rotary")] = np.degrees(path.rotary)
+        columns = {name: getattr(path, name) for name in WORDS} | {"rotary": np.degrees(path.rotary)}
         first = True
-        for row in zip(*(column.tolist() for column in columns)):
-            values = dict(zip(names, row))
+        for row in zip(*(column.tolist() for column in columns.values())):
+            values = dict(zip(columns, row))
             kind, label = values["kind"], path.labels[values["label"]]
             if (values["line"], label) != self.label:
                 self.label = values["line"], label
@@ -105,7 +102,6 @@ class Writer:
                 yield from self.event(values)
 
     def travel(self, row: dict[str, Any]) -> Iterator[str]:
-        """A row that moves."""
         kind, end = row["kind"], row["end"]
         feed = math.degrees(row["feed"]) if row["start"] == end and kind == Kind.LINE else row["feed"]  # rotary alone
         if row["exact"] != self.exact:
@@ -113,10 +109,8 @@ class Writer:
             yield "G61.1" if self.exact else "G61"
         if row["synchronous"] and row["spindle"]:
             self.motion = ""
-            pitch = number(row["feed"] / abs(row["spindle"]))
-            yield f"G33{self.axes(end, row['rotary'])} K{pitch}"
-            return
-        if kind == Kind.ARC and (words := self.arc(row)):
+            yield f"G33{self.axes(end, row['rotary'])} K{number(row['feed'] / abs(row['spindle']))}"
+        elif kind == Kind.ARC and (words := self.arc(row)):
             yield from words
         elif block := self.move("G0" if kind == Kind.RAPID else "G1", end, row["rotary"], feed):
             yield block + (" " + comment("probing, to the point touched") if kind == Kind.PROBE else "")
@@ -126,12 +120,14 @@ class Writer:
         axes = self.axes(end, rotary)
         if not axes:
             return ""
-        head = "" if code == self.motion else code
-        self.motion = code
-        return (head + axes + ("" if code == "G0" else self.feed_word(feed))).strip()
+        return (self.head(code) + axes + ("" if code == "G0" else self.feed_word(feed))).strip()
+
+    def head(self, code: str) -> str:
+        """The code of a motion where it changes."""
+        before, self.motion = self.motion, code
+        return "" if code == before else code
 
     def axes(self, end: list[float], rotary: list[float]) -> str:
-        """The coordinates that change."""
         words = []
         for letters, kept, values in (("XYZ", self.at, end), ("ABC", self.rotary, rotary)):
             for k, value in enumerate(values):
@@ -158,23 +154,16 @@ class Writer:
         if closed and turns < 0.5:
             return []
         count = round(turns) if closed else math.floor(turns) + 1
-        blocks = []
-        if plane != self.plane:
-            self.plane = plane
-            blocks.append(plane)
-        code = "G3" if (sweep > 0) == (row["axis"][normal] > 0) else "G2"
-        head = "" if code == self.motion else code
-        self.motion = code
+        blocks, self.plane = ([plane] if plane != self.plane else []), plane
+        head = self.head("G3" if (sweep > 0) == (row["axis"][normal] > 0) else "G2")
         # I J K from the start as it was written, so that rounding does not add up
         away = (float(number(centre[k])) - float(number(start[k])) for k in (first, second))
         offsets = "".join(f" {letter}{number(value)}" for letter, value in sorted(zip(letters, away)))
         times = f" P{count}" if count > 1 else ""
         axes = self.axes(end, row["rotary"])
-        blocks.append((head + axes + offsets + times + self.feed_word(row["feed"])).strip())
-        return blocks
+        return [*blocks, (head + axes + offsets + times + self.feed_word(row["feed"])).strip()]
 
     def event(self, row: dict[str, Any]) -> Iterator[str]:
-        """A row that moves nothing."""
         match row["kind"]:
             case Kind.DWELL:
                 yield f"G4 P{number(row['time'])}"

@@ -44,15 +44,15 @@ def write_stl(run: Any, path: Path) -> None:
     path.write_bytes(b"mnclab tool path, millimetres".ljust(80) + struct.pack("<I", len(table)) + table.tobytes())
 
 
+Parts = list[dict[str, Any]]
+
+
 class Gltf:
     """The parts of a glTF document: a buffer, and what points into it."""
 
     def __init__(self) -> None:
         self.buffer = bytearray()
-        self.views: list[dict[str, Any]] = []
-        self.accessors: list[dict[str, Any]] = []
-        self.materials: list[dict[str, Any]] = []
-        self.meshes: list[dict[str, Any]] = []
+        self.views, self.accessors, self.materials, self.meshes = Parts(), Parts(), Parts(), Parts()
 
     def array(self, values: NDArray[Any], kind: str, target: int) -> int:
         """An array in the buffer; float32 points or uint32 indices."""
@@ -80,7 +80,6 @@ class Gltf:
             self.meshes.append({"name": name, "primitives": [part | {"material": self.material(name, colour)}]})
 
     def body(self, name: str, body: Body, colour: tuple[float, float, float], alpha: float = 1.0) -> None:
-        """A closed surface."""
         part = {"attributes": {"POSITION": self.array(body.points, "VEC3", 34962)}, "mode": 4}
         part["indices"] = self.array(body.triangles.ravel(), "SCALAR", 34963)
         self.meshes.append({"name": name, "primitives": [part | {"material": self.material(name, colour, alpha)}]})
@@ -88,13 +87,11 @@ class Gltf:
     def document(self, uri: str | None) -> bytes:
         """The JSON part, with the buffer beside it or in it as `uri`."""
         count = len(self.meshes)
-        nodes = [{"name": mesh["name"], "mesh": k} for k, mesh in enumerate(self.meshes)]
+        nodes: Parts = [{"name": mesh["name"], "mesh": k} for k, mesh in enumerate(self.meshes)]
         root: dict[str, Any] = {"name": "tool path", "matrix": TO_GLTF}
         parts: dict[str, Any] = {"asset": {"version": "2.0", "generator": "mnclab"}, "scene": 0}
-        parts |= {
-            "scenes": [{"nodes": [count]}],
-            "nodes": [*nodes, root | ({"children": [*range(count)]} if count else {})],
-        }
+        nodes.append(root | ({"children": [*range(count)]} if count else {}))
+        parts |= {"scenes": [{"nodes": [count]}], "nodes": nodes}
         if count:
             buffer = {"byteLength": len(self.buffer)} | ({"uri": uri} if uri else {})
             parts |= {"meshes": self.meshes, "materials": self.materials, "accessors": self.accessors}

@@ -1,8 +1,7 @@
 """A path as an SVG drawing in true size: one millimetre of the path is one millimetre on paper, arcs stay arcs.
 
-`run.save("part.svg")` is the figure with its axes; `run.save("part.svg", true_size=True)` is this drawing, for a
-plotter, a laser or an overlay. Seen from above (XY); on a lathe Z goes to the right and the radius X up. Coordinates of
-the file are millimetres, and because SVG counts downwards the vertical ones are negative.
+`run.save("part.svg", true_size=True)` is this drawing, for a plotter, a laser or an overlay. Seen from above (XY); on a
+lathe Z goes to the right and the radius X up. Because SVG counts downwards, vertical coordinates are negative.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ import numpy as np
 
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
+from mnclab.show.export_gcode import number
 from mnclab.text.given import choice
 
 MARGIN = 2.0  # mm
@@ -96,9 +96,3 @@ def turns(path: Toolpath, row: int, right: int, up: int, along: int) -> Iterator
             to = path.end[row, [right, up]]
         # a flag of 0 turns counter-clockwise on paper, where the vertical axis is turned over
         yield f"A{number(radius)} {number(radius)} 0 0 {0 if sweep > 0 else 1} {number(to[0])} {number(-to[1])}"
-
-
-def number(value: float) -> str:
-    """A coordinate with six decimals at most."""
-    text = f"{value:.6f}".rstrip("0").rstrip(".")
-    return "0" if text in ("-0", "") else text

@@ -8,7 +8,7 @@ without pyplot; nobody else starts threads. ipywidgets is imported inside the fu
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from difflib import get_close_matches
@@ -32,8 +32,10 @@ from mnclab.text.given import check_number, shown
 
 DRAWING = ThreadPoolExecutor(1, thread_name_prefix="drawing")
 PLACE = re.compile(r"\{(\w+)\}")
+SIZE = (6.4, 4.4)  # inches, of a picture beside boxes
 
 Number = float | tuple[float, float, float]
+Work = tuple[Callable[[], Any], str]  # what draws the picture, and what is said below it
 
 
 def panel(
@@ -46,23 +48,21 @@ def panel(
     """
     require("ipywidgets", "forms")
     if not isinstance(template, str):
-        raise Alarm(
-            f"a panel is made of the text of a program, got {shown(template)}", hint='panel("G0 X{x}\\n", "mnc", x=5)'
-        )
+        hint = 'panel("G0 X{x}\\n", "mnc", x=5)'
+        raise Alarm(f"a panel is made of the text of a program, got {shown(template)}", hint=hint)
     for name, number in numbers.items():
         _check_number(name, number)
     places = list(dict.fromkeys(PLACE.findall(template)))
     for one, other, what in ((places, numbers, "has no number"), (numbers, places, "has no place in the program")):
-        for name in one:
-            if name not in other:
-                near = get_close_matches(name, list(other), 1)
-                raise Alarm(f"{{{name}}} {what}", hint=f"near: {near[0]}" if near else f"write {{{name}}} and {name}=…")
+        for name in (name for name in one if name not in other):
+            near = get_close_matches(name, list(other), 1)
+            raise Alarm(f"{{{name}}} {what}", hint=f"near: {near[0]}" if near else f"write {{{name}}} and {name}=…")
     boxes = {name: _number_box(name.replace("_", " "), number) for name, number in numbers.items()}
 
     def text() -> str:
         return PLACE.sub(lambda place: trial.number(boxes[place[1]].value), template)
 
-    return _live(boxes, list(boxes.values()), text, control, setup, view)
+    return _program(boxes, list(boxes.values()), text, control, setup, view)
 
 
 def compensation_panel(run: Run, **options: Any) -> Any:
@@ -79,25 +79,17 @@ def compensation_panel(run: Run, **options: Any) -> Any:
     corners = next((one for one in run.control.settings if one.name == "outside_corners"), None)
     if corners:
         choices = [(f"{name}: {meaning.split(',')[0]}", name) for name, meaning in corners.choices.items()]
-        looks = {"style": {"description_width": "8em"}, "layout": {"width": "26em"}}
-        first = run.settings["outside_corners"]
-        boxes["corners"] = ipywidgets.Dropdown(options=choices, value=first, description="outside corners", **looks)
-    picture, alarms = _html(), _html()
-    live: Any = ipywidgets.VBox([_row(*boxes.values()), picture, alarms])
+        first, looks = run.settings["outside_corners"], _looks("outside corners", 8, 18)
+        boxes["corners"] = ipywidgets.Dropdown(options=choices, value=first, **looks)
 
-    def redraw(_: Any = None) -> None:
+    def work(live: Any) -> Work:
         setup = run.setup.with_radius(boxes["radius"].value)
         if corners:
             setup = setup.with_settings(outside_corners=boxes["corners"].value)
         live.run = run.again(setup)
-        picture.value = DRAWING.submit(_compensation, live.run, options).result()
-        alarms.value = verdict(live.run)
+        return lambda: live.run.plot_compensation(size=(6.4, 5.2), **options), verdict(live.run)
 
-    live.boxes, live.picture, live.alarms, live.run = boxes, picture, alarms, run
-    redraw()
-    for box in boxes.values():
-        box.observe(redraw, "value")
-    return live
+    return _following(boxes, ipywidgets.HBox([*boxes.values()]), work)
 
 
 def form(code: str, control: str) -> Any:
@@ -107,6 +99,8 @@ def form(code: str, control: str) -> Any:
     the parameter), `ticks` and `run`, the last run.
     """
     require("ipywidgets", "forms")
+    import ipywidgets
+
     help_page = help_on(code, control)
     cycle = help_page.entry
     if not (isinstance(cycle, type) and issubclass(cycle, Cycle)):
@@ -119,7 +113,7 @@ def form(code: str, control: str) -> Any:
         box = boxes[parameter.name] = _parameter_box(parameter, min(32.0, 0.58 * longest))
         if not parameter.required and parameter.default in (None, inf):
             ticks[parameter.name] = tick = _tick(parameter, box)
-            rows.append(_row(box, tick))
+            rows.append(ipywidgets.HBox([box, tick]))
         else:
             rows.append(box)
 
@@ -128,9 +122,9 @@ def form(code: str, control: str) -> Any:
         defaults = {p.name: p.default for p in chosen.parameters() if not p.required}
         return trial.program(help_page.control, chosen, {n: v for n, v in values.items() if v != defaults.get(n)})
 
-    title = _html(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>")
+    title = ipywidgets.HTML(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>")
     setup = Setup(start=(30, 0, 20)) if help_page.control.lathe else None  # clear of the chuck's axis
-    live = _live(boxes, [title, *rows], text, help_page.control.name, setup, "auto", also=ticks, listed=True)
+    live = _program(boxes, [title, *rows], text, help_page.control.name, setup, "auto", ticks)
     live.ticks = ticks
     return live
 
@@ -146,31 +140,18 @@ def profile_panel(profile: Profile, **options: Any) -> Any:
 
     limits = profile.limits
     units = {"acceleration": "mm/s²", "jerk": "mm/s³", "corner_tolerance": "mm", "override": "%"}
-    first = {name: float(np.min(getattr(limits, name, None) or 0.0)) for name in units} | {
-        "override": 100 * profile.override
-    }
-    boxes = {name: _number_box(f"{name.replace('_', ' ')} [{units[name]}]", value) for name, value in first.items()}
-    for box in boxes.values():
-        box.style, box.layout = {"description_width": "13em"}, {"width": "21em"}
-    picture, alarms = _html(), _html()
-    live: Any = ipywidgets.VBox([ipywidgets.VBox(list(boxes.values())), picture, alarms])
+    first = {name: float(np.min(getattr(limits, name, None) or 0.0)) for name in units}
+    first["override"] = 100 * profile.override
+    names = {name: f"{name.replace('_', ' ')} [{unit}]" for name, unit in units.items()}
+    boxes = {name: _number_box(names[name], value, 13) for name, value in first.items()}
 
-    def redraw(_: Any = None) -> None:
+    def work(live: Any) -> Work:
         wanted = {name: box.value for name, box in boxes.items()}
         part = wanted.pop("override") / 100
-        try:
-            live.profile = profile.again(replace(limits, **wanted | {"jerk": wanted["jerk"] or None}), part)
-        except Alarm as alarm:
-            alarms.value = alarm._repr_html_()
-            return
-        picture.value = DRAWING.submit(lambda: live.profile.plot(**options).html()).result()
-        alarms.value = f'<div role="status">{live.profile._repr_html_()}</div>'
+        live.profile = profile.again(replace(limits, **wanted | {"jerk": wanted["jerk"] or None}), part)
+        return lambda: live.profile.plot(**options), f'<div role="status">{live.profile._repr_html_()}</div>'
 
-    live.boxes, live.picture, live.alarms, live.profile = boxes, picture, alarms, profile
-    redraw()
-    for box in boxes.values():
-        box.observe(redraw, "value")
-    return live
+    return _following(boxes, ipywidgets.VBox([*boxes.values()]), work)
 
 
 # --- boxes -----------------------------------------------------------------------------------------------------------
@@ -187,17 +168,27 @@ def _check_number(name: str, number: Any) -> None:
         raise Alarm(f"{name} must lie between its least and its greatest value, got {shown(number)}")
 
 
-def _number_box(name: str, number: Number) -> Any:
+def _looks(name: str, width: float, room: float = 8) -> dict[str, Any]:
+    """How a box looks: its name `width` em wide, and so much room beside it."""
+    widths = f"{width:.1f}em", f"{width + room:.1f}em"
+    return {"description": name, "style": {"description_width": widths[0]}, "layout": {"width": widths[1]}}
+
+
+def _number_box(name: str, number: Number, width: float = 8) -> Any:
     """A box for a number or for (value, least, greatest); whole numbers stay whole."""
+    value, *limits = number if isinstance(number, tuple) else (number,)
+    return _box_of(int if isinstance(value, int) else float, value, limits, _looks(name, width))
+
+
+def _box_of(kind: type, value: Any, limits: Sequence[float], looks: Mapping[str, Any]) -> Any:
+    """A box for whole or other numbers, between limits if there are any."""
     import ipywidgets
 
-    value, *limits = number if isinstance(number, tuple) else (number,)
-    looks: dict[str, Any] = {"description": name, "style": {"description_width": "8em"}, "layout": {"width": "16em"}}
-    if isinstance(value, int):
-        looks["value"], kinds = int(value), (ipywidgets.IntText, ipywidgets.BoundedIntText)
-    else:
-        looks["value"], kinds = float(value), (ipywidgets.FloatText, ipywidgets.BoundedFloatText)
-    return kinds[1](min=limits[0], max=limits[1], **looks) if limits else kinds[0](**looks)
+    whole = ipywidgets.IntText, ipywidgets.BoundedIntText
+    free, bounded = whole if kind is int else (ipywidgets.FloatText, ipywidgets.BoundedFloatText)
+    if not limits:
+        return free(value=kind(value), **looks)
+    return bounded(value=kind(value), min=kind(limits[0]), max=kind(limits[1]), **looks)
 
 
 def _name(p: Parameter) -> str:
@@ -212,12 +203,7 @@ def _parameter_box(p: Parameter, width: float) -> Any:
     value = trial.first_value(p)
     otherwise = left_out(p)
     facts = [p.meaning, p.allowed, p.note, f"left out: {otherwise}" if otherwise else ""]
-    looks: dict[str, Any] = {
-        "description": _name(p),
-        "tooltip": "; ".join(fact for fact in facts if fact),
-        "style": {"description_width": f"{width:.1f}em"},
-        "layout": {"width": f"{width + 8:.1f}em"},
-    }
+    looks = _looks(_name(p), width) | {"tooltip": "; ".join(fact for fact in facts if fact)}
     if trial.is_text(p):
         return ipywidgets.Text(value=value, **looks)
     if p.choices:
@@ -225,13 +211,8 @@ def _parameter_box(p: Parameter, width: float) -> Any:
         return ipywidgets.Dropdown(options=options, value=value, **looks)
     lowest = [limit for limit in (p.above, p.at_least) if limit is not None]
     highest = [limit for limit in (p.below, p.at_most) if limit is not None]
-    limits = {"min": max(lowest, default=-1e9), "max": min(highest, default=1e9)} if lowest or highest else {}
-    if p.type == "integer":
-        whole = {name: int(limit) for name, limit in limits.items()}
-        kind = ipywidgets.BoundedIntText if limits else ipywidgets.IntText
-        return kind(value=int(value), **whole, **looks)
-    kind = ipywidgets.BoundedFloatText if limits else ipywidgets.FloatText
-    return kind(value=value, **limits, **looks)
+    limits = (max(lowest, default=-1e9), min(highest, default=1e9)) if lowest or highest else ()
+    return _box_of(int if p.type == "integer" else float, value, limits, looks)
 
 
 def _tick(p: Parameter, box: Any) -> Any:
@@ -245,78 +226,64 @@ def _tick(p: Parameter, box: Any) -> Any:
     return tick
 
 
-def _row(*widgets: Any) -> Any:
-    import ipywidgets
-
-    return ipywidgets.HBox(widgets)
-
-
-def _html(text: str = "") -> Any:
-    import ipywidgets
-
-    return ipywidgets.HTML(text)
-
-
 # --- what follows the boxes ------------------------------------------------------------------------------------------
 
 
-def _live(
-    boxes: Mapping[str, Any],
-    rows: list[Any],
-    text: Callable[[], str | None],
-    control: str | None,
-    setup: Setup | None,
-    view: str,
-    *,
-    also: Mapping[str, Any] | None = None,
-    listed: bool = False,
+def _following(
+    boxes: dict[str, Any], rows: Any, work: Callable[[Any], Work | None], *also: Any, beside: bool = False
 ) -> Any:
-    """Rows of boxes on the left, the picture on the right, the program (if `listed`) and alarms below."""
+    """Rows of boxes, with a picture below or beside them and alarms; `work` is done when a box, or one `also`, changes."""
     import ipywidgets
 
-    picture, program, alarms = _html(), _html(), _html()
-    left = ipywidgets.VBox([*rows, program] if listed else rows)
-    live: Any = ipywidgets.VBox([ipywidgets.HBox([left, picture], layout={"flex_flow": "row wrap"}), alarms])
+    picture, alarms = ipywidgets.HTML(), ipywidgets.HTML()
+    above = [ipywidgets.HBox([rows, picture], layout={"flex_flow": "row wrap"})] if beside else [rows, picture]
+    live: Any = ipywidgets.VBox([*above, alarms])
+    live.boxes, live.picture, live.alarms, live.run = boxes, picture, alarms, None
 
-    def redraw(_: Any = None) -> None:
-        source = text()
-        if source is None:
-            picture.value = f"<p>no picture yet: a program around this cycle of {escape(str(control))} is not built</p>"
-            return
-        program.value = f"<pre>{escape(source)}</pre>"
+    def changed(_: Any = None) -> None:
         try:
-            live.run = run_text(source, control, setup)
+            done = work(live)
         except Alarm as alarm:
             alarms.value = alarm._repr_html_()
             return
-        picture.value = DRAWING.submit(picture_of, live.run, view).result()
-        alarms.value = verdict(live.run)
+        if done is not None:
+            draw, said = done
+            picture.value = DRAWING.submit(lambda: draw().html()).result()
+            alarms.value = said
 
-    live.boxes, live.picture, live.alarms, live.run = dict(boxes), picture, alarms, None
-    redraw()
-    for box in (*boxes.values(), *(also or {}).values()):
-        box.observe(redraw, "value")
+    changed()
+    for box in (*boxes.values(), *also):
+        box.observe(changed, "value")
     return live
 
 
-def picture_of(run: Run, view: str) -> str:
-    """The views of a run as an HTML image with a name; to be drawn in `DRAWING`."""
-    from mnclab.show.plot.path import image
+def _program(
+    boxes: dict[str, Any], rows: list[Any], text: Callable[[], str | None], control: str | None, setup: Setup | None,
+    view: str, ticks: Mapping[str, Any] | None = None,
+) -> Any:  # fmt: skip
+    """Boxes with the picture of a program beside them; those of a form have `ticks`, and the program below."""
+    import ipywidgets
 
-    return image(run, view)
+    program = ipywidgets.HTML()
 
+    def work(live: Any) -> Work | None:
+        source = text()
+        if source is None:
+            what = f"a program around this cycle of {escape(str(control))} is not built"
+            live.picture.value = f"<p>no picture yet: {what}</p>"
+            return None
+        program.value = f"<pre>{escape(source)}</pre>"
+        live.run = run_text(source, control, setup)
+        return lambda: live.run.plot(view=view, size=SIZE), verdict(live.run)
 
-def _compensation(run: Run, options: Mapping[str, Any]) -> str:
-    from mnclab.show.plot.compensation import image
-
-    return image(run, **options)
+    left = ipywidgets.VBox(rows if ticks is None else [*rows, program])
+    return _following(boxes, left, work, *(ticks or {}).values(), beside=True)
 
 
 def verdict(run: Run) -> str:
     """The alarms of a run, each with its line and caret, and its figures in one line."""
     s = run.summary()
-    figures = (
-        f"cutting {s['cutting length']:.3f} mm, rapid {s['rapid length']:.3f} mm, {s['time at feed']:.1f} s at feed"
-    )
+    lengths = f"cutting {s['cutting length']:.3f} mm, rapid {s['rapid length']:.3f} mm"
+    figures = f"{lengths}, {s['time at feed']:.1f} s at feed"
     alarms = card_html(run.alarms)
     return f'<div role="status">{"" if alarms else "no alarms; "}{figures}</div>{alarms}'

@@ -16,7 +16,6 @@ class Named(NamedTuple):
     source: Source
 
     def line_text(self, line: int) -> str:
-        """The characters of one line, without its end."""
         return self.source.line_text(line)
 
 

@@ -55,15 +55,11 @@ def run_cell(line: str, cell: str, names: Mapping[str, Any]) -> tuple[str, Run, 
     chosen = options().parse_args(words)
     if not chosen.name.isidentifier():
         raise Alarm(f"%%mnc: --name must be a name of Python, got {chosen.name!r}")
-    return (
-        chosen.name,
-        run_text(cell if cell.endswith("\n") else cell + "\n", chosen.control, _setup(chosen, names)),
-        chosen,
-    )
+    text = cell if cell.endswith("\n") else cell + "\n"
+    return chosen.name, run_text(text, chosen.control, _setup(chosen, names)), chosen
 
 
 def _setup(chosen: argparse.Namespace, names: Mapping[str, Any]) -> Setup:
-    """The setup that the options speak of."""
     setup = Setup()
     if chosen.setup:
         found = names.get(chosen.setup)
@@ -76,9 +72,8 @@ def _setup(chosen: argparse.Namespace, names: Mapping[str, Any]) -> Setup:
     if chosen.tools:
         tools = names.get(chosen.tools)
         if not isinstance(tools, Mapping) or not all(isinstance(tool, Tool) for tool in tools.values()):
-            raise Alarm(
-                f"%%mnc: --tools {chosen.tools} is no dict of tools in this notebook", hint="t = {1: Tool(radius=5)}"
-            )
+            what = f"%%mnc: --tools {chosen.tools} is no dict of tools in this notebook"
+            raise Alarm(what, hint="t = {1: Tool(radius=5)}")
         setup = replace(setup, tools=tools)
     return setup
 

@@ -48,7 +48,6 @@ class Report:
 
     @property
     def programs(self) -> list[tuple[str, Listing]]:
-        """Every listing with its heading, the main program first."""
         return [("Program", self.listing), *((f"Program {name}", lines) for name, lines in self.called)]
 
 
@@ -56,51 +55,33 @@ def report(run: Any, title: str | None = None) -> Report:
     """Gather what a report says of a run."""
     summary, profile = run.summary(), run.profile()
     low, high = run.toolpath.bounds
-    facts: Table = [
-        ("blocks", str(summary["blocks"])),
-        ("moves", str(summary["moves"])),
-        ("cutting length", f"{figure(summary['cutting length'], 3)} mm"),
-        ("rapid length", f"{figure(summary['rapid length'], 3)} mm"),
-        ("time", clock(profile.time)),
-    ]
-    if np.isfinite(low).all():
-        facts += [
-            (f"{axis} from, to", f"{figure(low[k], 3)}, {figure(high[k], 3)} mm")
-            for k, axis in enumerate("XYZ")
-            if not (run.toolpath.lathe and axis == "Y")
-        ]
-    turned = np.degrees(run.toolpath.rotary)
-    for k, axis in enumerate("ABC"):
-        if turned[:, k].any():
-            facts.append((f"{axis} from, to", f"{figure(turned[:, k].min(), 3)}, {figure(turned[:, k].max(), 3)} degrees"))
+    facts: Table = [(name, str(summary[name])) for name in ("blocks", "moves")]
+    facts += [(name, f"{figure(summary[name], 3)} mm") for name in ("cutting length", "rapid length")]
+    facts.append(("time", clock(profile.time)))
+    turned = zip("ABC", np.degrees(run.toolpath.rotary).T)
+    ranges = [*zip("XYZ", low, high, ["mm"] * 3)] if np.isfinite(low).all() else []
+    ranges += [(axis, angles.min(), angles.max(), "degrees") for axis, angles in turned if angles.any()]
+    for axis, least, most, unit in ranges:
+        if not (run.toolpath.lathe and axis == "Y"):
+            facts.append((f"{axis} from, to", f"{figure(least, 3)}, {figure(most, 3)} {unit}"))
     if run.stock:
         size = np.diff(run.stock.bounds, axis=0)[0]
         facts.append(("blank", " x ".join(figure(length, 3) for length in size) + " mm"))
-    by_tool = profile.time_by("tool")
-    times: Table = [
-        (str(cause), clock(seconds), f"{100 * seconds / profile.time:.1f} %")
-        for cause, seconds in sorted(profile.time_by("cause").items(), key=lambda item: -item[1])
-        if seconds > 0
-    ]
-    main, *others = (_numbered(run, index) for index in range(len(run.programs)))
-    return Report(
-        title or run.program.title,
-        run.control.title,
-        facts,
-        [_tool(number, run.tables.tools.get(number, Tool()), by_tool.get(number, 0.0)) for number in _used(run)],
-        times,
-        tuple(map(named, run.alarms)),
-        main,
-        called=tuple((p.title, lines) for p, lines in zip(run.programs[1:], others, strict=True)),
-    )
+    by_tool, table = profile.time_by("tool"), run.tables.tools
+    tools = [_tool(number, table.get(number, Tool()), by_tool.get(number, 0.0)) for number in _used(run)]
+    causes = sorted(profile.time_by("cause").items(), key=lambda item: -item[1])
+    times: Table = [(str(name), clock(s), f"{100 * s / profile.time:.1f} %") for name, s in causes if s > 0]
+    (_, main), *called = ((program.title, _numbered(run, index)) for index, program in enumerate(run.programs))
+    texts = title or run.program.title, run.control.title
+    return Report(*texts, facts, tools, times, tuple(map(named, run.alarms)), main, called=tuple(called))
 
 
 def _numbered(run: Any, index: int) -> Listing:
-    """The lines of a program of the run."""
     marks: dict[int, str] = {}
     for alarm in sorted(run.alarms, key=lambda alarm: alarm.severity == ALARM):  # an alarm stands above a warning
         marks |= {place.line: alarm.severity for place in alarm.places if place.program == index}
-    return [(number, text, marks.get(number, "")) for number, text in enumerate(run.programs[index].text.splitlines(), 1)]
+    lines = enumerate(run.programs[index].text.splitlines(), 1)
+    return [(number, text, marks.get(number, "")) for number, text in lines]
 
 
 def _used(run: Any) -> list[int]:
@@ -122,32 +103,22 @@ def save_report(run: Any, path: str | Path, title: str | None = None, **options:
     if not isinstance(title, str | None):
         raise Alarm(f"the title of a report must be a text, got {shown(title)}")
     path = Path(path)
-    writers = {".html": write_html, ".pdf": write_pdf}
-    if path.suffix.lower() not in writers:
+    suffix = path.suffix.lower()
+    if suffix not in (".html", ".pdf"):
         raise Alarm(f"a report is an .html or a .pdf file, got {path.name!r}")
     with replaced(path) as beside:
-        writers[path.suffix.lower()](run, report(run, title), beside, **options)
+        found, picture = report(run, title), run.plot(**options)
+        if suffix == ".html":
+            beside.write_text(html(found, picture), "utf-8", errors="replace", newline="\n")
+        else:
+            from mnclab.show.plot.report import write
+
+            write(found, picture, beside)
     return path
 
 
-def write_html(run: Any, found: Report, path: Path, **options: Any) -> None:
-    """Write the report as a page."""
-    path.write_text(html(run, found, **options), "utf-8", errors="replace", newline="\n")
-
-
-def write_pdf(run: Any, found: Report, path: Path, **options: Any) -> None:
-    """Write the report as pages."""
-    from mnclab.show.plot.path import plot_run
-    from mnclab.show.plot.report import write
-
-    write(found, plot_run(run, **options), path)
-
-
-def html(run: Any, found: Report, **options: Any) -> str:
+def html(found: Report, picture: Any) -> str:
     """The report as one page."""
-    from mnclab.show.plot.path import plot_run
-
-    picture: Any = plot_run(run, **options)
     style = Path(__file__).with_name("report.css").read_text("utf-8")
     alarms = card_html(found.alarms, QUOTED) or "<p>none</p>"
     parts = [

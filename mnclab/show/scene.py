@@ -39,6 +39,10 @@ WINDOW = "VTK_DEFAULT_OPENGL_WINDOW"
 OFF_SCREEN = {"EGL": "vtkEGLRenderWindow", "OSMesa": "vtkOSOpenGLRenderWindow"}
 SIZE = (800, 600)
 MAP = "viridis"
+BAR: dict[str, Any] = {
+    "color": "black", "fmt": "%.6g", "title_font_size": 16, "label_font_size": 14,
+    "vertical": True, "position_x": 0.86, "position_y": 0.25, "height": 0.5, "width": 0.07,
+}  # fmt: skip
 
 
 def scene(
@@ -69,18 +73,16 @@ def scene(
     plotter.set_background("white")
     _add_path(plotter, path, colour)
     if tool and (body := solids.tool_of(run, row)):
-        plotter.add_mesh(
-            _surface(body), color=TOOL, specular=0.4, smooth_shading=True, split_sharp_edges=True, name="tool"
-        )
+        look: dict[str, Any] = {"specular": 0.4, "smooth_shading": True, "split_sharp_edges": True}
+        plotter.add_mesh(_surface(body), color=TOOL, name="tool", **look)
     given = run.stock if stock is True else as_blank(stock) if stock is not False else None
     if stock is not True and stock is not False and given is None:
         raise Alarm(f"stock must be True, False, two corners (3,) or a body of workpiece.blank, got {shown(stock)}")
     blank = solids.body_of(given) if given else None
     if blank:
         plotter.add_mesh(_surface(blank), color=STOCK, opacity=0.25, name="blank")
-        plotter.add_mesh(
-            _surface(blank).extract_feature_edges(), color="#7d7664", line_width=1, name="edges of the blank"
-        )
+        edges = _surface(blank).extract_feature_edges()
+        plotter.add_mesh(edges, color="#7d7664", line_width=1, name="edges of the blank")
     if axes:
         plotter.add_axes(line_width=3, color="black")
         if len(path):
@@ -123,7 +125,6 @@ def _class() -> Any:
             return super().show(*arguments, **options)
 
         def png(self) -> bytes:
-            """The picture as PNG."""
             data = BytesIO()
             self.screenshot(data)
             return data.getvalue()
@@ -146,16 +147,12 @@ def _surface(body: solids.Body) -> Any:
 
 
 def _add_path(plotter: Any, path: Toolpath, colour: str) -> None:
-    """The moves as lines; the cuts coloured by what was asked for."""
     strokes, row = solids.strokes(path, CHORD)
     kind = path.kind[row]
     cuts = np.isin(kind, (Kind.LINE, Kind.ARC))
-    for name, which, look, width in (
-        ("rapids", kind == Kind.RAPID, RAPID, 1.0),
-        ("probing", kind == Kind.PROBE, PROBING, 2.0),
-    ):
-        if which.any():
-            plotter.add_mesh(_lines(strokes[which]), color=look, line_width=width, name=name)
+    for name, one, look, width in (("rapids", Kind.RAPID, RAPID, 1.0), ("probing", Kind.PROBE, PROBING, 2.0)):
+        if (kind == one).any():
+            plotter.add_mesh(_lines(strokes[kind == one]), color=look, line_width=width, name=name)
     if not cuts.any():
         return
     mesh = _lines(strokes[cuts])
@@ -163,14 +160,7 @@ def _add_path(plotter: Any, path: Toolpath, colour: str) -> None:
         plotter.add_mesh(mesh, color=FEED, line_width=2.5, name="cuts")
         return
     values = strokes[cuts][:, :, 2].ravel() if colour == "z" else getattr(path, colour)[row[cuts]]
-    bar: dict[str, Any] = {
-        "title": TITLES[colour],
-        "color": "black",
-        "fmt": "%.6g",
-        "title_font_size": 16,
-        "label_font_size": 14,
-    }
-    bar |= {"vertical": True, "position_x": 0.86, "position_y": 0.25, "height": 0.5, "width": 0.07}
+    bar = BAR | {"title": TITLES[colour]}
     spread = float(np.ptp(values))
     if colour in ("tool", "line") and spread < 6:  # whole numbers alone
         bar["n_labels"] = int(spread) + 1
@@ -189,12 +179,12 @@ def _add_rulers(plotter: Any, bounds: np.ndarray, blank: solids.Body | None) -> 
     step = power * next(factor for factor in (1, 2, 5, 10) if factor * power >= coarse * (1 - 1e-9))
     low, high = np.floor(low / step + 1e-9) * step, np.ceil(high / step - 1e-9) * step
     high = np.where(high > low, high, low + step)
-    counts = np.round((high - low) / step).astype(int) + 1
+    x, y, z = (np.round((high - low) / step).astype(int) + 1).tolist()
+    ranges = np.stack([low, high], axis=1).ravel().tolist()
     plotter.show_bounds(
-        bounds=np.stack([low, high], axis=1).ravel().tolist(), axes_ranges=np.stack([low, high], axis=1).ravel().tolist(),
+        bounds=ranges, axes_ranges=ranges,
         xtitle="X, mm", ytitle="Y, mm", ztitle="Z, mm", grid="back", location="outer", ticks="outside",
-        color="#555555", font_size=9, fmt="%.6g", bold=False, use_3d_text=False,
-        n_xlabels=int(counts[0]), n_ylabels=int(counts[1]), n_zlabels=int(counts[2]),
+        color="#555555", font_size=9, fmt="%.6g", bold=False, use_3d_text=False, n_xlabels=x, n_ylabels=y, n_zlabels=z,
     )  # fmt: skip
 
 

@@ -5,6 +5,7 @@ Points (n, 3) in mm, triangles (m, 3) as indices into them, their outside counte
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -40,8 +41,7 @@ class Body(NamedTuple):
 
 def box(low: ArrayLike, high: ArrayLike) -> Body:
     """A box between two corners (3,)."""
-    corners = np.array([low, high], dtype=np.float64)
-    points = np.array([[corners[i, 0], corners[j, 1], corners[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    points = np.array([*product(*np.array([low, high], dtype=np.float64).T)])
     squares = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     return Body(points, np.array([t for a, b, c, d in squares for t in ((a, b, c), (a, c, d))], dtype=np.int64))
 
@@ -57,15 +57,14 @@ def revolved(profile: ArrayLike, sides: int = SIDES, bore: float = 0.0) -> Body:
     ends = np.array([[0.0, 0.0, outline[0, 1]], [0.0, 0.0, outline[-1, 1]]])
     here, there = np.arange(sides), np.roll(np.arange(sides), -1)
     triangles = []
-    for k in range(len(outline) - 1):
-        low, high = k * sides, (k + 1) * sides
-        triangles += [np.stack([low + here, low + there, high + there], 1)]
-        triangles += [np.stack([low + here, high + there, high + here], 1)]
+    last = (len(outline) - 1) * sides
+    for low in range(0, last, sides):
+        triangles += [np.stack([low + here, low + there, low + sides + there], 1)]
+        triangles += [np.stack([low + here, low + sides + there, low + sides + here], 1)]
     if bore > 0:
         return Body(rings, np.concatenate(triangles))
-    bottom, top, last = len(rings), len(rings) + 1, (len(outline) - 1) * sides
-    triangles += [np.stack([np.full(sides, bottom), there, here], 1)]
-    triangles += [np.stack([np.full(sides, top), last + here, last + there], 1)]
+    triangles += [np.stack([np.full(sides, len(rings)), there, here], 1)]
+    triangles += [np.stack([np.full(sides, len(rings) + 1), last + here, last + there], 1)]
     return Body(np.concatenate([rings, ends]), np.concatenate(triangles))
 
 
@@ -81,8 +80,7 @@ def tool_body(tool: Tool, size: float = 10.0) -> Body:
     corner = min(max(tool.corner, 0.0), radius)
     bend = np.linspace(0, np.pi / 2, 9 if corner else 1)
     rounding = [(radius - corner + corner * np.sin(a), corner - corner * np.cos(a)) for a in bend]
-    straight = [(radius, 0.0)] if not corner else rounding
-    return revolved([*straight, (radius, length), (0.9 * radius, length), (0.9 * radius, 1.3 * length)])
+    return revolved([*rounding, (radius, length), (0.9 * radius, length), (0.9 * radius, 1.3 * length)])
 
 
 def strokes(path: Toolpath, chord_error: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
@@ -109,9 +107,8 @@ def tubes(path: Toolpath, radius: float, chord_error: float = 0.02, sides: int =
     across /= np.linalg.norm(across, axis=1)[:, None]
     other = np.cross(along, across)
     angle = 2 * np.pi * np.arange(sides) / sides
-    ring = radius * (
-        np.cos(angle)[:, None] * across[:, None] + np.sin(angle)[:, None] * other[:, None]
-    )  # (n, sides, 3)
+    cosine, sine = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    ring = radius * (cosine * across[:, None] + sine * other[:, None])  # (n, sides, 3)
     vertices = np.concatenate([start[:, None] + ring, end[:, None] + ring], axis=1)
     here, there = np.arange(sides), np.roll(np.arange(sides), -1)
     walls = [np.stack([here, there, sides + there], 1), np.stack([here, sides + there, sides + here], 1)]

@@ -29,8 +29,7 @@ def report(profile: Profile, machine: Any = None) -> str:
     lines += [_share(cause, seconds, profile.time) for cause, seconds in profile.time_by("cause").items()]
     tools = profile.time_by("tool")
     if len(tools) > 1:
-        lines += ["", "tool"]
-        lines += [_share(f"T{tool}", seconds, profile.time) for tool, seconds in tools.items()]
+        lines += ["", "tool", *(_share(f"T{tool}", seconds, profile.time) for tool, seconds in tools.items())]
     slowest = sorted(profile.time_by("line").items(), key=lambda item: -item[1])[:MOST]
     if slowest:
         lines += ["", "lines that take longest"]

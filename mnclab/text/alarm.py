@@ -43,11 +43,9 @@ class Source(Protocol):
     @property
     def name(self) -> str:
         """The file, or "program"."""
-        ...
 
     def line_text(self, line: int) -> str:
         """The characters of one line, without its end."""
-        ...
 
 
 class Alarm(Exception):
@@ -58,14 +56,8 @@ class Alarm(Exception):
     and others like it, `places` where the first of them stand.
     """
 
-    def __init__(
-        self,
-        message: str,
-        span: Span | None = None,
-        severity: str = ALARM,
-        hint: str = "",
-        source: Source | None = None,
-    ) -> None:
+    def __init__(self, message: str, span: Span | None = None, severity: str = ALARM, hint: str = "",
+                 source: Source | None = None) -> None:  # fmt: skip
         message, hint = _shortened(message), _shortened(hint)
         super().__init__(message)
         self.message, self.span, self.severity, self.hint, self.source = message, span, severity, hint, source
@@ -73,7 +65,6 @@ class Alarm(Exception):
         self.places: tuple[Span, ...] = (span,) if span else ()
 
     def changed(self, **values: Any) -> Alarm:
-        """The same alarm with other values of its fields."""
         other = copy.copy(self)
         vars(other).update(values)
         return other
@@ -89,9 +80,10 @@ class Alarm(Exception):
         """How many more alarms it stands for, and the first lines of those."""
         if self.count == 1:
             return ""
-        lines = dict.fromkeys(str(place.line) for place in self.places[1:] if not self.span or place.line != self.span.line)
-        listed = ", ".join(lines)
-        found = f" (line{'s' if len(lines) > 1 else ''} {listed}{', …' if self.count > len(self.places) else ''})"
+        here = self.span.line if self.span else None
+        lines = dict.fromkeys(str(place.line) for place in self.places[1:] if place.line != here)
+        more = ", …" if self.count > len(self.places) else ""
+        found = f" (line{'s' if len(lines) > 1 else ''} {', '.join(lines)}{more})"
         return f"; {self.count - 1} more like it{found if lines else ' in this line'}"
 
     @property
@@ -114,25 +106,19 @@ class Alarm(Exception):
         return self.changed(span=place, places=(place, *(each for each in self.places if each != place)))
 
     def lines(self, width: int = WIDTH) -> tuple[str, str]:
-        """The line of the program and the carets under the faulty characters; two empty strings if there is none.
-
-        Of a line longer than `width` only what stands around them.
-        """
+        """At most `width` characters of the line, and the carets under the faulty ones; two empty strings if there is none."""
         if self.span is None or self.source is None:
             return "", ""
         text, at = quoted(self.source.line_text(self.span.line), self.span.column - 1, width)
         indent = "".join("\t" if c == "\t" else " " for c in text[:at]).ljust(at)
         return text, indent + "^" * max(1, min(self.span.length, max(1, len(text) - at)))
 
-    def __str__(self) -> str:
-        return self.text()
-
     def text(self, width: int = WIDTH) -> str:
         """The alarm with at most so many characters of its line, and the caret."""
         text, caret = self.lines(width)
-        if not caret:
-            return self.headline
-        return f"{self.headline}\n    {text}\n    {caret}"
+        return f"{self.headline}\n    {text}\n    {caret}" if caret else self.headline
+
+    __str__ = text
 
     def __repr__(self) -> str:
         return f"Alarm({self.headline!r})"
@@ -140,9 +126,6 @@ class Alarm(Exception):
     def _render_traceback_(self) -> list[str]:
         """What IPython prints instead of a Python traceback: the fault is in the program, not in Python."""
         return str(self).split("\n")
-
-    def _repr_html_(self) -> str:
-        return self.html()
 
     def html(self, width: int = WIDTH) -> str:
         """The alarm as HTML, with at most so many characters of its line."""
@@ -152,27 +135,20 @@ class Alarm(Exception):
         said = self.message + self.others
         body = escape(f"{self.place}: {said}" if self.place else said)
         hint = f"<br><em>{escape(self.hint)}</em>" if self.hint else ""
-        shown = (
-            f'<pre style="margin:.2em 0 .6em 1.5em;font-family:monospace">{escape(text)}\n{escape(caret)}</pre>'
-            if caret
-            else ""
-        )
+        style = "margin:.2em 0 .6em 1.5em;font-family:monospace"
+        shown = f'<pre style="{style}">{escape(text)}\n{escape(caret)}</pre>' if caret else ""
         return f'<div role="alert">{head}{body}{hint}{shown}</div>'
+
+    _repr_html_ = html
 
     def as_dict(self) -> dict[str, Any]:
         """The alarm for programs that read JSON."""
-        span = self.span
+        line, column, length = self.span[:3] if self.span else (None, None, None)
         return {
-            "file": self.source.name if self.source else None,
-            "line": span.line if span else None,
-            "column": span.column if span else None,
-            "length": span.length if span else None,
-            "severity": self.severity,
-            "message": self.message,
-            "hint": self.hint,
-            "count": self.count,
-            "lines": [place.line for place in self.places],
-        }
+            "file": self.source.name if self.source else None, "line": line, "column": column, "length": length,
+            "severity": self.severity, "message": self.message, "hint": self.hint,
+            "count": self.count, "lines": [place.line for place in self.places],
+        }  # fmt: skip
 
 
 class Alarms(list[Alarm]):
@@ -211,7 +187,6 @@ class Alarms(list[Alarm]):
         super().append(alarm)
 
     def extend(self, alarms: Iterable[Alarm]) -> None:
-        """Keep or count several."""
         for alarm in alarms:
             self.append(alarm)
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import re
 
+_BY_FREQUENCY = "ъёфэщцюшжхйчбзгьыяупдмклврстниаео"  # Russian letters, the rarest first
+_LIKE_LATIN = "АВЕЗКМНОРСТХУ"
+
 
 def decode(data: bytes) -> tuple[str, str]:
     """Text of bytes in UTF-8, UTF-16 (with its mark), CP1251 or KOI8-R, and the name of the code page.
@@ -19,12 +22,6 @@ def decode(data: bytes) -> tuple[str, str]:
         windows, koi = (_russian(data.decode(page, errors="replace")) for page in ("cp1251", "koi8-r"))
         page = "koi8-r" if koi > windows + 20 else "cp1251"
         return data.decode(page, errors="replace"), page
-
-
-_BY_FREQUENCY = "ъёфэщцюшжхйчбзгьыяупдмклврстниаео"  # Russian letters, the rarest first
-
-
-_LIKE_LATIN = "АВЕЗКМНОРСТХУ"
 
 
 def _russian(text: str) -> int:

@@ -39,10 +39,8 @@ class Shelf(ModuleType):
 
     def __repr__(self) -> str:
         wide = max(map(len, self.__all__))
-        says = {name: _said(getattr(self, name)) for name in self.__all__}
-        return "\n".join(
-            [f"{self.__name__}: {self.__doc__}", *(f"    {n:{wide}}  {s}".rstrip() for n, s in says.items())]
-        )
+        lines = (f"    {name:{wide}}  {_said(getattr(self, name))}".rstrip() for name in self.__all__)
+        return "\n".join([f"{self.__name__}: {self.__doc__}", *lines])
 
 
 def _said(found: Any) -> str:

@@ -81,7 +81,6 @@ class Climber(ABC, Generic[T]):
         return found
 
     def deeper(self) -> None:
-        """One more operand within another."""
         self.depth += 1
         if self.depth > self.deepest:
             self.too_deep()
@@ -92,10 +91,7 @@ class Climber(ABC, Generic[T]):
 
     @abstractmethod
     def join(self, mark: str, left: T, first: int) -> T:
-        """Both sides of an operator, the token before this place; its `right` is still to be read.
-
-        `first` is the token where the left side begins.
-        """
+        """What an operator makes of `left`, which begins at the token `first`, and of its `right`, still to be read."""
 
     @abstractmethod
     def too_deep(self) -> None:

@@ -48,6 +48,12 @@ def place_of(line: Any, column: Any, length: Any) -> Any:
     return (line << _COLUMN | column) << _LENGTH | length
 
 
+def span_at(line_starts: NDArray[np.int32], offset: int, length: int = 1) -> Span:
+    """Line and column of a place in a text."""
+    line = int(line_starts.searchsorted(np.int32(offset), "right"))  # another type would copy them all
+    return Span(line, offset - int(line_starts[line - 1]) + 1, length)
+
+
 class Word(NamedTuple):
     """An address with its value, and where it stands."""
 
@@ -58,7 +64,6 @@ class Word(NamedTuple):
 
     @property
     def span(self) -> Span:
-        """Where the word stands."""
         above = self.place >> _LENGTH
         return Span(above >> _COLUMN, above & (1 << _COLUMN) - 1, self.place & (1 << _LENGTH) - 1)
 
@@ -73,7 +78,7 @@ class Word(NamedTuple):
         if self.address.islower():  # a value that stands without an address in the text
             return f"{shown}"
         equals = "=" if self.address[:1] == "Q" and self.address[-1].isdigit() else ""
-        before, after = ("I" if self.incremental else "", "") if not self.flag & AT_MARK else ("", "@")
+        before, after = ("", "@") if self.flag & AT_MARK else ("I" * self.incremental, "")
         return f"{before}{self.address}{equals}{'' if shown is None else shown}{after}"
 
     def __repr__(self) -> str:
@@ -144,7 +149,6 @@ class Program:
 
     @property
     def title(self) -> str:
-        """What the program is called, without its folders."""
         return Path(self.name).name
 
     def __len__(self) -> int:
@@ -152,14 +156,12 @@ class Program:
 
     def __getitem__(self, index: int) -> Block:
         index = range(len(self))[index]
-        words = tuple(self.word(i) for i in range(self.first[index], self.first[index + 1]))
-        lines = self._lines_of(index)
         number = _NUMBER_OF_BLOCK.match(self.text, int(self.start[index]))
-        comments = (self._parted(line)[1].strip() for line in lines)
+        comments = (self._parted(line)[1].strip() for line in self._lines_of(index))
         return Block(
             number=re.sub(r"[\s+]", "", number.group(1)).upper() if number else "",
             keyword=self.keywords[self.keyword[index]],
-            words=words,
+            words=tuple(self.word(i) for i in range(self.first[index], self.first[index + 1])),
             comment=" ".join(comment for comment in comments if comment),
             skip=bool(self.skip[index]),
             span=self.span_of_block(index),
@@ -169,16 +171,13 @@ class Program:
         return (self[i] for i in range(len(self)))
 
     def word(self, index: int) -> Word:
-        """The word of row `index`."""
         form, value = self.form[index], self.value[index]
         kept: Any = float(value) if form == NUMBER else None if form == NONE else self.payload[int(value)]
         span = self.span(int(self.offset[index]), int(self.length[index]))
         return Word(self.addresses[self.address[index]], kept, int(place_of(*span[:3])), int(self.flag[index]))
 
     def span(self, offset: int, length: int = 1) -> Span:
-        """Line and column of a place in the text."""
-        line = int(self.line_starts.searchsorted(np.int32(offset), "right"))  # another type would copy them all
-        return Span(line, offset - int(self.line_starts[line - 1]) + 1, length)
+        return span_at(self.line_starts, offset, length)
 
     def span_of_block(self, index: int) -> Span:
         """The first line of a block, from its first character to its end."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import Alarm, Alarms, Span
-from mnclab.text.program import EXPRESSION, NONE, NUMBER, TEXT, Program
+from mnclab.text.program import EXPRESSION, NONE, NUMBER, TEXT, Program, span_at
 
 CHUNK = 65_536  # words that a builder holds one by one
 MOST_WORDS = 1000  # of a block: what has more is no block of any control, and a long line must not fill the memory
@@ -27,7 +28,7 @@ class ProgramBuilder:
         self.addresses: dict[str, int] = {}
         self.keywords: dict[str, int] = {"": 0}
         self.words: list[tuple[int, float, int, int, int, int]] = []  # address, value, form, flag, offset, length; …
-        self.put_away: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []  # … earlier ones, and their blocks: less memory
+        self.put_away: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []  # … earlier ones, with their blocks
         self.before = 0  # how many words those are
         self.blocks: list[tuple[int, int, bool, bool, int]] = []  # offset, keyword, skip, plain, first word
         self.payload: list[Any] = []
@@ -36,9 +37,7 @@ class ProgramBuilder:
         self.full = -1  # where the block begins that was told to be too long
 
     def span(self, offset: int, length: int = 1) -> Span:
-        """Line and column of a place in the text."""
-        line = int(self.line_starts.searchsorted(np.int32(offset), "right"))  # another type would copy them all
-        return Span(line, offset - int(self.line_starts[line - 1]) + 1, length)
+        return span_at(self.line_starts, offset, length)
 
     def alarm(self, message: str, offset: int, length: int = 1, hint: str = "", severity: str = "alarm") -> None:
         """Note a fault of the text; reading goes on."""
@@ -75,13 +74,13 @@ class ProgramBuilder:
             return
         index = self.addresses.setdefault(address, len(self.addresses))
         if isinstance(value, int | float):
-            self.words.append((index, float(value), NUMBER, flag, offset, length))
+            form, number = NUMBER, float(value)
         elif value is None:
-            self.words.append((index, 0.0, NONE, flag, offset, length))
+            form, number = NONE, 0.0
         else:
-            form = TEXT if isinstance(value, str) else EXPRESSION
-            self.words.append((index, float(len(self.payload)), form, flag, offset, length))
+            form, number = TEXT if isinstance(value, str) else EXPRESSION, float(len(self.payload))
             self.payload.append(value)
+        self.words.append((index, number, form, flag, offset, length))
 
     def build(self, bulk: BulkBlocks | None = None) -> Program:
         """The program; blocks found in bulk are sorted in by their place in the text."""
@@ -97,44 +96,31 @@ class ProgramBuilder:
             names = [self.addresses.setdefault(a, len(self.addresses)) for a in bulk.addresses]
             same_names = names == list(range(len(names)))  # then no copy is needed
             address = bulk.address if same_names else np.array(names, dtype=np.int16)[bulk.address]
-            key = self.keywords.setdefault(bulk.keyword, len(self.keywords))
-            n = len(bulk.start)
+            key = np.int16(self.keywords.setdefault(bulk.keyword, len(self.keywords)))
             zero = np.broadcast_to(np.uint8(0), (len(bulk.value),))  # a constant column costs nothing
             form = zero if bulk.form is None else bulk.form
             more = [address, bulk.value, form, zero, bulk.offset, bulk.length]
-            same = np.broadcast_to(np.int16(key), (n,)), np.broadcast_to(np.False_, (n,))
-            more_heads = [bulk.start, *same, bulk.plain]
-            first = bulk.first
+            same = [np.broadcast_to(constant, (len(bulk.start),)) for constant in (key, np.False_)]
+            more_heads, first = [bulk.start, *same, bulk.plain], bulk.first
             if len(blocks):
                 sizes = [count, np.diff(first)]
                 columns, heads = _merged(columns, more, 4), _merged([*heads, sizes[0]], [*more_heads, sizes[1]], 0)
                 first = first_words(heads[4])
             else:
                 columns, heads = more, more_heads
+        address, value, form, flag, offset, length = columns
+        start, keyword, skip, plain, *_ = heads
         return Program(
-            text=self.text,
-            name=self.name,
-            control=self.control,
-            addresses=tuple(self.addresses),
-            address=columns[0],
-            value=columns[1],
-            form=columns[2],
-            flag=columns[3],
-            offset=columns[4].astype(np.int32, copy=False),
-            length=columns[5].astype(np.int16, copy=False),
-            first=first,
-            keywords=tuple(self.keywords),
-            keyword=heads[1].astype(np.int16, copy=False),
-            skip=heads[2].astype(bool, copy=False),
-            plain=heads[3].astype(bool, copy=False),
-            start=heads[0].astype(np.int32, copy=False),
-            line_starts=self.line_starts,
-            payload=tuple(self.payload),
+            text=self.text, name=self.name, control=self.control, comment_mark=self.comment_mark,
+            addresses=tuple(self.addresses), address=address, value=value, form=form, flag=flag,
+            offset=offset.astype(np.int32, copy=False), length=length.astype(np.int16, copy=False), first=first,
+            keywords=tuple(self.keywords), keyword=keyword.astype(np.int16, copy=False),
+            skip=skip.astype(bool, copy=False), plain=plain.astype(bool, copy=False),
+            start=start.astype(np.int32, copy=False), line_starts=self.line_starts, payload=tuple(self.payload),
             alarms=tuple(sorted(self.alarms, key=lambda alarm: (alarm.span or Span(0, 0))[:2])),
             untold=self.alarms.untold,
-            comment_mark=self.comment_mark,
-            labels={name: int(np.searchsorted(heads[0], at)) for name, at in self.labels.items()},
-        )
+            labels={name: int(np.searchsorted(start, at)) for name, at in self.labels.items()},
+        )  # fmt: skip
 
 
 def first_words(size: NDArray[Any]) -> NDArray[np.int32]:
@@ -152,9 +138,7 @@ def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
     if len(cuts) <= FEW and (steps >= 0).all():  # whole stretches are copied faster than single rows
         some = [np.split(column, cuts) for column in some]
         others = [np.split(column, places[cuts]) for column in others]
-        return [
-            np.concatenate([part for pair in zip(a, b, strict=True) for part in pair]) for a, b in zip(some, others)
-        ]
+        return [np.concatenate([*chain(*zip(a, b, strict=True))]) for a, b in zip(some, others)]
     order = np.argsort(np.concatenate([some[by], others[by]]), kind="stable")
     return [np.concatenate(pair)[order] for pair in zip(some, others, strict=True)]
 

@@ -7,23 +7,16 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, Protocol
+from typing import Any
 
 SOON = 1.0  # s of work before a bar appears
 
 
-class Progress(Protocol):
-    """Called now and then with how much of the whole is done."""
-
-    def __call__(self, done: int) -> None:
-        """Say how much is done."""
-
-
 @contextmanager
-def progress(what: str, total: int, unit: str) -> Iterator[Progress]:
-    """`with progress("running", 10_000, "blocks") as at: …; at(300)`; the bar goes with the end of the block."""
+def progress(what: str, total: int, unit: str) -> Iterator[Callable[[int], None]]:
+    """`with progress("running", 10_000, "blocks") as at: …; at(300)`, now and then; the bar goes with the end of the block."""
     begin = time.monotonic()
     bar: Any = None
     refused = threading.current_thread() is not threading.main_thread()

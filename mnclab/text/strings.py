@@ -73,9 +73,6 @@ class NumberFromText:
         return float(_NUMBER_OF[self.part.text](self.part, variables))
 
 
-# --- reading ----------------------------------------------------------------------------------------------------------
-
-
 def is_number(text: str) -> bool:
     """Whether a formula begins with a function of texts that gives a number (or is refused)."""
     found = _FUNCTION.match(text.lstrip())
@@ -93,9 +90,8 @@ def parse_text(text: str, span: Span) -> TextFormula:
         parts.append(reader.part())
     for part in parts:
         if part.text in NUMBERS:
-            raise Alarm(
-                f"{part.text} gives a number, a text is wanted here", part.span, hint="assign it to a Q parameter"
-            )
+            said = f"{part.text} gives a number, a text is wanted here"
+            raise Alarm(said, part.span, hint="assign it to a Q parameter")
     return TextFormula(tuple(parts), text.strip())
 
 
@@ -104,9 +100,8 @@ def parse_number(text: str, span: Span) -> NumberFromText:
     reader = _Reader(text, span)
     part = reader.part()
     if not reader.done:
-        raise Alarm(
-            f"nothing may follow {part.text} ( … ) here", reader.place(1), hint="calculate in a block of its own"
-        )
+        said = f"nothing may follow {part.text} ( … ) here"
+        raise Alarm(said, reader.place(1), hint="calculate in a block of its own")
     return NumberFromText(part, text.strip())
 
 
@@ -123,15 +118,11 @@ class _Reader:
         return self.at >= len(self.text)
 
     def place(self, length: int, at: int | None = None) -> Span:
-        at = self.at if at is None else at
-        return self.span._replace(column=self.span.column + at, length=length)
+        return self.span._replace(column=self.span.column + (self.at if at is None else at), length=length)
 
     def match(self, pattern: re.Pattern[str]) -> re.Match[str] | None:
-        if self.done:
-            return None
-        found = pattern.match(self.text, self.at)
-        if found:
-            self.at = found.end()
+        found = None if self.done else pattern.match(self.text, self.at)
+        self.at = found.end() if found else self.at
         return found
 
     def part(self, functions: bool = True) -> Part:
@@ -151,11 +142,9 @@ class _Reader:
     def function(self, name: str, span: Span) -> Part:
         """The arguments of a function, in any order, up to the closing bracket."""
         if name in REFUSED:
-            while not self.text.startswith(")", self.at):
-                if self.at >= len(self.text):
-                    raise Alarm(f"{name} has no closing bracket", span)
-                self.at += 1
-            self.at += 1
+            self.at = self.text.find(")", self.at) + 1
+            if not self.at:
+                raise Alarm(f"{name} has no closing bracket", span)
             return Part("function", name, span, {})
         known, given = {**TEXTS, **NUMBERS}[name], {}
         while not self.done and self.text[self.at] != ")":
@@ -184,11 +173,7 @@ class _Reader:
         return parse(found.group(), self.place(1, at))
 
 
-# --- working out ------------------------------------------------------------------------------------------------------
-
-
 def _text(part: Part, variables: Mapping[str, Any]) -> str:
-    """The text of a part."""
     if part.kind == "literal":
         return part.text
     if part.kind == "variable":
@@ -255,10 +240,6 @@ def _strcomp(part: Part, variables: Mapping[str, Any]) -> float:
     return (one > other) - (one < other)
 
 
-def _refused(part: Part, variables: Mapping[str, Any]) -> float:
-    return float(_text(part, variables))
-
-
-_NUMBER_OF: dict[str, Callable[[Part, Mapping[str, Any]], float]] = {
-    "TONUMB": _tonumb, "STRLEN": _strlen, "INSTR": _instr, "STRCOMP": _strcomp, "SYSSTR": _refused, "CFGREAD": _refused,
+_NUMBER_OF: dict[str, Callable[[Part, Mapping[str, Any]], Any]] = {
+    "TONUMB": _tonumb, "STRLEN": _strlen, "INSTR": _instr, "STRCOMP": _strcomp, "SYSSTR": _text, "CFGREAD": _text,
 }  # fmt: skip

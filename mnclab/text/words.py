@@ -17,6 +17,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+Bytes = NDArray[np.uint8]
+Offsets = NDArray[np.int32]
+Places = NDArray[np.int64]
+Values = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
 PIECE = 1 << 18
 BLANK, DIGIT, END, OTHER = range(4)
 
@@ -42,17 +48,17 @@ class Scan:
     lines; `indented` whether any of them begins with a blank.
     """
 
-    letter: NDArray[np.uint8]
-    value: NDArray[np.float64]
-    offset: NDArray[np.int32]
+    letter: Bytes
+    value: Values
+    offset: Offsets
     length: NDArray[np.int16]
-    count: NDArray[np.int32]
-    clean: NDArray[np.bool_]
-    starts: NDArray[np.int32]
+    count: Offsets
+    clean: Mask
+    starts: Offsets
     indented: bool
 
-    def without(self, lines: NDArray[np.bool_]) -> Scan:
-        """The same with some lines (l,) that are not clean."""
+    def without(self, lines: Mask) -> Scan:
+        """The same, but that some lines (l,) are not clean."""
         keep = np.repeat(~lines, self.count)
         return replace(
             self, letter=self.letter[keep], value=self.value[keep], offset=self.offset[keep], length=self.length[keep],
@@ -60,22 +66,25 @@ class Scan:
         )  # fmt: skip
 
     @property
-    def line(self) -> NDArray[np.int64]:
+    def line(self) -> Places:
         """The line (w,) of each word, from 0."""
         return np.repeat(np.arange(len(self.count)), self.count)
 
 
-def line_starts(data: NDArray[np.uint8]) -> NDArray[np.int32]:
+def line_starts(data: Bytes) -> Offsets:
     """Offsets of the lines of a text; a line ends with LF, CR LF or CR."""
+    return np.concatenate([[0], np.flatnonzero(_line_ends(data)) + 1]).astype(np.int32)
+
+
+def _line_ends(data: Bytes) -> Mask:
     ends = data == 10
     if (returns := data == 13).any():
-        alone = returns.copy()
-        alone[:-1] &= data[1:] != 10
-        ends |= alone
-    return np.concatenate([[0], np.flatnonzero(ends) + 1]).astype(np.int32)
+        returns[:-1] &= data[1:] != 10  # of CR LF only the second is an end
+        ends |= returns
+    return ends
 
 
-def characters(text: str) -> NDArray[np.uint8]:
+def characters(text: str) -> Bytes:
     """One byte a character: ASCII as it is, everything else as `?`, so that offsets stay those of the text."""
     return np.frombuffer(text.encode("ascii", errors="replace"), dtype=np.uint8)
 
@@ -89,9 +98,7 @@ def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
     # room for as many words as fit: memory that is never touched costs nothing, what is touched costs more than the work
     most = len(text) // 2 + 1
     columns: list[NDArray[Any]] = [np.empty(most, dtype=kind) for kind in (np.uint8, np.float64, np.int32, np.int16)]
-    starts: list[NDArray[np.int32]] = []
-    counts: list[NDArray[np.int32]] = []
-    cleans: list[NDArray[np.bool_]] = []
+    starts, counts, cleans = list[Offsets](), list[Offsets](), list[Mask]()
     begin = found = 0
     indented = False
     while begin < len(text) or not starts:
@@ -111,9 +118,8 @@ def scan(text: str, leading_number: bool = False, bare: str = "") -> Scan:
     for column in columns:
         column.resize(found, refcheck=False)  # gives back what was not needed
     letter, value, offset, length = columns
-    return Scan(
-        letter, value, offset, length, np.concatenate(counts), np.concatenate(cleans), np.concatenate(starts), indented
-    )  # fmt: skip
+    count, clean = np.concatenate(counts), np.concatenate(cleans)
+    return Scan(letter, value, offset, length, count, clean, np.concatenate(starts), indented)
 
 
 def _end_of_piece(text: str, begin: int) -> int:
@@ -136,13 +142,9 @@ class _Piece:
     they were. Those that come out wrong are looked at again with care.
     """
 
-    def __init__(self, data: NDArray[np.uint8], leading_number: bool, bare: str) -> None:
+    def __init__(self, data: Bytes, leading_number: bool, bare: str) -> None:
         self.data = data
-        ends = data == 10
-        if (returns := data == 13).any():
-            returns[:-1] &= data[1:] != 10  # of CR LF only the second is an end
-            ends |= returns
-        marks = np.flatnonzero((((data | 0x20) - 97) < 26) | ends)
+        marks = np.flatnonzero((((data | 0x20) - 97) < 26) | _line_ends(data))
         marked = data[marks]
         newline = np.flatnonzero(marked <= 13)
         self.starts = np.concatenate([[0], marks[newline] + 1])
@@ -157,9 +159,8 @@ class _Piece:
         self.value, self.end = self.read(after, bare)
         self.clean = self.clean_lines(leading_number, bare)
 
-    def read(self, after: NDArray[np.int64], bare: str) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Values and ends of the words, the text of each before `after`; nan where there is no number, end 0 where there is
-        nothing."""
+    def read(self, after: Places, bare: str) -> tuple[Values, Places]:
+        """Values and ends of the words, each before `after`; nan where there is no number, end 0 where there is nothing."""
         self.padded = padded = _padded(self.data)
         first, last = padded[self.at + 9], padded[after + 7]
         negative = first == 45
@@ -184,7 +185,7 @@ class _Piece:
         value.view(np.uint64)[:] ^= negative.astype(np.uint64) << _u8(63)  # the bit of the sign
         return value, end
 
-    def clean_lines(self, leading_number: bool, bare: str) -> NDArray[np.bool_]:
+    def clean_lines(self, leading_number: bool, bare: str) -> Mask:
         """Which lines have only good words, and no other character before the first of them."""
         odd = np.flatnonzero(np.isnan(self.value))
         if bare and len(odd):
@@ -209,7 +210,7 @@ class _Piece:
         return tuple(column[keep] for column in columns)
 
 
-def _padded(data: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def _padded(data: Bytes) -> Bytes:
     """The text between eight blanks before it and a line end behind it; a slash, which `numbers` would take for a
     one, is replaced."""
     padded = np.empty(len(data) + 9, dtype=np.uint8)
@@ -219,10 +220,7 @@ def _padded(data: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return padded
 
 
-def _clean_heads(
-    data: NDArray[np.uint8], padded: NDArray[np.uint8], starts: NDArray[np.int64], head: NDArray[np.int64],
-    leading_number: bool,
-) -> NDArray[np.bool_]:  # fmt: skip
+def _clean_heads(data: Bytes, padded: Bytes, starts: Places, head: Places, leading_number: bool) -> Mask:
     """Which lines have only blanks, or with `leading_number` one whole number, before `head`, their first letter."""
     first = _KIND[padded[starts + 8]]
     good = (head == starts) | ((head == starts + 1) & ((first == BLANK) | (first == END)))
@@ -238,9 +236,7 @@ def _clean_heads(
     return good
 
 
-def _clean_odd_heads(
-    data: NDArray[np.uint8], starts: NDArray[np.int64], head: NDArray[np.int64], leading_number: bool
-) -> NDArray[np.bool_]:
+def _clean_odd_heads(data: Bytes, starts: Places, head: Places, leading_number: bool) -> Mask:
     """The same for any blanks before and after the number."""
     kind = _KIND[data]
     filled = np.concatenate([[0], np.cumsum((kind != BLANK) & (kind != END), dtype=np.int32)])
@@ -253,13 +249,13 @@ def _clean_odd_heads(
     return (before == 0) | ((digits[head] - digits[starts] == before) & (digits[there] - digits[here] == before))
 
 
-def _blank(data: NDArray[np.uint8], at: NDArray[np.int64] | slice) -> NDArray[np.bool_]:
+def _blank(data: Bytes, at: Places | slice) -> Mask:
     """Blank, tab, or the CR of a line end CR LF."""
     character = data[at]
     return (character == 32) | (character == 9) | (character == 13)
 
 
-def _skip_blanks(data: NDArray[np.uint8], at: NDArray[np.int64], end: NDArray[np.int64]) -> NDArray[np.int64]:
+def _skip_blanks(data: Bytes, at: Places, end: Places) -> Places:
     """First place in [at, end) that is no blank."""
     blank = (at < end) & _blank(data, np.minimum(at, len(data) - 1))
     if not blank.any():
@@ -271,7 +267,7 @@ def _skip_blanks(data: NDArray[np.uint8], at: NDArray[np.int64], end: NDArray[np
     return result
 
 
-def _drop_blanks(data: NDArray[np.uint8], begin: NDArray[np.int64], end: NDArray[np.int64]) -> NDArray[np.int64]:
+def _drop_blanks(data: Bytes, begin: Places, end: Places) -> Places:
     """Last place after `begin` behind which [.., end) holds only blanks."""
     result = end - ((end > begin) & _blank(data, end - 1))  # nearly always one
     todo = np.flatnonzero((result > begin) & _blank(data, result - 1))
@@ -281,9 +277,7 @@ def _drop_blanks(data: NDArray[np.uint8], begin: NDArray[np.int64], end: NDArray
     return result
 
 
-def numbers(
-    data: NDArray[np.uint8], begin: NDArray[np.int64], end: NDArray[np.int64], padded: NDArray[np.uint8]
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def numbers(data: Bytes, begin: Places, end: Places, padded: Bytes) -> tuple[Values, Mask]:
     """Values of the unsigned decimal numbers in [begin, end) and which of them are numbers at all."""
     size = end - begin
     window = np.ndarray((len(data) + 1,), dtype="<u8", buffer=padded, strides=(1,))
@@ -320,9 +314,7 @@ def numbers(
     return value, good
 
 
-def _long_numbers(
-    data: NDArray[np.uint8], begin: NDArray[np.int64], end: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def _long_numbers(data: Bytes, begin: Places, end: Places) -> tuple[Values, Mask]:
     """Numbers of more than eight characters, digit by digit; beyond what a double holds exactly, one by one."""
     size = end - begin
     total = np.zeros(len(begin), dtype=np.int64)

@@ -28,7 +28,6 @@ class Box(NamedTuple):
         return written(self)
 
     def moved(self, by: ArrayLike) -> Box:
-        """The same box moved by a vector (3,), mm."""
         low, high = (np.asarray(corner, dtype=np.float64) + np.asarray(by) for corner in self)
         return Box(tuple(low.tolist()), tuple(high.tolist()))
 
@@ -52,11 +51,8 @@ class Box(NamedTuple):
 
 
 class Revolved(NamedTuple):
-    """A body turned about an axis parallel to X, Y or Z.
-
-    `profile`: pairs of radius and place along the axis, mm, from one end to the other; `at`: a point on the axis.
-    `bore`: the radius of a hole all along it, for a tube.
-    """
+    """A body turned about an axis parallel to X, Y or Z. `profile`: pairs of radius and place along the axis, mm, from
+    one end to the other; `at`: a point on the axis. `bore`: the radius of a hole all along it, for a tube."""
 
     profile: tuple[tuple[float, float], ...]
     axis: str = "Z"
@@ -68,11 +64,9 @@ class Revolved(NamedTuple):
 
     @property
     def along(self) -> int:
-        """Which coordinate the axis runs along."""
         return "XYZ".index(self.axis)
 
     def moved(self, by: ArrayLike) -> Revolved:
-        """The same body moved by a vector (3,), mm."""
         return self._replace(at=tuple((np.asarray(self.at, dtype=np.float64) + np.asarray(by)).tolist()))
 
     @property
@@ -87,43 +81,34 @@ class Revolved(NamedTuple):
 
     def rims(self) -> list[tuple[float, float]]:
         """Radius and place along the axis of every edge that goes round; those of a bore too."""
-        ends = [self.profile[0][1], self.profile[-1][1]]
-        found = [*((radius, place) for radius, place in self.profile if radius > 0)]
-        return found + ([(self.bore, place) for place in ends] if self.bore > 0 else [])
+        bore = [(self.bore, self.profile[0][1]), (self.bore, self.profile[-1][1])]
+        return [(radius, place) for radius, place in (*self.profile, *bore) if radius > 0]
+
+    def _points(self, radius: ArrayLike, angle: ArrayLike, place: ArrayLike) -> Array:
+        """Points (k, 3) at radii and angles about the axis and places along it."""
+        first, second = ((1, 2), (2, 0), (0, 1))[self.along]
+        points = np.empty((np.broadcast(radius, angle, place).size, 3))
+        points[:, first], points[:, second] = radius * np.cos(angle), radius * np.sin(angle)
+        points[:, self.along] = place
+        return points + np.array(self.at, dtype=np.float64)
 
     def edges(self) -> list[Array]:
         """The rims as closed lines (k, 3) and four lines along the surface (k, 3)."""
-        first, second = ((1, 2), (2, 0), (0, 1))[self.along]
-        angle = np.linspace(0, 2 * np.pi, CORNERS + 1)
-        found = []
-        for radius, place in self.rims():
-            ring = np.tile(np.array(self.at, dtype=np.float64), (len(angle), 1))
-            ring[:, first] += radius * np.cos(angle)
-            ring[:, second] += radius * np.sin(angle)
-            ring[:, self.along] += place
-            found.append(ring)
-        profile = np.array(self.profile, dtype=np.float64)
-        for a in (0, np.pi / 2, np.pi, 3 * np.pi / 2):
-            line = np.tile(np.array(self.at, dtype=np.float64), (len(profile), 1))
-            line[:, first] += profile[:, 0] * np.cos(a)
-            line[:, second] += profile[:, 0] * np.sin(a)
-            line[:, self.along] += profile[:, 1]
-            found.append(line)
-        return found
+        angle, profile = np.linspace(0, 2 * np.pi, CORNERS + 1), np.array(self.profile, dtype=np.float64)
+        rings = [self._points(radius, angle, place) for radius, place in self.rims()]
+        return rings + [self._points(profile[:, 0], quarter, profile[:, 1]) for quarter in np.pi / 2 * np.arange(4)]
 
     def outline(self, right: int, up: int) -> list[Array]:
-        """What a view along an axis shows: closed lines (k, 2) in the coordinates `right` and `up` (0 to 2)."""
         profile, centre = np.array(self.profile, dtype=np.float64), np.array(self.at, dtype=np.float64)[[right, up]]
         if self.along not in (right, up):  # seen along the axis: circles
             angle = np.linspace(0, 2 * np.pi, CORNERS + 1)
             ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
             return [centre + radius * ring for radius in (profile[:, 0].max(), self.bore) if radius > 0]
-        found = []
-        closed = np.concatenate([profile * [1, 1], profile[::-1] * [-1, 1], profile[:1]])
+        lines = [np.concatenate([profile * [1, 1], profile[::-1] * [-1, 1], profile[:1]])]
         if self.bore > 0:
             (a, b), r = profile[[0, -1], 1], self.bore
-            found.append(np.array([(r, a), (r, b), (-r, b), (-r, a), (r, a)]))
-        return [centre + (line if self.along == up else line[:, ::-1]) for line in [closed, *found]]
+            lines.append(np.array([(r, a), (r, b), (-r, b), (-r, a), (r, a)]))
+        return [centre + (line if self.along == up else line[:, ::-1]) for line in lines]
 
 
 Blank = Box | Revolved
@@ -132,17 +117,12 @@ Blank = Box | Revolved
 def cylinder(
     radius: float, low: float, high: float, axis: str = "Z", at: tuple[float, ...] = (0.0, 0.0, 0.0), bore: float = 0.0
 ) -> Revolved:
-    """A cylinder from `low` to `high` along an axis through `at`, mm; a tube with a `bore` radius.
-
-    An Alarm where that is no body.
-    """
+    """A cylinder from `low` to `high` along an axis through `at`, mm; a tube with a `bore` radius."""
     for name, number in (("radius", radius), ("bore", bore), ("low", low), ("high", high)):
         check_number(number, f"{name} of a cylinder", endless=True)
     if not radius > bore >= 0 or not high > low or axis not in ("X", "Y", "Z"):
-        raise Alarm(
-            f"a cylinder needs radius > bore >= 0, high > low and axis X, Y or Z; "
-            f"got radius {radius:g}, bore {bore:g}, {low:g} to {high:g}, axis {axis!r}"
-        )
+        found = f"radius {radius:g}, bore {bore:g}, {low:g} to {high:g}, axis {axis!r}"
+        raise Alarm(f"a cylinder needs radius > bore >= 0, high > low and axis X, Y or Z; got {found}")
     return Revolved(((radius, low), (radius, high)), axis, at, bore)
 
 

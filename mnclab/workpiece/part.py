@@ -44,13 +44,13 @@ class Part:
         return self.distance(np.asarray(points, dtype=float).reshape(-1, 3))
 
     def __or__(self, other: Part) -> Part:
-        return Part(partial(_either, self, other), f"({self.name} | {other.name})")
+        return Part(partial(_combined, np.minimum, self, other, 1.0), f"({self.name} | {other.name})")
 
     def __and__(self, other: Part) -> Part:
-        return Part(partial(_both, self, other), f"({self.name} & {other.name})")
+        return Part(partial(_combined, np.maximum, self, other, 1.0), f"({self.name} & {other.name})")
 
     def __sub__(self, other: Part) -> Part:
-        return Part(partial(_less, self, other), f"({self.name} - {other.name})")
+        return Part(partial(_combined, np.maximum, self, other, -1.0), f"({self.name} - {other.name})")
 
     def placed(self, frame: ArrayLike) -> Part:
         """The same part put elsewhere by a 4×4 frame that turns and shifts."""
@@ -64,16 +64,8 @@ class Part:
 # Distances of points p (n, 3); functions of the file, so that a part can go from one process to another.
 
 
-def _either(one: Part, other: Part, p: Floats) -> Floats:
-    return np.asarray(np.minimum(one(p), other(p)))
-
-
-def _both(one: Part, other: Part, p: Floats) -> Floats:
-    return np.asarray(np.maximum(one(p), other(p)))
-
-
-def _less(one: Part, other: Part, p: Floats) -> Floats:
-    return np.asarray(np.maximum(one(p), -other(p)))
+def _combined(which: np.ufunc, one: Part, other: Part, sign: float, p: Floats) -> Floats:
+    return np.asarray(which(one(p), sign * other(p)))
 
 
 def _placed(part: Part, turn: Floats, shift: Floats, p: Floats) -> Floats:

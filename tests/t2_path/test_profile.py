@@ -115,8 +115,8 @@ def test_no_axis_exceeds_its_limits_on_an_arc(turns, rise, jerk):
 
 def test_a_slow_arc_runs_at_its_feed():
     profile = Profile(circle(20, feed=600.0), Limits())
-    assert profile.time == pytest.approx(trapezoid(40 * math.pi, 10, profile.plan.up[0]), rel=1e-9)
-    assert profile.plan.up[0] == pytest.approx(math.sqrt(1000**2 - (10**2 / 20) ** 2))
+    assert profile.time == pytest.approx(trapezoid(40 * math.pi, 10, profile.plan.rows.a[0]), rel=1e-9)
+    assert profile.plan.rows.a[0] == pytest.approx(math.sqrt(1000**2 - (10**2 / 20) ** 2))
 
 
 # --- feeds -----------------------------------------------------------------------------------------------------------

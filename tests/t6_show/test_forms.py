@@ -72,13 +72,13 @@ def test_places_and_numbers_must_match(numbers, sentence):
 
 
 def test_all_figures_are_drawn_in_one_thread(monkeypatch):
-    threads, draw = set(), plot_of_path.image
+    threads, draw = set(), plot_of_path.plot_run
 
-    def watch(*arguments):
+    def watch(*arguments, **options):
         threads.add(threading.current_thread().name)
-        return draw(*arguments)
+        return draw(*arguments, **options)
 
-    monkeypatch.setattr(plot_of_path, "image", watch)
+    monkeypatch.setattr(plot_of_path, "plot_run", watch)
     live = mnclab.panel(TEMPLATE, "mnc", side=40.0, feed=100)
     with ThreadPoolExecutor(3) as several:  # as JupyterLab calls from a thread of its own
         list(several.map(lambda side: setattr(live.boxes["side"], "value", side), [10.0, 20.0, 30.0]))

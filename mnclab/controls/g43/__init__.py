@@ -12,7 +12,7 @@ from mnclab.controls.g43 import cycles, language, lengths
 from mnclab.controls.g43.state import Memory, memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
-from mnclab.machine.control import Control
+from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting, one_of
@@ -66,7 +66,10 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
     return f"T2 M6\nG43 G0 X0 Y0 Z20 S1000 M3\n{in_block(cycle, words)}\nG80\n"
 
 
-FUNCTIONS = language.FUNCTIONS | lengths.FUNCTIONS
+#: What help lists, and hints name, before the others.
+FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 F S G94 G95 G61 G64"
+_ALL = language.FUNCTIONS | lengths.FUNCTIONS
+FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
 CONTROL = Control(
     name="g43",
@@ -88,8 +91,6 @@ CONTROL = Control(
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=lambda m: not lengths.pending(m) and {"G2", "G3"} <= memory(m).undescribed,
-        absolute=lambda m: m.modal["dimension"] == "G90",
-        tolerance=lambda m: float(m.settings["arc_tolerance"]),
         helices=more_helices,
     ),
     trial=trial_program,

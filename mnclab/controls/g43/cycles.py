@@ -3,7 +3,7 @@
 Of this chapter the source has only the title. The cycles are those that ISO controls have under these codes: over the
 hole, at rapid to level R, the work down to Z, and back to the initial level (G98) or to level R (G99). Under G91, R counts
 from the initial level and Z from level R. Z, R, F, and Q and P where they mean the same, hold from one cycle to the next
-until G80, and so does the initial level. The steps are those of the cycles of other controls.
+until G80, and so does the initial level.
 """
 
 from __future__ import annotations
@@ -16,9 +16,8 @@ from mnclab.controls.g43.lengths import activate
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import holes
 from mnclab.machine.control import Words
-from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param
 from mnclab.machine.machine import Machine
-from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import bore_and_stop, drill, ream
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Step
@@ -35,7 +34,6 @@ class HoleCycle(holes.AtHole, Cycle):
     """A cycle at a hole whose data hold from one cycle to the next."""
 
     shares = True
-    peck: float | None = None
     dwell: float = 0.0
 
     @classmethod
@@ -63,13 +61,6 @@ class HoleCycle(holes.AtHole, Cycle):
     @property
     def seconds(self) -> float:
         return self.dwell / 1000
-
-    def levels(self) -> tuple[float, ...]:
-        return infeeds(self.r_level, self.bottom, self.peck)
-
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        yield from super().contradictions()
-        yield from too_many("peck", self.levels)
 
 
 @CYCLES("G81", "Drilling", runs="position", source=ISO, triggers=POSITION)

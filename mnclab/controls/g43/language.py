@@ -22,6 +22,7 @@ from mnclab.text.program import Word, digits
 FUNCTIONS = FunctionTable()
 ISO = "ISO 6983, not described"
 DATUMS = {f"G{n}": n - 53 for n in range(54, 60)}
+SHIFTS = {"G52": "Local shift", "G92": "Set position"}
 LENGTHS = ("G43", "G44", "G49")
 
 
@@ -81,9 +82,7 @@ def arc(m: Machine, words: Words) -> None:
     motion.arc(m, words, -1 if words.code == "G2" else 1, m.modal["dimension"] == "G90")
 
 
-@FUNCTIONS(
-    "G54 G55 G56 G57 G58 G59", "Work offset", group="datum", phase="frames", power_on="G54", source="7.1, example"
-)
+@FUNCTIONS(" ".join(DATUMS), "Work offset", group="datum", phase="frames", power_on="G54", source="7.1, example")
 def work_offset(m: Machine, words: Words) -> None:
     """Rows 1 to 6 of the datum table; a row that is not there is the machine's zero."""
     if m.side:
@@ -100,10 +99,7 @@ def machine_coordinates(m: Machine, words: Words) -> None:
     m.set_frame("length", frames.shift(z=-m.tool.effective_length))
 
 
-@FUNCTIONS(
-    "G52 G92", {"G52": "Local shift", "G92": "Set position"},
-    phase="local", takes="X Y Z", still=True, modal=False, source=ISO,
-)  # fmt: skip
+@FUNCTIONS("G52 G92", SHIFTS, phase="local", takes="X Y Z", still=True, modal=False, source=ISO)
 def shift(m: Machine, words: Words) -> None:
     """G52 moves the origin from that of the work offset; G92 gives the present point new coordinates. No motion."""
     undescribed(m, words)
@@ -124,8 +120,7 @@ def reference(m: Machine, words: Words) -> None:
     if to := targets(m, words):
         m.rapid(**to)
     home = m.to_program((0.0, 0.0, -m.tool.effective_length))
-    axes = [k for k, axis in enumerate(AXES) if axis.lower() in to or not to]
-    m.rapid(**{AXES[k].lower(): home[k] for k in axes})
+    m.rapid(**{axis: home[k] for k, axis in enumerate(AXES.lower()) if axis in to or not to})
 
 
 FUNCTIONS("F", "Feed", phase="feed", source="7.1, example")(motion.feed)

@@ -17,11 +17,8 @@ from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 SIGNS = {"G43": 1, "G44": -1, "G49": 0}
-TITLES = {
-    "G43": "Tool length compensation, positive",
-    "G44": "Tool length compensation, negative",
-    "G49": "Tool length compensation off",
-}
+WAYS = {"G43": ", positive", "G44": ", negative", "G49": " off"}
+TITLES = {code: f"Tool length compensation{way}" for code, way in WAYS.items()}
 
 
 @FUNCTIONS("G43 G44 G49", TITLES, group="length compensation", phase="length", power_on="G49", source="7.1")

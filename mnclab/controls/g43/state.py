@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from mnclab.controls.word_address import state
-from mnclab.machine.machine import Machine
 
 Offsets = tuple[float, float, float]
 NONE: Offsets = (0.0, 0.0, 0.0)
@@ -23,7 +22,4 @@ class Memory(state.Memory):
     undescribed: set[str] = field(default_factory=set)  # codes already warned of
 
 
-def memory(m: Machine) -> Memory:
-    """What this control keeps."""
-    kept: Memory = m.memory
-    return kept
+memory = Memory.of

@@ -97,8 +97,6 @@ CONTROL = Control(
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=motion.plain,
-        absolute=lambda m: m.modal["dimension"] == "G90",
-        tolerance=lambda m: float(m.settings["arc_tolerance"]),
         letters="GXZIKRF",
         whole_circles=False,
     ),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mnclab.controls.jnc_t01.state import memory
-from mnclab.controls.word_address import motion
+from mnclab.controls.word_address import functions, motion
 from mnclab.controls.word_address.motion import first_word
 from mnclab.machine.adding import speed_at
 from mnclab.machine.control import FunctionTable, Words
@@ -12,11 +12,14 @@ from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
 
-DIMENSIONS = {"G90": "Absolute dimensions", "G91": "Incremental dimensions"}
-FEEDS = {"G93": "Feed as time of the move, s", "G94": "Feed per minute", "G95": "Feed per revolution"}
+FEEDS = {"G93": "Feed as time of the move, s"} | functions.FEEDS
+SPEEDS = {"G96": "Constant cutting speed", "G97": "Constant spindle speed"}
+TURNS = {"M3": "Spindle on, right", "M4": "Spindle on, left", "M5": "Spindle off"}
+COOLANT = {"M7": "Coolant on", "M8": "Coolant off (table 3)", "M9": "Coolant off"}
+OUTSIDE = {"N": "Block number", "%": "Program start"}
 
 
-@FUNCTIONS("G90 G91", DIMENSIONS, group="dimension", phase="modes", power_on="G90", source="8.14, 8.15")
+@FUNCTIONS("G90 G91", functions.DIMENSIONS, group="dimension", phase="modes", power_on="G90", source="8.14, 8.15")
 def dimension(m: Machine, words: Words) -> None:
     """Coordinates from part zero, or distances from where the tool stands."""
 
@@ -54,9 +57,6 @@ def standing_feed(m: Machine) -> float | None:
     if m.feed is None or not m.per_rev or m.turning or not m.speed:
         return None
     return m.feed * m.speed
-
-
-SPEEDS = {"G96": "Constant cutting speed", "G97": "Constant spindle speed"}
 
 
 @FUNCTIONS("G96 G97", SPEEDS, group="speed mode", phase="modes", takes="S", power_on="G97", source="8.20, 8.21")
@@ -105,15 +105,10 @@ def follow_speed(m: Machine) -> None:
         m.spindle(speed=speed_at(m, m.tip))
 
 
-TURNS = {"M3": "Spindle on, right", "M4": "Spindle on, left", "M5": "Spindle off"}
-
-
 FUNCTIONS(
     "M3 M4 M5", TURNS, group="spindle", phase="auxiliary", power_on="M5", source="5, 9.24 to 9.26"
 )(motion.spindle)  # fmt: skip
 FUNCTIONS("T", "Tool", phase="tool", source="3, table 1")(motion.tool)
-
-COOLANT = {"M7": "Coolant on", "M8": "Coolant off (table 3)", "M9": "Coolant off"}
 
 
 @FUNCTIONS("M7 M8 M9", COOLANT, group="coolant", phase="auxiliary", power_on="M9", source="9.27, 9.28, table 3")
@@ -127,7 +122,7 @@ def coolant(m: Machine, words: Words) -> None:
     m.at_block_end(m.coolant)
 
 
-@FUNCTIONS("M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="9.22, 9.23")
+@FUNCTIONS("M0 M1", functions.PAUSES, phase="end", modal=False, source="9.22, 9.23")
 def program_stop(m: Machine, words: Words) -> None:
     """After the block the operator must start the program again; M1 only with the setting optional_stop."""
     m.end_block()
@@ -139,9 +134,6 @@ def program_stop(m: Machine, words: Words) -> None:
 def machine_function(m: Machine, words: Words) -> None:
     """What the machine builder may have added: it has no effect here."""
     m.warn(f"{words.code} is not in the table of this control: it has no effect", first_word(words))
-
-
-OUTSIDE = {"N": "Block number", "%": "Program start"}
 
 
 @FUNCTIONS("N %", OUTSIDE, phase="modes", modal=False, source="not in the manual")

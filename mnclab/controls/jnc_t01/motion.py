@@ -10,6 +10,7 @@ from typing import Any
 
 from mnclab.controls.jnc_t01.feeds import cutting_feed, follow_speed, need_cutting_speed
 from mnclab.controls.jnc_t01.state import memory
+from mnclab.controls.word_address.functions import ARCS
 from mnclab.controls.word_address.motion import first_word
 from mnclab.geometry import frames
 from mnclab.machine.control import FunctionTable, Words
@@ -18,7 +19,10 @@ from mnclab.machining.turning.threading import lead_along
 
 FUNCTIONS = FunctionTable()
 AXES = {"X": 0, "Z": 2}
-ONCE = "08"
+ONCE: dict[str, Any] = {"group": "08", "modal": False, "owns": True}
+CORNERS = {"G12": "Straight line with fillet of 90 degrees", "G14": "Straight line with chamfer of 45 degrees"}
+SIZES = {"G12": "fillet radius", "G14": "chamfer size"}
+HOME = {"M60": "Home X and Z", "M61": "Home X", "M63": "Home Z"}
 
 
 def scale(m: Machine, address: str) -> float:
@@ -54,9 +58,6 @@ def line(m: Machine, words: Words) -> None:
         m.line(**to, f=cutting_feed(m, first_word(words)), word=first_word(words))
 
 
-ARCS = {"G2": "Circular interpolation clockwise", "G3": "Circular interpolation counter-clockwise"}
-
-
 @FUNCTIONS("G2 G3", ARCS, group="motion", takes="X Z R I K", moves=True, source="8.3, 8.4")
 def arc(m: Machine, words: Words) -> None:
     """To X, Z about the centre I, K from the start, or with the radius R (negative: more than half a circle).
@@ -76,21 +77,14 @@ def arc(m: Machine, words: Words) -> None:
     to, sense, tolerance = targets(m, words), 1 if words.code == "G3" else -1, m.settings["arc_tolerance"]
     head = words["R"] if "R" in words else offsets[0]
     feed = cutting_feed(m, first_word(words))
-    if "R" in words:
-        radius = m.value(head)
-        if radius == 0:
-            m.alarm(f"{words.code} R (radius) must not be 0", head)
-        m.arc(**to, sense=sense, radius=radius, f=feed, word=head, tolerance=tolerance)
-        return
-    centre = {k: m.programmed[k] + (m.value(words[c]) if c in words else 0.0) for c, k in (("I", 0), ("K", 2))}
-    m.arc(**to, sense=sense, centre=centre, f=feed, word=head, tolerance=tolerance)
+    radius = m.value(head) if "R" in words else None
+    if radius == 0:
+        m.alarm(f"{words.code} R (radius) must not be 0", head)
+    about = {k: m.programmed[k] + (m.value(words[c]) if c in words else 0.0) for c, k in (("I", 0), ("K", 2))}
+    m.arc(**to, sense=sense, centre=about if offsets else None, radius=radius, f=feed, word=head, tolerance=tolerance)
 
 
-CORNERS = {"G12": "Straight line with fillet of 90 degrees", "G14": "Straight line with chamfer of 45 degrees"}
-SIZES = {"G12": "fillet radius", "G14": "chamfer size"}
-
-
-@FUNCTIONS("G12 G14", CORNERS, group=ONCE, modal=False, moves=True, owns=True, takes="X Z R", source="8.6, 8.7")
+@FUNCTIONS("G12 G14", CORNERS, **ONCE, moves=True, takes="X Z R", source="8.6, 8.7")
 def corner(m: Machine, words: Words) -> None:
     """Along one axis, and at its end by R into the other: a quarter circle or a chamfer. R has the sign of that way."""
     head = first_word(words)
@@ -113,16 +107,15 @@ def corner(m: Machine, words: Words) -> None:
     round_it = words.code == "G12" and size != 0
     lengths = abs(turn - start[along]), abs(size) * (math.pi / 2 if round_it else math.sqrt(2))
     feeds = shared(m, cutting_feed(m, head), lengths)
-    m.label = f"{words.code} line"
     if lengths[0]:
-        m.line(x=middle[0], z=middle[2], f=feeds[0], word=head)
-    m.label = f"{words.code} {'fillet' if words.code == 'G12' else 'chamfer'}"
-    if round_it:
-        sense = (1 if way * size > 0 else -1) * (1 if along == 2 else -1)
-        m.arc(x=last[0], z=last[2], sense=sense, centre=centre, f=feeds[1], word=head)
-    elif size:
-        m.line(x=last[0], z=last[2], f=feeds[1], word=head)
-    m.label = ""
+        with m.within(label=f"{words.code} line"):
+            m.line(x=middle[0], z=middle[2], f=feeds[0], word=head)
+    with m.within(label=f"{words.code} {'fillet' if words.code == 'G12' else 'chamfer'}"):
+        if round_it:
+            sense = (1 if way * size > 0 else -1) * (1 if along == 2 else -1)
+            m.arc(x=last[0], z=last[2], sense=sense, centre=centre, f=feeds[1], word=head)
+        elif size:
+            m.line(x=last[0], z=last[2], f=feeds[1], word=head)
 
 
 def shared(m: Machine, feed: float | None, lengths: tuple[float, ...]) -> list[float | None]:
@@ -133,7 +126,7 @@ def shared(m: Machine, feed: float | None, lengths: tuple[float, ...]) -> list[f
     return [-m.feed * part / total for part in lengths]
 
 
-@FUNCTIONS("G32", "Thread move", group=ONCE, modal=False, moves=True, owns=True, takes="X Z F", source="8.8")
+@FUNCTIONS("G32", "Thread move", **ONCE, moves=True, takes="X Z F", source="8.8")
 def thread(m: Machine, words: Words) -> None:
     """Straight to X, Z with the spindle; the axis with the longer way advances F in a turn. Starts at the zero mark."""
     head = first_word(words)
@@ -152,14 +145,13 @@ def thread(m: Machine, words: Words) -> None:
         m.warn(changes, head, "write G97 S first")
     start, to = m.programmed, targets(m, words)
     way = [to.get(axis, start[k]) - start[k] for axis, k in (("x", 0), ("z", 2))]
-    m.label = "G32 thread"
     if any(way):
-        with m.within(per_rev=True, synchronous=True, feed=lead_along(way[0], way[1], pitch)):
+        lead = lead_along(way[0], way[1], pitch)
+        with m.within(label="G32 thread", per_rev=True, synchronous=True, feed=lead):
             m.line(**to, word=head)
-    m.label = ""
 
 
-@FUNCTIONS("G4", "Dwell", group=ONCE, phase="dwell", modal=False, still=True, owns=True, takes="F", source="8.5")
+@FUNCTIONS("G4", "Dwell", **ONCE, phase="dwell", still=True, takes="F", source="8.5")
 def dwell(m: Machine, words: Words) -> None:
     """A pause of F seconds."""
     if "F" not in words:
@@ -168,9 +160,7 @@ def dwell(m: Machine, words: Words) -> None:
     m.dwell(m.value(words["F"]))
 
 
-@FUNCTIONS(
-    "G92", "Zero offset", group=ONCE, phase="dwell", modal=False, still=True, owns=True, takes="X Z", source="8.16"
-)  # fmt: skip
+@FUNCTIONS("G92", "Zero offset", **ONCE, phase="dwell", still=True, takes="X Z", source="8.16")
 def zero_offset(m: Machine, words: Words) -> None:
     """Puts the origin to X, Z of part zero (G90; what is left out is 0), or shifts it by X, Z (G91). Nothing moves."""
     m.end_block()
@@ -203,17 +193,13 @@ def use_corrector(m: Machine) -> None:
         m.set_frame("corrector", shift, "programmed")
 
 
-HOME = {"M60": "Home X and Z", "M61": "Home X", "M63": "Home Z"}
-
-
 @FUNCTIONS("M60 M61 M63", HOME, modal=False, still=True, source="9.29 to 9.31")
 def home(m: Machine, words: Words) -> None:
     """To the machine's zero position at rapid, the axes together; where it lies is a setting."""
     use_corrector(m)
     x, _, z = m.to_program((m.settings["home_x"], 0.0, m.settings["home_z"]))
-    m.label = f"{words.code} home"
-    m.rapid(x=None if words.code == "M63" else x, z=None if words.code == "M61" else z)
-    m.label = ""
+    with m.within(label=f"{words.code} home"):
+        m.rapid(x=None if words.code == "M63" else x, z=None if words.code == "M61" else z)
 
 
 def plain(m: Machine) -> bool:

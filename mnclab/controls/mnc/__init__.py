@@ -10,12 +10,12 @@ from __future__ import annotations
 import re
 
 from mnclab.controls.mnc import auxiliary, language, polar, transforms
-from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared, tapping
+from mnclab.controls.mnc.cycles import boring, drilling, fixed, milling, pockets, prepared
 from mnclab.controls.mnc.settings import SETTINGS
 from mnclab.controls.mnc.state import Memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
-from mnclab.machine.control import Control
+from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.trial import TrialWords, in_block
 from mnclab.path.compensation import Compensation
@@ -65,9 +65,12 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
     return f"G17 G90 G54\nT2 S1000 M3\nG0 X0 Y0 Z20 F100\n{in_block(cycle, words)}\n{call}\n"
 
 
-FUNCTIONS = (
-    language.FUNCTIONS | auxiliary.FUNCTIONS | polar.FUNCTIONS | transforms.FUNCTIONS | prepared.FUNCTIONS
-)  # fmt: skip
+#: What help lists, and hints name, before the others.
+FIRST = (
+    "G0 G1 G2 G3 G17 G18 G19 G90 G91 G53 G92 F G4 G9 G61 G64 G94 G95 T D M6 S M3 M4 M5 G25 G26 M0 M1 M2 M30 M7 M8 M9"
+)
+_ALL = polar.FUNCTIONS | transforms.FUNCTIONS | auxiliary.FUNCTIONS | language.FUNCTIONS | prepared.FUNCTIONS
+FUNCTIONS = FunctionTable({code: _ALL[code] for code in (*FIRST.split(), *_ALL)})
 
 CONTROL = Control(
     name="mnc",
@@ -75,7 +78,7 @@ CONTROL = Control(
     suffixes=(".mnc",),
     read=reader("mnc"),
     functions=FUNCTIONS,
-    cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | tapping.CYCLES | milling.CYCLES | pockets.CYCLES,
+    cycles=fixed.CYCLES | drilling.CYCLES | boring.CYCLES | prepared.CYCLES | milling.CYCLES | pockets.CYCLES,
     phases=PHASES,
     settings=SETTINGS,
     frames=("datum", "local", "rotation", "mirror", "scaling"),
@@ -92,7 +95,6 @@ CONTROL = Control(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=lambda m: m.modal.get("motion") in ("G0", "G1", "G2", "G3"),
         absolute=language.absolute,
-        tolerance=lambda m: float(m.settings["arc_tolerance"]),
         helices=more_helices,
         straight_arcs=True,
     ),

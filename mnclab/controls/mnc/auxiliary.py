@@ -10,6 +10,7 @@ from mnclab.machine.control import Words
 from mnclab.machine.machine import Machine
 
 ISO = "ISO 6983"
+SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
 
 
 def unlisted(m: Machine, words: Words, more: str = "") -> None:
@@ -32,10 +33,8 @@ FUNCTIONS = functions(
 @FUNCTIONS("T", "Tool call", phase="tool", source="5.1")
 def tool(m: Machine, words: Words) -> None:
     """The tool from the table is active at once, no axis moves; by the setting tool_change it waits for M6."""
-    if m.settings["tool_change"] == "T":
-        motion.tool(m, words)
-    else:
-        motion.choose_tool(m, words)
+    obey = motion.tool if m.settings["tool_change"] == "T" else motion.choose_tool
+    obey(m, words)
 
 
 FUNCTIONS("D", "Tool corrector", phase="corrector", source="1.2")(motion.corrector)
@@ -48,9 +47,6 @@ def tool_change(m: Machine, words: Words) -> None:
         unlisted(m, words, "; T itself changes the tool")
     else:
         motion.change_tool(m, words)
-
-
-SUPERVISION = {"G25": "Spindle speed supervision off", "G26": "Spindle speed supervision on"}
 
 
 @FUNCTIONS("S", "Spindle speed", phase="spindle", source="1.2")

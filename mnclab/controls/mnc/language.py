@@ -18,6 +18,9 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word, digits
 
 FUNCTIONS = FunctionTable()
+CORNERS = {"G160": ROUND, "G161": STRAIGHT, "G162": ACUTE}
+SHAPES = {"G160": "arc", "G161": "straight", "G162": "arc at acute corners only"}
+CORNER_TITLES = {code: f"Outside corners: {shape}" for code, shape in SHAPES.items()}
 
 
 def together(control: Control, modal: Modal, keyword: str, words: list[Word]) -> None:
@@ -121,11 +124,6 @@ def dwell(m: Machine, words: Words) -> None:
 def exact_stop_here(m: Machine, words: Words) -> None:
     """The motion of this block ends with exact positioning."""
     m.exact_here = True
-
-
-CORNERS = {"G160": ROUND, "G161": STRAIGHT, "G162": ACUTE}
-SHAPES = {"G160": "arc", "G161": "straight", "G162": "arc at acute corners only"}
-CORNER_TITLES = {code: f"Outside corners: {shape}" for code, shape in SHAPES.items()}
 
 
 @FUNCTIONS("G160 G161 G162", CORNER_TITLES, group="corners", phase="plane", power_on="G160", source="6.4")

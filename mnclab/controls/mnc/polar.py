@@ -18,6 +18,9 @@ from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import Machine
 
 FUNCTIONS = FunctionTable()
+ENDS = set("RAKXYZ")  # words that make a block move
+STRAIGHT = {"G10": "Rapid positioning, polar", "G11": "Linear interpolation, polar"}
+ARCS = {"G12": "Circular interpolation clockwise, polar", "G13": "Circular interpolation counter-clockwise, polar"}
 CARTESIAN = {"G10": "G0", "G11": "G1", "G12": "G2", "G13": "G3"}
 ON_CENTRE = 0.01  # mm within which the pole is the centre of an arc (MNC-G12-K)
 
@@ -87,11 +90,6 @@ def target(m: Machine, words: Words) -> dict[str, Any]:
     to[second.lower()] = m.pole[1] + radius * math.sin(turned)
     memory(m).polar = Polar(radius, angle, m.target(**{axis: to.get(axis) for axis in "xyz"}))
     return to
-
-
-ENDS = set("RAKXYZ")  # words that make a block move
-STRAIGHT = {"G10": "Rapid positioning, polar", "G11": "Linear interpolation, polar"}
-ARCS = {"G12": "Circular interpolation clockwise, polar", "G13": "Circular interpolation counter-clockwise, polar"}
 
 
 @FUNCTIONS("G10 G11", STRAIGHT, group="motion", takes="R A X Y Z", moves=True, source="2.8.5")

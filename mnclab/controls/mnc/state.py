@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from mnclab.controls.word_address import state
-from mnclab.machine.machine import Machine
 
 
 class Polar(NamedTuple):
@@ -25,7 +24,4 @@ class Memory(state.Memory):
     run_up: int = -1  # the step that last waited for the spindle
 
 
-def memory(m: Machine) -> Memory:
-    """What the MNC keeps."""
-    kept: Memory = m.memory
-    return kept
+memory = Memory.of

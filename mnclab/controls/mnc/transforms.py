@@ -72,13 +72,12 @@ def rotation(m: Machine, words: Words) -> None:
     switch(m, "rotation", frames.turn(angle, axis, [pole.get(k, 0.0) for k in range(3)]), words)
 
 
+@FUNCTIONS("G50", MIRROR, group="mirror", phase="frames", power_on="G50", source="2.9")
+@FUNCTIONS("G38", ROTATION, group="rotation", phase="frames", power_on="G38", source="2.9")
+@FUNCTIONS("G36", SCALING, group="scaling", phase="frames", power_on="G36", source="2.9")
 def transformation_off(m: Machine, words: Words) -> None:
     """No motion; the programmed coordinates stay."""
     switch(m, str(m.control.functions[words.code].group), None, words)
-
-
-for code, title, group in (("G36", SCALING, "scaling"), ("G38", ROTATION, "rotation"), ("G50", MIRROR, "mirror")):
-    FUNCTIONS(code, title, group=group, phase="frames", power_on=code, source="2.9")(transformation_off)
 
 
 @FUNCTIONS("G54 G55 G56 G57 G58 G59", "Work offset", group="datum", phase="frames", source="2.7")

@@ -27,7 +27,7 @@ SETTINGS = (
 )  # fmt: skip
 
 #: Known from elsewhere to be part of this control, but not described in the source: refused by name.
-_OTHER_CHAPTERS = {**{"G2": "arcs", "G3": "arcs", "G12": "quarter arcs", "G13": "quarter arcs"}, "T": "tool words"}
+_OTHER_CHAPTERS = {"G2": "arcs", "G3": "arcs", "G12": "quarter arcs", "G13": "quarter arcs", "T": "tool words"}
 REFUSED = {code: f"{what} stand in a chapter that the source does not have" for code, what in _OTHER_CHAPTERS.items()}
 
 MEANINGS = {

@@ -14,6 +14,12 @@ from mnclab.text.program import INCREMENTAL, RAPID_MARK, Program, Word
 
 FUNCTIONS = FunctionTable()
 OUTSIDE = "the source does not describe it; it is taken in its usual meaning"
+SPINDLE = {"M3": "Spindle clockwise", "M4": "Spindle counter-clockwise", "M5": "Spindle stop"}
+CONDITIONS = ("exact stop check", "Stop key blocked", "synchronised start")  # bits 1, 2, 4 of the second digit
+CONDITIONAL = {
+    f"G{60 + bits}": "Conditional move: " + ", ".join(c for k, c in enumerate(CONDITIONS) if bits >> k & 1)
+    for bits in range(1, 8)
+}
 
 
 def power_on(m: Machine) -> None:
@@ -48,22 +54,11 @@ def refuse_rapid(m: Machine, words: list[Word], code: str) -> None:
             m.alarm(f"the mark ~ has no meaning on {word} in a group with {code}", word, f"write it on {code}")
 
 
-ENDS = {"X": "Straight move", "Z": "Straight move"}  # their words say in which axes
-
-
+@FUNCTIONS("Z", "Straight move", takes="X", source="3.20.2")
+@FUNCTIONS("X", "Straight move", takes="Z", source="3.20.2")
 def straight_move(m: Machine, words: Words) -> None:
     """At the modal feed; at rapid when a frame of the move has the mark ~. With @ the value is an increment."""
     move(m, words, any(word.flag & RAPID_MARK for word in words.words))
-
-
-FUNCTIONS("X", ENDS, takes="Z", source="3.20.2")(straight_move)
-FUNCTIONS("Z", ENDS, takes="X", source="3.20.2")(straight_move)
-
-CONDITIONS = ("exact stop check", "Stop key blocked", "synchronised start")  # bits 1, 2, 4 of the second digit
-CONDITIONAL = {
-    f"G{60 + bits}": "Conditional move: " + ", ".join(c for k, c in enumerate(CONDITIONS) if bits >> k & 1)
-    for bits in range(1, 8)
-}
 
 
 def notes_of(head: Word, bits: int) -> list[str]:
@@ -84,10 +79,9 @@ def conditional_move(m: Machine, words: Words) -> None:
         m.alarm(f"{words.code} needs X, Z or M", head, "tie their frames to it with the mark *")
     refuse_rapid(m, [*words.words[1:]], words.code)
     notes = notes_of(head, bits)
-    m.label = f"{words.code} {', '.join(notes)}" if notes else words.code
     m.exact_here = bool(bits & 1)
-    move(m, words, bool(head.flag & RAPID_MARK))
-    m.label = ""
+    with m.within(label=f"{words.code} {', '.join(notes)}" if notes else words.code):
+        move(m, words, bool(head.flag & RAPID_MARK))
     if "M" in words:
         auxiliary(m, Words((words["M"],), "M"))
 
@@ -165,9 +159,6 @@ def spindle_speed(m: Machine, words: Words) -> None:
     if value < 0:
         m.alarm(f"S (spindle speed, rev/min) must be at least 0, got {value:g}", words["S"])
     m.spindle(speed=value, turning=None if "spindle" in m.modal else 1)
-
-
-SPINDLE = {"M3": "Spindle clockwise", "M4": "Spindle counter-clockwise", "M5": "Spindle stop"}
 
 
 @FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", source="outside")

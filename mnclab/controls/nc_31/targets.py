@@ -66,10 +66,8 @@ def aside(axis: str, meaning: str, left_out: str, example: float) -> Any:
 
 def feed_word(meaning: str, unit: str = "0.0001 mm/rev", default: str = "the modal feed", example: float = 2000) -> Any:
     """F of a cycle: six digits, and left out what was set before it."""
-    return param(
-        "F", meaning, unit, default=None, default_means=default, at_least=1, at_most=999_999, type="integer",
-        example=example,
-    )  # fmt: skip
+    digits: dict[str, Any] = {"at_least": 1, "at_most": 999_999, "type": "integer"}
+    return param("F", meaning, unit, default=None, default_means=default, example=example, **digits)
 
 
 def size(meaning: str, unit: str = "0.01 mm", **options: Any) -> Any:

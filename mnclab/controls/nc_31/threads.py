@@ -141,7 +141,6 @@ def thread_move(m: Machine, words: Words) -> None:
     dx, dz = (ends.get(name, m.programmed[k]) - m.programmed[k] for name, k in (("x", 0), ("z", 2)))
     if not (dx or dz):
         m.alarm("G32 has no way to go: its end is where the tool stands", head)
-    m.label = "G32 synchronised start" if head.flag & INCREMENTAL else "G32"
-    with m.within(per_rev=True, synchronous=True, feed=lead_along(dx, dz, pitch_of(m, feed))):
+    label = "G32 synchronised start" if head.flag & INCREMENTAL else "G32"
+    with m.within(label=label, per_rev=True, synchronous=True, feed=lead_along(dx, dz, pitch_of(m, feed))):
         m.line(**ends, word=head)
-    m.label = ""

@@ -12,7 +12,6 @@ from mnclab.controls.tnc_620 import later
 from mnclab.controls.tnc_620.cycles import (
     boring,
     contours,
-    datums,
     defaults,
     drilling,
     engraving,
@@ -42,13 +41,11 @@ from mnclab.controls.tnc_620.language import (
     machine_datum,
     motion,
     parameters,
-    pattern_calls,
     pattern_definitions,
     pole,
     program,
     tools,
 )
-from mnclab.controls.tnc_620.later_parameters import strange_parameters
 from mnclab.controls.tnc_620.probing import presets
 from mnclab.controls.tnc_620.reading import reader
 from mnclab.controls.tnc_620.reading.iso_names import ISO_NAMES
@@ -95,11 +92,11 @@ FUNCTIONS = (
     pole.FUNCTIONS | motion.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
-    | pattern_calls.FUNCTIONS | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
+    | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
-    contours, transformations, datums, tilting, special, engraving, face_milling, presets, program_call,
+    contours, transformations, tilting, special, engraving, face_milling, presets, program_call,
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in CHAPTERS:
@@ -133,7 +130,7 @@ _KLARTEXT = re.compile(
 CONTROL = Control(
     name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=(".h",),
     read=reader.read, looks_like=lambda text: _KLARTEXT.search(text) is not None,
-    functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=strange_parameters(CYCLES),
+    functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
     settings=SETTINGS, memory=Memory, start=program.start, frames=("preset",),
     storage="variables", preassigned=parameters.PREASSIGNED, local_variables="QL",

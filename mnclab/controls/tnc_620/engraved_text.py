@@ -17,16 +17,12 @@ NAMED = {
     "%": "%", "ae": "ä", "oe": "ö", "ue": "ü", "AE": "Ä", "OE": "Ö", "UE": "Ü", "ss": "ß", "D": "ø", "at": "@", "CE": "CE",
 }  # fmt: skip
 FORMATTING = {"n": NEW_LINE, "t": TAB, "v": DOWN, "\\": "\\"}
-_DAY, _MONTH, _YEAR, _HOUR = "{t:%d}", "{t:%m}", "{t:%Y}", "{t:%H}"
-_D, _H = "{t.day}", "{t.hour}"
 #: Of %time00 to %time15; as SYSSTR ID321 numbers them.
 TIMES = (
-    f"{_DAY}.{_MONTH}.{_YEAR} {_HOUR}:{{t:%M:%S}}", f"{_D}.{_MONTH}.{_YEAR} {_H}:{{t:%M:%S}}",
-    f"{_D}.{_MONTH}.{_YEAR} {_H}:{{t:%M}}", f"{_D}.{_MONTH}.{{t:%y}} {_H}:{{t:%M}}",
-    f"{_YEAR}-{_MONTH}-{_DAY} {_HOUR}:{{t:%M:%S}}", f"{_YEAR}-{_MONTH}-{_DAY} {_HOUR}:{{t:%M}}",
-    f"{_YEAR}-{_MONTH}-{_DAY} {_H}:{{t:%M}}", f"{{t:%y}}-{_MONTH}-{_DAY} {_H}:{{t:%M}}",
-    f"{_DAY}.{_MONTH}.{_YEAR}", f"{_D}.{_MONTH}.{_YEAR}", f"{_D}.{_MONTH}.{{t:%y}}", f"{_YEAR}-{_MONTH}-{_DAY}",
-    f"{{t:%y}}-{_MONTH}-{_DAY}", f"{_HOUR}:{{t:%M:%S}}", f"{_H}:{{t:%M:%S}}", f"{_H}:{{t:%M}}",
+    "{t:%d.%m.%Y %H:%M:%S}", "{t.day}.{t:%m.%Y} {t.hour}:{t:%M:%S}", "{t.day}.{t:%m.%Y} {t.hour}:{t:%M}",
+    "{t.day}.{t:%m.%y} {t.hour}:{t:%M}", "{t:%Y-%m-%d %H:%M:%S}", "{t:%Y-%m-%d %H:%M}", "{t:%Y-%m-%d} {t.hour}:{t:%M}",
+    "{t:%y-%m-%d} {t.hour}:{t:%M}", "{t:%d.%m.%Y}", "{t.day}.{t:%m.%Y}", "{t.day}.{t:%m.%y}", "{t:%Y-%m-%d}",
+    "{t:%y-%m-%d}", "{t:%H:%M:%S}", "{t.hour}:{t:%M:%S}", "{t.hour}:{t:%M}",
 )  # fmt: skip
 
 _TIME = re.compile(r"time(\d\d)", re.ASCII)

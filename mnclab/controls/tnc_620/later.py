@@ -6,6 +6,13 @@ What gets built leaves these tables (a test says so). The names of the cycles ar
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
+from mnclab.machine.control import Control, Modal, Remark
+from mnclab.machine.cycle import Cycle
+from mnclab.text.alarm import Alarm
+from mnclab.text.program import Word
+
 CYCLES = {
     21: "Pilot drilling", 23: "Floor finishing", 24: "Side finishing", 25: "Contour train", 27: "Cylinder surface",
     28: "Cylinder surface slot", 29: "Cylinder surface ridge", 39: "Cylinder surface contour",
@@ -74,7 +81,6 @@ WORDS = {
     **{axis: f"the rotary axis {axis} is built for L alone" for axis in "ABC"},
 }  # fmt: skip
 
-
 WAITING = {
     **{f"CYCL DEF {n}": title for n, title in CYCLES.items()},
     **{f"TCH PROBE {n}": title for n, title in PROBING.items()},
@@ -90,3 +96,67 @@ REFUSED = {
     **NOT_THERE,
     **WORDS,
 }
+
+#: Q parameters by the numbers of the cycles that take them: named beside the refusal where a program has another one.
+_OF_CYCLES = {
+    "21": "10 11 13", "23": "11 12 208", "24": "9 10 11 12 14 438", "25": "1 3 5 7 10 11 12 15 18 446 447 448",
+    "276": "1 3 7 10 11 12 15 18 446 447 448", "270": "390 391 392 393 394",
+    "275": "12 200 201 202 203 204 206 207 215 219 338 351 366 368 369 385 436 439", "27 39": "1 3 6 10 11 12 16 17",
+    "28": "1 3 6 10 11 12 16 17 20 21", "29": "1 3 6 10 11 12 16 17 20",
+}  # fmt: skip
+_OF_PROBING = {
+    "450": "409 S409 410", "451": "253 320 380 406 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 431 432",
+    "452": "253 320 380 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 432",
+    "1420": "260 309 320 372 1100 1101 1102 1103 1104 1105 1106 1107 1108 1120 1121 1125 1126",
+    "1410": "260 309 320 372 1100 1101 1102 1103 1104 1105 1120 1121 1125 1126",
+    "1411": "260 309 320 325 423 1100 1101 1102 1103 1104 1105 1115 1116 1117 1119 1120 1121 1125 1126",
+    "400": "260 261 263 264 265 266 267 272 301 305 307 320", "401": "260 261 268 269 270 271 305 307 337 402",
+    "402": "260 261 268 269 270 271 301 305 307 313 314 315 320 337 402",
+    "403": "260 261 263 264 265 266 267 272 301 303 305 312 320 337 380", "404": "305 307",
+    "405": "247 260 261 262 301 320 321 322 325 337", "420": "260 261 263 264 265 266 267 272 281 301 320",
+    "421": "247 260 261 262 273 274 275 276 279 280 281 301 309 320 325 330 365 423 498 531",
+    "422": "247 260 261 262 273 274 277 278 279 280 281 301 309 320 325 330 365 423 498 531",
+    "423 424": "260 261 273 274 279 280 281 282 283 284 285 286 287 301 309 320 330",
+    "425": "260 261 272 281 288 289 301 309 310 311 320 328 329 330",
+    "426": "260 261 263 264 265 266 272 281 288 289 309 311 320 330",
+    "427": "260 261 263 264 267 272 281 288 289 309 320 330 498 531",
+    "430": "260 261 262 273 274 279 280 281 288 289 291 292 293 309 330",
+    "431": "260 263 264 265 266 281 294 295 296 297 298 320",
+    "408": "260 261 272 301 303 305 311 320 321 322 333 381 382 383 384 405",
+    "409": "260 261 272 303 305 311 320 321 322 333 381 382 383 384 405",
+    "410 411": "260 261 301 303 305 320 321 322 323 324 331 332 333 381 382 383 384",
+    "412 413": "247 260 261 262 301 303 305 320 321 322 325 331 332 333 365 381 382 383 384 423",
+    "414": "260 261 263 264 296 297 301 303 304 305 320 326 327 331 332 333 381 382 383 384",
+    "415": "260 261 263 264 301 303 304 305 308 320 326 327 331 332 333 381 382 383 384",
+    "416": "260 261 262 273 274 291 292 293 303 305 320 331 332 333 381 382 383 384",
+    "417": "260 263 264 294 303 305 320 333",
+    "418": "260 261 268 269 270 271 303 305 316 317 318 319 331 332 333 381 382 383 384",
+    "460": "301 320 380 407 423 433 434 455", "461": "434", "462": "320 380 407 423", "463": "301 320 380 407 423",
+    "441": "396 397 399 400", "480": "260", "484": "536", "481 482 483": "260 340 341",
+}  # fmt: skip
+PARAMETERS = {
+    f"{kind} {cycle}": frozenset(f"Q{number}" for number in numbers.split())
+    for kind, table in (("CYCL DEF", _OF_CYCLES), ("TCH PROBE", _OF_PROBING))
+    for cycles, numbers in table.items()
+    for cycle in cycles.split()
+}
+
+#: A line `Q1=-9` without a number below a definition is one of its lines (3.1): they carry no numbers of their own.
+_BELONGS = "a line Q… without a block number belongs to the definition above it: number it to assign a variable"
+
+
+def strange_parameters(built: Mapping[str, type[Cycle]]) -> Callable[[Control, Modal, str, list[Word]], list[Remark]]:
+    """Refuses parameters that a cycle does not have; of a cycle that is not built they are only named."""
+
+    def check(control: Control, modal: Modal, code: str, words: list[Word]) -> list[Remark]:
+        if code not in built:
+            strange = enumerate(words if code in PARAMETERS else ())
+            return [(k, f"{code} has no parameter {w.address}", "") for k, w in strange if w.address not in PARAMETERS[code]]
+        taken = {address for p in built[code].parameters() for address in (p.address, *p.aliases)}
+        for word in words:
+            if word.address[0] == "Q" and word.address not in taken:
+                message = f"{word} has no meaning in this block ({code} does not take {word.address})"
+                raise Alarm(message, word.span, hint=_BELONGS)
+        return []
+
+    return check

@@ -28,9 +28,8 @@ def misformed(program: Program, formats: Mapping[str, str]) -> list[Alarm]:
         for i in np.flatnonzero(which & (program.form == NUMBER)):
             address = program.addresses[program.address[i]]
             hint = repair or f"{address} takes {MEANING[formats[address]]}"
-            alarms.append(
-                Alarm(f"{address} has {what}", program.span(int(program.offset[i]), int(length[i])), hint=hint)
-            )
+            span = program.span(int(program.offset[i]), int(length[i]))
+            alarms.append(Alarm(f"{address} has {what}", span, hint=hint))
 
     def count(found: NDArray[np.bool_]) -> NDArray[np.int64]:
         before = np.concatenate([[0], np.cumsum(found)])

@@ -1,13 +1,10 @@
-"""Functions that milling controls of G words have alike.
-
-Planes, dimensions, feed, blending, compensation, the end of fixed cycles, stops, coolant.
-"""
+"""What milling controls of G words have alike: planes, dimensions, feed, blending, compensation, end of cycles, M functions."""
 
 from __future__ import annotations
 
 from collections import defaultdict
 
-from mnclab.controls.word_address.motion import first_word
+from mnclab.controls.word_address.motion import first_word, refuse_change
 from mnclab.machine.control import FunctionTable, Obey, Words
 from mnclab.machine.machine import Machine
 
@@ -37,8 +34,8 @@ def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
         plane = {"G17": "XY", "G19": "YZ"}.get(words.code) or m.settings.get("g18_axes", "ZX")
         if m.pole is not None and plane != m.plane:
             m.alarm("the plane cannot change while polar coordinates are on", head, hint="write G15 first")
-        if m.side and plane != m.plane:
-            m.alarm("the plane cannot change while radius compensation is active", head, hint="write G40 first")
+        if plane != m.plane:
+            refuse_change(m, "plane", head)
         m.change("plane", plane)
 
     @table("G90 G91", DIMENSIONS, group="dimension", phase="plane", power_on="G90", source=of["dimension"])
@@ -62,14 +59,9 @@ def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
         remark(m, words)
         m.change("exact", words.code == "G61")
 
-    @table(
-        "G40 G41 G42",
-        COMPENSATION,
-        group="compensation",
-        phase="compensation",
-        power_on="G40",
-        source=of["compensation"],
-    )
+    side = of["compensation"]
+
+    @table("G40 G41 G42", COMPENSATION, group="compensation", phase="compensation", power_on="G40", source=side)
     def compensation(m: Machine, words: Words) -> None:
         """Takes effect with the next straight line in the plane: entry, change of side, exit."""
         remark(m, words)
@@ -96,11 +88,11 @@ def functions(remark: Obey, source: str, **sources: str) -> FunctionTable:
         remark(m, words)
         m.ended = True
 
+    @table("M9", COOLANT, group="coolant", phase="end", power_on="M9", source=source)
+    @table("M7 M8", COOLANT, group="coolant", phase="auxiliary", source=source)
     def coolant(m: Machine, words: Words) -> None:
         """On before the motion of the block, off after it."""
         remark(m, words)
         m.coolant()
 
-    table("M7 M8", COOLANT, group="coolant", phase="auxiliary", source=source)(coolant)
-    table("M9", COOLANT, group="coolant", phase="end", power_on="M9", source=source)(coolant)
     return table

@@ -8,8 +8,9 @@ from functools import partial
 from typing import Any, ClassVar
 
 from mnclab.controls.word_address.state import memory
-from mnclab.machine.cycle import Given, Values, param
+from mnclab.machine.cycle import Given, Values, param, too_many
 from mnclab.machine.machine import Machine
+from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Go, Step
 
 
@@ -70,14 +71,21 @@ class AtHole(ABC):
     r_level: float
     needs: ClassVar[tuple[Callable[[Machine], Iterator[tuple[str, str]]], ...]] = ()
     """What may be wrong with the machine for the work."""
+    pecks: ClassVar[str] = "peck"
+    """The parameter that says how deep one is, where there is one."""
 
     @abstractmethod
     def work(self, m: Machine) -> Iterator[Step]:
         """The steps from level R and back to it."""
 
+    def levels(self) -> tuple[float, ...]:
+        """The depths of the pecks, from level R."""
+        return infeeds(self.r_level, self.bottom, getattr(self, self.pecks, None))
+
     def contradictions(self) -> Iterator[tuple[str, str]]:
         if not self.bottom < self.r_level:
             yield "bottom", f"must lie below level R, got bottom {self.bottom:g} and R {self.r_level:g}"
+        yield from too_many(self.pecks, self.levels)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         for faults in (out_of_place, *self.needs):

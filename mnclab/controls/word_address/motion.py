@@ -65,14 +65,12 @@ def arc(m: Machine, words: Words, sense: int, absolute: bool, line_without_centr
         if m.settings.get("arc_by_both") == "refuse":
             m.alarm(both, words["R"], hint="keep one of them")
         m.warn(f"{both}: {'R counts' if by_radius else 'I J K count'}", words["R"])
-    if by_radius:
-        radius = m.value(words["R"])
-        if radius == 0:
-            m.alarm("R must not be 0", words["R"])
-        m.arc(**to, sense=sense, radius=radius, word=words["R"], tolerance=tolerance)
-        return
-    centre = {k: m.programmed[k] + m.value(word) for k, word in offsets.items()}
-    m.arc(**to, sense=sense, centre=centre, word=next(iter(offsets.values())), tolerance=tolerance)
+    head = words["R"] if by_radius else next(iter(offsets.values()))
+    radius = m.value(head) if by_radius else None
+    if radius == 0:
+        m.alarm("R must not be 0", head)
+    centre = None if by_radius else {k: m.programmed[k] + m.value(word) for k, word in offsets.items()}
+    m.arc(**to, sense=sense, centre=centre, radius=radius, word=head, tolerance=tolerance)
 
 
 def helix(m: Machine, words: Words) -> None:
@@ -86,8 +84,7 @@ def _helix(m: Machine) -> str:
 
 
 def more_helices(m: Machine, count: int) -> bool:
-    """Whether helices go on without a word of their own, since they are allowed or enough of them were named; then
-    `count` more are counted."""
+    """Whether helices need no word of their own, being allowed, or named often enough: then `count` more are counted."""
     choice, told = m.settings.get("helix", "warn"), m.alarms.warned(_helix(m), m.program)
     if choice == "warn" and told and len(told.places) >= PLACES:
         told.count += count

@@ -22,6 +22,7 @@ from mnclab.text.words import Scan, scan
 PIECE = 1 << 16
 LARGEST = 1e9  # no coordinate, feed or number of a program is as large
 PLAIN_LETTERS = "GXYZIJKRF"
+Labels = list[tuple[int, int]]  # offset and number of the N words
 ALPHABET = tuple(chr(c) for c in range(65, 91))
 _BITS = np.zeros(128, dtype=np.int32)
 _BITS[65:91] = 1 << np.arange(26)
@@ -51,7 +52,7 @@ def reader(
     def read(text: str, name: str = "program") -> Program:
         found = scan(text)
         builder = ProgramBuilder(text, name, control, found.starts, comment)
-        labels: list[tuple[int, int]] = []  # offset and number of the N words
+        labels: Labels = []
         if (long := found.count > MOST_WORDS).any():
             found = found.without(long)
         bulk = _clean_blocks(builder, found, labels, mark.labels)
@@ -63,7 +64,7 @@ def reader(
     return read
 
 
-def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: list[tuple[int, int]], labelled: bool) -> BulkBlocks:
+def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: Labels, labelled: bool) -> BulkBlocks:
     """Blocks of the clean lines; N words are checked and left out where they label blocks."""
     count = found.count[found.count > 0]
     first = first_words(count)  # of each block
@@ -84,11 +85,7 @@ def _clean_blocks(builder: ProgramBuilder, found: Scan, labels: list[tuple[int, 
 
 
 def _note_labels(
-    builder: ProgramBuilder,
-    found: Scan,
-    is_label: NDArray[np.bool_],
-    begins: NDArray[np.int32],
-    labels: list[tuple[int, int]],
+    builder: ProgramBuilder, found: Scan, is_label: NDArray[np.bool_], begins: NDArray[np.int32], labels: Labels
 ) -> None:
     """N must be first in its block, a positive whole number, and (checked at the end) unique."""
     first = np.zeros(len(is_label), dtype=bool)
@@ -132,7 +129,7 @@ def plain_blocks(
     return plain
 
 
-def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labels: list[tuple[int, int]]) -> None:
+def _read_line(builder: ProgramBuilder, text: str, begin: int, mark: Marks, labels: Labels) -> None:
     """One line that is not clean: comment, block skip, words, and the first fault."""
     line = int(np.searchsorted(builder.line_starts, np.int32(begin), "right"))
     end = int(builder.line_starts[line]) if line < len(builder.line_starts) else len(text)
@@ -183,9 +180,6 @@ def _skip_blanks(text: str, at: int, stop: int) -> int:
     return at
 
 
-FOREIGN_COMMENTS = "(;'"  # how comments begin on other controls
-
-
 def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks) -> None:
     """The fault at a character that is no part of a good word, with the repair where the mistake is known."""
     c = text[at]
@@ -207,7 +201,7 @@ def _refuse(builder: ProgramBuilder, text: str, at: int, stop: int, mark: Marks)
         builder.alarm(f"{c!r} needs an address letter before it", at, hint="a blank inside a number splits it")
     else:
         pattern = mark.comment.pattern
-        foreign = f"a comment begins with {pattern if len(pattern) == 1 else '//'}" if c in FOREIGN_COMMENTS else ""
+        foreign = f"a comment begins with {pattern if len(pattern) == 1 else '//'}" if c in "(;'" else ""
         builder.alarm(f"{c!r} has no meaning here", at, hint=foreign)
 
 
@@ -224,18 +218,13 @@ def _digit_meant(text: str, at: int, stop: int) -> str:
             begin = at + 1
             c = text[at + 1 : stop].lstrip(" \t")[:1]
             c = c if c in "Oo" else ""  # the others may begin the next word
-    begin = text.find(c, begin, stop) if c else stop
-    rest = text[begin:stop].lstrip(f"{c}0123456789.")
-    if rest[:1].isalpha() and not re.match(r"[-+.\d]", rest[1:]):
+    rest = text[text.find(c, begin, stop) : stop].lstrip(f"{c}0123456789.")
+    if c not in DIGITS or (rest[:1].isalpha() and not re.match(r"[-+.\d]", rest[1:])):
         return ""
-    return (
-        f"the letter {c.upper() if c in 'Oo' else c} stands where the digit {DIGITS[c]} was meant"
-        if c in DIGITS
-        else ""
-    )
+    return f"the letter {c.upper() if c in 'Oo' else c} stands where the digit {DIGITS[c]} was meant"
 
 
-def _check_labels(builder: ProgramBuilder, labels: list[tuple[int, int]]) -> None:
+def _check_labels(builder: ProgramBuilder, labels: Labels) -> None:
     """N numbers must be unique; the second of two is at fault."""
     if len({number for _, number in labels}) == len(labels):
         return

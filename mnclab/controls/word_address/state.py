@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
@@ -15,8 +16,11 @@ class Memory:
     machine_coordinates: bool = False  # in a block with G53: no offset counts
     next_tool: Tool | None = None  # of T, which M6 puts into the spindle
 
+    @classmethod
+    def of(cls, m: Machine) -> Self:
+        """What is kept beside a machine."""
+        kept: Self = m.memory
+        return kept
 
-def memory(m: Machine) -> Memory:
-    """What every milling control of G words keeps."""
-    kept: Memory = m.memory
-    return kept
+
+memory = Memory.of

@@ -93,10 +93,7 @@ def bore(
     bottom: float, *, above: float, feed: float | None, retract: float | None, dwell: float = 0.0, angle: float = 0.0,
     direction: int = 0,
 ) -> Iterator[Step]:  # fmt: skip
-    """Bore, stop the spindle at an angle, leave the wall in a direction (one of `DIRECTIONS`, 0 none), retract.
-
-    The tool ends at `above`, still shifted.
-    """
+    """Bore, stop the spindle at an angle, leave the wall in one of `DIRECTIONS` (0: none), retract; the tool ends shifted."""
     yield Go("bore", bottom, feed)
     yield Wait("dwell at the bottom", dwell)
     yield Orient(f"orient the spindle to {angle:g} degrees", angle)
@@ -109,10 +106,7 @@ def bore(
 def bore_and_stop(
     bottom: float, *, above: float, turning: int, dwell: float = 0.0, shift: float = 0.0, feed: float | None = None
 ) -> Iterator[Step]:
-    """Bore, stop the spindle, retract at rapid, turn the spindle on again.
-
-    With a `shift` the spindle stops oriented and the tool leaves the wall by that much along -x; it ends on the axis.
-    """
+    """Bore, stop the spindle, retract, spindle on; with a `shift` it stops oriented and the tool leaves the wall along -x."""
     yield Go("bore", bottom, feed)
     yield Wait("dwell at the bottom", dwell)
     if shift:
@@ -132,9 +126,8 @@ def back_bore(
 ) -> Iterator[Step]:  # fmt: skip
     """Counterbore from below: shifted through the hole, back to its axis, up to the `bottom` of the counterbore.
 
-    Levels are those of the tip: `below` with the edge free under the workpiece. `travel` is the feed through the hole.
-    `coolant`: it is switched on and off together with the spindle. The tool ends at `above`, still shifted, with the
-    spindle stopped.
+    Levels are those of the tip: `below` with the edge free under the workpiece. `travel` is the feed through the hole;
+    `coolant` goes on and off with the spindle. The tool ends at `above`, still shifted, the spindle stopped.
     """
     x, y = (eccentricity * step for step in DIRECTIONS[direction])
     oriented = Orient(f"orient the spindle to {angle:g} degrees", angle)
@@ -171,9 +164,8 @@ def gun_drill(
     """Single-lip drilling: in and out with the spindle as `entry` (turning, speed), drilling at `speed` with coolant.
 
     Drilling begins at `start`, reached at the feed `approach`; at each of the `levels`, and at the level `pause`,
-    the tool dwells. From `pause` on it drills at `feed_after`, where that is given. `coolant` is what its two
-    switchings are called, "" for none; it is off before the spindle takes the speed of the exit, or after it
-    (`cool_until_slow`).
+    the tool dwells. From `pause` on it drills at `feed_after`, if that is given. `coolant`: what its two switchings are
+    called, "" for none; it is off before the spindle takes the speed of the exit, or after it (`cool_until_slow`).
     """
     on, off = [Coolant(coolant[0], True)][: bool(coolant[0])], [Coolant(coolant[1], False)][: bool(coolant[1])]
     yield Spin("spindle for the entry", *entry)

@@ -69,10 +69,7 @@ def mill_thread(
     path: Path, runs: list[tuple[float, float]], *, pitch: float, sense: int, feed: float, approach_feed: float,
     position_feed: float, external: bool = False,
 ) -> Iterator[Step]:  # fmt: skip
-    """Along every helix of `helices`, with an approach and a departure of its own; ends beside the thread.
-
-    The tool comes to the axis of a hole, or to the start point outside a stud; from a hole it goes back to its axis.
-    """
+    """Each of the `helices` with an approach and a departure of its own; at the end back to the axis, or to the start outside."""
     side = -sense if external else sense  # the half circles join the helix tangentially
     rise = pitch * path.approach / (2 * path.radius)
     middle, beside = ((path.start + path.radius) / 2, 0.0), path.start > DRIFT and not external
@@ -90,10 +87,7 @@ def mill_thread(
 
 
 def countersink(path: Path, offset: float, *, sense: int, feed: float, external: bool = False) -> Iterator[Step]:
-    """A full circle of radius `offset` at the level of the tool, from the axis (outside: from the start point) and back.
-
-    None without an offset: then the tool has countersunk where it stands.
-    """
+    """A full circle of radius `offset` from the axis (outside: from the start point) and back; nothing without an offset."""
     if not offset:
         return
     start = path.start if external else 0.0

@@ -15,6 +15,7 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.shapes import QUARTER
+from mnclab.geometry.vectors import left
 from mnclab.machining.milling.face_lines import rows
 
 Place = tuple[float, float]
@@ -53,30 +54,22 @@ class Walled:
         They begin `outside` the rectangle and end `over` its edge; those that turn round begin `over` it too. The first
         one lies `first` inside the edge, the edge of the tool is at the far edge on the last one; walls come before.
         """
-        c = radius + allowance
-        size = (self.length, self.width) if axis == 0 else (self.width, self.length)
-        long, wide = size[0] / 2, size[1] / 2
+        c, (long, wide) = radius + allowance, self._halves(axis)
         low = -wide + (c if self._wall(1 - axis, -across) else first)
         high = wide - (c if self._wall(1 - axis, across) else radius)
         if high < low:
             low = high = high if self._wall(1 - axis, across) else low
         found = []
+        near_wall, far_wall = self._wall(axis, -ahead), self._wall(axis, ahead)
         for k, place in enumerate(rows(low, high, stepover)):
-            near, far = -long - (over if k and not one_way else outside), long + over
             v = across * place
-            if near_wall := self._wall(axis, -ahead):
-                near = -self._reach(axis, -ahead, v, c, long)
-            if far_wall := self._wall(axis, ahead):
-                far = self._reach(axis, ahead, v, c, long)
-            ends = [
-                (near, not near_wall and (over >= outside or not k or one_way)),
-                (far, not far_wall and over >= outside),
-            ]
-            if k % 2 and not one_way:
-                ends.reverse()
-            (a, a_out), (b, b_out) = ends
-            one, other = (ahead * a, v), (ahead * b, v)
-            found.append(Line(one[:: -1 if axis else 1], other[:: -1 if axis else 1], a_out, b_out))  # type: ignore[arg-type]
+            turned = k > 0 and not one_way
+            near = self._reach(axis, -ahead, v, c) if near_wall else long + (over if turned else outside)
+            far = self._reach(axis, ahead, v, c) if far_wall else long + over
+            ends = [(-near, not near_wall and (over >= outside or not turned)), (far, not far_wall and over >= outside)]
+            (a, a_out), (b, b_out) = ends[::-1] if turned and k % 2 else ends
+            one, other = ((v, ahead * a), (v, ahead * b)) if axis else ((ahead * a, v), (ahead * b, v))
+            found.append(Line(one, other, a_out, b_out))
         return tuple(found)
 
     def along(self, radius: float, *, outside: Place, allowance: float = 0.0) -> tuple[Contour, ...]:
@@ -98,7 +91,7 @@ class Walled:
         points: list[np.ndarray] = []
         bulge: list[float] = []
         for k, side in enumerate(chain):
-            ahead, level = AHEAD[side], OUTWARDS[side] * (half - c)
+            ahead, level = AHEAD[side], -left(AHEAD[side]) * (half - c)
             span = np.abs(ahead)
             begins = level - ahead * (half + outside if not k else half - c - q)
             ends = level + ahead * (half + outside if k == len(chain) - 1 else half - c - q)
@@ -110,14 +103,16 @@ class Walled:
     def _wall(self, axis: int, sense: int) -> bool:
         return (axis + 1) * sense in self.walls
 
-    def _reach(self, axis: int, sense: int, place: float, c: float, long: float) -> float:
+    def _halves(self, axis: int) -> Place:
+        return (self.length / 2, self.width / 2) if axis == 0 else (self.width / 2, self.length / 2)
+
+    def _reach(self, axis: int, sense: int, place: float, c: float) -> float:
         """How far a line at a place goes before a wall, or the round corner that it has with another one."""
-        q, wide = max(0.0, self.corner - c), (self.width if axis == 0 else self.length) / 2
+        q, (long, wide) = max(0.0, self.corner - c), self._halves(axis)
         into = abs(place) - (wide - c - q)
         if not self._wall(1 - axis, 1 if place > 0 else -1) or into <= 0:
             return long - c
         return long - c - q + math.sqrt(max(q * q - into * into, 0.0))
 
 
-AHEAD = {-2: np.array([1, 0]), 1: np.array([0, 1]), 2: np.array([-1, 0]), -1: np.array([0, -1])}
-OUTWARDS = {-2: np.array([0, -1]), 1: np.array([1, 0]), 2: np.array([0, 1]), -1: np.array([-1, 0])}
+AHEAD = {side: np.array(way) for side, way in zip(SIDES, ((1, 0), (0, 1), (-1, 0), (0, -1)), strict=True)}

@@ -47,9 +47,6 @@ class Piece:
         spot = begin(self.passes[k])[None]
         return any(contour.distance(spot)[0] < 1e-3 for contour in self.passes[:k])
 
-    def rest_from(self, k: int) -> Piece:
-        return self if not k else Piece(self.centres, self.passes[k:], self.linked[k:], self.labels[k:])
-
     def reversed(self) -> Piece:
         """The same passes in the opposite order and sense; their names stay with them."""
         backwards = tuple(contour.reversed() for contour in self.passes[::-1])
@@ -144,10 +141,7 @@ def joined(
 def piecewise(
     region: Region, radius: float, stepover: float, allowance: float, plan: Callable[[Region], Piece]
 ) -> Clearing:
-    """A clearing planned piece by piece of where the tool centre may go.
-
-    A ValueError where the numbers are impossible or the tool does not fit.
-    """
+    """A clearing planned for each piece of where the tool centre may go; a ValueError where the tool does not fit."""
     if not radius > 0:
         raise ValueError(f"the tool radius must be greater than 0, got {radius:g}")
     if not 0 < stepover <= 2 * radius:

@@ -34,7 +34,7 @@ def steps(way: float, stepover: float, most: int = MOST) -> int:
 
 
 def rectangle(
-    length: float, width: float, radius: float, stepover: float, *, corner: float = 0.0, allowance: float = 0.0,
+    length: float, width: float, radius: float, stepover: float, allowance: float = 0.0, *, corner: float = 0.0,
     climb: bool = True, centre: ArrayLike = (0, 0), angle: float = 0.0, begin: int | None = None,
 ) -> Clearing:  # fmt: skip
     """A rectangular pocket on rectangles; the first one is a line there and back if the sides differ.
@@ -61,7 +61,7 @@ def rectangle(
 
 
 def circle(
-    diameter: float, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
+    diameter: float, radius: float, stepover: float, allowance: float = 0.0, *, climb: bool = True,
     centre: ArrayLike = (0, 0), angle: float = 0.0,
 ) -> Clearing:  # fmt: skip
     """A circular pocket on full circles, each begun at `angle`; no pass where the tool fills the pocket."""
@@ -76,10 +76,7 @@ def slot(
     line: Contour, width: float, radius: float, stepover: float | None = None, *, allowance: float = 0.0,
     climb: bool = True,
 ) -> Clearing:  # fmt: skip
-    """A slot about a straight or bent centre line: along the line, then round it ever wider, by `radius` at most.
-
-    A slot as wide as the tool is one pass along the line, whatever the allowance.
-    """
+    """Along the straight or bent line of a slot, then round it ever wider; just along the line where the tool fills the slot."""
     exact = abs(width - 2 * radius) <= DRIFT
     reach = 0.0 if exact else width / 2 - radius - allowance
     _must_fit(reach, radius, allowance, f"a slot {width:g} wide")

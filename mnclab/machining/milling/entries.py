@@ -44,8 +44,7 @@ class Descent(NamedTuple):
 class Entry:
     """How to go down: `kind` is "vertical", "helix" or "ramp"; `angle` the steepest plunge in degrees.
 
-    `size` is the radius of the helix, the tool radius if None, or the shortest stroke of the ramp, twice the tool
-    diameter if None.
+    `size`: the radius of the helix (None: of the tool), or the shortest stroke of the ramp (None: two tool diameters).
     """
 
     kind: str = "vertical"
@@ -72,10 +71,7 @@ def helix(
     centre: ArrayLike, radius: float, top: float, bottom: float, angle: float, *, start: float = 0.0,
     clockwise: bool = False,
 ) -> Descent:  # fmt: skip
-    """A helix about a centre from the direction `start` (rad) on, and a full circle at the bottom.
-
-    Raises ValueError where there is no radius or no angle.
-    """
+    """A helix about a centre from the direction `start` (rad) on, and a full circle at the bottom."""
     if not radius > 0:
         raise ValueError(f"there is no room for a helix: its radius is {radius:g}")
     if not 0 < angle <= 90:
@@ -110,10 +106,7 @@ def strokes(a: ArrayLike, b: ArrayLike, top: float, bottom: float, angle: float)
 
 
 def swing(line: Contour, top: float, bottom: float, angle: float) -> Descent:
-    """To and fro along an open contour, from its start, in equal drops.
-
-    What the last stroke leaves is taken away by a pass along the line. Raises ValueError where it has no length.
-    """
+    """To and fro along an open contour, from its start, in equal drops; a pass along it takes what the last stroke leaves."""
     length = line.length
     if not length > DRIFT or not 0 < angle <= 90:
         raise ValueError(f"a ramp needs a stroke and an angle up to 90 degrees, got {length:g} and {angle:g}")
@@ -147,8 +140,7 @@ def pendulum(
 ) -> Descent:
     """To and fro along a direction (rad) with the middle of the stroke at the centre, begun and ended there.
 
-    The stroke is as long as one drop needs, at least `least` and at most `room`. Raises ValueError where `room` is
-    shorter than `least`.
+    The stroke is as long as one drop needs, at least `least` and at most `room`; a ValueError where that is too short.
     """
     if room < least - DRIFT:
         raise ValueError(f"there is no room for a ramp: {room:g} is less than {least:g}")
@@ -163,10 +155,7 @@ def pendulum(
 
 
 def descend(down: Descent, plunge: float | None, feed: float | None) -> Iterator[Step]:
-    """A descent as steps from its start: slopes at the plunge feed, level moves at the other one.
-
-    Arcs that go on about one centre in one sense are one turn, a helix of any number of them.
-    """
+    """A descent from its start, slopes at the plunge feed; arcs that go on about one centre are one turn, a helix of many."""
     (_, *points), (_, *heights) = down.contour.points.tolist(), down.heights.tolist()
     turn, level, before = None, False, float(down.heights[0])
     columns = down.contour.sweeps.tolist(), down.contour.centres.tolist(), points, heights
@@ -186,10 +175,7 @@ def descend(down: Descent, plunge: float | None, feed: float | None) -> Iterator
 
 
 def along(contour: Contour, top: float, bottom: float, angle: float) -> Descent:
-    """Down along a pass: round and round a closed one, to and fro on an open one; it ends where the pass begins.
-
-    The slope that it leaves is taken away by the pass itself, which comes next.
-    """
+    """Down along a pass: round and round, or to and fro on an open one; ends where the pass begins, which clears the slope."""
     slope = math.tan(math.radians(angle))
     rounds = max(1, math.ceil(abs(top - bottom) / (contour.length * slope) - DRIFT)) if top != bottom else 0
     if contour.closed:
@@ -205,14 +191,12 @@ def descent(
 ) -> Descent:
     """The way down to a pass of a piece (the first, or that of a `number`) as wished for, ending near its start.
 
-    Where the pass begins on an earlier one the tool goes straight down, where a helix or a ramp has no room along the
-    pass itself.
+    Straight where the pass begins on an earlier one; along the pass where a helix or a ramp has no room.
     """
+    place = begin(piece.passes[number]) if number else piece.entry
     straight = entry.kind == "vertical" or entry.angle == 90 or top <= bottom
     if straight or (number and piece.begins_cleared(number)):
-        return vertical(begin(piece.passes[number]) if number else piece.entry, top, bottom)
-    piece = piece.rest_from(number)
-    place = piece.entry
+        return vertical(place, top, bottom)
     if entry.kind == "helix":
         wish = radius if entry.size is None else entry.size
         room = float(piece.centres.distance([place])[0]) if piece.centres.contains([place])[0] else 0.0
@@ -224,9 +208,9 @@ def descent(
             reach = least / 2 * np.array([np.cos(way), np.sin(way)])
             if piece.centres.holds(place - reach, place + reach):
                 return pendulum(place, float(way), top, bottom, entry.angle, least=least, room=least)
-    if not piece.passes or piece.passes[0].length <= 0:
+    if not piece.passes or piece.passes[number].length <= 0:
         return vertical(place, top, bottom)
-    return along(piece.passes[0], top, bottom, entry.angle)
+    return along(piece.passes[number], top, bottom, entry.angle)
 
 
 # ---- beneath ----
@@ -236,7 +220,7 @@ def _to_and_fro(line: Contour, count: int) -> Contour:
     """So many strokes along an open contour, from its start."""
     parts = [line if k % 2 == 0 else line.reversed() for k in range(count)]
     points = np.vstack([*(part.points[:-1] for part in parts), parts[-1].points[-1:]])
-    return Contour(points, np.concatenate([*(part.bulge[:-1] for part in parts), np.zeros(1)]), closed=False)
+    return Contour(points, np.append(np.concatenate([part.bulge[:-1] for part in parts]), 0.0), closed=False)
 
 
 def _sloping(way: Contour, top: float, bottom: float, label: str) -> Descent:

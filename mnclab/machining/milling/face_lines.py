@@ -81,10 +81,7 @@ def spiral(
 def spiral_from(
     sides: tuple[float, float], radius: float, stepover: float, first: float, axis: int, outside: float
 ) -> tuple[tuple[float, float], Contour]:
-    """A clockwise spiral about (0, 0) from the corner from which `sides` point into the rectangle, and its start.
-
-    That lies `outside` of the corner along X (`axis` 0) or Y (1).
-    """
+    """A clockwise spiral from the corner whose `sides` point inwards, and its start `outside` along X (`axis` 0) or Y (1)."""
     right, above = sides[0] < 0, sides[1] < 0
     turn = {(0, 0): 0, (0, 1): -1, (1, 1): 2, (1, 0): 1}[right, above]
     x, y = abs(sides[0]), abs(sides[1])

@@ -38,11 +38,9 @@ def rectangular(
     climb: bool = True, begin: int | None = None,
 ) -> Pocket:  # fmt: skip
     """Rectangles, begun where the axis `begin` (0 the length, 1 the width, None the longer one) leaves them; so do ramps."""
-
-    def clearing(allowance: float) -> Clearing:
-        return concentric.rectangle(
-            length, width, radius, stepover, corner=corner, allowance=allowance, climb=climb, angle=angle, begin=begin
-        )
+    clearing = partial(
+        concentric.rectangle, length, width, radius, stepover, corner=corner, angle=angle, climb=climb, begin=begin
+    )
 
     def room(allowance: float) -> Room:
         half = [side / 2 - radius - allowance for side in (length, width)]
@@ -55,14 +53,11 @@ def rectangular(
 def circular(diameter: float, radius: float, stepover: float, *, climb: bool = True) -> Pocket:
     """Circles; none where the tool fills the pocket."""
 
-    def clearing(allowance: float) -> Clearing:
-        return concentric.circle(diameter, radius, stepover, allowance=allowance, climb=climb)
-
     def room(allowance: float) -> Room:
         reach = diameter / 2 - radius - allowance
         return Room(reach, reach)
 
-    return Pocket(clearing, room, half_circles)
+    return Pocket(partial(concentric.circle, diameter, radius, stepover, climb=climb), room, half_circles)
 
 
 def mill_pocket(
@@ -95,7 +90,6 @@ class Slot(NamedTuple):
 
     @property
     def is_full(self) -> bool:
-        """Whether the tool just fits."""
         return abs(self.width / 2 - self.radius) <= concentric.NOTHING
 
     def clearing(self, allowance: float, backwards: bool = False) -> Clearing:

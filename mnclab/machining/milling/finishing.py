@@ -47,10 +47,7 @@ def half_circles(contour: Contour, diameter: float, side: int) -> tuple[Contour,
 
 
 def onto(place: ArrayLike, contour: Contour) -> Contour | None:
-    """The arc from a place to the begin of a pass that touches it there; None where the place lies on the pass.
-
-    The larger part of a circle where the place lies ahead.
-    """
+    """The arc, however long, from a place to the begin of a pass that touches it there; None for a place on the pass."""
     ahead = contour.tangents()[0][0]
     chord = contour.points[0] - np.asarray(place, dtype=float)
     if np.hypot(*chord) <= LEAST:

@@ -19,10 +19,7 @@ def toolpath(
     clearing: Clearing, levels: Sequence[float] = (-1.0,), *, surface: float = 0.0, clearance: float = 2.0,
     entry: Entry = VERTICAL, feed: float = 500.0, plunge_feed: float = 150.0, climb: bool = True,
 ) -> Toolpath:  # fmt: skip
-    """Every pass on every level, from `surface` down: lifts go to `clearance` above the surface, rapid.
-
-    The tool goes down by `entry` wherever it may not come straight from the pass before.
-    """
+    """Every pass on every level, from `surface` down by `entry`; lifts go to `clearance` above the surface, rapid."""
     pieces = [piece for piece in clearing.pieces if piece.passes or piece.place is not None]
     if not pieces or not levels:
         raise ValueError("there is nothing to clear")

@@ -6,8 +6,6 @@ level that is being cut, as everything above it has gone already. Lengths in mm,
     rough     ↓ ○ ◯ ⬭ (quarter circle off the wall) ↑ to the middle         for each layer
     walls     ↓ beside the wall, a quarter circle to it, round, off, ↑       for each infeed
     floor     ↓ ○ ◯ ⬭ along the finished wall                                once
-
-Which of them run, how deep and how fast is the cycle's affair.
 """
 
 from __future__ import annotations
@@ -65,15 +63,13 @@ class Work(NamedTuple):
 
     @property
     def is_nothing(self) -> bool:
-        """Whether no part is done."""
         return not (self.layers or self.walls or self.floor)
 
 
 def way_down(entry: Entry, room: Room, radius: float, climb: bool, top: float, bottom: float) -> Descent:
     """Down in the middle of a pocket with a tool of a `radius`.
 
-    A helix is as wide as the tool radius, or as the room; a ramp swings along the pocket. Raises ValueError where there
-    is no room for it.
+    A helix is as wide as the tool radius, or as the room; a ramp swings along the pocket, or does not fit: ValueError.
     """
     middle = (0.0, 0.0)
     if entry.kind == "vertical" or entry.angle == 90:
@@ -89,10 +85,7 @@ def rough(
     clearing: Clearing, levels: Sequence[float], *, surface: float, clearance: float, down: Down, feeds: Feeds,
     departure: float, side: int, end: float | None = None,
 ) -> Iterator[Step]:  # fmt: skip
-    """Every layer from the `surface` down; `departure` is the radius off the wall, on the left of it for `side` 1.
-
-    The tool lifts by the clearance after each of them, after the last one to the height `end` if that is given.
-    """
+    """Every layer, off the wall on a radius `departure` (`side` 1: to its left), and up, at last to the height `end` if given."""
     top = surface
     for name, level in zip(numbered("layer", len(levels)), levels, strict=True):
         yield from clear(name, clearing, down(top, level), feeds, departure, side)
@@ -124,21 +117,16 @@ def finish_walls(wall: Contour, arcs: Sequence[Contour], work: Work, above: floa
     for name, level in zip(numbered("side finishing", len(work.walls)), work.walls, strict=True):
         yield Go(f"{name}, over the start", x=x, y=y)
         yield Go(f"{name}, down", level, feeds.plunge)
-        if arcs:
-            yield from along(f"{name}, to the wall", arcs[0], feeds.level, feeds.edge, side)
-        yield from along(name, wall, feeds.level, feeds.edge, side)
-        if arcs:
-            yield from along(f"{name}, off the wall", arcs[1], feeds.level, feeds.edge, side)
+        names = (f"{name}, to the wall", name, f"{name}, off the wall") if arcs else (name,)
+        for label, way in zip(names, (*arcs[:1], wall, *arcs[1:]), strict=True):
+            yield from along(label, way, feeds.level, feeds.edge, side)
         yield from _back(name, level + work.lift)
 
 
 def finish_floor(
     clearing: Clearing, work: Work, down: Down, departure: float, end: float | None = None
 ) -> Iterator[Step]:
-    """From what roughing has left to the floor; then outwards, the last round along the finished wall.
-
-    At the end the tool lifts by the clearance, or to the height `end`.
-    """
+    """From what roughing has left to the floor, outwards, along the finished wall, and up, to the height `end` if given."""
     name = "floor finishing"
     for level in work.floor:
         yield Go(f"{name}, to the clearance level", work.left_over + work.lift)

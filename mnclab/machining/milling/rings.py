@@ -52,10 +52,7 @@ def rings(
 
 
 def rounded(loop: Contour, radius: float) -> Contour:
-    """A closed contour with an arc of this radius, touching both sides, in place of every corner to the left.
-
-    A corner stays sharp where the arc does not fit between its neighbours.
-    """
+    """A closed contour with an arc in place of every corner to the left in which an arc of this radius fits."""
     turns, curves, sweeps, lengths = loop.turns(), loop.curves, loop.sweeps, loop.lengths
     ahead = loop.tangents()[0]
     taken = np.zeros((2, len(lengths)))  # of each element, at its start and at its end
@@ -80,13 +77,9 @@ def rounded(loop: Contour, radius: float) -> Contour:
     kept = np.tan(sweeps * np.clip(1 - taken.sum(axis=0) / lengths, 0, 1) / 4)
     points, bulge = [], []
     for i, corner in enumerate(loop.points):
-        if i in arcs:
-            first, last, bent = arcs[i]
-            points += [first, last]
-            bulge += [bent, kept[i]]
-        else:
-            points.append(corner)
-            bulge.append(kept[i])
+        first, last, bent = arcs.get(i, (corner, corner, 0.0))
+        points += [first, last]
+        bulge += [bent, kept[i]]
     full = Contour(points, bulge)
     some = full.lengths > SHARP  # two arcs may use up what was between them
     return Contour(full.points[some], full.bulge[some])

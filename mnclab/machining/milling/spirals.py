@@ -117,9 +117,8 @@ def _chains(rings: list[Ring], centres: Region, stepover: float, climb: bool) ->
         if grows[k]:  # a turn begins where the ring within comes nearest to its end
             inner, outer = rings[k].contour, rings[k + 1].contour
             rings[k] = replace(rings[k], contour=inner.started_at(inner.nearest(outer.points[0])))
-    ways = {
-        k: turn_between(rings[k].contour, rings[k + 1].contour, stepover / 2) for k in np.flatnonzero(grows).tolist()
-    }
+    steps = enumerate(pairwise(ring.contour for ring in rings))
+    ways = {k: turn_between(*two, stepover / 2) for k, two in steps if grows[k]}
     inside = dict(zip(ways, stays(ways.values(), polygons(centres)), strict=True))
     chains: list[tuple[list[Contour], Ring]] = []
     parts: list[Contour] = []
@@ -136,11 +135,9 @@ def _grows(ring: Ring, following: Ring, rings: list[Ring]) -> bool:
     """Whether the next ring goes round the same as this one, and nothing else of its kind."""
     if ring.island != following.island or not 0 < ring.level - following.level <= 1:
         return False
-    alike = [r for r in rings if r.level == ring.level and r.island == ring.island]
     outer, inner = (ring, following) if ring.island else (following, ring)
-    others = alike if not ring.island else [r for r in rings if r.level == following.level and r.island]
-    spots = np.array([other.contour.points[0] for other in others])
-    within = outer.contour.winding(spots) != 0
+    alike = [other.contour for other in rings if (other.level, other.island) == (inner.level, inner.island)]
+    within = outer.contour.winding(np.array([contour.points[0] for contour in alike])) != 0
     return int(within.sum()) == 1 and bool(outer.contour.winding(inner.contour.points[:1])[0])
 
 

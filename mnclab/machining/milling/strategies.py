@@ -30,10 +30,7 @@ def clear(
     strategy: str, region: Region, radius: float, stepover: float, *, allowance: float = 0.0, climb: bool = True,
     complete: bool = True, **more: Any,
 ) -> Clearing:  # fmt: skip
-    """`region` cleared by the strategy of this name, and if wished what it leaves cleared as well.
-
-    Raises ValueError for an unknown name and where the tool does not fit.
-    """
+    """`region` cleared by the strategy of this name, and if `complete` what it leaves cleared as well."""
     if strategy not in STRATEGIES:
         raise ValueError(f"unknown strategy {strategy!r}; known are {', '.join(STRATEGIES)}")
     found = STRATEGIES[strategy](region, radius, stepover, allowance=allowance, climb=climb, **more)

@@ -42,7 +42,8 @@ class Figure(NamedTuple):
     def towards(self, other: Figure, share: Floats) -> tuple[Floats, Floats]:
         """Distances and corners of sides in turn, each its share (0 to 1) of the way to another figure."""
         side = np.arange(len(share)) % len(self.normals)
-        return self.reach[side] + (other.reach - self.reach)[side] * share, _between(self.corner, other.corner, share)
+        reach = self.reach[side] + (other.reach - self.reach)[side] * share
+        return reach, self.corner + (other.corner - self.corner) * share
 
     def apex(self, k: int = 0) -> Floats:
         """The middle of the corner before side k, `(2,)`."""
@@ -121,24 +122,16 @@ def polygon(
         raise ValueError(f"an allowance of {allowance:g} leaves nothing of a radius of {inscribed:g}")
     out, bevels, half = radius + allowance, corner < 0, math.pi / corners
     normals = np.array([half * (2 * k + 1) for k in range(corners)])
-    if bevels:  # the bevel and the sides move outwards alike
-        size = max(0.0, -corner + out * math.tan(half / 2) / math.cos(half))
-    else:
-        size = max(0.0, corner + out)
-    last = Figure(normals, np.full(corners, inscribed + out), size, bevels)
+    grown = out * math.tan(half / 2) / math.cos(half) if bevels else out  # the bevel and the sides move outwards alike
+    last = Figure(normals, np.full(corners, inscribed + out), max(0.0, abs(corner) + grown), bevels)
     edge = max(stock / 2 + radius, inscribed + out)  # the spiral begins there, or as far out as the corners reach
     beyond = edge / math.cos(half) - max(edge, float(np.hypot(*last.apex())))
-    first = Figure(
-        normals, np.full(corners, edge), beyond / (math.sin(half) if bevels else 1 / math.cos(half) - 1), bevels
-    )
+    size = beyond / (math.sin(half) if bevels else 1 / math.cos(half) - 1)
+    first = last._replace(reach=np.full(corners, edge), corner=size)
     return _spiral(first, last, steps(spare, stepover), radius, climb, centre, angle, 0, apex=True)
 
 
 # ---- beneath ----
-
-
-def _between(a: float, b: float, share: Floats) -> Floats:
-    return np.asarray(a + (b - a) * share)
 
 
 def _part(first: Figure, last: Figure, share: float) -> Figure:
@@ -146,9 +139,7 @@ def _part(first: Figure, last: Figure, share: float) -> Figure:
     return last._replace(reach=reach, corner=first.corner + (last.corner - first.corner) * share)
 
 
-def _corners(
-    normals: Floats, reach: Floats, size: Floats, bevels: bool, sense: int
-) -> tuple[Floats, Floats, Floats]:  # fmt: skip
+def _corners(normals: Floats, reach: Floats, size: Floats, bevels: bool, sense: int) -> tuple[Floats, Floats, Floats]:
     """Where m lines in turn bend into the next one: before and after `(m-1, 2)`, and the bulge between `(m-1,)`."""
     n = np.stack([np.cos(normals), np.sin(normals)], axis=1)
     a, b, h, k = n[:-1], n[1:], reach[:-1], reach[1:]

@@ -98,10 +98,7 @@ def _branches(found: Skeleton, least: float) -> Iterator[tuple[np.ndarray, bool]
     for a, b in found.edges.tolist():
         neighbours.setdefault(a, []).append(b)
         neighbours.setdefault(b, []).append(a)
-    seen = np.zeros(len(found.points), dtype=bool)
-    if neighbours:
-        seen[:] = True
-        seen[list(neighbours)] = False
+    seen = np.array([bool(neighbours) and k not in neighbours for k in range(len(found.points))])
     done: set[tuple[int, int]] = set()
     while not seen.all():
         widest = int(np.where(seen, -np.inf, found.room).argmax())

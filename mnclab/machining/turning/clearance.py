@@ -55,23 +55,22 @@ class _Section:
 
     def meets(self, area: Any, start: Place, end: Place, bulge: float = 0.0) -> float:
         """How much of an area, mm², the tool covers on its way."""
-        way = Contour([start, end], [bulge, 0.0], closed=False)
-        return float(broad(area.intersection(swept(self.outline, way)), 2 * CHORD_ERROR).area)
+        return float(broad(area.intersection(self.swept(start, end, bulge)), 2 * CHORD_ERROR).area)
+
+    def swept(self, start: Place, end: Place, bulge: float) -> Any:
+        return swept(self.outline, Contour([start, end], [bulge, 0.0], closed=False))
 
     def free(self, *places: Place) -> bool:
-        """Whether nothing stands in the way from place to place."""
         return all(self.meets(self.left, a, b) <= LEAST for a, b in zip(places, places[1:], strict=False))
 
     def cut(self, stroke: Stroke) -> None:
-        """A stroke at feed."""
         end = (stroke.z, stroke.r)
         if (gouged := self.meets(self.part, self.here, end, stroke.bulge)) > LEAST:
             raise ValueError(
                 f"{self.name}: the {stroke.role} stroke to Z{stroke.z:.6g} R{stroke.r:.6g} would cut {gouged:.3g} mm² below "
                 "the profile: part the profile into zones, or take another scheme or tool"
             )
-        way = Contour([self.here, end], [stroke.bulge, 0.0], closed=False)
-        self.left = self.left.difference(swept(self.outline, way))
+        self.left = self.left.difference(self.swept(self.here, end, stroke.bulge))
         self.strokes.append(stroke)
         self.here = end
 
@@ -80,24 +79,21 @@ class _Section:
         (z, r), end = self.here, (stroke.z, stroke.r)
         above = max(self.outside, r)
         if self.free(self.here, end):
-            self._go(*end)
+            self._go(end)
         elif r < stroke.r and self.free(self.here, (z, stroke.r), end):
-            self._go(z, stroke.r)
-            self._go(*end)
+            self._go((z, stroke.r), end)
         else:
-            if self.free(self.here, (z, above)):
-                self._go(z, above)
-            else:
+            if not self.free(self.here, (z, above)):
                 self.cut(Stroke(z, above, ROUGH, number=self.number))
-            self._go(stroke.z, above)
-            self._go(stroke.z, self._lowest(stroke.z, above, stroke.r))
+            self._go((z, above), (stroke.z, above), (stroke.z, self._lowest(stroke.z, above, stroke.r)))
             if self.here != end:
                 self.cut(Stroke(*end, PLUNGE, number=self.number))
 
-    def _go(self, z: float, r: float) -> None:
-        if (z, r) != self.here:
-            self.strokes.append(Stroke(z, r, RAPID))
-            self.here = (z, r)
+    def _go(self, *places: Place) -> None:
+        for place in places:
+            if place != self.here:
+                self.strokes.append(Stroke(*place, RAPID))
+                self.here = place
 
     def _lowest(self, z: float, high: float, low: float) -> float:
         """How far down the way is free, less a little if it is not free to the end."""

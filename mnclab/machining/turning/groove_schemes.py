@@ -13,7 +13,7 @@ source gives no more than their number and the tools, and the order of strokes i
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -54,11 +54,9 @@ class Groove:
 
     @property
     def left(self) -> float:
-        """z of the left wall at the bottom."""
         return self.right - self.width
 
     def wall(self, slope: float, r: float) -> float:
-        """How far a wall has moved outwards at a radius."""
         return (r - self.bottom) * math.tan(math.radians(slope))
 
     @property
@@ -109,16 +107,13 @@ class _Blade(Pen):
 
     @property
     def right(self) -> float:
-        """z of the tip at the right wall."""
         return self.groove.right - self.width
 
     @property
     def middle(self) -> float:
-        """z of the tip in the middle of the groove."""
         return self.groove.left + (self.groove.width - self.width) / 2
 
     def plunge(self, *places: float, role: str = PLUNGE, bottom: float | None = None) -> None:
-        """At each of the places down and up again."""
         depth = self.groove.bottom if bottom is None else bottom
         for z in places:
             self.number += 1
@@ -145,15 +140,11 @@ class _Blade(Pen):
 
 
 def scheme_1(groove: Groove, tool: float) -> Plan:
-    """Corner groove: one plunge with a tool of its profile; else beside the shoulder, on the cylinder side, along the bottom.
-
-    The shoulder stands on the left.
-    """
+    """Corner groove, shoulder on the left: a plunge of its width, or one at the shoulder, one beside it, and along the bottom."""
     pen = _Blade(groove, tool, groove.left)
-    if abs(tool - groove.width) > SAME:
-        pen.check()
     pen.plunge(groove.left)
     if abs(tool - groove.width) > SAME:
+        pen.check()
         pen.plunge(pen.middle if groove.width > 2 * tool else pen.right)
         pen.along_bottom(pen.right, groove.left, groove.slope_right)
     return pen.plan("groove 1")
@@ -171,12 +162,8 @@ def scheme_2(groove: Groove, tool: float, bottom: bool = False) -> Plan:
 
 def scheme_3(groove: Groove, tool: float) -> Plan:
     """Groove for a ring: a plunge in the middle, one along the right wall, one along the left wall and the bottom."""
-    pen = _Blade(groove, tool, groove.left + (groove.width - tool) / 2)
-    pen.check()
-    pen.plunge(pen.middle)
-    pen.plunge(pen.right, role=FINISH)
-    pen.along_bottom(groove.left, pen.right)
-    return pen.plan("groove 3")
+    plan = scheme_4(replace(groove, slope_right=0.0, slope_left=0.0), tool)
+    return replace(plan, name="groove 3")
 
 
 def scheme_4(groove: Groove, tool: float) -> Plan:

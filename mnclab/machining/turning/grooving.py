@@ -23,17 +23,10 @@ def places(first: float, last: float, step: float | None) -> tuple[float, ...]:
 
 
 def grooves(
-    across: float,
-    bottom: float,
-    along: Sequence[float],
-    feed: float | None = None,
-    home: bool = True,
+    across: float, bottom: float, along: Sequence[float], feed: float | None = None, home: bool = True,
     shift: float | None = RAPID,
-) -> Iterator[Go]:
-    """From the level `across` plunge to the bottom at each of the places, and return to the first at the end.
-
-    `shift` is the feed from one place to the next.
-    """
+) -> Iterator[Go]:  # fmt: skip
+    """From the level `across` to the bottom at each of the places, moved between at the feed `shift`, and to the first again."""
     for number, place in enumerate(along, 1):
         label = f"groove {number} of {len(along)}" if len(along) > 1 else "groove"
         yield Go(f"to {label}", place, shift)

@@ -23,10 +23,7 @@ from mnclab.machining.turning.profiles import SAME, Stretch, checked, stretches,
 
 
 def offset(profile: Contour, distance: float, front: float) -> Contour:
-    """The profile moved outwards by a distance, from z `front` to above its end.
-
-    In front of the face it goes on level, and so does the part behind its end.
-    """
+    """The profile moved outwards by a distance, from z `front` to above its end; level before the face and behind the end."""
     contour = checked(profile)
     first, last = contour.points[0], contour.points[-1]
     head, tail = np.array([front + distance, first[1]]), last - (2 * distance + 1, 0.0)

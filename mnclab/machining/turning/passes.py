@@ -58,8 +58,7 @@ def task(
 ) -> Task:  # fmt: skip
     """Levels one `depth` apart down to the bottom of one zone, and `also` some radii between.
 
-    Strokes that begin `slanting` need more room in front of the face for an edge that leans forward. A ValueError says
-    what is wrong with the numbers.
+    Strokes that begin `slanting` need more room in front of the face for an edge that leans forward.
     """
     for name, value in (("depth of a pass", depth), ("retract", lift)):
         if not value > 0:
@@ -84,8 +83,8 @@ def task(
     found = []
     for height in sorted(heights, reverse=True):
         first, last = entry_way(below, height), exit_way(below, height)
-        right = ahead if first is None else float(below.point_at(first)[0][0])
-        found.append(Level(height, right, float(below.point_at(last)[0][0]), first, last))
+        right, left = below.point_at([first or 0.0, last])[0][:, 0].tolist()
+        found.append(Level(height, ahead if first is None else right, left, first, last))
     return Task(below, blank, tuple(found), lift, ahead, blank + OUT)
 
 
@@ -98,8 +97,7 @@ def falls_again(profile: Contour) -> bool:
 def without_drop(profile: Contour) -> Contour:
     """A profile that ends where it falls straight down at its end: there is nothing to cut."""
     z, r = profile.points.T
-    last = int(np.flatnonzero(z <= z[-1] + SAME)[0])
-    top = last + int(r[last:].argmax())
+    top = int(np.where(z <= z[-1] + SAME, r, -np.inf).argmax())
     return between(profile, 0.0, float(profile.lengths[:top].sum())) or profile
 
 
@@ -124,7 +122,6 @@ class Cutter(Pen):
             self.plunge(t.levels[k - 1], level)
 
     def plunge(self, before: Level, level: Level) -> None:
-        """Along the wall from one pass to the next, at feed."""
         self.along(between(self.t.profile, before.first or 0.0, level.first or 0.0), PLUNGE)
 
     def back_to(self, level: Level) -> None:
@@ -153,9 +150,9 @@ class Cutter(Pen):
         """As `off`, from anywhere on a profile; `room` is how far to the right the stroke has cleared."""
         t = self.t
         profile = t.profile if profile is None else profile
-        right, top = profile.points[0]
+        right, top = profile.points[0].tolist()
         free = room >= t.lift and (self.z + t.lift <= right or self.r >= top - SAME)
-        wall = over(profile, self.z, min(self.z + t.lift, float(right))) if free else None
+        wall = over(profile, self.z, min(self.z + t.lift, right)) if free else None
         if wall is not None:
             z, r = wall.points_within(1e-3).T
             free = bool((r - self.r <= z - self.z + SAME).all())
@@ -165,7 +162,6 @@ class Cutter(Pen):
             self.feed(self.z, min(max(height, self.r) + t.lift, t.blank), ROUGH)
 
     def once_along(self, contour: Contour, role: str, outside: float) -> None:
-        """Along a whole contour, off it, and straight out."""
         self.along(contour, role)
         if self.r < self.t.blank - SAME:
             self.away(self.t.blank, contour)
@@ -179,9 +175,9 @@ class Cutter(Pen):
             if below and abs(self.z - t.profile.points[-1, 0]) < SAME:  # no wall: not along what stays there
                 self.away(t.blank, room=last.right - self.z)
             self.rapid(self.z, t.outside)
-        else:
-            if below and self.z < t.front - SAME:
-                self.away(t.blank)
-                self.rapid(t.front, self.r)
-            self.rapid(t.front, t.blank)
+            return self.plan(name)
+        if below and self.z < t.front - SAME:
+            self.away(t.blank)
+            self.rapid(t.front, self.r)
+        self.rapid(t.front, t.blank)
         return self.plan(name)

@@ -51,7 +51,7 @@ class Stretch(NamedTuple):
 
 
 def checked(profile: Contour) -> Contour:
-    """The profile with its arcs parted at their highest and lowest points; a ValueError where it is none."""
+    """The profile with its arcs parted at their tops and bottoms; a ValueError where it is none."""
     if profile.closed:
         raise ValueError("a profile is an open contour, from the face to the chuck")
     points: list[Floats] = [profile.points[0]]
@@ -102,24 +102,21 @@ def way_at(profile: Contour, element: int, level: float) -> float:
 
 def between(profile: Contour, first: float, last: float) -> Contour | None:
     """The part of an open contour from one way along it to another; None if it has no length."""
-    upto = np.concatenate([[0.0], np.cumsum(profile.lengths)])
-    points, bulges = [profile.point_at(first)[0]], []
-    for i, sweep in enumerate(profile.sweeps):
-        low, high = max(first, upto[i]), min(last, upto[i + 1])
-        if high - low > SAME:
-            end = profile.points[i + 1] if high == upto[i + 1] else profile.point_at(high)[0]
-            bulges.append(math.tan(sweep * (high - low) / profile.lengths[i] / 4))
-            points.append(end)
-    return Contour(np.array(points), [*bulges, 0.0], closed=False) if bulges else None
+    upto = np.append(0.0, np.cumsum(profile.lengths))
+    low, high = np.maximum(first, upto[:-1]), np.minimum(last, upto[1:])
+    some = high - low > SAME
+    if not some.any():
+        return None
+    ends = np.where((high == upto[1:])[:, None], profile.points[1:], profile.point_at(high)[0])[some]
+    bulges = np.tan(profile.sweeps * (high - low) / np.maximum(profile.lengths, SAME) / 4)[some]
+    return Contour(np.vstack([profile.point_at(first)[0], ends]), np.append(bulges, 0.0), closed=False)
 
 
 def joined(pieces: Iterable[Contour | None]) -> Contour:
     """Contours that follow each other as one, with straight lines across gaps."""
     points: list[Floats] = []
     bulges: list[float] = []
-    for piece in pieces:
-        if piece is None:
-            continue
+    for piece in filter(None, pieces):
         if points and np.hypot(*(piece.points[0] - points[-1])) <= SAME:
             points.pop()
         elif points:
@@ -178,8 +175,7 @@ def uppermost(pieces: Sequence[Stretch], first: Sequence[float], last: Sequence[
         if abs(begin[1] - points[-1][1]) > SAME:
             points.append(begin)
             bulges.append(0.0)
-            owner = -1
-        if top == owner:
+        elif top == owner:
             points.pop()
             bulges.pop()
         bulges.append(_arc(piece, points[-1], end))
@@ -320,10 +316,7 @@ def ways_over(profile: Contour, z: float) -> tuple[float, float]:
 
 
 def edges_of(tool: Tool, height: float) -> Floats:
-    """What a tool covers above its tip up to a height, (k, 2) from the tip: between its edges, over its width.
-
-    Without angles and width it is a line, and what it passes under falls.
-    """
+    """What a tool covers above its tip up to a height, (k, 2) from the tip; without angles and width it is a line."""
     main, auxiliary = angles_of(tool)
     lean = [0.0 if abs(math.tan(a)) > 1e12 else height / math.tan(a) for a in (main, auxiliary)]
     return np.array([(0.0, 0.0), (tool.width, 0.0), (tool.width + lean[1], height), (-lean[0], height)])

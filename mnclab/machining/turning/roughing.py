@@ -33,8 +33,7 @@ class Shoulder(NamedTuple):
 
     def stop(self, level: float) -> float:
         """How far along a pass at this level may go: to the bevel, and beyond the rim to `far`."""
-        share = 0.0 if self.rim == self.finish else (level - self.finish) / (self.rim - self.finish)
-        if self.rim == self.finish or share >= 1:
+        if self.rim == self.finish or (share := (level - self.finish) / (self.rim - self.finish)) >= 1:
             return self.far
         return self.corner + max(share, 0.0) * (self.far - self.corner)
 
@@ -63,10 +62,7 @@ def levels(start: float, finish: float, depth: float, with_finish: bool = True) 
 
 
 def roughing(start: float, shoulder: Shoulder, depth: float, with_finish: bool = True) -> tuple[Pass, ...]:
-    """The roughing passes from level `start` down to a shoulder, each to where it meets the contour.
-
-    What is left after the last (less than one depth, and the steps on the bevel) is for a clean-up along the contour.
-    """
+    """The roughing passes from level `start` down, each to where it meets the contour; steps on the bevel are left."""
     return tuple(Pass(x, shoulder.stop(x)) for x in levels(start, shoulder.finish, depth, with_finish))
 
 
@@ -85,20 +81,13 @@ def chip_breaks(begin: float, end: float, length: float) -> tuple[float, ...]:
 
 
 def loops(
-    start: tuple[float, float],
-    passes: Sequence[Pass],
-    *,
-    retract: float = LOOP,
-    feed: float | None = None,
-    infeed: float | None = RAPID,
-    chip: float = 0.0,
-    chip_retract: float = 0.0,
-    total: int = 0,
-) -> Iterator[Go]:
+    start: tuple[float, float], passes: Sequence[Pass], *, retract: float = LOOP, feed: float | None = None,
+    infeed: float | None = RAPID, chip: float = 0.0, chip_retract: float = 0.0, total: int = 0,
+) -> Iterator[Go]:  # fmt: skip
     """Roughing passes from `start` (across, along), each a loop: in, cut, off by `retract` both ways, back.
 
-    After every `chip` mm (0: never) the tool goes back by `chip_retract` at rapid and cuts on. No retract goes beyond
-    the start, where a tailstock or the far wall of a bore may be. `total` is how many passes the labels tell of.
+    After every `chip` mm (0: never) the tool goes back by `chip_retract` at rapid and cuts on. No retract goes beyond the
+    start, where a tailstock may be. `total` is how many passes the labels tell of.
     """
     x1, z1 = start
     for number, (level, stop) in enumerate(passes, 1):
@@ -113,18 +102,10 @@ def loops(
 
 
 def around(
-    start: tuple[float, float],
-    shoulder: Shoulder,
-    *,
-    label: str,
-    feed: float | None = None,
-    infeed: float | None = RAPID,
-    wall: float | None = None,
-) -> Iterator[Go]:
-    """From `start` (across, along) once along the contour and back: in, to the corner, up the bevel, out, return.
-
-    `wall` is the feed from the rim to the start level; the return is at rapid.
-    """
+    start: tuple[float, float], shoulder: Shoulder, *, label: str, feed: float | None = None,
+    infeed: float | None = RAPID, wall: float | None = None,
+) -> Iterator[Go]:  # fmt: skip
+    """From `start` in, to the corner, up the bevel, at the feed `wall` from the rim to the start level, and back at rapid."""
     x1, z1 = start
     yield Go(f"{label}, infeed", x=shoulder.finish, feed=infeed)
     yield Go(label, shoulder.corner, feed)
@@ -137,10 +118,9 @@ def remove_stock(
     start: tuple[float, float], shoulder: Shoulder, depth: float | None, *, retract: float, feed: float | None = None,
     wall: float | None = RAPID,
 ) -> Iterator[Go]:  # fmt: skip
-    """From a start (across, along) remove the stock in passes one `depth` apart, the last one along the contour.
+    """From a start (across, along) passes one `depth` apart; the last one, or the only one without a depth, along the contour.
 
-    The last one also cuts what the others have left on the bevel; `wall` is its feed from the rim to the start level.
-    Without a depth there is this one alone.
+    It also cuts what the others have left on the bevel; `wall` is its feed from the rim to the start level.
     """
     passes = roughing(start[0], shoulder, depth, with_finish=False) if depth else ()
     count = len(passes) + 1
@@ -167,7 +147,6 @@ class Crosswise:
         return 0.0, 0.0
 
     def across_along(self, x: float, z: float) -> tuple[float, float]:
-        """What belongs to X and what to Z in the order of the cut."""
         return (z, x) if self.transverse else (x, z)
 
     def in_axes(self, steps: Iterable[Step]) -> Iterable[Step]:

@@ -26,18 +26,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.machining.turning.clearance import OUT, cleared
 from mnclab.machining.turning.grooving import grooves
 from mnclab.machining.turning.offsets import offset
-from mnclab.machining.turning.passes import (
-    FRONT,
-    LIFT,
-    MOST,
-    POINT,
-    Cutter,
-    Level,
-    Task,
-    falls_again,
-    task,
-    without_drop,
-)
+from mnclab.machining.turning.passes import FRONT, LIFT, MOST, POINT, Cutter, Task, falls_again, task, without_drop
 from mnclab.machining.turning.profiles import SAME, between, entry_way, exit_way, lowest, reachable
 from mnclab.machining.turning.strokes import CLEANUP, PICK_UP, PLUNGE, ROUGH, Pen, Plan
 from mnclab.machining.turning.zones import CLOSED, OPEN, filled, zones
@@ -70,20 +59,14 @@ def _passes(t: Task, count: int, pick_up: bool = False) -> Cutter:
         right = level.right
         if pick_up:
             pen.along(between(t.profile, level.last, exit_way(t.profile, above)), PICK_UP)
-            right = _way_back(t, above, level, min(pen.r + t.lift, t.blank))
+            if level.first is not None:  # to where the pass before began, if the wall lets the tool pass there
+                way = entry_way(t.profile, above) or 0.0
+                z, wall = t.profile.point_at(way)[0].tolist()
+                right = z if wall <= min(pen.r + t.lift, t.blank) + SAME else right
         if k + 1 < len(t.levels) or level.first is None:
             pen.lift_off(k, right)
         above = level.r
     return pen
-
-
-def _way_back(t: Task, above: float, level: Level, r: float) -> float:
-    """The z to go back to at a radius: where the pass before began, if the wall lets the tool pass there."""
-    if level.first is None:
-        return level.right
-    way = entry_way(t.profile, above)
-    z, wall = t.profile.points[0] if way is None else t.profile.point_at(way)[0]
-    return float(z) if wall <= r + SAME else level.right
 
 
 def pick_up(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
@@ -108,11 +91,11 @@ def _semi_finish(t: Task, after: str = "last") -> Plan:
     count = len(t.levels) - (after == "penultimate")
     pen = _passes(t, count)
     bottom, begin = t.levels[-1], 0.0
+    if bottom.first is None or count < len(t.levels):
+        pen.number += 1
     if bottom.first is None:  # from the face along everything
-        pen.number += 1
-        pen.rapid(t.front, float(t.profile.points[0, 1]))
+        pen.rapid(t.front, t.profile.points[0, 1])
     elif count < len(t.levels):
-        pen.number += 1
         pen.down(count)
         begin = bottom.first
     else:
@@ -122,10 +105,7 @@ def _semi_finish(t: Task, after: str = "last") -> Plan:
 
 
 def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
-    """Passes there and back without an idle stroke; to the next level along the contour, at feed.
-
-    The tool must cut in both directions.
-    """
+    """Passes there and back without an idle stroke, to the next level along the contour; the tool must cut both ways."""
     t = task(profile, blank, depth, tool, **distances)
     pen = Cutter(t)
     for k, level in enumerate(t.levels):
@@ -144,16 +124,15 @@ def zigzag(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **d
         if k % 2:
             pen.feed(level.right, level.r, ROUGH)
     last = len(t.levels) - 1
-    if last % 2 == 0 and t.levels[last].first is None:
-        pen.lift_off(last)
-    elif last % 2 == 0:
-        pen.off(last)
+    if last % 2 == 0:
+        leave = pen.lift_off if t.levels[last].first is None else pen.off
+        leave(last)
     return cleared(pen.out("zigzag"), profile, blank, tool)
 
 
 def descent(
     profile: Contour, blank: float, step: float, tool: Tool = POINT, lift: float = LIFT, front: float = FRONT
-) -> Plan:  # fmt: skip
+) -> Plan:
     """Radial strokes to the contour, one `step` apart; `tool.width` is the width of its edge, its left corner the tip.
 
     A tool with a width stands clear of the first wall and ends at the last one.
@@ -167,7 +146,7 @@ def descent(
     count = math.floor((first - left) / step + 1e-9)
     if count > MOST:
         raise ValueError(f"a step of {step:g} gives {count} strokes, allowed are {MOST}")
-    places = [first - k * step for k in range(count + 1)] if first >= left - SAME else []
+    places = [first - k * step for k in range(count + 1)]
     if tool.width and (not places or places[-1] > left + SAME) and right - left >= tool.width - SAME:
         places.append(left)
     cuts = [(z, r) for z in places if (r := lowest(t.profile, z)) < blank - SAME]
@@ -236,15 +215,13 @@ def contour(
 
 
 def combined(profile: Contour, blank: float, depth: float, tool: Tool = POINT, **distances: Any) -> Plan:
-    """A profile of several zones, each by the scheme that the source names for it.
+    """A profile of several zones: open ones by the loop, semi-open ones by the loop and a clean-up.
 
-    Open and semi-open: the loop, the semi-open section with a clean-up. With a closed zone: the dry sections together by
-    the loop, every closed one by passes, and one clean-up along the whole contour at the end.
+    With a closed zone the dry sections together by the loop, every closed one by passes, then one clean-up along all.
     """
     reached = without_drop(reachable(profile, tool))
     found = zones(reached, blank)
-    wet = [zone.profile for zone in found if zone.kind == CLOSED]
-    dry = [zone for zone in found if zone.kind != CLOSED]
+    wet, dry = [z.profile for z in found if z.kind == CLOSED], [z for z in found if z.kind != CLOSED]
     edges = replace(tool, width=0.0)  # what is reached already minds the width
     both = bool(wet and dry)
     if both:  # passes at the rims too, so that every closed zone is free from above
@@ -281,21 +258,17 @@ SCHEMES: dict[str, Callable[..., Plan]] = {
 
 def _within(stroke: Contour, blank: float, front: float) -> Iterator[tuple[bool, Contour]]:
     """The parts of a stroke below the radius of the blank, and whether they begin in front of the face."""
-    r = stroke.points[:, 1]
     below = between(stroke, 0.0, stroke.length)
-    while below is not None and (r < blank - SAME).any():
+    while below is not None and (below.points[:, 1] < blank - SAME).any():
         first = entry_way(below, blank)
-        begin = 0.0 if first is None else first
-        rest = between(below, begin, below.length)
+        rest = between(below, first or 0.0, below.length)
         assert rest is not None
         over = np.flatnonzero(rest.points[:, 1] > blank + SAME)
         if not len(over):
             yield first is None, rest
             return
         wall = Contour(rest.points[: over[0] + 1], rest.bulge[: over[0] + 1], closed=False)
-        end = exit_way(wall, blank)
-        part = between(rest, 0.0, end)
+        part = between(rest, 0.0, exit_way(wall, blank))
         if part is not None and (part.points[:, 1] < blank - SAME).any():
             yield first is None, part
         below = between(rest, wall.length, rest.length)
-        r = below.points[:, 1] if below is not None else r[:0]

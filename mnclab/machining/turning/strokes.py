@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -15,11 +16,10 @@ from mnclab.geometry.contours import Contour
 from mnclab.machining.steps import RAPID as AT_RAPID
 from mnclab.machining.steps import Go, Thread
 
-RAPID, ROUGH, PICK_UP, CLEANUP, PLUNGE, FINISH, THREAD = (
+#: What a stroke may be for.
+ROLES = RAPID, ROUGH, PICK_UP, CLEANUP, PLUNGE, FINISH, THREAD = (
     "rapid", "rough", "pick-up", "clean-up", "plunge", "finish", "thread",
 )  # fmt: skip
-#: What a stroke may be for.
-ROLES = (RAPID, ROUGH, PICK_UP, CLEANUP, PLUNGE, FINISH, THREAD)
 SAME = 1e-9
 
 
@@ -44,17 +44,14 @@ class Plan:
 
     @property
     def passes(self) -> int:
-        """How many working strokes there are."""
         return len({stroke.number for stroke in self.strokes if stroke.role != RAPID})
 
     @property
     def ways(self) -> list[tuple[Stroke, Contour]]:
         """Every stroke with its way, a contour of (z, r)."""
-        begins = [self.start, *((stroke.z, stroke.r) for stroke in self.strokes)]
-        return [
-            (stroke, Contour([begin, (stroke.z, stroke.r)], [stroke.bulge, 0.0], closed=False))
-            for begin, stroke in zip(begins, self.strokes, strict=False)
-        ]
+        places = [self.start, *((stroke.z, stroke.r) for stroke in self.strokes)]
+        ways = zip(self.strokes, pairwise(places), strict=True)
+        return [(stroke, Contour(way, [stroke.bulge, 0.0], closed=False)) for stroke, way in ways]
 
     def length(self, *roles: str) -> float:
         """Length of the strokes of some roles, or of all but rapids."""
@@ -81,21 +78,17 @@ class Pen:
         self.start = (float(self.z), float(self.r))
 
     def rapid(self, z: float, r: float) -> None:
-        """Straight, at rapid."""
         self.feed(z, r, RAPID)
 
     def feed(self, z: float, r: float, role: str, bulge: float = 0.0) -> None:
-        """Straight or along an arc, at the feed of the role."""
         z, r = float(z), float(r)
         way = np.array([z - self.z, r - self.r])
         if np.hypot(*way) <= SAME:
             return
         number = 0 if role == RAPID else self.number
-        last = self.strokes[-1] if self.strokes else None
-        straight = role != RAPID and not bulge and last and not last.bulge
-        if straight and last and (last.role, last.number, last.tool) == (role, number, self.tool):
-            begin = (self.strokes[-2].z, self.strokes[-2].r) if len(self.strokes) > 1 else self.start
-            before = np.array([last.z - begin[0], last.r - begin[1]])
+        last = self.strokes[-1] if self.strokes and role != RAPID else None
+        if last and (last.role, last.number, last.tool, last.bulge, bulge) == (role, number, self.tool, 0, 0):
+            before = np.array(last[:2]) - (self.strokes[-2][:2] if len(self.strokes) > 1 else self.start)
             if abs(before[0] * way[1] - before[1] * way[0]) <= 1e-9 * np.hypot(*before) and before @ way > 0:
                 self.strokes.pop()
         self.strokes.append(Stroke(z, r, role, bulge, number, self.tool))
@@ -104,18 +97,14 @@ class Pen:
     def follow(self, steps: Iterable[Go | Thread], role: str) -> None:
         """Steps of z along and x across, those at feed in a role."""
         for step in steps:
-            rapid = isinstance(step, Go) and step.feed == AT_RAPID
-            self.feed(
-                self.z if step.z is None else step.z, self.r if step.x is None else step.x, RAPID if rapid else role
-            )
+            z, r = (here if to is None else to for here, to in ((self.z, step.z), (self.r, step.x)))
+            self.feed(z, r, RAPID if isinstance(step, Go) and step.feed == AT_RAPID else role)
 
     def along(self, contour: Contour | None, role: str) -> None:
         """Along a contour, at the feed of the role: straight to its start, if the tip is elsewhere."""
-        if contour is None:
-            return
-        self.feed(float(contour.points[0, 0]), float(contour.points[0, 1]), role)
-        for end, bulge in zip(contour.ends, contour.bulge, strict=False):
-            self.feed(float(end[0]), float(end[1]), role, float(bulge))
+        if contour is not None:
+            for place, bulge in zip(contour.points, (0.0, *contour.bulge.tolist()), strict=False):
+                self.feed(place[0], place[1], role, bulge)
 
     def append(self, plan: Plan, outside: float) -> None:
         """Another plan, reached outside the blank."""
@@ -129,5 +118,4 @@ class Pen:
             self.feed(stroke.z, stroke.r, stroke.role, stroke.bulge)
 
     def plan(self, name: str) -> Plan:
-        """What has been drawn."""
         return Plan(name, self.start, tuple(self.strokes))

@@ -82,10 +82,7 @@ def even_chips(total: float, passes: int) -> tuple[float, ...]:
 
 
 def methods_for(pitch: float) -> tuple[str, ...]:
-    """Which infeeds the source recommends for roughing: radial up to 2 mm of pitch, above it from a flank or alternate.
-
-    Finishing passes are radial in both.
-    """
+    """Which infeeds the source recommends for roughing a pitch; finishing passes are always radial."""
     if not pitch > 0:
         raise ValueError(f"the pitch must be greater than 0, got {pitch:g}")
     return ("radial",) if pitch <= RADIAL_UP_TO else ("flank", "alternate")

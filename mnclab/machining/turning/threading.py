@@ -32,10 +32,7 @@ def lead_along(across: float, along: float, pitch: float) -> float:
 
 
 def thread_pass(label: str, way: Sequence[Place], outside: float, pitch: float) -> Iterator[Go | Thread]:
-    """Over the begin of the way, in, along it locked to the spindle, and out to x `outside`; the pitch counts along Z.
-
-    A way of three places has a run-out at its end.
-    """
+    """In, along the way locked to the spindle, out to x `outside`; a third place is a run-out, the pitch counts along Z."""
     yield Go(label, z=way[0][1])
     yield Go(label, x=way[0][0])
     for name, ((x1, z1), (x, z)) in zip((label, f"{label}, run-out"), pairwise(way), strict=False):
@@ -44,21 +41,14 @@ def thread_pass(label: str, way: Sequence[Place], outside: float, pitch: float) 
 
 
 def thread_passes(
-    start: Place,
-    end: Place,
-    pitch: float,
-    depths: Sequence[float],
-    *,
-    taper: float = 0.0,
-    angle: float = 0.0,
+    start: Place, end: Place, pitch: float, depths: Sequence[float], *, taper: float = 0.0, angle: float = 0.0,
     run_out: float = 0.0,
-) -> Iterator[Go | Thread]:
+) -> Iterator[Go | Thread]:  # fmt: skip
     """Passes from `start` (x, z) beside the part to `end`: the crest of the thread there, and where it ends.
 
-    Each pass lies one of the `depths` (mm, radius) below the crest. `taper` is how much deeper (radius) the thread is
-    at the start. `angle` (rad) shifts the begin of a pass towards the end by depth * tan(angle), so that one flank
-    cuts. Over the last `run_out` mm the tool leaves the thread on a straight line to the x of the start, still locked
-    to the spindle. Every pass begins at the zero mark of the spindle.
+    Each lies one of the `depths` (mm, radius) below the crest. `taper`: how much deeper (radius) the thread is at the start.
+    `angle` (rad) shifts the begin of a pass towards the end by depth * tan(angle), so that one flank cuts. Over the last
+    `run_out` mm the tool leaves the thread straight to the x of the start, still locked to the spindle.
     """
     (x1, z1), (x, z) = start, end
     into, onward = math.copysign(1.0, x - x1), math.copysign(1.0, z - z1)

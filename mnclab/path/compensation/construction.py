@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import beside
 from mnclab.path import corners as joints
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.rules import Compensation
 from mnclab.path.kinds import Rule
@@ -54,10 +55,8 @@ class Construction:
 
 
 def construct(programmed: Toolpath, rules: Compensation | None, unfinished: bool = False) -> Construction:
-    """The construction for a programmed contour; without corners where nothing is compensated.
-
-    `unfinished`: the program broke off, so the end of its last compensated element is unknown.
-    """
+    """The construction for a programmed contour; without corners where nothing is compensated. `unfinished`: the
+    program broke off, so the end of its last compensated element is unknown."""
     path = joints.apply(programmed, unfinished)
     view = PlaneView(path)
     rows = np.flatnonzero(view.moves)

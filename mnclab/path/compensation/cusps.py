@@ -14,7 +14,8 @@ import numpy as np
 from mnclab.geometry.curves import Curves, foot, gap, part, share
 from mnclab.geometry.offsets import beside, meetings
 from mnclab.geometry.vectors import cross, dot
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.rules import CLEAR, TANGENT
 
 
@@ -39,9 +40,7 @@ def _rolls(el: Elements, c: Index, R: Array, s: Array) -> Mask:
 
 def rolls_through(el: Elements, c: Index, R: Array, s: Array, entry: Mask) -> Mask:
     """Whether a tool that rolls about corners c (m,) between a lead and an arc of the contour cuts into that arc.
-
-    `entry` (m,): the lead comes before the corner, else after it.
-    """
+    `entry` (m,): the lead comes before the corner, else after it."""
     return np.asarray(gap(_about(el, c, R, s), el.curves(np.where(entry, c + 1, c))) <= R - CLEAR)
 
 

@@ -10,12 +10,9 @@ from numpy.typing import NDArray
 from mnclab.geometry.curves import Curves
 from mnclab.geometry.offsets import Element, beside
 from mnclab.geometry.vectors import left
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
-Mask = NDArray[np.bool_]
 
 
 class Elements(NamedTuple):

@@ -18,13 +18,13 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mnclab.geometry.chords import Chunks, Walls, around, chunks, facing
 from mnclab.geometry.curves import Curves, distance
 from mnclab.geometry.offsets import beside
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation import neighbours
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import at_height, meet
 from mnclab.path.compensation.joining import ends, remaining
@@ -129,18 +129,16 @@ def _local(found: Equidistant) -> list[Places]:
     used_up = el.wall & (lost | ~(found.left_over > np.where(el.arc, -1e-12, -EXACT)))
     used_up[small] = False
     short, r = np.flatnonzero(used_up), el.r[small]
-    message = "the inside arc of radius {r:.4g} is not greater than the tool radius {R:.4g}"
-    result = [Places("arc", small, small, r, el.R[small] - r, r, message)]
+    text = "the inside arc of radius {r:.4g} is not greater than the tool radius {R:.4g}"
+    result = [Places("arc", small, small, r, el.R[small] - r, r, text)]
     if len(short):
         largest = narrowed(lambda at, R: _fits(el, short[at], R, found.rules), el.R[short])
         per_mm = np.where(el.arc[short], el.r[short], 1.0)
         lack = -np.nan_to_num(found.left_over[short], posinf=0.0, neginf=0.0) * per_mm
         missing = np.where(lack > EXACT, lack, el.R[short] - largest)
-        message = (
-            "the element is too short for the tool radius {R:.4g}: the offsets of its neighbours do not meet on it"
-        )
+        text = "the element is too short for the tool radius {R:.4g}: the offsets of its neighbours do not meet on it"
         hint = "take a smaller tool, or lengthen the element"
-        result.append(Places("element", short, short, el.length(short), missing, largest, message, hint))
+        result.append(Places("element", short, short, el.length(short), missing, largest, text, hint))
     return result
 
 
@@ -153,17 +151,19 @@ def _beside(found: Equidistant, contour: Index, lost: Index) -> Places:
     bad = np.flatnonzero(neighbours.clearance(el, look, el.R[look.k], rules) < room)
     bad = bad[~np.isin(look.k[bad], lost) & ~np.isin(look.wall[bad], lost)]
     look, room = look.take(bad), room[bad]
+    text = "the tool of radius {R:.4g} beside this element cuts into that of line {other}, {r:.6g} mm from its centre"
+    return Places("neighbour", look.k, look.wall, *_measured(el, look, room, rules), text)
+
+
+def _measured(el: Elements, look: neighbours.Pairs, room: Array, rules: Compensation) -> tuple[Array, Array, Array]:
+    """Of pairs that must be `room` (m,) apart the width that is there, what is missing, and the largest radius."""
     R = el.R[look.k]
-    width = R + neighbours.clearance(el, look, R, rules)
 
     def clear(which: Index, radius: Array) -> Mask:
         return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
 
-    largest = narrowed(clear, R, parts=4)
-    message = (
-        "the tool of radius {R:.4g} beside this element cuts into that of line {other}, {r:.6g} mm from its centre"
-    )
-    return Places("neighbour", look.k, look.wall, width, R - width, largest, message)
+    width = R + neighbours.clearance(el, look, R, rules)
+    return width, R - width, narrowed(clear, R, parts=4)
 
 
 def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
@@ -175,9 +175,7 @@ def _fits(el: Elements, k: Index, radius: Array, rules: Compensation) -> Mask:
 
 def narrowed(fits: Callable[[Index, Array], Mask], radius: Array, parts: int = 16) -> Array:
     """The largest radii (m,) below the given ones for which something fits, by dividing the interval again and again.
-
-    `fits(which, radius)` tells for the things `which` (n,) of the m whether they fit (n,); all fit at zero.
-    """
+    `fits(which, radius)` tells for the things `which` (n,) of the m whether they fit (n,); all fit at zero."""
     m = len(radius)
     low, high, which = np.zeros(m), radius.copy(), np.repeat(np.arange(m), parts - 1)
     steps = np.arange(1, parts) / parts
@@ -202,17 +200,16 @@ def _leads(el: Elements) -> list[Places]:
         R, width = el.R[k + step], np.hypot(*(el.end[k] - el.start[k]).T)
         bad = (width < R - EXACT) & meet(el, k, k + step)
         verb = "begins" if step > 0 else "ends"
-        message = (
+        text = (
             f"the {kind} {verb} {{r:.4g}} mm from the contour, where the tool of radius {{R:.4g}} cuts into it already"
         )
         hint = f"take a smaller tool, or let the {kind} {verb[:-1]} farther away"
         where = (k[bad], k[bad] + step, width[bad], (R - width)[bad], width[bad])
-        result.append(Places(kind, *where, message, hint))
+        result.append(Places(kind, *where, text, hint))
     return result
 
 
-def _global(found: Equidistant, contour: NDArray[np.int64]) -> list[Places]:
-    """Bottlenecks, ends and straight corners."""
+def _global(found: Equidistant, contour: Index) -> list[Places]:
     el = found.el
     k = np.flatnonzero(el.wall)
     if not len(k):
@@ -240,8 +237,8 @@ def _bottlenecks(found: Equidistant, contour: Index, k: Index, walls: Walls, coa
     bad[bad] = ~run_past(el, i[bad], j[bad])
     bad[bad] = ~given_up(found, contour, i[bad], j[bad])
     i, j, width = i[bad], j[bad], chords.length[bad]
-    message = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
-    return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, message)
+    text = "the tool of radius {R:.4g} does not fit between this element and that of line {other}: they are {r:.6g} mm apart"
+    return Places("bottleneck", i, j, width, 2 * el.R[i] - width, width / 2, text)
 
 
 def _crossed(found: Equidistant, contour: Index) -> Places:
@@ -250,10 +247,8 @@ def _crossed(found: Equidistant, contour: Index) -> Places:
     bad = ~given_up(found, contour, first, last)
     first, last = first[bad], last[bad]
     none, R = np.zeros(len(first)), found.el.R[last]
-    message = (
-        "beside this element the tool of radius {R:.4g} goes through that of line {other}, which the contour crosses"
-    )
-    return Places("bottleneck", last, first, none, R, none, message, "end the contour where it meets itself")
+    text = "beside this element the tool of radius {R:.4g} goes through that of line {other}, which the contour crosses"
+    return Places("bottleneck", last, first, none, R, none, text, "end the contour where it meets itself")
 
 
 def _tips(found: Equidistant, contour: Index) -> list[Places]:
@@ -270,8 +265,8 @@ def _tips(found: Equidistant, contour: Index) -> list[Places]:
     bad = lack > EXACT + _misfit(el)[w]
     c, w, lack = c[bad], w[bad], lack[bad]
     largest = narrowed(lambda at, R: clearance(el, c[at], w[at], R, rules) >= 0, el.R[c])
-    message = "the straight corner after this element leads the tool of radius {R:.4g} into the element of line {other}"
-    return [Places("corner", c, w, el.R[c] - lack, lack, largest, message, "take a smaller tool, or G160")]
+    text = "the straight corner after this element leads the tool of radius {R:.4g} into the element of line {other}"
+    return [Places("corner", c, w, el.R[c] - lack, lack, largest, text, "take a smaller tool, or G160")]
 
 
 def _misfit(el: Elements) -> Array:
@@ -314,8 +309,8 @@ def _ends(found: Equidistant, contour: Index, k: Index, walls: Walls, coarse: Ch
             worst = [int(np.argmin(largest))]
             width = R + clear(bad[worst], np.array([R]))
             verb = "leaves" if at_end else "arrives at"
-            message = f"where the tool of radius {{R:.4g}} {verb} the contour, the element of line {{other}} is {{r:.6g}} mm away"
-            places.append(Places("end", k[[e]], k[group[bad[worst]]], width, R - width, largest[worst], message))
+            text = f"where the tool of radius {{R:.4g}} {verb} the contour, the element of line {{other}} is {{r:.6g}} mm away"
+            places.append(Places("end", k[[e]], k[group[bad[worst]]], width, R - width, largest[worst], text))
     return places
 
 
@@ -332,23 +327,18 @@ def _rolled(found: Equidistant, contour: Index, k: Index, coarse: Chunks) -> lis
     for kind, step in (("entry", 1), ("exit", 0)):
         of = el.lead[every] == bool(step)
         at, w = every[of], wall[of]
-        own, R = at + step, el.R[at]  # the wall at the lead
+        own = at + step  # the wall at the lead
         look = neighbours.Pairs(at, np.ones(len(at), dtype=bool), w, np.full(len(at), np.inf))
         room = -CLEAR / 2 - slack[own] - slack[w]
-        bad = np.flatnonzero(neighbours.clearance(el, look, R, rules) < room)
+        bad = np.flatnonzero(neighbours.clearance(el, look, el.R[at], rules) < room)
         off = run_past(el, own[bad], w[bad]) | given_up(found, contour, own[bad], w[bad])
         bad = bad[~off | (own == w)[bad]]
         if not len(bad):
             continue
-        look, R, room = look.take(bad), R[bad], room[bad]
-        width = R + neighbours.clearance(el, look, R, rules)
-
-        def clear(which: Index, radius: Array, look: neighbours.Pairs = look, room: Array = room) -> Mask:
-            return neighbours.clearance(el, look.take(which), radius, rules) >= room[which]
-
+        look = look.take(bad)
         through = "the contour through the element of line {other}, {r:.6g} mm from its centre"
-        message = f"the tool of radius {{R:.4g}} rolls {'onto' if step else 'off'} {through}"
+        text = f"the tool of radius {{R:.4g}} rolls {'onto' if step else 'off'} {through}"
         hint = f"let the {kind} {'come from' if step else 'lead to'} the side of the tool"
-        largest = narrowed(clear, R, parts=4)
-        places.append(Places(kind, look.k + 1 - step, look.wall, width, R - width, largest, message, hint))
+        measured = _measured(el, look, room[bad], rules)
+        places.append(Places(kind, look.k + 1 - step, look.wall, *measured, text, hint))
     return places

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
 
 SAME = 1e-6  # mm
 

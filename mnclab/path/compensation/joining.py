@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from mnclab.geometry.offsets import beside, meet
 from mnclab.geometry.vectors import cross, dot
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation.cusps import in_a_cusp, inside_cusps, rolls_through
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.rules import ACUTE_TURN, CUSP, ROUND, STRAIGHT, TANGENT, Compensation
 from mnclab.path.kinds import Rule
 
@@ -91,10 +92,8 @@ def corners(el: Elements, c: Index, rules: Compensation, radius: Array | None = 
 
 
 def _meet(el: Elements, c: Index, d: Index, P: Array, R: Array, s: Array, both: Array, along: Array) -> Array:
-    """Where the offsets before and after corners P meet: between lines P + R (n1 + n2) / (1 + n1 . n2).
-
-    `both` (m, 2) is the sum of the tangents t1 and t2, `along` (m,) their product.
-    """
+    """Where the offsets before and after corners P meet: between lines P + R (n1 + n2) / (1 + n1 . n2). `both` (m, 2)
+    is the sum of the tangents t1 and t2, `along` (m,) their product."""
     with np.errstate(divide="ignore", invalid="ignore"):
         found = beside(P, both, R * s / (1 + along))
     k = np.flatnonzero(el.arc[c] | el.arc[d])

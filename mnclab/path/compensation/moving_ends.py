@@ -8,10 +8,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mnclab.path.columns import gathered
-from mnclab.path.compensation.elements import Elements, Mask
+from mnclab.path.columns import Array, Mask, gathered
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.fit import check
 from mnclab.path.compensation.rules import CORNER, SPIKE_TURN, Compensation, Report
@@ -125,7 +124,7 @@ def _tool_centre_path(path: Toolpath, view: PlaneView, found: Equidistant, marke
     return path.through(np.concatenate([path.start[:1], ends]), columns, CORNER)
 
 
-def _joined(flat: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
+def _joined(flat: Array, w: Array) -> Array:
     """Points (n, 3) from coordinates in the plane (n, 2) and along its normal (n,)."""
     points = np.empty((len(flat), 3))
     points[:, 0], points[:, 1], points[:, 2] = flat[:, 0], flat[:, 1], w

@@ -16,7 +16,8 @@ import numpy as np
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, gap, part
 from mnclab.geometry.vectors import dot
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import meet
 from mnclab.path.compensation.joining import corners, ends, remaining

@@ -14,8 +14,8 @@ import numpy as np
 
 from mnclab.geometry.curves import Curves, distance, foot, share
 from mnclab.geometry.offsets import beside
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.compensation.construction import Construction
-from mnclab.path.compensation.elements import Array, Index, Mask
 from mnclab.path.compensation.equidistant import Equidistant
 
 TIE = 1e-9  # mm: walls that are equally near vote together

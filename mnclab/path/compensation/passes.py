@@ -13,7 +13,8 @@ import numpy as np
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, crossings, distance, part, share
 from mnclab.geometry.vectors import cross, dot, left
-from mnclab.path.compensation.elements import Array, Elements, Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.heights import meet, retracted
 from mnclab.path.compensation.rules import CLEAR
@@ -40,10 +41,8 @@ def run_past(el: Elements, i: Index, j: Index) -> Mask:
 
 
 def crossed(el: Elements, contour: Index) -> tuple[Index, Index]:
-    """Walls first < last (m,) of a contour that cross as at an inside corner from the last to the first and run on.
-
-    Not on a retracted way, with a lift before it and a plunge after it: what it crosses is in the air.
-    """
+    """Walls first < last (m,) of a contour that cross as at an inside corner from the last to the first and run on. Not
+    on a retracted way, with a lift before it and a plunge after it: what it crosses is in the air."""
     k, found = np.flatnonzero(el.wall & ~retracted(el, contour)), []
     if not len(k):
         return k, k

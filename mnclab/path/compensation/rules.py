@@ -70,5 +70,4 @@ class Report:
     notices: list[PathFault] = field(default_factory=list)
 
     def remarks(self) -> list[tuple[str, int, str]]:
-        """Message, step and hint of everything."""
         return [(g.message, g.step, g.hint) for g in self.gouges] + [(n.message, n.step, n.hint) for n in self.notices]

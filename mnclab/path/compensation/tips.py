@@ -9,7 +9,8 @@ import numpy as np
 
 from mnclab.geometry.boxes import near
 from mnclab.geometry.curves import Curves, distance
-from mnclab.path.compensation.elements import Array, Elements, Index
+from mnclab.path.columns import Array, Index
+from mnclab.path.compensation.elements import Elements
 from mnclab.path.compensation.equidistant import Equidistant
 from mnclab.path.compensation.joining import corners, ends, remaining
 from mnclab.path.compensation.rules import Compensation
@@ -40,9 +41,7 @@ def near_tips(found: Equidistant, contour: Index) -> tuple[Index, Index]:
 
 def clearance(el: Elements, c: Index, w: Index, radius: Array, rules: Compensation) -> Array:
     """How far walls w (m,) stay from the tool at the tips of corners c (m,), for a radius each; mm beyond the radius.
-
-    Infinite where the corner has no tip for that radius.
-    """
+    Infinite where the corner has no tip for that radius."""
     at = corners(el, c, rules, radius)
     least = distance(at.E, el.curves(w))  # and no vertex of a wall comes near the rows that lead to the tip and on
     for k in (c, c + 1):

@@ -12,19 +12,16 @@ With the spoke q from the centre to the start, n the normal of the plane and φ 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mnclab.path.columns import COLUMNS
+from mnclab.path.columns import COLUMNS, Array, Index
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
-
-Array = NDArray[np.float64]
 
 
 class Bends:
     """The arcs of a path at `rows` (m,): vectors are (m, 3), mm."""
 
-    def __init__(self, path: Toolpath, rows: NDArray[np.integer], length: Array) -> None:
+    def __init__(self, path: Toolpath, rows: Index, length: Array) -> None:
         self.rows, self.length = rows, length
         self.start, axis, self.sweep = path.start[rows], path.axis[rows], path.sweep[rows]
         spoke = self.start - path.centre[rows]
@@ -62,7 +59,7 @@ class Bends:
         return self.radius * self.rate**2
 
 
-def divided(path: Toolpath, counts: NDArray[np.int64]) -> tuple[Toolpath, NDArray[np.int64]]:
+def divided(path: Toolpath, counts: Index) -> tuple[Toolpath, Index]:
     """The path with each row cut into `counts` (n,) equal parts, and the row (m,) of the path each part belongs to."""
     row = np.repeat(np.arange(len(path)), counts)
     k = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -80,9 +77,6 @@ def divided(path: Toolpath, counts: NDArray[np.int64]) -> tuple[Toolpath, NDArra
         bends = Bends(path, row[arcs], path.lengths[row[arcs]])
         start[arcs] = bends.place(k[arcs] / many[arcs])
         end[arcs] = np.where(last[arcs], path.end[row[arcs]], bends.place((k[arcs] + 1) / many[arcs]))
-    columns |= {
-        "sweep": columns["sweep"] / many,
-        "time": columns["time"] / many,
-        "exact": columns["exact"] & last[:, 0],
-    }
+    columns |= {name: columns[name] / many for name in ("sweep", "time")}
+    columns["exact"] = columns["exact"] & last[:, 0]
     return path.replace(**columns), row

@@ -32,14 +32,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Mask
 from mnclab.path.limits import Limits
 from mnclab.path.toolpath import Toolpath
 
 TANGENT = 5e-4  # rad
 
-Array = NDArray[np.float64]
 Columns = Sequence[Array]  # X, Y and Z
 Slack = float | Array  # how far a corner may be cut, mm; one for all, or one a corner
 Pair = tuple[Array, Array]  # of the row before the corner and the row after it
@@ -126,11 +125,9 @@ def bend_joints(before: Array, after: Array, limits: Limits, slack: Slack) -> Ar
     return np.where(size <= TANGENT * largest, np.inf, w)
 
 
-def curves(tangent: Array, length: Array, lines: NDArray[np.bool_], limits: Limits, slack: Slack) -> Array:
+def curves(tangent: Array, length: Array, lines: Mask, limits: Limits, slack: Slack) -> Array:
     """v² (n - 1,) at the corners between rows that are short lines of a curve, 0 elsewhere; for "tolerance" with jerk.
-
-    `tangent` (n, 3) and `length` (n,) of all rows; `lines` (n,) says which of them are lines.
-    """
+    `tangent` (n, 3) and `length` (n,) of all rows; `lines` (n,) says which of them are lines."""
     mean = (length[1:] + length[:-1]) / 2
     corner = lines[1:] & lines[:-1]
     turn = np.where(corner[:, None], tangent[1:] - tangent[:-1], 0.0)

@@ -14,11 +14,10 @@ row needs; the blocks are then tied together by one number each.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mnclab.path.columns import Array
 
 BLOCK = 4096  # nodes
-
-Array = NDArray[np.float64]
 
 
 def reachable(cap: Array, gain: Array) -> Array:

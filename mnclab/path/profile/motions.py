@@ -13,8 +13,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array
 from mnclab.path.cutting_speed import spindle_speed
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
@@ -26,8 +26,6 @@ from mnclab.text.records import shapes
 PIECE = 1 << 15  # rows worked on at a time
 FULL = 0.9  # of an arc's acceleration may be centripetal; the rest is left for speeding up and braking
 ARC_JERK = (0.3, 0.6)  # of the jerk: the part that turning takes at most, and that turning while braking takes
-
-Array = NDArray[np.float64]
 
 
 @dataclass
@@ -45,8 +43,7 @@ class Rows:
     j: Array
     corner: Array
 
-    def __repr__(self) -> str:
-        return shapes(self)
+    __repr__ = shapes
 
 
 def feeds(path: Toolpath, begin: int, end: int, length: Array, limits: Limits, override: float) -> Array:

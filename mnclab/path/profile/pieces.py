@@ -7,11 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.profile.lookahead import running_sum
 from mnclab.path.profile.timing import Plan
 from mnclab.text.records import shapes
-
-Array = NDArray[np.float64]
 
 
 class Pieces(NamedTuple):
@@ -22,7 +21,7 @@ class Pieces(NamedTuple):
     v: Array
     a: Array
     j: Array
-    row: NDArray[np.int64]
+    row: Index
 
     def __repr__(self) -> str:
         return shapes(self)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.listing import point
@@ -25,7 +26,6 @@ from mnclab.text.tables import html_table
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 
 #: What time goes to. "cutting" is what the programmed feed alone would take, "rapid" the axes' greatest speed;
 #: "acceleration" is all that speeding up, braking, corners and other limits of the machine add.
@@ -70,7 +70,7 @@ class Profile:
 
     def __init__(
         self, path: Toolpath, limits: Limits | None = None, *, override: float = 1.0, rapid_motion: str = "line",
-        waits: NDArray[np.bool_] | None = None, source: Any = None,
+        waits: Mask | None = None, source: Any = None,
     ) -> None:  # fmt: skip
         self.path, self.limits, self.override = path, limits or Limits(), override
         self.source = source  # the Program, for pictures that show its lines
@@ -102,8 +102,12 @@ class Profile:
     def pieces(self) -> Pieces:
         return Pieces._make(fixed(each) for each in pieces(self.plan))
 
-    t, s, v = (property(attrgetter(f"pieces.{name}")) for name in "tsv")
-    a, j, move = (property(attrgetter(f"pieces.{name}")) for name in ("a", "j", "row"))
+    t = property(attrgetter("pieces.t"))
+    s = property(attrgetter("pieces.s"))
+    v = property(attrgetter("pieces.v"))
+    a = property(attrgetter("pieces.a"))
+    j = property(attrgetter("pieces.j"))
+    move = property(attrgetter("pieces.row"))
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """The columns (m,) at the start of each piece and its row, for pandas, polars or pyarrow."""
@@ -136,7 +140,7 @@ class Profile:
             return found
         return Instant(*(each[0] if each.ndim == 2 else each[0].item() for each in found))
 
-    def _axes(self, row: NDArray[np.int64], within: Array, v: Array, a: Array, t: Array) -> tuple[Array, Array, Array]:
+    def _axes(self, row: Index, within: Array, v: Array, a: Array, t: Array) -> tuple[Array, Array, Array]:
         """Place, velocity and acceleration (k, 3) of the axes, `within` mm after the start of the row."""
         path = self.path
         length = path.lengths[row]
@@ -160,7 +164,7 @@ class Profile:
         return place, velocity, rate
 
     @cached_property
-    def _rapid_rows(self) -> NDArray[np.int64]:
+    def _rapid_rows(self) -> Index:
         rapids = self.plan.rapids
         assert rapids is not None
         return rapids.rows if self.plan.row is None else self.plan.row[rapids.rows]
@@ -177,10 +181,8 @@ class Profile:
         return self._of_rows(np.maximum(p.seconds - ideal, 0.0))
 
     def time_by(self, key: str) -> dict[Any, float]:
-        """Seconds by "line", "tool", "kind" or "cause" (`CAUSES`); the values sum to `time`.
-
-        A line of a program that was called is a pair (program, line). An Alarm for another key.
-        """
+        """Seconds by "line", "tool", "kind" or "cause" (`CAUSES`); the values sum to `time`. A line of a program that
+        was called is a pair (program, line). An Alarm for another key."""
         path, key = self.path, choice(key, "key", ("line", "tool", "kind", "cause"))
         if key == "cause":
             return self._causes()

@@ -13,9 +13,8 @@ Planning for Automatic Machines and Robots*, 3.4). Everything takes arrays (n,);
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from mnclab.path.columns import Array
 
 STEPS = 80  # of a solution; seven or so are usual
 
@@ -53,10 +52,8 @@ def gain(v: Array, length: Array, a: Array, j: Array) -> Array:
 
 
 def peak(length: Array, v0: Array, v1: Array, cap: Array, a: Array, j: Array) -> Array:
-    """By how much (n,) the greatest speed of a move is above the greater of its ends, which a ramp must be able to join.
-
-    That number, not the speed, because a ramp over a change of 1e-14 still takes 1e-9 s.
-    """
+    """By how much (n,) the greatest speed of a move is above the greater of its ends, which a ramp must be able to
+    join. That number, not the speed, because a ramp over a change of 1e-14 still takes 1e-9 s."""
     low, other = np.maximum(v0, v1), np.minimum(v0, v1)
     found = np.maximum(cap - low, 0.0)
     room = length - ramp_length(other, low, a, j)

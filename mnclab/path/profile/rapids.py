@@ -7,21 +7,19 @@ is the projection of the tool on the line from start to end, so that the pieces 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.limits import Limits
 from mnclab.path.profile import ramps
 from mnclab.path.toolpath import Toolpath
 
 SAME = 1e-12  # s
 
-Array = NDArray[np.float64]
-
 
 class Rapids:
     """The rapid rows (m,) of a path: `seconds` (m,), `top` speed (m,) and what each axis does."""
 
-    def __init__(self, path: Toolpath, rows: NDArray[np.int64], limits: Limits, motion: str) -> None:
+    def __init__(self, path: Toolpath, rows: Index, limits: Limits, motion: str) -> None:
         self.rows = rows
         self.start, self.travel = path.start[rows], path.end[rows] - path.start[rows]
         distance = np.abs(self.travel)
@@ -54,7 +52,7 @@ class Rapids:
             breaks[:, k] = np.where(breaks[:, k + 1] - breaks[:, k] < SAME, breaks[:, k + 1], breaks[:, k])
         return breaks
 
-    def state(self, which: NDArray[np.int64], t: Array) -> tuple[Array, Array, Array, Array]:
+    def state(self, which: Index, t: Array) -> tuple[Array, Array, Array, Array]:
         """Place, velocity, acceleration and jerk (q, 3) of some of the rows, `t` (q,) seconds after their start."""
         ends = np.cumsum(self.phases[which], axis=2)
         phase = (ends <= t[:, None, None]).sum(axis=2)  # 7: the axis has arrived

@@ -24,6 +24,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.profile import ramps
 from mnclab.path.profile.lookahead import reachable, running_sum
 from mnclab.path.profile.motions import Rows
@@ -32,9 +33,6 @@ SHARE = 0.5  # of a ramp from rest to the greatest speed: the least length of a 
 SHARP = 0.64  # of its neighbours: a corner with less v² gets a knot
 ROUNDS = 200
 STEPS = 60  # of Newton for the time at a place; seven or so are usual
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 
 class Groups:
@@ -66,10 +64,8 @@ class Groups:
         return up + cruise + down, up, up + cruise
 
     def items(self, row_seconds: Array, left_out: Index) -> tuple[NDArray[np.generic], ...]:
-        """Pieces: row, order, seconds, length, speed, acceleration, jerk; `left_out` rows have none.
-
-        `row_seconds` (n,) is the time of the rows, which for rows without length is not in the groups.
-        """
+        """Pieces: row, order, seconds, length, speed, acceleration, jerk; `left_out` rows have none. `row_seconds` (n,)
+        is the time of the rows, which for rows without length is not in the groups."""
         seconds, starts = self.phases()
         ends = np.cumsum(seconds, axis=1)
         begins = ends - seconds

@@ -12,8 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile.bends import divided
@@ -28,8 +28,6 @@ from mnclab.text.records import shapes
 
 SURFACE = 64  # parts of a row at constant cutting speed, in each of which the feed is constant
 
-Array = NDArray[np.float64]
-
 
 @dataclass
 class Plan:
@@ -40,21 +38,20 @@ class Plan:
     """
 
     path: Toolpath
-    row: NDArray[np.int64] | None
+    row: Index | None
     rows: Rows
     v: Array
     top: Array
     seconds: Array
     rapids: Rapids | None = None
-    ramps: NDArray[np.int64] | None = None
+    ramps: Index | None = None
     groups: Groups | None = None
 
-    def __repr__(self) -> str:
-        return shapes(self)
+    __repr__ = shapes
 
 
 def plan(
-    path: Toolpath, limits: Limits, override: float = 1.0, rapid_motion: str = "line", waits: NDArray[np.bool_] | None = None
+    path: Toolpath, limits: Limits, override: float = 1.0, rapid_motion: str = "line", waits: Mask | None = None
 ) -> Plan:  # fmt: skip
     """Plan a path under limits; `override` is the feed override, 1 for 100 %.
 
@@ -74,7 +71,9 @@ def plan(
         found = Plan(path, row, rows, v, top, seconds, groups=groups)
     else:
         found = _trapezoids(path, row, rows)
-        if (slow := _slow_arcs(found)).any():
+        slow = (path.kind == Kind.ARC) & (rows.length > 0)
+        slow[slow] = found.top[slow] < rows.feed[slow] * (1 - 1e-12)
+        if slow.any():  # arcs that do not reach their feed
             found, parts = _turned(found, slow, limits, override)
             waits = None if waits is None else waits[parts]
             path, rows = found.path, found.rows
@@ -86,7 +85,7 @@ def plan(
     return found
 
 
-def _trapezoids(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows, w: Array | None = None) -> Plan:
+def _trapezoids(path: Toolpath, row: Index | None, rows: Rows, w: Array | None = None) -> Plan:
     """Speeds at the nodes (v² may be given) and times of the rows, each up, along and down at constant acceleration."""
     n = len(path)
     gain = 2 * rows.a
@@ -111,13 +110,7 @@ def _trapezoids(path: Toolpath, row: NDArray[np.int64] | None, rows: Rows, w: Ar
     return Plan(path, row, rows, v, top, seconds)
 
 
-def _slow_arcs(found: Plan) -> NDArray[np.bool_]:
-    """Arcs (n,) that do not reach their feed."""
-    arcs = (found.path.kind == Kind.ARC) & (found.rows.length > 0)
-    return np.asarray(arcs & (found.top < found.rows.feed * (1 - 1e-12)) if arcs.any() else arcs)
-
-
-def _turned(found: Plan, slow: NDArray[np.bool_], limits: Limits, override: float) -> tuple[Plan, NDArray[np.int64]]:
+def _turned(found: Plan, slow: Mask, limits: Limits, override: float) -> tuple[Plan, Index]:
     """The plan with some arcs cut finer, and the row (m,) that each of its rows was part of."""
     counts = np.where(slow, np.maximum(np.ceil(np.abs(found.path.sweep) / PART), FEWEST), 1).astype(np.int64)
     path, part = divided(found.path, counts)
@@ -135,7 +128,7 @@ def _turned(found: Plan, slow: NDArray[np.bool_], limits: Limits, override: floa
     return again, part
 
 
-def _events(found: Plan, limits: Limits, waits: NDArray[np.bool_] | None) -> None:
+def _events(found: Plan, limits: Limits, waits: Mask | None) -> None:
     """Time for dwells, tool changes and for the spindle to reach its speed."""
     kind, seconds = found.path.kind, found.seconds
     if (turns := (found.rows.length == 0) & np.isfinite(found.path.time)).any():  # rotary axes alone

@@ -17,8 +17,8 @@ the stretch between two stops as a whole: all accelerations fall with v².
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mnclab.path.columns import Array, Index
 from mnclab.path.limits import Limits
 from mnclab.path.profile import lookahead
 from mnclab.path.profile.bends import Bends
@@ -28,9 +28,6 @@ PART, FEWEST = np.radians(4.0), 16  # of an arc
 FAR = 4  # times the v² that an axis bears without braking: there none bears any
 ROUNDS = 1000  # of going through arcs again; three or so are usual
 STEPS = 30  # of the solution for one part; three or so are usual
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 
 class Turns:

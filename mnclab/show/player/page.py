@@ -33,8 +33,6 @@ if (!window.mnclabPlayers) {
     .observe(document.body, {attributes: true, attributeFilter: ["class", "data-jp-theme-light"]});
 }
 """
-
-
 #: What a browser lets the page do: run its own script in its own style, and ask nobody for anything.
 POLICY = (
     "default-src 'none'; script-src 'sha256-{script}'; style-src 'sha256-{style}'; img-src data:; "
@@ -63,7 +61,6 @@ class Player:
 
     @property
     def name(self) -> str:
-        """What the program is called, without its folders."""
         return whole(self.run.program.title)
 
     @cached_property
@@ -91,7 +88,6 @@ class Player:
         return Path(path)
 
     def write(self, path: Path) -> None:
-        """Write the page into a file that is there."""
         path.write_text(self.page, "utf-8", newline="\n")
 
     def _repr_html_(self) -> str:
@@ -104,9 +100,8 @@ class Player:
         )
 
     def __repr__(self) -> str:
-        path = self.run.toolpath
-        moves = int(path.is_motion.sum())
-        return f"<Player of {self.name}: {several(moves, 'move')}, {self.profile.time:.1f} s; save it as .html>"
+        moves = several(int(self.run.toolpath.is_motion.sum()), "move")
+        return f"<Player of {self.name}: {moves}, {self.profile.time:.1f} s; save it as .html>"
 
 
 def player(run: Any, profile: Profile | None = None, **options: Any) -> Player:

@@ -27,7 +27,8 @@ SCALES = (1e3, 1e4, 1e6)  # parts of a millimetre
 ANGLES = 1e9  # parts of a radian
 DEGREES = 1e6  # parts of a degree, of rotary axes
 ROOM = LARGEST // 4  # of what the page holds: places are sent as differences
-SHOWN = ("feed", "per_rev", "surface", "speed_limit", "spindle_x", "spindle", "side")  # columns that the page has as logs
+#: The columns that the page has as logs.
+SHOWN = ("feed", "per_rev", "surface", "speed_limit", "spindle_x", "spindle", "side")
 SECONDS, SPEEDS = 1e6, 1e3  # parts of a second, of a millimetre in a second
 OFF = 0.02  # mm that a rapid leaves its straight line before its true course is sent
 
@@ -38,17 +39,19 @@ def payload(run: Any, profile: Profile) -> str:
     """A run with its profile as the text that `data.js` reads."""
     pack = Packer()
     path, programmed = run.toolpath, run.programmed
-    positions = _points(run.history.changed("position"))
+    moved, places = _parted(run, "position")
+    positions = np.array(places, dtype=np.float64).reshape(-1, 3)
     scale = _scale([path, programmed], positions, profile.pieces.s)
     angles, turned = _parts(ANGLES, path.sweep, programmed.sweep), np.degrees(path.rotary)
     degrees = _parts(DEGREES, turned)
-    lines, lasts = _lines(pack, run.programs)
+    lines, lasts = zip(*(_lines(pack, program) for program in run.programs))
     header = {
         "title": run.program.title,
         "control": run.control.title,
         "lathe": path.lathe,
         "alarms": [
-            alarm.as_dict() | {"text": str(alarm), "program": alarm.span.program if alarm.span else 0}
+            alarm.as_dict()
+            | {"text": str(alarm), "program": alarm.span.program if alarm.span else 0}
             | {"places": [[place.program, place.line] for place in alarm.places]}
             for alarm in map(named, run.alarms)
         ],
@@ -66,13 +69,13 @@ def payload(run: Any, profile: Profile) -> str:
         | {name: _log(pack, getattr(path, name)) for name in SHOWN}
         | {"label": _log(pack, np.array(path.labels, dtype=object)[path.label] if len(path) else [])},
         "position": {
-            "at": pack.add([step for step, _ in run.history.changed("position")]),
-            "from": _columns(pack, _whole(positions, scale) - _tips(run, scale)),
+            "at": pack.add(moved),
+            "from": _columns(pack, _whole(positions, scale) - _tips(path, moved, scale)),
         },
         "rotary": _columns(pack, _whole(turned, degrees)) if path.rotary.any() else None,
         "degrees": degrees,
         "stock": [np.round(edge, 4).tolist() for edge in run.stock.edges()] if run.stock else [],
-        "history": {name: _changes(pack, run.history.changed(name)) for name in run.history if name != "position"},
+        "history": {name: _values(pack, *_parted(run, name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
     }
     return pack.text(header)
@@ -103,8 +106,10 @@ def plain(value: Any) -> Any:
     return value if value is None or isinstance(value, str | int | float | bool) else str(value)
 
 
-def _points(changes: list[tuple[int, Any]]) -> Array:
-    return np.array([value for _, value in changes], dtype=np.float64).reshape(-1, 3)
+def _parted(run: Any, name: str) -> tuple[list[int], list[Any]]:
+    """The steps at which a value of the history changes, and what it is from there on."""
+    changes = run.history.changed(name)
+    return [step for step, _ in changes], [value for _, value in changes]
 
 
 def _scale(paths: list[Toolpath], positions: Array, ways: Array) -> float:
@@ -139,10 +144,9 @@ def _columns(pack: Packer, values: NDArray[np.int64]) -> list[int]:
 def _geometry(pack: Packer, path: Toolpath, scale: float, angles: float) -> dict[str, Any]:
     """Kinds and vertices of a path (n + 1), and centre and sweep of its arcs."""
     arc = path.kind == Kind.ARC
-    vertices = np.concatenate([path.start[:1], path.end]) if len(path) else np.zeros((1, 3))
     return {
         "kind": pack.add(path.kind),
-        "vertex": _columns(pack, _whole(vertices, scale)),
+        "vertex": _columns(pack, _whole(_vertices(path), scale)),
         "centre": _columns(pack, _whole(path.centre[arc], scale)),
         "sweep": pack.add(_whole(path.sweep[arc], angles)),
         "axis": _log(pack, path.axis[arc]),
@@ -162,41 +166,32 @@ def _log(pack: Packer, column: Any) -> dict[str, Any]:
     return _values(pack, at, column[at].tolist())
 
 
-def _changes(pack: Packer, changes: list[tuple[int, Any]]) -> dict[str, Any]:
-    return _values(pack, [step for step, _ in changes], [value for _, value in changes])
-
-
 def _values(pack: Packer, at: ArrayLike, values: list[Any]) -> dict[str, Any]:
     """Changes at some places; equal values are sent once."""
     index: dict[str, int] = {}
     kept: list[Any] = []
     of = []
     for value in map(plain, values):
-        key = repr(value)
-        if key not in index:
-            index[key] = len(kept)
+        of.append(index.setdefault(repr(value), len(kept)))
+        if of[-1] == len(kept):
             kept.append(value)
-        of.append(index[key])
     return {"at": pack.add(at), "of": pack.add(of), "values": kept}
 
 
-def _tips(run: Any, scale: float) -> NDArray[np.int64]:
+def _tips(path: Toolpath, steps: list[int], scale: float) -> NDArray[np.int64]:
     """Where the tool is when the programmed point changes (k, 3): mostly at the same distance from it."""
-    path, steps = run.toolpath, [step for step, _ in run.history.changed("position")]
-    if not len(path):
-        return np.zeros((len(steps), 3), dtype=np.int64)
-    vertices = _whole(np.concatenate([path.start[:1], path.end]), scale)
-    return vertices[np.searchsorted(path.step, steps, "right")]
+    return _whole(_vertices(path), scale)[np.searchsorted(path.step, steps, "right")]
 
 
-def _lines(pack: Packer, programs: Sequence[Program]) -> tuple[list[int], list[int]]:
-    """For each program the first and the last line of its blocks."""
-    lines, lasts = [], []
-    for program in programs:
-        first, last = (column.astype(np.int64) for column in program.lines())
-        lines.append(pack.add(first))
-        lasts.append(pack.add(last - first))
-    return lines, lasts
+def _vertices(path: Toolpath) -> Array:
+    """Where the rows of a path begin and end (n + 1, 3)."""
+    return np.concatenate([path.start[:1], path.end]) if len(path) else np.zeros((1, 3))
+
+
+def _lines(pack: Packer, program: Program) -> tuple[int, int]:
+    """The first line of each block, and how many come after it."""
+    first, last = (column.astype(np.int64) for column in program.lines())
+    return pack.add(first), pack.add(last - first)
 
 
 def _profile(pack: Packer, profile: Profile, scale: float) -> dict[str, Any]:

@@ -12,15 +12,13 @@ from numpy.typing import NDArray
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import Classes
 from mnclab.show.plot.picture import View
-from mnclab.show.plot.strokes import Strokes
+from mnclab.show.plot.strokes import Array, Strokes
 
 MANY = 300  # moves of a path beyond which arrows say nothing and are not drawn
 MOST = 16  # arrows in one view
 LONG, APART, CLEAR = 0.1, 0.4, 0.06  # of the view's greatest side: a move with an arrow, way between two, distance
 HEAD = Path([(0.55, 0.0), (-0.45, 0.4), (-0.2, 0.0), (-0.45, -0.4), (0.55, 0.0)], closed=True)
 SIZE = 8.0  # points
-
-Array = NDArray[np.float64]
 
 
 def draw(ax: Axes, view: View, drawn: Strokes, found: Classes, low: Array, high: Array) -> Array:
@@ -45,9 +43,7 @@ def places(
     xy: Array, row: NDArray[np.int64], group: NDArray[np.int16], low: Array, high: Array
 ) -> tuple[Array, Array, list[int]]:
     """Where arrows stand (n, 2), their angles (n,) rad and classes; points (m, 2) and their rows and classes (m,)."""
-    at: list[Array] = []
-    angle: list[float] = []
-    look: list[int] = []
+    found: list[tuple[Array, float, int]] = []
     size = float((high - low).max())
     limits = np.append(np.flatnonzero(np.diff(row, prepend=-1) != 0), len(row))
     moves = np.stack([limits[:-1], limits[1:]], axis=1)[row[limits[:-1]] >= 0]
@@ -64,12 +60,9 @@ def places(
             share = (way[-1] / 2 - (way[k - 1] if k else 0.0)) / (way[k] - (way[k - 1] if k else 0.0))
             middle = xy[first - 1 + k] + share * steps[k]
             inside = ((middle >= low) & (middle <= high)).all()
-            if inside and all(np.hypot(*(middle - other)) > CLEAR * size for other in at):
-                at.append(middle)
-                angle.append(float(np.arctan2(steps[k, 1], steps[k, 0])))
-                look.append(int(group[first]))
+            if inside and all(np.hypot(*(middle - other)) > CLEAR * size for other, _, _ in found):
+                found.append((middle, float(np.arctan2(steps[k, 1], steps[k, 0])), int(group[first])))
                 since = 0.0
-    if len(at) > MOST:
-        keep = np.unique(np.linspace(0, len(at) - 1, MOST).round().astype(int))
-        at, angle, look = [at[k] for k in keep], [angle[k] for k in keep], [look[k] for k in keep]
+    keep = np.unique(np.linspace(0, len(found) - 1, min(MOST, len(found))).round().astype(int))
+    at, angle, look = ([found[k][column] for k in keep] for column in range(3))
     return np.array(at).reshape(-1, 2), np.array(angle), look

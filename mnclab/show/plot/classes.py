@@ -20,7 +20,7 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.lathe import speed_at
-from mnclab.show.plot.strokes import Strokes, parted
+from mnclab.show.plot.strokes import Array, Strokes, parted
 from mnclab.text.given import choice
 
 COLOURS = ("kind", "feed", "speed", "tool", "line", "z")
@@ -29,7 +29,6 @@ LIGHTEST = 0.58  # of the map: beyond it the contrast on white falls below 3 to 
 TITLES = {"feed": "feed, mm/min", "speed": "spindle, rev/min", "tool": "tool", "line": "line", "z": "Z, mm"}
 NAMES = {"feed": "{} mm/min", "speed": "{} rev/min", "tool": "tool {}", "line": "line {}", "z": "Z {} mm"}
 
-Array = NDArray[np.float64]
 Values = NDArray[Any]
 
 
@@ -113,12 +112,12 @@ def _values(path: Toolpath, drawn: Strokes, colour: str) -> Values:
 def _divide(values: Values, colour: str) -> tuple[NDArray[np.int16], list[Line], Scale | None]:
     """The class of each value, how the classes look, and a scale if they are bins."""
     few = _few(values, TOOLS if colour == "tool" else FEW)
+    without = colours.FEED._replace(name=f"no {colour}", colour=colours.PROGRAMMED.colour)
     if few is not None:
         known = few[np.isfinite(few)]
-        names = [NAMES[colour].format(number(value)) for value in known]
-        looks = _looks(names, colour)
+        looks = _looks([number(value) for value in known], colour)
         if len(known) < len(few):
-            looks.append(colours.FEED._replace(name=f"no {colour}", colour=colours.PROGRAMMED.colour))
+            looks.append(without)
         group = np.zeros(len(values), np.int16)
         for value in known[1:]:
             group += values >= value
@@ -133,10 +132,9 @@ def _divide(values: Values, colour: str) -> tuple[NDArray[np.int16], list[Line],
     limits = np.round(limits, 9)
     single = colour in ("tool", "line") and limits[1] - limits[0] == 1
     bins = [number(a) if single else f"{number(a)} to {number(b)}" for a, b in zip(limits[:-1], limits[1:])]
-    names = [NAMES[colour].format(each) for each in bins]
-    looks = _looks(names, colour)
+    looks = _looks(bins, colour)
     shades = tuple(look.colour for look in looks)
-    looks.append(colours.FEED._replace(name=f"no {colour}", colour=colours.PROGRAMMED.colour))
+    looks.append(without)
     share = (np.where(missing, limits[0], values) - limits[0]) / (limits[1] - limits[0])
     group = np.clip(share, 0, len(shades) - 1).astype(np.int16)
     group[missing] = len(shades)
@@ -151,13 +149,13 @@ def _few(values: Values, most: int) -> Values | None:
     return found if len(found) <= most else None
 
 
-def _looks(names: list[str], colour: str) -> list[Line]:
+def _looks(values: list[str], colour: str) -> list[Line]:
     """Cuts of rising values: the greater are drawn later, but the deeper where the colour shows Z."""
-    order = range(len(names), 0, -1) if colour == "z" else range(len(names))
-    base = colours.FEED
+    count, base, name = len(values), colours.FEED, NAMES[colour]
+    order = range(count, 0, -1) if colour == "z" else range(count)
     return [
-        base._replace(name=name, colour=shade, order=base.order + 0.01 * k)
-        for name, shade, k in zip(names, ramp(len(names)), order)
+        base._replace(name=name.format(value), colour=shade, order=base.order + 0.01 * k)
+        for value, shade, k in zip(values, ramp(count), order)
     ]
 
 

@@ -1,8 +1,7 @@
 """How every line and mark looks, in one table.
 
-What differs in colour differs in form too (dashes, width, shape), so that grey print and colour-blind eyes lose
-nothing. All colours have a contrast of at least 3 to 1 on white, which is the ground of every figure, in light and dark
-notebooks.
+What differs in colour differs in form too (dashes, width, shape), for grey print and colour-blind eyes. All colours
+have a contrast of at least 3 to 1 on white, the ground of every figure, in light and dark notebooks.
 """
 
 from __future__ import annotations
@@ -24,15 +23,8 @@ class Line(NamedTuple):
     order: float
 
     def style(self) -> dict[str, Any]:
-        """Arguments for a matplotlib line."""
-        return {
-            "color": self.colour,
-            "linestyle": self.dashes,
-            "linewidth": self.width,
-            "solid_capstyle": "butt",
-            "zorder": self.order,
-            "label": self.name,
-        }
+        look = {"color": self.colour, "linestyle": self.dashes, "linewidth": self.width, "solid_capstyle": "butt"}
+        return look | {"zorder": self.order, "label": self.name}
 
 
 class Mark(NamedTuple):
@@ -46,17 +38,9 @@ class Mark(NamedTuple):
     order: float
 
     def style(self) -> dict[str, Any]:
-        """Arguments for a matplotlib line that is only marks."""
-        return {
-            "color": self.colour,
-            "linestyle": "none",
-            "marker": self.marker,
-            "markersize": self.size,
-            "markerfacecolor": self.colour if self.filled else "none",
-            "markeredgewidth": 1.4,
-            "zorder": self.order,
-            "label": self.name,
-        }
+        look = {"color": self.colour, "linestyle": "none", "marker": self.marker, "markersize": self.size}
+        look |= {"markerfacecolor": self.colour if self.filled else "none", "markeredgewidth": 1.4}
+        return look | {"zorder": self.order, "label": self.name}
 
 
 #: Rapids are thinner than cuts and lie above them: where both run on one line (pecking), both are seen.

@@ -9,36 +9,23 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from itertools import product
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from mnclab.path.compensation.construction import construct
 from mnclab.path.compensation.fit import NO_TOOL
 from mnclab.path.kinds import RULE_NAMES, Rule
 from mnclab.show.plot import colours
 from mnclab.show.plot.equidistant import CORNERS, Panel, draw, write
-from mnclab.show.plot.picture import (
-    ROW,
-    SIZE,
-    SMALL,
-    VIEWS,
-    Foot,
-    Picture,
-    View,
-    columns,
-    dress,
-    roomy,
-    write_foot,
-    write_legend,
-)
-from mnclab.show.plot.strokes import corners
-from mnclab.text.alarm import Alarm
+from mnclab.show.plot.picture import BELOW, ROW, SIZE, VIEWS, Foot, Picture, View, columns, dress, roomy, write_legend
+from mnclab.show.plot.strokes import Array, corners
+from mnclab.show.plot.trials import TITLE, grid
+from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, shown
 
 #: The kinds of places that do not fit, in few words.
@@ -53,9 +40,7 @@ GOUGES = {
     "exit": "exit cuts into line {other}",
 }
 WIDE = (12.0, 7.0)  # several pictures side by side
-TITLE, GAP, BELOW, RIGHT = 0.26, 0.5, 0.52, 0.16  # inches
-
-Array = NDArray[np.float64]
+GAP, RIGHT = 0.5, 0.16  # inches
 
 
 def compensation(
@@ -95,16 +80,8 @@ def compensation(
         _limit(ax, panels[0].view, low, high)
         ax.apply_aspect()
         write(ax, panels[0], outlines, names)
-        figure: Any = ax.get_figure(root=True)
-        return figure
+        return cast(Figure, ax.get_figure(root=True))
     return _picture(panels, discs, vectors, names, size or (WIDE if len(panels) > 1 else SIZE))
-
-
-def image(run: Any, size: tuple[float, float] = (6.4, 5.2), **options: Any) -> str:
-    """The picture as HTML with a name, for those who show pictures but do not draw."""
-    picture = compensation(run, size=size, **options)
-    assert isinstance(picture, Picture)
-    return picture.html()
 
 
 # --- the runs ---------------------------------------------------------------------------------------------------------
@@ -112,17 +89,12 @@ def image(run: Any, size: tuple[float, float] = (6.4, 5.2), **options: Any) -> s
 
 def _runs(run: Any, rules: Sequence[str] | None, radii: Sequence[float] | None) -> list[tuple[str, Any]]:
     """What is shown, and its title: the run itself, or the program run again for each rule and radius."""
-    for name, given, example in (("rules", rules, '("G160", "G161")'), ("radii", radii, "(2, 5)")):
-        if given is not None and (isinstance(given, str) or not isinstance(given, Iterable)):
-            raise Alarm(f"{name} must be a list, got {shown(given)}", hint=f"{name}={example}")
-    rules, radii = (None if given is None else [*given] for given in (rules, radii))
-    for name, given in (("rules", rules), ("radii", radii)):
-        if given is not None and not given:
-            raise Alarm(f"{name} must name one at least, got none")
-    for value in radii or ():
-        check_number(value, "a tool radius (mm)", at_least=0)
+    rules, radii = _list("rules", rules, '("G160", "G161")'), _list("radii", radii, "(2, 5)")
+    for value in radii:
+        if value is not None:
+            check_number(value, "a tool radius (mm)", at_least=0)
     found = []
-    for rule, radius in product([None] if rules is None else rules, [None] if radii is None else radii):
+    for rule, radius in product(rules, radii):
         setup = run.setup
         if rule is not None:
             setup = setup.with_settings(outside_corners=rule)
@@ -144,13 +116,22 @@ def _runs(run: Any, rules: Sequence[str] | None, radii: Sequence[float] | None) 
 def _panel(run: Any, title: str, view: str) -> Panel:
     made = construct(run.programmed, run.control.compensation, not run.ok)
     view = choice(view, "view", ("auto", *VIEWS))
-    if view != "auto":
-        return Panel(title, run, made, VIEWS[view])
-    if run.toolpath.lathe:
-        return Panel(title, run, made, VIEWS["ZX"])
-    rows = np.flatnonzero(made.compensated)
-    normal = int(np.argmax(np.abs(made.path.axis[rows[0]]))) if len(rows) else 2
-    return Panel(title, run, made, VIEWS[("YZ", "XZ", "XY")[normal]])
+    if view == "auto":
+        rows = np.flatnonzero(made.compensated)
+        normal = int(np.argmax(np.abs(made.path.axis[rows[0]]))) if len(rows) else 2
+        view = "ZX" if run.toolpath.lathe else ("YZ", "XZ", "XY")[normal]
+    return Panel(title, run, made, VIEWS[view])
+
+
+def _list(name: str, given: Any, example: str) -> list[Any]:
+    """What the program is run again with; None alone leaves it as it is."""
+    if given is None:
+        return [None]
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        raise Alarm(f"{name} must be a list, got {shown(given)}", hint=f"{name}={example}")
+    if not (found := [*given]):
+        raise Alarm(f"{name} must name one at least, got none")
+    return found
 
 
 def _box(panels: Sequence[Panel], discs: Any) -> tuple[Array, Array]:
@@ -193,24 +174,14 @@ def _picture(panels: Sequence[Panel], discs: Any, vectors: bool, names: bool, si
     above = 0.06 + ROW * math.ceil(len(words) / columns(words, width))
     total = above + bottom + lines * (TITLE + height) + (lines - 1) * GAP
     picture = Picture((width, total), _in_words(panels))
-    for k, panel in enumerate(panels):
-        row, column = divmod(k, count)
-        x = column * width / count + left
-        y = total - above - (row + 1) * (TITLE + height) - row * GAP
-        ax = picture.add_axes((x / width, y / total, box / width, height / total))
-        dress(ax, panel.view, (box, height))
+    titles, views = [panel.title for panel in panels], [panel.view for panel in panels]
+    for panel, ax in zip(panels, grid(picture, titles, views, count, left, above, GAP, (box, height))):
         _limit(ax, panel.view, low, high, (box, height))
         ax.apply_aspect()
-        if panel.title:
-            ax.set_title(panel.title, fontsize=SMALL + 1, loc="left", pad=4)
-        if column:
-            ax.set_ylabel("")
-        if k + count < len(panels):
-            ax.set_xlabel("")
         write(ax, panel, draw(ax, panel, discs, vectors), names)
     write_legend(picture, handles)
     if foot:
-        write_foot(picture, foot)
+        foot.write(picture)
     return picture
 
 
@@ -227,14 +198,11 @@ def _limit(ax: Axes, view: View, low: Array, high: Array, box: tuple[float, floa
 def _handles(panels: Sequence[Panel]) -> list[Any]:
     """What the legend names: lines in the order of the table, corners that have no line of their own, gouges."""
     shown = {line for panel in panels for line, _ in [*panel.contour, *panel.rows]}
-    for panel in panels:
-        shown |= {CORNERS[Rule(rule)] for rule in np.unique(panel.made.rule).tolist()}
+    shown |= {CORNERS[Rule(rule)] for panel in panels for rule in np.unique(panel.made.rule).tolist()}
     order = [colours.CONTOUR, *CORNERS.values(), colours.RAPID]
-    found: list[Any] = []
-    for line in dict.fromkeys(order):
-        if line in shown:
-            marker = "o" if line in (colours.INSIDE_CORNER, colours.STRAIGHT_CORNER) else None
-            found.append(Line2D([], [], **line.style(), marker=marker, markersize=3.5))
+    dotted = colours.INSIDE_CORNER, colours.STRAIGHT_CORNER
+    looks = [(line.style(), "o" if line in dotted else None) for line in dict.fromkeys(order) if line in shown]
+    found: list[Any] = [Line2D([], [], **look, marker=marker, markersize=3.5) for look, marker in looks]
     if any(panel.run.gouges for panel in panels):
         found.append(Patch(facecolor="none", edgecolor=colours.GOUGE, hatch="/////", linewidth=0.6, label="gouge"))
     return found
@@ -247,11 +215,11 @@ def _foot(panels: Sequence[Panel]) -> Foot | None:
             return Foot("no radius compensation in this program")
         stop = next((alarm for alarm in panel.run.alarms if not panel.run.ok and alarm.severity == "alarm"), None)
         if stop is not None:
-            return Foot(f"line {stop.span.line}: {stop.message}" if stop.span else stop.message, colours.GOUGE)
+            return Foot.of(stop)
         for gouge in panel.run.gouges:
             what = f"line {gouge.line}: {GOUGES[gouge.kind].format(other=gouge.other)}, {gouge.missing:.4g} mm missing"
             more = len(panel.run.gouges) - 1
-            rest = f"; {more} more {'places' if more > 1 else 'place'}" if more else ""
+            rest = f"; {several(more, 'more place')}" if more else ""
             fits = f"the largest radius is {gouge.largest:.4g} mm" if gouge.largest >= NO_TOOL else "no tool fits here"
             return Foot(f"{what}; {fits}{rest}", colours.GOUGE)
     return None
@@ -260,7 +228,7 @@ def _foot(panels: Sequence[Panel]) -> Foot | None:
 def _in_words(panels: Sequence[Panel]) -> str:
     said = []
     for panel in panels:
-        done = [Rule(rule) for rule in panel.made.rule]
+        done = panel.made.rule.tolist()
         counts = [f"{done.count(rule)} {RULE_NAMES[rule]}" for rule in Rule if rule in done]
         gouges = f"; {len(panel.run.gouges)} gouges" if panel.run.gouges else ""
         said.append(f"{panel.title}: {', '.join(counts) or 'nothing compensated'}{gouges}")

@@ -6,20 +6,21 @@ The places come out of the history of a run: its frames are put together again s
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import groupby
-from typing import Any, NamedTuple
+from itertools import groupby, product
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.text import Annotation
-from numpy.typing import NDArray
+from matplotlib.text import Annotation, Text
 
 from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Mark
 from mnclab.show.plot.picture import SMALL, View
+from mnclab.show.plot.strokes import Array
 
 ORIGINS = {"datum": "", "preset": "preset", "local": "G92", "shift": "datum shift"}  # frames that set a zero point
 NEAR = 1.5  # places that would make the box longer than this many times are not shown
@@ -27,8 +28,6 @@ MANY = 8  # places beyond which only zero points have names
 LOOKED_AT = 20_000  # strokes that a name avoids
 OFF = (8.0, 13.0)  # points from a cross to its name, tried one after the other
 SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1))
-
-Array = NDArray[np.float64]
 
 
 class Place(NamedTuple):
@@ -42,18 +41,15 @@ class Place(NamedTuple):
 def places_of(run: Any) -> list[Place]:
     """The zero points and poles of a run, in the order of the program; what lies at one place shares a cross."""
     history, path = run.history, run.toolpath
-    log = [
-        (step, name == "pole", name, value)
-        for name in history
-        if name.startswith("frame ") or name == "pole"
-        for step, value in history.changed(name)
-    ]
+    names = [name for name in history if name.startswith("frame ") or name == "pole"]
+    log = [(step, name == "pole", name, value) for name in names for step, value in history.changed(name)]
     chain = FrameChain(run.frames.slots)
     found: dict[tuple[Mark, tuple[float | None, ...]], list[str]] = {}
     nested = run.settings.get("transformation_order") == "nested"
 
     def add(mark: Mark, name: str, xyz: Array) -> None:
-        place = tuple(None if np.isnan(v) else round(v, 6) + 0.0 for v in xyz.tolist())  # nan is no key: it equals nothing
+        # nan is no key: it equals nothing
+        place = tuple(None if np.isnan(v) else round(v, 6) + 0.0 for v in xyz.tolist())
         names = found.setdefault((mark, place), [])
         if name not in names:
             names.append(name)
@@ -103,14 +99,9 @@ def _pole(path: Any, chain: FrameChain, step: int, pole: tuple[float, float]) ->
 
 def near(places: Sequence[Place], low: Array, high: Array) -> list[Place]:
     """Those places that are seen without the box `low` to `high` (3,), mm becoming much larger."""
-    size = float((high - low).max())
-    found = []
-    for place in places:
-        xyz = np.array(place.xyz)
-        span = np.fmax(high, xyz) - np.fmin(low, xyz)
-        if float(span.max()) <= NEAR * size or (span == high - low).all():
-            found.append(place)
-    return found
+    size = high - low
+    spans = [np.fmax(high, place.xyz) - np.fmin(low, place.xyz) for place in places]
+    return [p for p, span in zip(places, spans) if span.max() <= NEAR * size.max() or (span == size).all()]
 
 
 def crosses(places: Sequence[Place], view: View) -> list[Line2D]:
@@ -129,12 +120,7 @@ def crosses(places: Sequence[Place], view: View) -> list[Line2D]:
 
 
 def write_names(
-    ax: Axes,
-    view: View,
-    places: Sequence[Place],
-    occupied: Array,
-    drawn: Sequence[Array],
-    covering: int | None = None,
+    ax: Axes, view: View, places: Sequence[Place], occupied: Array, drawn: Sequence[Array], covering: float = np.inf
 ) -> list[Place]:
     """The names of the places in a view, where they cover no mark (`occupied` (n, 2), mm) and least of the lines.
 
@@ -142,42 +128,43 @@ def write_names(
     would cover more strokes than `covering`. Texts that stand there are not covered.
     """
     shown = [place for place in places if len(places) <= MANY or place.mark is colours.DATUM]
-    spots = [(p, p.mark, np.array(p.xyz)[[view.right, view.up]]) for p in shown]
-    spots = [spot for spot in spots if np.isfinite(spot[2]).all()]
+    spots = [(p, np.array(p.xyz)[[view.right, view.up]]) for p in shown]
+    spots = [(p, at) for p, at in spots if np.isfinite(at).all()]
     left: list[Place] = []
     if not spots:
         return left
-    figure: Any = ax.get_figure(root=True)
-    unit = figure.dpi / 72
+    unit = cast(Figure, ax.get_figure(root=True)).dpi / 72
     begin, end = _segments(ax, view, drawn)
-    around = 6 * unit
-    crowd = ax.transData.transform(np.concatenate([occupied, [at for _, _, at in spots]]))
-    taken = [np.array([x - around, y - around, x + around, y + around]) for x, y in crowd]
-    taken += [np.asarray(text.get_window_extent().extents) for text in ax.texts]
-    inner = np.array([ax.bbox.x0, ax.bbox.y0, ax.bbox.x1, ax.bbox.y1]) + np.array([2, 2, -2, -2]) * unit
-    for place, mark, at in spots:
+    crowd = ax.transData.transform(np.concatenate([occupied, [at for _, at in spots]]))
+    taken = [*np.hstack([crowd - 6 * unit, crowd + 6 * unit]), *map(_extent, ax.texts)]
+    inner = np.array(ax.bbox.extents) + np.array([2, 2, -2, -2]) * unit
+    for place, at in spots:
         text = ax.annotate(
             place.name, (float(at[0]), float(at[1])), (0, 0), textcoords="offset points", fontsize=SMALL,
-            color=mark.colour, zorder=4.5,
+            color=place.mark.colour, zorder=4.5,
             parse_math=False, bbox={"boxstyle": "square,pad=0.1", "fc": colours.PAPER, "ec": "none", "alpha": 0.75},
         )  # fmt: skip
         best = None
-        for off in OFF:
-            for side in SIDES:
-                _put(text, side, off)
-                box = np.asarray(text.get_window_extent().extents)
-                if (box[:2] < inner[:2]).any() or (box[2:] > inner[2:]).any() or any(_overlap(box, t) for t in taken):
-                    continue
-                covered = _crossing(box, begin, end)
-                if best is None or covered < best[0]:
-                    best = covered, side, off
-        if best is None or (covering is not None and best[0] > covering):
+        for off, side in product(OFF, SIDES):
+            _put(text, side, off)
+            box = _extent(text)
+            if (box[:2] < inner[:2]).any() or (box[2:] > inner[2:]).any() or any(_overlap(box, t) for t in taken):
+                continue
+            covered = _crossing(box, begin, end)
+            if best is None or covered < best[0]:
+                best = covered, side, off
+        if best is None or best[0] > covering:
             text.remove()
             left.append(place)
             continue
         _put(text, best[1], best[2])
-        taken.append(np.asarray(text.get_window_extent().extents))
+        taken.append(_extent(text))
     return left
+
+
+def _extent(text: Text) -> Array:
+    """The box of a text (left, bottom, right, top) in pixels."""
+    return np.asarray(text.get_window_extent().extents)
 
 
 def _put(text: Annotation, side: tuple[int, int], off: float) -> None:

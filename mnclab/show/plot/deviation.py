@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, arrange, write_legend
-from mnclab.show.plot.strokes import corners, parted, strokes
+from mnclab.show.plot.strokes import corners, line_of
 from mnclab.text.given import choice
 
 FIRST = Line("first", "#8c8c8c", "-", 3.2, 2.2)
@@ -22,12 +22,9 @@ def plot_deviation(found: Any, view: str = "auto", size: tuple[float, float] = S
     """The first path wide and grey, the second thin and blue over it; a ring and a line where they are farthest apart."""
     one, other = found.paths
     lathe = one.lathe or other.lathe
-    lines = [
-        (look._replace(name=name), _line(path))
-        for look, name, path in ((FIRST, found.names[0], one), (SECOND, found.names[1], other))
-    ]
-    box = corners([xyz for _, xyz in lines], lathe)
-    low, high = box if box is not None else (np.zeros(3), np.zeros(3))
+    looks = [look._replace(name=name) for look, name in zip((FIRST, SECOND), found.names)]
+    lines = [(look, line_of(path)) for look, path in zip(looks, found.paths)]
+    low, high = corners([xyz for _, xyz in lines], lathe) or (np.zeros(3), np.zeros(3))
     view = choice(view, "view", ("auto", *VIEWS))
     views = [VIEWS["ZX"]] if lathe else [VIEWS["XY"]] if high[2] <= low[2] else [VIEWS["XY"], VIEWS["XZ"]]
     views = views if view == "auto" else [VIEWS[view]]
@@ -46,10 +43,3 @@ def plot_deviation(found: Any, view: str = "auto", size: tuple[float, float] = S
         artists = artists or drawn
     write_legend(picture, artists)
     return picture
-
-
-def _line(path: Any) -> np.ndarray:
-    """All moves of a path as one line, broken at tool changes."""
-    drawn = strokes(path)
-    (points,) = parted(drawn.xyz, np.where(drawn.row >= 0, 0, -1), 1)
-    return points

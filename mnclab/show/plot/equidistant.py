@@ -11,7 +11,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from mnclab.path.compensation.construction import Construction
 from mnclab.path.compensation.overcut import Overcut, overcuts
@@ -21,7 +20,7 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, write_names
 from mnclab.show.plot.picture import View
-from mnclab.show.plot.strokes import parted, strokes
+from mnclab.show.plot.strokes import Array, parted, strokes
 from mnclab.text.given import check_number
 
 #: How rows look by their rule; rows along the contour are called after the corner at their end and look alike.
@@ -35,18 +34,11 @@ ROWS: dict[Rule, Line] = {
     Rule.EXIT: colours.EXIT,
     Rule.CHANGE: colours.CHANGE,
 }
-#: How corners look by their rule.
-CORNERS: dict[Rule, Line] = {
-    **ROWS,
-    Rule.OUTSIDE_STRAIGHT: colours.STRAIGHT_CORNER,
-    Rule.INSIDE: colours.INSIDE_CORNER,
-}
+CORNERS = ROWS | {Rule.OUTSIDE_STRAIGHT: colours.STRAIGHT_CORNER, Rule.INSIDE: colours.INSIDE_CORNER}
 NAMED = 8  # corners beyond which only the first of each rule has its name beside it
 MANY = 400  # offset vectors beyond which they say nothing and are not drawn
 COARSE, FINE = 90, 300  # points along the longer side of a box in which the cut-away area is looked for
 SQUARE = 0.16  # of the radius: the mark of a right angle
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -89,7 +81,6 @@ class Panel:
 
     @cached_property
     def overcuts(self) -> list[Overcut]:
-        """The contours that the tool cuts into."""
         return list(overcuts(self.made, [gouge.step for gouge in self.run.gouges]))
 
 
@@ -184,15 +175,11 @@ def _hatch(ax: Axes, panel: Panel, overcut: Overcut) -> list[Array]:
     seen = panel.flat(panel.made.view.to_space(rows, np.column_stack([flat, np.full(len(flat), overcut.height)])))
     x, y = seen[:, 0].reshape(depth.shape), seen[:, 1].reshape(depth.shape)
     area = ax.contourf(x, y, depth, levels=[0.0, np.inf], colors=[colours.GOUGE + "22"], hatches=["/////"], zorder=2.1)
-    area.set_edgecolor(colours.GOUGE)
-    area.set_linewidth(0.6)
-    area.set_label("_gouge")
+    area.set(edgecolor=colours.GOUGE, linewidth=0.6, label="_gouge")
     outlines = []
-    for path in area.get_paths():
-        for ring in map(np.asarray, path.to_polygons(closed_only=False)):
-            outline = np.zeros((len(ring), 3))
-            outline[:, [panel.view.right, panel.view.up]] = ring
-            outlines.append(outline)
+    for ring in (np.asarray(ring) for path in area.get_paths() for ring in path.to_polygons(closed_only=False)):
+        outlines.append(np.zeros((len(ring), 3)))
+        outlines[-1][:, [panel.view.right, panel.view.up]] = ring
     return outlines
 
 
@@ -208,9 +195,9 @@ def write(ax: Axes, panel: Panel, outlines: Sequence[Array], names: bool) -> Non
     lines = [xyz for _, xyz in [*panel.contour, *panel.rows]]
     lines += [_strokes(made.foot, made.tip), _squares(made, Rule.ENTRY, Rule.EXIT, Rule.CHANGE), *outlines]
     left = np.sort(k).tolist()
-    for short, covering in ((False, 0), (True, 0)):
+    for short in (False, True):
         places = [_named(made, at, short) for at in left]
-        missing = write_names(ax, panel.view, places, occupied, lines, covering)
+        missing = write_names(ax, panel.view, places, occupied, lines, 0)
         left = [at for at, place in zip(left, places) if place in missing]
 
 

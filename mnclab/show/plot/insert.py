@@ -7,6 +7,7 @@ lies the insert, a rhombus (95 and 30 degrees: one of 55). A grooving tool is a 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.patches import Patch, Polygon
@@ -39,15 +40,13 @@ def insert_patches(
     outline = insert_outline(tool, size, reach) + np.array(tip)
     middle = outline.mean(axis=0)
     if tool.width:
-        holder = np.array(
-            [outline[3], outline[2], outline[2] + (0.7 * size, 0.3 * size), outline[2] + (0.7 * size, size)]
-        )
-        holder = np.vstack([holder, outline[3] + (0.0, size)])
+        right, left = outline[2], outline[3]
+        steps = [left, right, right + (0.7 * size, 0.3 * size), right + (0.7 * size, size), left + (0.0, size)]
+        holder = np.array(steps)
     else:
         holder = middle + size * np.array([(-0.25, 0.0), (0.55, 0.0), (0.55, 1.5), (-0.25, 1.5)])
+    look: dict[str, Any] = {"linewidth": 0.9, "joinstyle": "round", "zorder": order + 0.1}
     return [
         Polygon(holder, facecolor=STEEL, edgecolor=colours.INK, linewidth=0.8, zorder=order),
-        Polygon(
-            outline, facecolor=CARBIDE, edgecolor=colours.INK, linewidth=0.9, joinstyle="round", zorder=order + 0.1
-        ),
+        Polygon(outline, facecolor=CARBIDE, edgecolor=colours.INK, **look),
     ]

@@ -25,7 +25,7 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.insert import insert_patches
 from mnclab.show.plot.picture import SMALL, Picture
 from mnclab.show.plot.strategy import area
-from mnclab.show.plot.strokes import Strokes
+from mnclab.show.plot.strokes import Array, Strokes
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.blank import Blank
 
@@ -53,8 +53,7 @@ def turned(path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], inser
             angles_of(tools.get(number, Tool()))
         except ValueError as error:
             raise Alarm(f"T{number} of the tool table: {error}") from None
-    blank = _blank(stock)
-    tip, tool = None, Tool()
+    blank, tip, tool = _blank(stock), None, Tool()
     if len(path) and insert is not False:
         row = len(path) - 1 if insert is True else range(len(path))[int(insert)]
         tip, tool = (float(path.end[row, 2]), float(path.end[row, 0])), tools.get(int(path.tool[row]), Tool())
@@ -68,9 +67,7 @@ def _blank(stock: Blank | None) -> tuple[float, float, float] | None:
     return float(low[2]), float(high[2]), float(max(abs(low[0]), abs(high[0])))
 
 
-def with_blank(
-    path: Toolpath, stock: Blank | None, low: NDArray[np.float64], high: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def with_blank(path: Toolpath, stock: Blank | None, low: Array, high: Array) -> tuple[Array, Array]:
     """The box (3,) and (3,) of a picture with the blank of a lathe in it."""
     blank = _blank(stock) if path.lathe else None
     if blank is None:
@@ -118,18 +115,11 @@ def draw_part(ax: Axes, found: Turned) -> None:
 
 def draw_insert(ax: Axes, found: Turned, size: float) -> None:
     """The insert with its tip where it stands; `size` mm is the length of its edges."""
-    if found.tip is not None:
-        for patch in insert_patches(found.tool, found.tip, size):
-            ax.add_patch(patch)
+    for patch in insert_patches(found.tool, found.tip, size) if found.tip else ():
+        ax.add_patch(patch)
 
 
-def thread_leads(path: Toolpath) -> dict[int, float]:
-    """Rows of a lathe that cut a thread, and their leads, mm: what the tool goes on in one revolution."""
-    rows = np.flatnonzero(path.synchronous & np.isin(path.kind, CUTS))
-    return {int(row): float(path.per_rev[row]) for row in rows}
-
-
-def speeds(path: Toolpath, most: float = np.inf) -> tuple[NDArray[np.float64], ...]:
+def speeds(path: Toolpath, most: float = np.inf) -> tuple[Array, ...]:
     """Way along the motion, mm, spindle speed there, rev/min, and diameter, mm: (k,) each.
 
     At constant cutting speed it follows X, up to the limit of the program; else it is the programmed one. In no case it
@@ -149,7 +139,7 @@ def speeds(path: Toolpath, most: float = np.inf) -> tuple[NDArray[np.float64], .
     return way.ravel(), np.minimum(speed, most), 2 * np.abs(x).ravel()
 
 
-def speed_at(path: Toolpath, rows: NDArray[np.intp], x: NDArray[np.float64]) -> NDArray[np.float64]:
+def speed_at(path: Toolpath, rows: NDArray[np.intp], x: Array) -> Array:
     """The spindle speed, rev/min, where the tip stands at `x` (n,) in `rows` (n,) of a path."""
     surface, told = path.surface[rows], np.abs(path.spindle[rows])
     wanted = spindle_speed(surface, x - path.spindle_x[rows], path.speed_limit[rows])
@@ -179,21 +169,21 @@ def plot_speed(path: Toolpath, most: float = np.inf, size: tuple[float, float] =
     """Spindle speed and diameter over the way of the tool; `most` is the greatest speed of the spindle, rev/min."""
     way, speed, diameter = speeds(path, most)
     picture = Picture(size, alt="spindle speed over the path")
-    finite = np.isfinite(speed)
-    for k, (values, label) in enumerate(
-        ((np.where(finite, speed, np.nan), "spindle, rev/min"), (diameter, "X (diameter), mm"))
-    ):
-        ax = picture.add_axes((0.11, (0.56, 0.12)[k], 0.86, 0.4))
-        ax.plot(way, values, color=(colours.FEED.colour, "#7d7664")[k], linewidth=1.5)
+    shown = np.where(np.isfinite(speed), speed, np.nan)
+    curves = (shown, "spindle, rev/min", colours.FEED.colour, 0.56), (diameter, "X (diameter), mm", "#7d7664", 0.12)
+    for values, label, shade, bottom in curves:
+        ax = picture.add_axes((0.11, bottom, 0.86, 0.4))
+        ax.plot(way, values, color=shade, linewidth=1.5)
         ax.set_ylabel(label, fontsize=SMALL + 1)
         ax.set_xlim(0, max(float(way[-1]), 1e-9) if len(way) else 1)
         ax.set_ylim(bottom=0)
-        ax.tick_params(labelsize=SMALL, labelbottom=bool(k))
+        ax.tick_params(labelsize=SMALL, labelbottom=values is diameter)
         ax.grid(True, color=colours.FAINT, linewidth=0.6)
-        if not k and np.isfinite(most) and (speed >= most).any():
-            ax.axhline(most, **{**colours.LIMIT.style(), "label": "_limit"})
-            ax.annotate("greatest speed", (0.01, most), (0, 2), xycoords=("axes fraction", "data"),
-                        textcoords="offset points", fontsize=SMALL, color=colours.LIMIT.colour)  # fmt: skip
-            ax.set_ylim(0, 1.18 * most)
-    picture.axes[-1].set_xlabel("path, mm", fontsize=SMALL + 1)
+    if np.isfinite(most) and (speed >= most).any():
+        above = picture.axes[0]
+        above.axhline(most, **{**colours.LIMIT.style(), "label": "_limit"})
+        above.annotate("greatest speed", (0.01, most), (0, 2), xycoords=("axes fraction", "data"),
+                       textcoords="offset points", fontsize=SMALL, color=colours.LIMIT.colour)  # fmt: skip
+        above.set_ylim(0, 1.18 * most)
+    ax.set_xlabel("path, mm", fontsize=SMALL + 1)
     return picture

@@ -1,20 +1,18 @@
 """The tool path seen from above and from the front; on a lathe Z to the right and the diameter X up.
 
-Each class of moves is *one* line, broken by nan where the class changes, so that a million moves cost about what one
-line of a million points costs. Arcs are cut finely enough for the size of the picture.
+Each class of moves is *one* line, broken by nan (see `strokes`), so that a million moves cost what a million points cost.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
@@ -26,24 +24,22 @@ from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
 from mnclab.show.plot.lathe import Turned, draw_insert, draw_part, speed_strokes, turned, with_blank
-from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, Picture, View, arrange, dress, roomy, write_legend
+from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
-from mnclab.show.plot.strokes import Strokes, corners, parted, strokes
-from mnclab.text.alarm import ALARM, Alarm
+from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
+from mnclab.text.alarm import ALARM, Alarm, several
 from mnclab.text.given import choice
 from mnclab.workpiece.blank import Blank
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
+UNSCALED = (colours.PROGRAMMED, colours.RAPID, colours.PROBING)  # look the same whatever the colour shows
 INSERT = 0.09  # edges of an insert, of the greatest side of the picture
 FAR = 5  # a box of all moves this many times that of the cuts is not shown whole
-
-Array = NDArray[np.float64]
 
 
 class Drawing(NamedTuple):
     """What is drawn of a path in every view: lines (m, 3) broken by nan, marks (m, 3), crosses with names."""
 
-    path: Toolpath
     strokes: Strokes
     classes: Classes
     lines: list[tuple[Line, Array]]
@@ -52,8 +48,8 @@ class Drawing(NamedTuple):
     plunges: dict[View, Array]
     plunge: Mark
     arrows: bool
-    stock: Blank | None = None
-    turned: Turned | None = None
+    stock: Blank | None
+    turned: Turned | None
 
 
 def plot_path(
@@ -99,10 +95,13 @@ def plot_path(
     if colour == "speed" and len(drawn.row):
         drawn = speed_strokes(path, drawn)
     found = classes(path, drawn, colour)
-    lines = _programmed(programmed) + lines_of(drawn, found)
+    lines = lines_of(drawn, found)
+    if programmed is not None and len(contour := line_of(programmed, (Kind.LINE, Kind.ARC))):
+        lines.insert(0, (colours.PROGRAMMED, contour))
     low, high, beyond = _box(path, lines, frame)
     shown = near(places, low, high) if marks else []
-    low, high = _with(shown, low, high)
+    for place in shown:
+        low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
     low, high = with_blank(path, stock, low, high)
     if path.lathe and len(path) and insert is not False and not beyond:
         room = 1.6 * INSERT * float((high - low).max())
@@ -114,19 +113,8 @@ def plot_path(
     plunges = {each: _plunges(path, each) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
     lathe = turned(path, stock, tools, insert) if path.lathe and views == [VIEWS["ZX"]] else None
-    drawing = Drawing(
-        path,
-        drawn,
-        found,
-        lines,
-        _marks(path, stop is not None),
-        shown,
-        plunges,
-        plunge,
-        arrows,
-        None if lathe else stock,
-        lathe,
-    )
+    found_marks, outline = _marks(path, stop is not None), None if lathe else stock
+    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, lathe)
     if ax is not None:
         _draw(ax, views[0], drawing)
         dress(ax, views[0])
@@ -138,9 +126,8 @@ def plot_path(
             ax.autoscale_view()
         ax.apply_aspect()
         _write(ax, views[0], drawing, low, high)
-        figure: Any = ax.get_figure(root=True)
-        return figure
-    names = [line.name for line, _ in lines] if not found.scale else [line.name for line, _ in lines if _fixed(line)]
+        return cast(Figure, ax.get_figure(root=True))
+    names = [line.name for line, _ in lines if not found.scale or line in UNSCALED]
     names += [colours.BLANK.name] if drawing.stock is not None else []
     names += [mark.name for mark, _ in drawing.marks]
     if any(map(len, drawing.plunges.values())):
@@ -178,43 +165,14 @@ def plot_run(
     return plot_path(run.toolpath, ax, view, **{**given, **options}, marks=marks)
 
 
-def image(run: Any, view: str = "auto", size: tuple[float, float] = (6.4, 4.4)) -> str:
-    """The views of a run as an HTML image with a name, for those who show pictures but do not draw."""
-    picture = plot_run(run, view=view, size=size)
-    assert isinstance(picture, Picture)
-    return picture.html()
-
-
 # --- what is drawn ---------------------------------------------------------------------------------------------------
-
-
-def _programmed(path: Toolpath | None) -> list[tuple[Line, Array]]:
-    """The cuts of the contour before compensation, if there is one."""
-    if path is None:
-        return []
-    drawn = strokes(path)
-    cut = np.isin(path.kind, (Kind.LINE, Kind.ARC))
-    group = np.where((drawn.row >= 0) & cut[drawn.row], 0, -1) if len(drawn.row) else drawn.row
-    (points,) = parted(drawn.xyz, group, 1)
-    return [(colours.PROGRAMMED, points)] if len(points) else []
-
-
-def _fixed(line: Line) -> bool:
-    """Whether a class looks the same whatever the colour shows."""
-    return line in (colours.PROGRAMMED, colours.RAPID, colours.PROBING)
 
 
 def _marks(path: Toolpath, stopped: bool) -> list[tuple[Mark, Array]]:
     """Marks and where they stand (m, 3)."""
-    found = []
-    for kind, mark in MARKS.items():
-        rows = path.kind == kind
-        if rows.any():
-            found.append((mark, path.end[rows]))
-    if len(path):
-        found.append((colours.START, path.start[:1]))
-        found.append((colours.ALARM if stopped else colours.END, path.end[-1:]))
-    return found
+    found = [(mark, path.end[path.kind == kind]) for kind, mark in MARKS.items()]
+    found += [(colours.START, path.start[:1]), (colours.ALARM if stopped else colours.END, path.end[-1:])]
+    return [(mark, places) for mark, places in found if len(places)]
 
 
 def _plunges(path: Toolpath, view: View) -> Array:
@@ -241,16 +199,9 @@ def _box(path: Toolpath, pieces: Sequence[tuple[Line, Array]], frame: str) -> tu
     return *everything, False
 
 
-def _with(places: Sequence[Place], low: Array, high: Array) -> tuple[Array, Array]:
-    """The box with the places in it."""
-    for place in places:
-        low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
-    return low, high
-
-
 def _foot(stop: Alarm | None, beyond: bool) -> Foot | None:
     if stop:
-        return Foot(f"line {stop.span.line}: {stop.message}" if stop.span else stop.message, colours.ALARM.colour)
+        return Foot.of(stop)
     return Foot('rapids from far away are cut off; frame="all" shows them') if beyond else None
 
 
@@ -300,12 +251,8 @@ def _write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> N
 
 def _in_words(path: Toolpath, low: Array, high: Array, stop: Alarm | None) -> str:
     """What a person who cannot see the picture is told."""
-    moves = int(path.is_motion.sum())
-    if not moves:
-        said = "no moves"
-    else:
-        shown = [(axis, 2 if path.lathe and axis == "X" else 1) for axis in "XYZ"]
-        ranges = [f"{axis} {f * a:.4g} to {f * b:.4g}" for (axis, f), a, b in zip(shown, low, high) if b > a]
-        said = f"{moves} moves" if moves > 1 else "1 move"
-        said += f", {', '.join(ranges)} mm" if ranges else ""
+    moves, factors = int(path.is_motion.sum()), (2 if path.lathe else 1, 1, 1)
+    said = several(moves, "move") if moves else "no moves"
+    ranges = [f"{axis} {f * a:.4g} to {f * b:.4g}" for axis, f, a, b in zip("XYZ", factors, low, high) if b > a]
+    said += f", {', '.join(ranges)} mm" if ranges and moves else ""
     return f"tool path: {said}{f'; stopped in line {stop.span.line}' if stop and stop.span else ''}"

@@ -20,11 +20,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, MaxNLocator
-from numpy.typing import NDArray
 
 from mnclab.show.plot import colours
+from mnclab.show.plot.strokes import Array
+from mnclab.text.alarm import Alarm
 
 SIZE = (7.0, 6.0)  # the greatest width and height, unless something else is said
 LEAST = (4.6, 2.4)
@@ -41,7 +41,6 @@ class View(NamedTuple):
 
     @property
     def labels(self) -> tuple[str, str]:
-        """What is written at the axes."""
         return f"{'XYZ'[self.right]}, mm", f"{'XYZ'[self.up]}{' (diameter)' if self.diameter else ''}, mm"
 
 
@@ -50,6 +49,21 @@ class Foot(NamedTuple):
 
     text: str
     colour: str = colours.INK
+
+    @classmethod
+    def of(cls, alarm: Alarm) -> Foot:
+        """The alarm that stopped a program."""
+        return cls(f"line {alarm.span.line}: {alarm.message}" if alarm.span else alarm.message, colours.ALARM.colour)
+
+    def write(self, picture: Picture) -> None:
+        """Write the line, cut where the picture ends."""
+        width, sentence = picture.get_figwidth(), self.text
+        place = 0.1 / width, 0.07 / picture.get_figheight()
+        line = picture.text(*place, sentence, fontsize=SMALL, color=self.colour, va="bottom", parse_math=False)
+        room = (width - 0.2) * picture.dpi
+        while len(sentence) > 1 and (taken := line.get_window_extent().width) > room:
+            sentence = sentence[: min(len(sentence) - 1, int(len(sentence) * room / taken))]
+            line.set_text(sentence.rstrip() + "…")
 
 
 VIEWS = {"XY": View(0, 1), "XZ": View(0, 2), "YZ": View(1, 2), "ZX": View(2, 0, diameter=True)}
@@ -70,12 +84,10 @@ class Picture(Figure):
         return data.getvalue()
 
     def html(self, scale: float = 1.0) -> str:
-        """The picture as an HTML image with its name."""
         return self._image(base64.b64encode(self.png(scale)).decode())
 
     def _image(self, data: str) -> str:
-        width = round(100 * self.get_figwidth())
-        style = f"width:{width}px;max-width:100%"
+        style = f"width:{round(100 * self.get_figwidth())}px;max-width:100%"
         return f'<img alt="{escape(self.alt)}" style="{style}" src="data:image/png;base64,{data}">'
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
@@ -100,15 +112,9 @@ def write(figure: Figure, path: Path) -> None:
 
 
 def arrange(
-    views: Sequence[View],
-    low: NDArray[np.float64],
-    high: NDArray[np.float64],
-    names: Sequence[str] = (),
-    foot: Foot | None = None,
-    alt: str = "picture",
-    size: tuple[float, float] = SIZE,
-    scale_above: bool = False,
-) -> tuple[Picture, list[Axes]]:
+    views: Sequence[View], low: Array, high: Array, names: Sequence[str], foot: Foot | None, alt: str,
+    size: tuple[float, float], scale_above: bool = False,
+) -> tuple[Picture, list[Axes]]:  # fmt: skip
     """A picture of at most `size` with one axes a view, all at one scale, around the box `low` to `high` (3,) mm.
 
     Two views stand one above the other when they share what goes to the right, or side by side, whichever is larger.
@@ -162,7 +168,7 @@ def arrange(
             ax.tick_params(labelbottom=False)
         axes.append(ax)
     if foot:
-        write_foot(picture, foot)
+        foot.write(picture)
     return picture, axes
 
 
@@ -171,7 +177,7 @@ def _decimals(span: float) -> int:
     return max(0, math.ceil(-math.log10(span / 9)))
 
 
-def roomy(low: NDArray[np.float64], high: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def roomy(low: Array, high: Array) -> tuple[Array, Array]:
     """A box with a margin around it, and no side much thinner than the others."""
     span = high - low
     largest = max(float(span.max()), 1e-3, 1e-6 * float(np.abs([low, high]).max()))
@@ -192,11 +198,15 @@ def dress(ax: Axes, view: View, box: tuple[float, float] | None = None, digits: 
         axis.set_major_formatter(FuncFormatter(_doubled if doubled else _plain))
         if length:
             axis.set_major_locator(MaxNLocator(nbins=max(1, min(9, int(length / room))), steps=[1, 2, 5, 10]))
+    calm(ax)
+
+
+def calm(ax: Axes) -> None:
+    """Small numbers, a faint grid below everything else, and a grey frame."""
     ax.tick_params(labelsize=SMALL)
     ax.set_axisbelow(True)
     ax.grid(True, color=colours.FAINT, linewidth=0.6)
-    for side in ax.spines.values():
-        side.set_color("#9a9a9a")
+    ax.spines[:].set_color("#9a9a9a")
 
 
 def _plain(value: float, _: int | None = None) -> str:
@@ -218,37 +228,12 @@ def columns(names: Sequence[str], width: float) -> int:
     return 1
 
 
-def write_legend(picture: Picture, artists: Sequence[Line2D], below: float = 0.0) -> None:
-    """The names of lines and marks in the room above the views, `below` inches from the top."""
+def write_legend(picture: Picture, artists: Sequence[Any], below: float = 0.0, sample: float = 2.6) -> None:
+    """The names of lines and marks in the room above the views, `below` inches from the top; `sample` letters of each."""
+    width, height = picture.get_size_inches()
     if artists:
-        names = [str(artist.get_label()) for artist in artists]
         picture.legend(
-            handles=list(artists),
-            loc="upper left",
-            bbox_to_anchor=(0.06 / picture.get_figwidth(), 1 - (0.03 + below) / picture.get_figheight()),
-            ncols=columns(names, picture.get_figwidth()),
-            fontsize=SMALL,
-            frameon=False,
-            borderaxespad=0,
-            borderpad=0.2,
-            handlelength=2.6,
-            columnspacing=1.2,
-        )
-
-
-def write_foot(picture: Picture, foot: Foot) -> None:
-    """One line of text below the views, cut where the picture ends."""
-    width, sentence = picture.get_figwidth(), foot.text
-    line = picture.text(
-        0.1 / width,
-        0.07 / picture.get_figheight(),
-        sentence,
-        fontsize=SMALL,
-        color=foot.colour,
-        va="bottom",
-        parse_math=False,
-    )
-    room = (width - 0.2) * picture.dpi
-    while len(sentence) > 1 and (taken := line.get_window_extent().width) > room:
-        sentence = sentence[: min(len(sentence) - 1, int(len(sentence) * room / taken))]
-        line.set_text(sentence.rstrip() + "…")
+            handles=list(artists), loc="upper left", bbox_to_anchor=(0.06 / width, 1 - (0.03 + below) / height),
+            ncols=columns([str(artist.get_label()) for artist in artists], width), fontsize=SMALL, frameon=False,
+            borderaxespad=0, borderpad=0.2, handlelength=sample, columnspacing=1.2,
+        )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,7 +18,8 @@ from mnclab.path.profile import Profile
 from mnclab.path.profile.bends import divided
 from mnclab.show.plot import colours
 from mnclab.show.plot.path import plot_path
-from mnclab.show.plot.picture import SMALL, Picture, columns
+from mnclab.show.plot.picture import SMALL, Picture, calm, write_legend
+from mnclab.show.plot.strokes import Array
 from mnclab.text.given import choice
 
 SIZE = (7.0, 6.0)  # inches
@@ -27,8 +28,7 @@ BAND, FEW = 500, 60  # steps of the band that says what holds the speed; boxes o
 MOST = 30  # lines of a program beside their bars
 RAPIDS = 3  # times the fastest cut, beyond which rapids are cut off
 PARTS = 3000  # of a path that is coloured by the speed reached
-
-Array = NDArray[np.float64]
+HIDDEN_LIMIT = colours.LIMIT.style() | {"label": "_limit"}  # not in the legend
 
 
 class Curve(NamedTuple):
@@ -59,8 +59,8 @@ def curve(profile: Profile, over: str = "path") -> Curve:
 
 def holds(profile: Profile) -> NDArray[np.int64]:
     """What holds the speed in each piece (m,): an index into `colours.HOLDS`."""
-    p, names = profile.pieces, list(colours.HOLDS)
-    at = {name: names.index(name) for name in names}
+    p = profile.pieces
+    at = {name: k for k, name in enumerate(colours.HOLDS)}
     feed, cap = (_of_pieces(profile, values) for values in (profile.plan.rows.feed, np.sqrt(profile.plan.rows.cap)))
     v, kind = p.v[:-1], profile.path.kind[p.row]
     found = np.full(len(v), at["corner"])
@@ -115,19 +115,20 @@ def plot_profile(
     """
     over = choice(over, "over", ("time", "path"))
     drawn = curve(profile, over)
-    x = drawn.t if over == "time" else drawn.s
+    x, below = (drawn.t, "time, s") if over == "time" else (drawn.s, "path, mm")
     if ax is not None:
         _feed(ax, profile, drawn, x, over, limits, whole)
-        _label(ax, over)
+        ax.set_xlabel(below, fontsize=SMALL + 1)
         if not ax.get_ylabel():
             ax.set_ylabel("feed, mm/min", fontsize=SMALL + 1)
-        figure: Any = ax.get_figure(root=True)
-        return figure
+        return cast(Figure, ax.get_figure(root=True))
     titles = ["feed, mm/min", "acceleration, mm/s²"]
     titles += ["jerk, mm/s³"] if len(profile.plan.rows.j) else []
     titles += ["axis speed, mm/min", "axis acc., mm/s²"] if axes else []
     heights = [2.2 if k == 0 else 1.35 for k in range(len(titles))]  # inches, at least
-    picture = Picture((size[0], max(size[1], 1.2 + 1.05 * sum(heights))), _in_words(profile))
+    causes = ", ".join(f"{cause} {seconds:.3g} s" for cause, seconds in profile.time_by("cause").items())
+    said = f"feed-rate profile: {profile.time:.4g} s; {causes}"
+    picture = Picture((size[0], max(size[1], 1.2 + 1.05 * sum(heights))), said)
     width, height = picture.get_size_inches()
     names = list(colours.HOLDS) if limits else []
     above = 0.3 + 0.2 * (1 + (len(names) > 0))
@@ -138,29 +139,29 @@ def plot_profile(
     rows = [picture.add_subplot(grid[0, 0])]
     rows += [picture.add_subplot(grid[k, 0], sharex=rows[0]) for k in range(1, len(titles))]
     for each, title in zip(rows, titles):
-        _dress(each, title)
+        each.set_ylabel(title, fontsize=SMALL)
+        each.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+        calm(each)
     handles = _feed(rows[0], profile, drawn, x, over, limits, whole)
-    most = _of_rows(profile, profile.plan.rows.a).copy()
-    most[profile.path.kind > Kind.PROBE] = np.nan
-    if profile.plan.rapids is not None:
-        most[profile.path.kind == Kind.RAPID] = np.nan  # its axes have their own
-    if profile.plan.ramps is not None:
-        most[profile.path.kind == Kind.ARC] = np.nan  # it changes along them
-    most = most[profile.move[drawn.piece]]
+    plan, kind = profile.plan, profile.path.kind
+    unknown = kind > Kind.PROBE
+    if plan.rapids is not None:  # their axes have their own
+        unknown |= kind == Kind.RAPID
+    if plan.ramps is not None:  # it changes along arcs
+        unknown |= kind == Kind.ARC
+    most = np.where(unknown, np.nan, _of_rows(profile, plan.rows.a))[profile.move[drawn.piece]]
     rows[1].plot(x, drawn.a, **{**colours.REACHED.style(), "label": "_a"})
-    for sign in (1, -1) if limits else ():
-        handles += rows[1].plot(
-            x, sign * most, **{**colours.LIMIT.style(), "label": "limit" if sign > 0 else "_limit"}
-        )[:sign]
+    if limits:
+        handles += rows[1].plot(x, most, **colours.LIMIT.style())
+        rows[1].plot(x, -most, **HIDDEN_LIMIT)
     if len(profile.plan.rows.j):
         rows[2].plot(x, drawn.j, **{**colours.REACHED.style(), "label": "_j"})
     if axes:
         handles += _axes(rows[-2:], profile, drawn, x, limits)
     for each in rows[:-1]:
         each.tick_params(labelbottom=False)
-        each.set_xlabel("")
-    _label(rows[-1], over)
-    _legends(picture, handles)
+    rows[-1].set_xlabel(below, fontsize=SMALL + 1)
+    write_legend(picture, handles, 0.01, 2.2)
     return picture
 
 
@@ -198,9 +199,12 @@ def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = MOST, wid
         picture = Picture((width, height), said)
         ax = picture.add_axes((room / width, 0.45 / height, 1 - (room + 0.2) / width, 1 - 0.75 / height))
     place = np.arange(len(lines))
-    looks = (("as programmed", whole - extra, 0.0, colours.USEFUL), ("lost", extra, whole - extra, colours.LOST))
-    for name, values, left, (shade, hatch) in looks:
-        ax.barh(place, values, left=left, height=0.72, color=shade, hatch=hatch, edgecolor=colours.PAPER, label=name)
+    parts = (("as programmed", whole - extra, 0.0, colours.USEFUL), ("lost", extra, whole - extra, colours.LOST))
+    bars = []
+    for name, values, left, (shade, hatch) in parts:
+        look: dict[str, Any] = {"hatch": hatch, "edgecolor": colours.PAPER, "label": name}
+        ax.barh(place, values, left=left, height=0.72, color=shade, **look)
+        bars.append(Patch(facecolor=shade, **look))
     ax.set_yticks(place, texts, fontfamily="monospace", parse_math=False)
     ax.set_ylim(len(lines) - 0.4, -0.6)
     ax.set_xlim(0, max(1.05 * float(whole.max(initial=0.0)), 1e-3))
@@ -209,10 +213,8 @@ def plot_lost(profile: Profile, ax: Axes | None = None, *, most: int = MOST, wid
     ax.set_axisbelow(True)
     ax.set_xlabel("time, s", fontsize=SMALL + 1)
     if picture is None:
-        figure: Any = ax.get_figure(root=True)
-        return figure
-    _legends(picture, [Patch(facecolor=shade, hatch=hatch, edgecolor=colours.PAPER, label=name)
-                       for name, _, _, (shade, hatch) in looks])  # fmt: skip
+        return cast(Figure, ax.get_figure(root=True))
+    write_legend(picture, bars, 0.01, 2.2)
     return picture
 
 
@@ -223,42 +225,31 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
     """Programmed and reached feed, stops, corners, and the band of what holds the speed; returns legend entries."""
     feed = _of_pieces(profile, profile.plan.rows.feed)
     known = np.isfinite(feed) & (profile.path.kind[profile.move] <= Kind.PROBE)
-    wanted = np.where(known, feed * 60, np.nan)[drawn.piece]
-    lines: list[Any] = [
-        ax.plot(x, wanted, **colours.WANTED.style())[0],
-        ax.plot(x, drawn.v * 60, **colours.REACHED.style())[0],
-    ]
-    top = 1.08 * max(float(drawn.v.max(initial=0.0)) * 60, float(np.nanmax(wanted, initial=0.0)), 1e-3)
-    if not np.isfinite(top) or top > 40 * max(float(drawn.v.max(initial=0.0)) * 60, 1e-3):
-        top = 1.08 * float(drawn.v.max(initial=0.0)) * 60  # a feed far beyond what is reached would flatten all else
-    fast, cut = (
-        float(drawn.v.max(initial=0.0)) * 60,
-        float(drawn.v[profile.path.kind[profile.move[drawn.piece]] != Kind.RAPID].max(initial=0.0)) * 60,
-    )
+    wanted, reached = np.where(known, feed * 60, np.nan)[drawn.piece], drawn.v * 60
+    lines: list[Any] = ax.plot(x, wanted, **colours.WANTED.style()) + ax.plot(x, reached, **colours.REACHED.style())
+    fast, most = float(reached.max(initial=0.0)), float(np.nanmax(wanted, initial=0.0))
+    cut = float(reached[profile.path.kind[profile.move[drawn.piece]] != Kind.RAPID].max(initial=0.0))
+    top = 1.08 * max(fast, most, 1e-3)
+    if not np.isfinite(top) or top > 40 * max(fast, 1e-3):
+        top = 1.08 * fast  # a feed far beyond what is reached would flatten all else
     if not whole and fast > RAPIDS * cut > 0:
-        top = 1.15 * min(max(cut, float(np.nanmax(wanted, initial=0.0))), RAPIDS * cut)
-        note: dict[str, Any] = {"ha": "right", "va": "top", "fontsize": SMALL - 1, "color": colours.RAPID.colour}
-        ground = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
+        top = 1.15 * min(max(cut, most), RAPIDS * cut)
         ax.text(
-            0.995,
-            0.98,
-            f"cut off: rapids reach {fast:.5g} mm/min",
-            transform=ax.transAxes,
-            bbox=ground,
-            zorder=5,
-            **note,
-        )
+            0.995, 0.98, f"cut off: rapids reach {fast:.5g} mm/min", transform=ax.transAxes, ha="right", va="top",
+            fontsize=SMALL - 1, color=colours.RAPID.colour, zorder=5,
+            bbox={"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85},
+        )  # fmt: skip
     p = profile.pieces
     at = p.t if over == "time" else p.s
     ax.set_xlim(0, max(float(at[-1]), 1e-9) if len(at) else 1.0)
     ax.set_ylim(-0.14 * top if limits else -0.03 * top, top)
     stops = at[np.flatnonzero(p.v <= 1e-9)]
     if len(stops) <= 300:
-        lines.append(ax.plot(stops, 0 * stops, **colours.STANDS.style())[0])
+        lines += ax.plot(stops, 0 * stops, **colours.STANDS.style())
     turn = np.zeros(len(p.v), dtype=bool)
     turn[1:-1] = (p.row[1:] != p.row[:-1]) & (p.v[1:-1] > 1e-9) & (p.v[1:-1] < p.v[:-2]) & (p.v[1:-1] < p.v[2:])
     if 0 < turn.sum() <= 60:
-        lines.append(ax.plot(at[turn], p.v[turn] * 60, **colours.SLOW_CORNER.style())[0])
+        lines += ax.plot(at[turn], p.v[turn] * 60, **colours.SLOW_CORNER.style())
     if not limits or not len(p.row):
         return lines
     which, edges = holds(profile), at
@@ -267,70 +258,33 @@ def _feed(ax: Axes, profile: Profile, drawn: Curve, x: Array, over: str, limits:
         middle = (edges[1:] + edges[:-1]) / 2
         which = which[np.clip(np.searchsorted(at, middle, "right") - 1, 0, len(which) - 1)]
     for k, (name, (shade, hatch)) in enumerate(colours.HOLDS.items()):
-        first = np.flatnonzero((which == k) & np.append(True, which[1:] != which[:-1]))
-        last = np.flatnonzero((which == k) & np.append(which[1:] != which[:-1], True)) + 1
+        first, last = np.flatnonzero(np.diff(which == k, prepend=False, append=False)).reshape(-1, 2).T
         if not len(first) or name == "standing":
             continue
         low, high = -0.12 * top, -0.05 * top
         boxes = [[(a, low), (b, low), (b, high), (a, high)] for a, b in zip(edges[first], edges[last])]
-        looks: dict[str, Any] = {
-            "facecolor": shade,
-            "hatch": hatch if len(boxes) < FEW else "",
-            "edgecolor": colours.PAPER,
-            "linewidth": 0.0,
-        }
-        ax.add_collection(PolyCollection(boxes, **looks, zorder=2))
-        lines.append(Patch(**looks | {"hatch": hatch}, label=f"held by {name}"))
+        looks: dict[str, Any] = {"facecolor": shade, "edgecolor": colours.PAPER, "linewidth": 0.0}
+        ax.add_collection(PolyCollection(boxes, **looks, hatch=hatch if len(boxes) < FEW else "", zorder=2))
+        lines.append(Patch(**looks, hatch=hatch, label=f"held by {name}"))
     return lines
 
 
 def _axes(rows: list[Axes], profile: Profile, drawn: Curve, x: Array, limits: bool) -> list[Line2D]:
-    """Speed and acceleration of each axis."""
     begin, end = profile.t[:-1][drawn.piece], profile.t[1:][drawn.piece]
     now = profile.at(np.clip(drawn.t, begin + 1e-9 * (end - begin), end - 1e-9 * (end - begin)))  # within the piece
+    limit = profile.limits.axes("rapid") * 60, profile.limits.axes("acceleration")
     handles = []
     for k, look in enumerate(colours.AXES):
         if not np.abs(now.velocity[:, k]).max(initial=0.0) > 1e-9:
             continue
-        handles.append(rows[0].plot(x, now.velocity[:, k] * 60, **look.style())[0])
+        handles += rows[0].plot(x, now.velocity[:, k] * 60, **look.style())
         rows[1].plot(x, now.acceleration[:, k], **{**look.style(), "label": f"_{look.name}"})
-        for row, most in zip(
-            rows if limits else [], (profile.limits.axes("rapid") * 60, profile.limits.axes("acceleration"))
-        ):
+        for row, most in zip(rows if limits else [], limit):
             low, high = row.get_ylim()
             for value in (most[k], -most[k]):
                 if low <= value <= high:
-                    row.axhline(value, **{**colours.LIMIT.style(), "label": "_limit"})
+                    row.axhline(value, **HIDDEN_LIMIT)
     return handles
-
-
-def _legends(picture: Picture, handles: list[Any]) -> None:
-    """The names of everything in the room above the pictures."""
-    names = [str(handle.get_label()) for handle in handles]
-    picture.legend(
-        handles=handles, loc="upper left", bbox_to_anchor=(0.06 / picture.get_figwidth(), 1 - 0.04 / picture.get_figheight()),
-        ncols=columns(names, float(picture.get_figwidth())), fontsize=SMALL, frameon=False, borderaxespad=0, borderpad=0.2,
-        handlelength=2.2, columnspacing=1.2,
-    )  # fmt: skip
-
-
-def _dress(ax: Axes, title: str) -> None:
-    ax.set_ylabel(title, fontsize=SMALL)
-    ax.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
-    ax.tick_params(labelsize=SMALL)
-    ax.grid(True, color=colours.FAINT, linewidth=0.6)
-    ax.set_axisbelow(True)
-    for side in ax.spines.values():
-        side.set_color("#9a9a9a")
-
-
-def _label(ax: Axes, over: str) -> None:
-    ax.set_xlabel("time, s" if over == "time" else "path, mm", fontsize=SMALL + 1)
-
-
-def _in_words(profile: Profile) -> str:
-    causes = ", ".join(f"{cause} {seconds:.3g} s" for cause, seconds in profile.time_by("cause").items())
-    return f"feed-rate profile: {profile.time:.4g} s; {causes}"
 
 
 def _text(profile: Profile, line: int) -> str:

@@ -30,11 +30,8 @@ def write(found: Any, picture: Figure, path: Path) -> None:
     data = BytesIO()
     undated = {"CreationDate": None, "Title": whole(found.title)}
     with mpl.rc_context({"pdf.fonttype": 42}), PdfPages(data, metadata=undated) as pages:
-        for lines in chunks([*front(found)]):
-            pages.savefig(_page(lines))
-        pages.savefig(picture)
-        for lines in chunks([*texts(found)]):
-            pages.savefig(_page(lines))
+        for page in (*map(_page, chunks([*front(found)])), picture, *map(_page, chunks([*texts(found)]))):
+            pages.savefig(page)
     path.write_bytes(data.getvalue())
 
 

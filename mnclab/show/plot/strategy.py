@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
@@ -24,6 +26,9 @@ from mnclab.show.plot.trials import side_by_side
 ENTRY = Mark("entry", colours.INK, "v", 5, False, 4.0)
 REST, CORNER = "#b3261e", "#8c8c8c"
 STEPS = tuple(range(0, 181, 20))  # degrees, limits of the colours
+NORM = BoundaryNorm(STEPS, len(STEPS) - 1)
+#: From pale to dark and red: the harder the tool works, the darker, in grey print too.
+MAP = ListedColormap(colormaps["inferno_r"](np.linspace(0.22, 0.92, len(STEPS) - 1)))
 CHORD = 0.02
 GAP, SCALE_ROOM, TOP = 0.55, 0.62, 0.36  # inches
 
@@ -37,7 +42,7 @@ def plot_strategies(found: Comparison | Trial, width: float = 9.0, columns: int 
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
     margin = 0.04 * float((high - low).max())
     low, high = low - margin, high + margin
-    wide, tall = (float(side) for side in high - low)
+    wide, tall = high - low
     count = columns or min(len(trials), max(1, min(3, round(2.4 / math.sqrt(wide / tall)) + (len(trials) > 4))))
     picture, axes = side_by_side(
         [trial.name for trial in trials], "XY", low, high, what="strategies", columns=count, width=width, top=TOP, gap=GAP,
@@ -45,26 +50,20 @@ def plot_strategies(found: Comparison | Trial, width: float = 9.0, columns: int 
     )  # fmt: skip
     for ax, trial in zip(axes, trials):
         draw(ax, trial)
-    total = float(picture.get_size_inches()[1])
-    _scale(picture, width, total)
-    marks: list[Any] = [Line2D([], [], **ENTRY.style())]
-    if any(trial.rest.loops for trial in trials):
-        marks.append(Patch(facecolor="none", edgecolor=REST, hatch="xxxx", label="left standing"))
-    if any(trial.corners.loops for trial in trials):
-        marks.append(Patch(facecolor="none", edgecolor=CORNER, hatch="////", label="too narrow for the tool"))
-    write_legend(picture, marks)
+    _scale(picture, *picture.get_size_inches().tolist())
+    narrow = "too narrow for the tool" if any(trial.corners.loops for trial in trials) else ""
+    write_legend(picture, [Line2D([], [], **ENTRY.style()), *hatched(trials, narrow)])
     return picture
 
 
 def draw(ax: Axes, trial: Trial) -> None:
     """One trial in its axes."""
     area(ax, trial.region, facecolor="#f4f1e8", edgecolor=colours.INK, linewidth=1.0, zorder=1.0)
-    area(ax, trial.corners, facecolor="none", edgecolor=CORNER, hatch="//////", linewidth=0.4, zorder=1.6)
-    area(ax, trial.rest, facecolor="none", edgecolor=REST, hatch="xxxxxx", linewidth=0.6, zorder=3.0)
+    hatch(ax, trial.rest, trial.corners)
     found = trial.engagement
     half = found.step[:, None] / 2 * np.stack([np.cos(found.heading), np.sin(found.heading)], axis=1)
     strokes = np.stack([found.points - 1.05 * half, found.points + 1.05 * half], axis=1)
-    lines = LineCollection(list(strokes), cmap=_colours(), norm=_norm(), linewidth=1.5, capstyle="butt", zorder=2.4)
+    lines = LineCollection(list(strokes), cmap=MAP, norm=NORM, linewidth=1.5, capstyle="butt", zorder=2.4)
     lines.set_array(np.degrees(found.angle))
     ax.add_collection(lines)
     ax.add_line(Line2D(*trial.entries.T, **ENTRY.style()))
@@ -79,22 +78,23 @@ def area(ax: Axes, region: Region, **look: Any) -> None:
     ax.add_patch(PathPatch(Path(np.vstack(rings), np.concatenate(codes).astype(np.uint8)), **look))
 
 
-def _colours() -> ListedColormap:
-    """From pale to dark and red: the harder the tool works, the darker, in grey print too."""
-    return ListedColormap(colormaps["inferno_r"](np.linspace(0.22, 0.92, len(STEPS) - 1)))
+def hatch(ax: Axes, rest: Region, beyond: Region) -> None:
+    """What a trial leaves standing, and what its tool cannot reach."""
+    area(ax, beyond, facecolor="none", edgecolor=CORNER, hatch="//////", linewidth=0.4, zorder=1.6)
+    area(ax, rest, facecolor="none", edgecolor=REST, hatch="xxxxxx", linewidth=0.6, zorder=3.0)
 
 
-def _norm() -> BoundaryNorm:
-    return BoundaryNorm(STEPS, len(STEPS) - 1)
+def hatched(trials: Sequence[Any], beyond: str) -> list[Any]:
+    """Legend entries for what is hatched; `beyond` is what the tool cannot reach, or nothing."""
+    looks = [(REST, "xxxx", "left standing")] if any(trial.rest.loops for trial in trials) else []
+    looks += [(CORNER, "////", beyond)] if beyond else []
+    return [Patch(facecolor="none", edgecolor=edge, hatch=hatch, label=label) for edge, hatch, label in looks]
 
 
 def _scale(picture: Picture, width: float, total: float) -> None:
-    """The scale of colours, once, at the bottom."""
-    from matplotlib.cm import ScalarMappable
-
     long = min(4.2, width - 1.2)
     ax = picture.add_axes(((width - long) / 2 / width, 0.36 / total, long / width, 0.11 / total))
-    bar = picture.colorbar(ScalarMappable(_norm(), _colours()), cax=ax, orientation="horizontal", ticks=STEPS)
+    bar = picture.colorbar(ScalarMappable(NORM, MAP), cax=ax, orientation="horizontal", ticks=STEPS)
     bar.ax.tick_params(labelsize=SMALL, length=2)
     bar.set_label("engagement, degrees", fontsize=SMALL, labelpad=1)
     bar.outline.set_visible(False)

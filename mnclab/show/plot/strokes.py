@@ -58,6 +58,13 @@ def parted(xyz: Array, group: NDArray[np.integer], count: int) -> list[Array]:
     return [_line(xyz, order[a:b]) for a, b in zip(bounds[:-1], bounds[1:])]
 
 
+def line_of(path: Toolpath, kinds: tuple[Kind, ...] = tuple(Kind)) -> Array:
+    """The moves of some kinds as one line (k, 3), broken by nan where others come between."""
+    drawn = strokes(path)
+    wanted = (drawn.row >= 0) & np.isin(path.kind[drawn.row], kinds)
+    return parted(drawn.xyz, np.where(wanted, 0, -1), 1)[0]
+
+
 def _line(xyz: Array, ends: NDArray[np.intp]) -> Array:
     if not len(ends):
         return np.empty((0, 3))

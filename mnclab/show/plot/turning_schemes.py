@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import cast
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch, Polygon
+from matplotlib.patches import Polygon
 
 from mnclab.comparison.turning_schemes import TurningComparison, TurningTrial
 from mnclab.machining.turning.clearance import OUT
@@ -19,7 +19,7 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Line
 from mnclab.show.plot.insert import insert_outline, insert_patches
 from mnclab.show.plot.picture import SMALL, Picture, write_legend
-from mnclab.show.plot.strategy import CORNER, REST, area
+from mnclab.show.plot.strategy import hatch, hatched
 from mnclab.show.plot.trials import side_by_side
 
 LOOKS = {
@@ -45,18 +45,14 @@ def plot_schemes(found: TurningComparison | TurningTrial, width: float = 9.0, co
     low, high = _box(trials)
     count = columns or min(len(trials), 3 if len(trials) > 4 or len(trials) == 3 else 2)
     names = [trial.name for trial in trials]
-    picture, axes = side_by_side(
-        names, "ZX", low, high, what="roughing schemes", columns=count, width=width, top=TOP, gap=GAP, bottom=BOTTOM
-    )
+    room = {"width": width, "top": TOP, "gap": GAP, "bottom": BOTTOM}
+    picture, axes = side_by_side(names, "ZX", low, high, what="roughing schemes", columns=count, **room)
     for ax, trial in zip(axes, trials):
         draw(ax, trial)
     roles = [role for role in LOOKS if any(s.role == role for trial in trials for s in trial.plan.strokes)]
-    marks: list[Any] = [Line2D([], [], **LOOKS[role].style()) for role in roles]
-    if any(trial.rest.loops for trial in trials):
-        marks.append(Patch(facecolor="none", edgecolor=REST, hatch="xxxx", label="left standing"))
-    if any(trial.unreachable.loops for trial in trials):
-        marks.append(Patch(facecolor="none", edgecolor=CORNER, hatch="////", label="out of the tool's reach"))
-    write_legend(picture, marks)
+    marks = [Line2D([], [], **LOOKS[role].style()) for role in roles]
+    unreached = any(trial.unreachable.loops for trial in trials)
+    write_legend(picture, marks + hatched(trials, "out of the tool's reach" if unreached else ""))
     return picture
 
 
@@ -64,9 +60,8 @@ def _box(trials: Sequence[TurningTrial]) -> tuple[np.ndarray, np.ndarray]:
     """The corners (z, r) of what is shown of every trial: material and strokes."""
     every = np.vstack([_places(trial) for trial in trials])
     size = INSERT * float(np.ptp(every[:, 0]))
-    every = np.vstack(
-        [every, *(stand.tip + insert_outline(stand.tool, size, stand.reach) for stand in map(_stand, trials) if stand)]
-    )
+    stands = [stand for trial in trials for stand in _stand(trial)]
+    every = np.vstack([every, *(tip + insert_outline(tool, size, reach) for tool, tip, reach in stands)])
     low, high = every.min(axis=0), every.max(axis=0)
     margin = 0.05 * float((high - low).max())
     return np.array([low[0] - margin, max(low[1] - 3 * margin, 0.0)]), high + margin
@@ -80,13 +75,12 @@ def draw(ax: Axes, trial: TurningTrial) -> None:
     ax.add_patch(Polygon(blank, facecolor=MATERIAL, edgecolor="#b8b09a", linewidth=0.8, zorder=1.0))
     part = np.vstack([points, [(left, 0), (right, 0)]])
     ax.add_patch(Polygon(part, facecolor="#d9d5c8", edgecolor=colours.INK, linewidth=1.0, zorder=1.2))
-    area(ax, trial.unreachable, facecolor="none", edgecolor=CORNER, hatch="//////", linewidth=0.4, zorder=1.6)
-    area(ax, trial.rest, facecolor="none", edgecolor=REST, hatch="xxxxxx", linewidth=0.6, zorder=3.0)
+    hatch(ax, trial.rest, trial.unreachable)
     for stroke, way in trial.plan.ways:
         ax.add_line(Line2D(*way.points_within(CHORD).T, **{**LOOKS[stroke.role].style(), "label": f"_{stroke.role}"}))
-    if stand := _stand(trial):
-        size = INSERT * float(np.ptp([z for z, _ in _places(trial)]))
-        for patch in insert_patches(stand.tool, stand.tip, size, stand.reach, 2.0):  # below the strokes
+    size = INSERT * float(np.ptp([z for z, _ in _places(trial)]))
+    for tool, tip, reach in _stand(trial):
+        for patch in insert_patches(tool, tip, size, reach, 2.0):  # below the strokes
             ax.add_patch(patch)
 
 
@@ -96,20 +90,10 @@ def _places(trial: TurningTrial) -> list[tuple[float, float]]:
     return [*ends, trial.plan.start, *((s.z, s.r) for s in trial.plan.strokes)]
 
 
-class _Stand(NamedTuple):
-    """Where the tip of a tool stands, and how long a blade is there so that its holder stays outside the blank."""
-
-    tool: Tool
-    tip: tuple[float, float]
-    reach: float
-
-
-def _stand(trial: TurningTrial) -> _Stand | None:
-    """The tool at the end of the last cut."""
+def _stand(trial: TurningTrial) -> list[tuple[Tool, tuple[float, float], float]]:
+    """The tool of the last cut, its tip at the end, and how long a blade is so that its holder stays outside the blank."""
     cuts = [s for s in trial.plan.strokes if s.role != RAPID]
-    if not cuts:
-        return None
-    return _Stand(trial.tools[cuts[-1].tool - 1], (cuts[-1].z, cuts[-1].r), trial.blank + OUT - cuts[-1].r)
+    return [(trial.tools[s.tool - 1], (s.z, s.r), trial.blank + OUT - s.r) for s in cuts[-1:]]
 
 
 def plot_thread(
@@ -128,8 +112,7 @@ def plot_thread(
         picture = Picture(size, alt=f"thread in {len(depths)} passes")
         ax = picture.add_axes((0.16, 0.52 / size[1], 0.8, 1 - 0.86 / size[1]))
     else:
-        figure: Any = ax.get_figure(root=True)
-        picture = figure
+        picture = cast(Picture, ax.get_figure(root=True))
     x = np.linspace(-reach, reach, 1201)
     gone = np.zeros_like(x)
     for k, (depth, place) in enumerate(zip(depths, positions, strict=True)):
@@ -142,9 +125,7 @@ def plot_thread(
         gone = gap
     ax.fill_between(x, -depths[-1] * 1.22, -gone, color="#d9d5c8", linewidth=0, zorder=1)
     ax.plot(x, -gone, color=colours.INK, linewidth=1.1, zorder=3)
-    ax.set_aspect("equal")
-    ax.set_xlim(-reach, reach)
-    ax.set_ylim(-1.22 * depths[-1], 0.08 * depths[-1])
+    ax.set(aspect="equal", xlim=(-reach, reach), ylim=(-1.22 * depths[-1], 0.08 * depths[-1]))
     ax.set_xlabel("along the feed, mm", fontsize=SMALL + 1)
     ax.set_ylabel("depth, mm", fontsize=SMALL + 1)
     ax.tick_params(labelsize=SMALL)
@@ -161,9 +142,8 @@ def plot_threads(infeeds: dict[str, Sequence[float]], depths: Sequence[float], p
     height = box * 1.3 * depths[-1] / (2 * reach)
     picture = Picture((width, height + 0.9), alt="infeeds of a thread: " + ", ".join(infeeds))
     for k, (name, positions) in enumerate(infeeds.items()):
-        ax = picture.add_axes(
-            ((k * width / count + 0.6) / width, 0.52 / (height + 0.9), box / width, height / (height + 0.9))
-        )
+        left = k * width / count + 0.6
+        ax = picture.add_axes((left / width, 0.52 / (height + 0.9), box / width, height / (height + 0.9)))
         plot_thread(depths, positions, profile, ax, name, reach)
         if k:
             ax.set_ylabel("")

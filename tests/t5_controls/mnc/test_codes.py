@@ -83,6 +83,10 @@ def test_an_unknown_code_gets_the_one_that_is_a_slip_away(wrong, near):
         assert slips_between(wrong.replace("-", "").partition(".")[0], code) <= 1
 
 
+def test_codes_that_are_equally_near_are_named_in_the_order_of_help():
+    assert mnclab.run("G180\n", "mnc").alarms[0].hint == "near: G18, G10, G160"
+
+
 @pytest.mark.parametrize(
     ("wrong", "column", "hint"),
     [

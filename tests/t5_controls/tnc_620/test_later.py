@@ -10,7 +10,7 @@ import pytest
 
 import mnclab as mnc
 from mnclab.controls.tnc_620 import CONTROL, later
-from mnclab.controls.tnc_620.later_parameters import PARAMETERS
+from mnclab.controls.tnc_620.later import PARAMETERS
 
 CATALOGUE = Path(__file__).parents[2] / "authorities" / "catalogue"
 TABLE = json.loads((CATALOGUE / "parameters-tnc-620.json").read_text(encoding="utf-8"))

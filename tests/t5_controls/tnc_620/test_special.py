@@ -14,7 +14,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mnclab as mnc
-from mnclab.controls.tnc_620.cycles.special import hobbing_tolerance, toroid_rotary_tolerance
 
 EXAMPLES = json.loads(
     (Path(__file__).parents[2] / "authorities/catalogue/tnc620-special.json").read_text(encoding="utf-8")
@@ -103,12 +102,6 @@ def test_the_tolerance_of_a_part_of_the_path() -> None:
 def test_the_tolerance_in_inches() -> None:
     path = mnc.run("0 BEGIN PGM A INCH\nCYCL DEF 32.0 T\nCYCL DEF 32.1 T0.01\nL X+1 F10\n", "tnc-620").toolpath
     assert path.tolerance[-1] == pytest.approx(0.254)
-
-
-def test_formulas_of_the_tolerance() -> None:
-    hobbing, toroid = (example("32", k)["check"] for k in (1, 2))
-    assert hobbing_tolerance(hobbing["L"], hobbing["TA"]) == pytest.approx(hobbing["T"])
-    assert toroid_rotary_tolerance(toroid["R"], toroid["T32"]) == pytest.approx(toroid["Tw"], abs=6e-5)
 
 
 def test_the_load() -> None:

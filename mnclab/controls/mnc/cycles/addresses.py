@@ -12,6 +12,8 @@ from typing import Any
 
 from mnclab.machine.cycle import param
 
+ONE_PASS = {"default": None, "default_means": "one pass"}
+
 
 def kind(unit: str = "mm", **alike: Any) -> Callable[..., Any]:
     """Declares addresses of one kind by their letter, meaning and example; more may be said of each."""
@@ -22,10 +24,12 @@ def kind(unit: str = "mm", **alike: Any) -> Callable[..., Any]:
     return declare
 
 
+length = kind(incremental=True)
 distance = kind(above=0, incremental=True)
 allowance = kind(default=0, at_least=0, incremental=True)
 side = kind(at_least=0, incremental=True)  # of a figure
 coordinate = kind(note="absolute")  # under G90 and G91 (MNC-MILL-ABS)
+count = kind("count", type="integer", at_least=0)
 speed = kind("rev/min", default=None)
 dwell = kind("s", default=0, at_least=0)
 own_feed = kind("mm/min", above=0)

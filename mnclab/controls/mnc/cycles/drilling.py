@@ -17,8 +17,9 @@ from mnclab.machining.steps import Go, Say, Step, Wait, Write
 CYCLES = CycleTable()
 
 TO: dict[float, str] = {0: "to the depth H", 1: "to the diameter D"}
+EVERY = "0: the tool is withdrawn after every infeed"
 ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: "stopped (M5)"}
-ONE_PASS = {"default": None, "default_means": "one pass"}
+AS_F = {"default": None, "default_means": "F"}
 NO_LIMIT = {"default": None, "default_means": "no limit", "note": "needed where K is greater than 0"}
 TURNING = {3: 1, 4: -1, 5: 0}
 
@@ -29,7 +30,7 @@ class Drilling(PreparedCycle):
 
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
-    infeed: float | None = addresses.distance("P", "depth of each infeed", 5, **ONE_PASS)
+    infeed: float | None = addresses.distance("P", "depth of each infeed", 5, **addresses.ONE_PASS)
     surface: float = addresses.surface()
     feed: float | None = addresses.feed("plunging feed")
     dwell_top: float = addresses.dwell_top()
@@ -55,7 +56,7 @@ class UniversalDrilling(PreparedCycle):
 
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
-    infeed: float | None = addresses.distance("P", "depth of the first infeed", 6, **ONE_PASS)
+    infeed: float | None = addresses.distance("P", "depth of the first infeed", 6, **addresses.ONE_PASS)
     surface: float = addresses.surface()
     min_infeed: float | None = addresses.distance("M", "least infeed", 2, **NO_LIMIT)
     feed: float | None = addresses.feed("drilling feed")
@@ -63,13 +64,8 @@ class UniversalDrilling(PreparedCycle):
     dwell_top: float = addresses.dwell_top()
     dwell_bottom: float = addresses.dwell_bottom()
     decrement: float = addresses.allowance("K", "amount by which P shrinks after each infeed", 3)
-    chip_breaks: float = param(
-        "L", "chip breaks before each withdrawal", "count", default=0, at_least=0, type="integer", example=1,
-        note="0: the tool is withdrawn after every infeed",
-    )  # fmt: skip
-    break_retract: float = param(
-        "I", "distance back to break the chip", default=0.1, at_least=0.1, incremental=True, example=0.5
-    )
+    chip_breaks: float = addresses.count("L", "chip breaks before each withdrawal", 1, default=0, note=EVERY)
+    break_retract: float = addresses.length("I", "distance back to break the chip", 0.5, default=0.1, at_least=0.1)
 
     @classmethod
     def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
@@ -155,9 +151,7 @@ class GunDrilling(PreparedCycle):
     feed: float | None = addresses.feed("drilling feed")
     retract_feed: float | None = addresses.other_feed("E", "feed out of the hole", 1000)
     dwell_bottom: float = addresses.dwell_bottom()
-    positioning_feed: float | None = param(
-        "V", "feed to the deepened start point", "mm/min", default=None, default_means="F", above=0, example=750
-    )
+    positioning_feed: float | None = addresses.own_feed("V", "feed to the deepened start point", 750, **AS_F)
     start_depth: float = addresses.allowance("W", "depth of the start point below the surface", 5)
     spindle_direction: float = addresses.choice("M", "spindle when entering and leaving", ENTRY, 4, default=3)
     entry_speed: float | None = addresses.speed(

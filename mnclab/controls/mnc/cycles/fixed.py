@@ -1,8 +1,4 @@
-"""Fixed cycles (MNC, 9.1 to 9.3): G83, G84 and G85 run at each following position, until G80.
-
-The hole lies along Z whatever the plane. z_init is the level where the tool stood at the first call, z_R level R, z_b the
-bottom.
-"""
+"""Fixed cycles (MNC, 9.1 to 9.3): G83, G84, G85 run at each position until G80; holes lie along Z whatever the plane."""
 
 from __future__ import annotations
 
@@ -10,11 +6,11 @@ from collections.abc import Iterator
 from functools import partial
 from typing import Any, ClassVar
 
+from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.word_address import holes
-from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS, depth_scale
-from mnclab.machining.depths import infeeds
 from mnclab.machining.holes.drilling import drill, ream
 from mnclab.machining.holes.tapping import tap
 from mnclab.machining.steps import Step
@@ -40,7 +36,7 @@ dwell = partial(param, "P", "dwell at the bottom", "s", default=0, at_least=0, e
 class FixedCycle(holes.AtHole, Cycle):
     """A cycle at a hole whose levels may be increments."""
 
-    peck_depth: float | None = None
+    pecks = "peck_depth"
 
     @classmethod
     def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
@@ -73,13 +69,6 @@ class FixedCycle(holes.AtHole, Cycle):
         holes.take_feed(m, values, given)
         return values
 
-    def contradictions(self) -> Iterator[tuple[str, str]]:
-        yield from super().contradictions()
-        yield from too_many("peck_depth", self.levels)
-
-    def levels(self) -> tuple[float, ...]:
-        return infeeds(self.r_level, self.bottom, self.peck_depth)
-
 
 @CYCLES("G83", "Deep-hole drilling", runs="position", source="MNC 9.1", triggers=POSITION)
 class DeepHoleDrilling(FixedCycle):
@@ -92,9 +81,7 @@ class DeepHoleDrilling(FixedCycle):
     bottom: float = holes.bottom(instead="depth_from_r")
     depth_from_r: float | None = depth_from_r()
     r_level: float = holes.r_level()
-    peck_depth: float | None = param(
-        "K", "depth of one peck", default=None, default_means="one pass", above=0, incremental=True, example=5
-    )
+    peck_depth: float | None = addresses.distance("K", "depth of one peck", 5, **addresses.ONE_PASS)
     dwell: float = dwell()
     feed: float | None = holes.feed()
 

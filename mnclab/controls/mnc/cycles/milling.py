@@ -1,7 +1,6 @@
 """What the milling cycles share (MNC, chapter 10), and facing: G320 and G321.
 
-They run at once, in the block that they stand in. z0 is the level where the tool stands then, R the effective tool radius.
-Coordinates are absolute under G90 and G91 (MNC-MILL-ABS); no parameter is kept for a later block.
+They run at once, in the block that they stand in; coordinates are absolute under G90 and G91 (MNC-MILL-ABS).
 """
 
 from __future__ import annotations
@@ -11,7 +10,7 @@ from typing import ClassVar
 
 from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.word_address.holes import out_of_place
-from mnclab.machine.cycle import Cycle, CycleTable, few_passes, param, too_many
+from mnclab.machine.cycle import Cycle, CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, remark
 from mnclab.machining.depths import MOST
@@ -54,9 +53,7 @@ class LineMilling(MillingCycle):
     level: float = addresses.coordinate("Z", "height of the milled surface", -1)
     length_x: float = addresses.side("A", "length along X", 60)
     length_y: float = addresses.side("B", "length along Y", 40)
-    passes: float = param(
-        "K", "number of lines", "count", type="integer", at_least=0, example=6, note="0 mills nothing"
-    )
+    passes: float = addresses.count("K", "number of lines", 6, note="0 mills nothing")
     plunge_feed: float = addresses.own_feed("V", "feed down to the height", 150)
     feed: float | None = addresses.feed("milling feed", example=500)
     stepover_feed: float | None = addresses.other_feed("T", "feed to the next line", 250)
@@ -88,8 +85,7 @@ class LineMilling(MillingCycle):
     def moves(self, m: Machine) -> Iterator[Step]:
         """Steps 1 to 7 of the manual; the tool stays at the clearance level."""
         radius, above = m.radius, self.level + self.clearance
-        for sentence in self.remarks(radius):
-            yield Say(sentence + remark(m))
+        yield from (Say(sentence + remark(m)) for sentence in self.remarks(radius))
         if not self.passes:
             return
         passes = lines(self.across(radius), self.start_x - radius, self.start_x + self.length_x + radius, radius)

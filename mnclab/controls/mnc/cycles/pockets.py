@@ -1,7 +1,7 @@
 """Pockets (MNC, 10.3 and 10.4): G343 rectangular and G344 circular, about the place where the tool stands.
 
-R_t is the effective tool radius, z0 the level of the tool when the block is reached. The parts are the same for both:
-roughing in layers, the walls if U is given, the floor if W is given; each cycle says only its shape.
+The parts are the same for both: roughing in layers, the walls if U is given, the floor if W is given; each cycle says
+only its shape.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ SCOPE: dict[float, str] = {0: "roughing and finishing", 1: "roughing only", 2: "
 MODE: dict[float, str] = {1: "climb, counter-clockwise", -1: "conventional, clockwise", 0: "climb"}
 STRAIGHT_OR_HELIX: dict[float, str] = {0: "vertical", 1: "helical"}
 PLUNGE = STRAIGHT_OR_HELIX | {2: "reciprocating"}
+LEAST = "at least the tool radius is taken"
 ENTRIES = ("vertical", "helix", "ramp")
 
 scope = partial(addresses.choice, "M", "scope of work", SCOPE, 0, default=0)
@@ -133,9 +134,7 @@ class RectangularPocket(MillingCycle):
     scope: float = scope()
     length_x: float = addresses.side("A", "pocket length along X", 60)
     length_y: float = addresses.side("B", "pocket length along Y", 40)
-    corner_radius: float = param(
-        "R", "corner radius", default=0, at_least=0, example=8, note="at least the tool radius is taken"
-    )
+    corner_radius: float = param("R", "corner radius", default=0, at_least=0, example=8, note=LEAST)
     rotation: float = addresses.angle("E", "angle of the pocket", 15)
     surface: float = addresses.surface()
     depth: float = depth()

@@ -1,24 +1,27 @@
-"""Cycles prepared by a block of their own and called by M99 (MNC, 9.4 to 9.12): the call, and what they share.
+"""Cycles prepared by a block of their own and called by M99 (MNC, 9.4 to 9.12): the call, what they share, and tapping.
 
-z0 is the level where the tool stands at the call, z_s the surface, z_q = z_s + Q the clearance level, z_b the bottom. Every
-cycle ends at z_end = max(z0, z_q).
+Every cycle ends where it began, or at the clearance level, Q above the surface, where that is higher.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import Any, ClassVar
 
+from mnclab.controls.mnc.cycles import addresses
 from mnclab.controls.word_address.motion import first_word
 from mnclab.controls.word_address.state import memory
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.cycle import Cycle
+from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
+from mnclab.machine.true_size import TAPS
 from mnclab.machining.holes.drilling import back_to_axis
-from mnclab.machining.steps import Go, Step
+from mnclab.machining.holes.tapping import tap
+from mnclab.machining.steps import Go, Say, Step, Write
 from mnclab.running.performing import run_cycle
 
 FUNCTIONS = FunctionTable()
+CYCLES = CycleTable()
 SPINDLE = {1: "M3", -1: "M4", 0: "M5"}
 START = "to the start point"
 
@@ -47,7 +50,6 @@ class PreparedCycle(Cycle):
 
     @property
     def level(self) -> float:
-        """z_q, the clearance level."""
         return self.surface + self.clearance
 
 
@@ -62,3 +64,40 @@ def called(m: Machine, level: float, work: Iterable[Step], *, shifted: bool = Fa
 def kept(m: Machine) -> dict[str, Any]:
     """What earlier calls of the prepared cycle have left for the next one."""
     return m.cycle.extra if m.cycle else {}
+
+
+@CYCLES("G309", "Tapping with controlled spindle", runs="call", source="MNC 9.12")
+class RigidTapping(PreparedCycle):
+    """Taps in one pass with the spindle locked to the feed; the spindle stands still afterwards.
+
+    The note of the chapter wants it switched on with M3 or M4 before the next machining. A further call turns it all the
+    same, for a cycle that takes its sense from P and reverses it must turn it itself, but a warning cites the note.
+    """
+
+    does: ClassVar[str] = TAPS
+
+    clearance: float = addresses.clearance()
+    depth: float = addresses.depth(meaning="depth of the thread from the surface")
+    pitch: float = param("P", "pitch", "mm/rev", note="positive right-hand, negative left-hand", example=1.25)
+    surface: float = addresses.surface()
+
+    def contradictions(self) -> Iterator[tuple[str, str]]:
+        if self.pitch == 0:
+            yield "pitch", "must not be 0"
+
+    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+        if not m.speed:
+            yield "", "needs a spindle speed: write S before"
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        """Steps 1 to 4 of the manual: the sign of the pitch is the hand, whatever way the spindle turned before."""
+        stopped = kept(m).get("stopped")
+        if stopped == "now" and not m.turning:
+            wanted = "the manual wants M3 or M4 before the next machining (9.12, note 3)"
+            yield Say("turns the spindle itself: the spindle stands since the thread before", wanted)
+            yield Write("kept", "told", "stopped")
+        sense = 1 if self.pitch > 0 else -1
+        work = tap([self.surface + self.depth], above=self.level, pitch=abs(self.pitch), sense=sense, end=0)
+        yield from called(m, self.level, work)
+        if not stopped:
+            yield Write("kept", "now", "stopped")

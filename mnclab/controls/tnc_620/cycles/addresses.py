@@ -32,7 +32,6 @@ MEANDER: dict[float, str] = {0: "meander, stepover outside the surface", 1: "mea
 PLUNGE: dict[float, str] = {0: "vertical", 1: "helical", 2: "reciprocating"}
 
 # --- kinds: address, meaning, and what differs -----------------------------------------------------------------------
-
 coordinate = partial(param, unit="mm", modal=True, at_least=-FAR, at_most=FAR)  # or a length with a sign
 increment = partial(coordinate, incremental=True)
 length = partial(param, unit="mm", modal=True, at_least=0, at_most=FAR)
@@ -51,14 +50,12 @@ def choice(address: str | tuple[str, ...], meaning: str, choices: dict[float, st
 
 
 # --- surface and planes ----------------------------------------------------------------------------------------------
-
 surface = partial(coordinate, "Q203", "coordinate of the workpiece surface", example=0)
 clearance = partial(distance, "Q200", "set-up clearance", example=2)
 second_clearance = partial(distance, "Q204", "second set-up clearance", note="if greater than Q200", example=20)
 side_clearance = partial(distance, "Q357", meaning="clearance to the side", example=2)
 
 # --- depths ----------------------------------------------------------------------------------------------------------
-
 DOWN = "from the surface; negative is down"
 depth = partial(increment, "Q201", "depth", note=DOWN, example=-20)
 start_depth = partial(
@@ -67,7 +64,6 @@ start_depth = partial(
 reference = partial(choice, "Q395", "depth reference", TIP, default=0, example=0)
 
 # --- infeeds of a hole -----------------------------------------------------------------------------------------------
-
 infeed = partial(distance, "Q202", "infeed depth", note="0: in one pass", example=5)
 decrement = partial(distance, "Q212", "decrement of the infeed", example=1)
 min_infeed = partial(distance, "Q205", "least infeed", note="where Q212 is not 0", example=3)
@@ -86,7 +82,6 @@ def disengage(shift: bool = False) -> Any:
 
 
 # --- feeds -----------------------------------------------------------------------------------------------------------
-
 plunge_feed = partial(feed, "Q206", "feed rate for plunging", also=("FAUTO", "FU"), example=150)
 milling_feed = partial(feed, "Q207", "feed rate for milling", also=PLANE, example=500)
 finishing_feed = partial(feed, "Q385", "finishing feed rate", also=PLANE)
@@ -95,7 +90,6 @@ positioning_feed = partial(feed, "Q253", "feed rate for pre-positioning", also=P
 feed_reference = partial(choice, "Q439", "feed rate reference", EDGE, default=0, example=0)
 
 # --- pockets, slots, studs and faces ---------------------------------------------------------------------------------
-
 operation = partial(choice, "Q215", "machining operation", OPERATION, example=0)
 climb = partial(choice, "Q351", "climb or conventional milling", CLIMB, example=1)
 layer = partial(infeed, note="greater than 0; at most the length of the edges, LCUTS")  # of roughing, never 0
@@ -113,7 +107,6 @@ overlap = partial(
 plunging = partial(choice, "Q366", "plunging strategy", predef=True, example=1)
 
 # --- threads ---------------------------------------------------------------------------------------------------------
-
 pitch = partial(
     param, "Q239", "thread pitch", "mm/rev", at_least=-99.9999, at_most=99.9999, modal=True,
     note="+ right-hand, - left-hand", example=1.5,

@@ -68,7 +68,6 @@ class BackBoring(Hole):
     """
 
     does = SHIFTS
-
     clearance: float = addresses.clearance()
     counterbore_depth: float = increment(
         "Q249", "depth of the counterbore", note="from the lower surface; positive is up", example=5
@@ -118,7 +117,6 @@ class BoreMilling(Hole):
     """
 
     does = MILLS
-
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
     feed: float = addresses.plunge_feed(also=("FAUTO", "FU", "FZ"))

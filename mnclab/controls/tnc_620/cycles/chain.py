@@ -10,6 +10,7 @@ the machine, see `to_rotary`.
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Mapping
+from typing import Any, TypeAlias
 
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.frames import Matrix
@@ -23,8 +24,11 @@ TILT = "tilt"
 TILTED = " (tilted)"
 ALSO = " (before)"  # what outlived its tilt, beside one of its kind
 
+Values: TypeAlias = dict[str, Any]  # of `Cycle.prepare`, by name of the parameter, as the words are
+Given: TypeAlias = Mapping[str, Word]
 
-def absolute(m: Machine, code: str, given: Mapping[str, Word]) -> None:
+
+def absolute(m: Machine, code: str, given: Given) -> None:
     """An alarm at the first word that is incremental."""
     for word in given.values():
         if word.incremental:

@@ -11,7 +11,9 @@ from typing import Any, NamedTuple
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, count, distance, increment, length, ratio
+from mnclab.controls.tnc_620.cycles.faults import Fault, with_radius
 from mnclab.controls.tnc_620.cycles.holes import rate
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
@@ -27,7 +29,6 @@ from mnclab.path.outline import outline
 from mnclab.running.binding import unit_of
 
 CYCLES = CycleTable()
-FEEDS = ("FAUTO", "FU", "FZ")
 STRATEGIES: dict[float, str] = {0: "along the contour at depth", 1: "retract between the areas"}
 MOST_LABELS = 12
 
@@ -48,7 +49,7 @@ class ContourGeometry(Cycle):
         "LBL", "label numbers of the contour", at_most=65535, several=True, note="1/2/3, up to 12", example=1
     )
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if len(self.labels) > MOST_LABELS:
             yield "labels", f"must be at most {MOST_LABELS} labels, got {len(self.labels)}"
         for number in self.labels:
@@ -74,7 +75,7 @@ class ContourData(Cycle):
     corner: float = length("Q8", "radius at inside corners", example=0.5)
     sense: float = choice("Q9", "direction of machining", {-1: "up-cut milling", 1: "climb milling"})
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if abs(self.depth) < self.floor_allowance:
             yield "depth", f"must be at least Q4 = {self.floor_allowance:g} deep, got {self.depth:g}"
         if self.height < self.surface + self.clearance:
@@ -145,17 +146,17 @@ class RoughOut(Cycle):
     """Clears the contour level by level, each from the inside outward, islands first; a mirror image keeps its climb (8.3)."""
 
     does = MILLS
-
+    about = in_program_coordinates
     infeed: float = increment("Q10", "infeed per cut", example=5)
-    plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=FEEDS, at_most=FAR, example=150)
-    feed: float = addresses.feed("Q12", "feed rate for roughing", also=FEEDS, at_most=FAR, example=500)
+    plunge_feed: float = addresses.feed("Q11", "feed rate for plunging", also=addresses.PLANE, at_most=FAR, example=150)
+    feed: float = addresses.feed("Q12", "feed rate for roughing", also=addresses.PLANE, at_most=FAR, example=500)
     coarse_tool: float = count(("Q18", "QS18"), "coarse roughing tool", type="text", default=0)
-    swing_feed: float = addresses.feed("Q19", "feed rate for reciprocation", also=FEEDS, at_most=FAR, example=0)
+    swing_feed: float = addresses.feed("Q19", "feed rate for reciprocation", also=addresses.PLANE, at_most=FAR, example=0)
     retract_feed: float | str = addresses.retract_feed(at_most=None, default=INF, default_means="FMAX", note="", example=None)
     factor: float = ratio("Q401", "feed rate factor at full engagement", at_most=100, default=100)
     fine_strategy: float = choice("Q404", "fine roughing strategy", STRATEGIES, default=0)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if memory(m).contour_labels is None:
             yield "", "needs a contour: CYCL DEF 14 comes before it"
         if memory(m).contour_data is None:
@@ -172,11 +173,7 @@ class RoughOut(Cycle):
             yield "swing_feed", "needs the plunge angle (ANGLE) of the tool in its table"
         if self.swing_feed and m.tool.plunge_angle != 90:
             yield "swing_feed", "other than 0, a helical or reciprocating plunge, is not built yet"
-        if m.radius <= 0:
-            yield "", f"needs a tool with a radius, got {m.radius:g}"
-
-    def about(self, m: Machine) -> tuple[float, float]:
-        return 0.0, 0.0
+        yield from with_radius(m)
 
     def moves(self, m: Machine) -> Iterator[Step]:
         data = contour_data(m)

@@ -6,7 +6,7 @@ values are no Q parameters of the program: GLOBAL DEF 100 with Q200=3 leaves Q20
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from typing import ClassVar
 
 from mnclab.controls.tnc_620.cycles import addresses
@@ -22,17 +22,11 @@ CLIMB: dict[float, str] = {1: "climb", -1: "conventional"}
 MEASURING: dict[float, str] = {0: "at the measuring height", 1: "at the clearance height"}
 HEIGHTS: dict[float, str] = {0: "where the tool stood at the call", 1: "the second set-up clearance"}
 
-DRILLING = frozenset(f"CYCL DEF {n}" for n in (*range(200, 210), 240, 241, *range(262, 268)))
-FIXED = frozenset(f"CYCL DEF {n}" for n in range(200, 300))
-MILLING = frozenset(f"CYCL DEF {n}" for n in range(251, 259))
-CONTOURS = frozenset(f"CYCL DEF {n}" for n in range(20, 26))
-PROBING = frozenset(f"TCH PROBE {n}" for n in range(400, 500))
-
 
 class Defaults(Cycle):
-    """Values for the cycles that `serves` names; they hold until they are defined again or the program ends."""
+    """Values for the cycles with the numbers `serves`; they hold until they are defined again or the program ends."""
 
-    serves: ClassVar[frozenset[str]] = frozenset()
+    serves: ClassVar[Container[int]] = ()
     in_variables: ClassVar[bool] = False
 
     def moves(self, m: Machine) -> Iterator[Step]:
@@ -46,8 +40,7 @@ class Defaults(Cycle):
 class General(Defaults):
     """Clearances and feeds for the cycles 2xx."""
 
-    serves = FIXED
-
+    serves = range(200, 300)
     clearance: float = addresses.clearance()
     second_clearance: float = addresses.second_clearance()
     positioning_feed: float | str = addresses.feed("Q253", "feed rate for positioning", also=POSITIONING, example=750)
@@ -58,8 +51,7 @@ class General(Defaults):
 class Drilling(Defaults):
     """Chip breaking and dwells for drilling, tapping and thread milling."""
 
-    serves = DRILLING
-
+    serves = (*range(200, 210), 240, 241, *range(262, 268))
     break_retract: float = distance("Q256", "retraction for chip breaking", example=0.2)
     dwell_bottom: float = addresses.dwell_bottom()
     dwell_top: float = seconds("Q210", "dwell at the set-up clearance", example=0)
@@ -69,8 +61,7 @@ class Drilling(Defaults):
 class PocketMilling(Defaults):
     """How pockets, slots and studs are milled."""
 
-    serves = MILLING
-
+    serves = range(251, 259)
     overlap: float = ratio("Q370", "path overlap factor", at_most=1.9999, example=1)
     climb: float = choice("Q351", "sense of milling", CLIMB)
     plunging_type: float = choice("Q366", "plunging strategy", addresses.PLUNGE)
@@ -80,8 +71,7 @@ class PocketMilling(Defaults):
 class ContourMilling(Defaults):
     """How the contours of the SL cycles are milled."""
 
-    serves = CONTOURS
-
+    serves = range(20, 26)
     clearance: float = distance("Q6", "set-up clearance", example=2)
     height: float = coordinate("Q7", "clearance height", example=50)
     overlap: float = ratio("Q2", "path overlap factor", at_most=1.9999, example=1)
@@ -92,8 +82,7 @@ class ContourMilling(Defaults):
 class Probing(Defaults):
     """Clearances of the touch probe for the cycles 4xx."""
 
-    serves = PROBING
-
+    serves = range(400, 500)
     clearance: float = distance("Q320", "set-up clearance", example=2)
     height: float = coordinate("Q260", "clearance height", example=20)
     move_to_clearance_height: float = choice("Q301", "height between measuring points", MEASURING)
@@ -112,7 +101,7 @@ def predefined(m: Machine, code: str, parameter: Parameter, word: Word) -> float
     """What PREDEF stands for in a cycle: the value of the GLOBAL DEF executed last."""
     named = f"{code} {parameter.address} ({parameter.meaning})"
     source = next((c for c in CYCLES.values() if parameter.address in {p.address for p in c.parameters()}), None)
-    offered = source is not None and issubclass(source, Defaults) and code in source.serves
+    offered = source is not None and issubclass(source, Defaults) and int(code.split()[-1]) in source.serves
     if source is None or not (parameter.predef or offered):
         m.alarm(f"{named} has no default: PREDEF is not allowed", word, hint="write its value")
     if parameter.address not in memory(m).defaults:

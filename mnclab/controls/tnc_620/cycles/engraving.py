@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from mnclab.controls.tnc_620 import engraved_text
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, ratio
+from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, not_zero
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
 from mnclab.machine.cycle import CycleTable, param
 from mnclab.machine.machine import Machine
@@ -40,7 +41,6 @@ class Engraving(AtSurface):
     """
 
     does = MILLS
-
     text: str | TextFormula = param(("Q500", "QS500"), "text", "text", modal=True, type="text")
     character_height: float = addresses.length("Q513", "character height", note="0: as the length Q574 asks", example=10)
     spacing_factor: float = ratio(
@@ -59,19 +59,17 @@ class Engraving(AtSurface):
     text_position: float = choice("Q367", "text position", REFERENCES, default=0, example=1)
     maximum_text_length: float = addresses.length("Q574", "greatest text length", default=0, note="0: no limit")
 
-    def contradictions(self) -> Iterator[tuple[str, str]]:
+    def contradictions(self) -> Iterator[Fault]:
         if self.text_layout and not self.arc_radius:
             yield "arc_radius", "must be greater than 0 for a text on an arc, got 0"
         if not self.character_height and not self.maximum_text_length:
             yield "character_height", "and Q574 are both 0: one of them says how large the text is"
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if not isinstance(self.text, str | TextFormula):
             yield "text", "must be a text in quotes or a QS parameter"
             return
-        for name in ("feed", "plunge_feed"):
-            if getattr(self, name) == 0:
-                yield name, "must be greater than 0, got 0"
+        yield from not_zero(self, "feed", "plunge_feed")
         try:
             found = self.tokens(m)
             height = self.height(found)
@@ -80,7 +78,7 @@ class Engraving(AtSurface):
             yield "text", str(error)
             return
         long, most = length(cells(found, self.spacing_factor)) * height, self.maximum_text_length
-        if most and long > most + 1e-9:
+        if most and long > most + SAME:
             yield "maximum_text_length", f"is {most:g}, the text is {long:.3f} long"
 
     def tokens(self, m: Machine) -> list[str]:

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, distance, increment
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.machine.cycle import Cycle, CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS
@@ -18,11 +20,7 @@ from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()
 MOST = 20_000  # lines of one cycle, all its levels together
-STRATEGIES: dict[float, str] = {
-    0: "meander, stepover outside the surface",
-    1: "meander, stepover at its edge",
-    2: "one way, retraction and back at the positioning feed",
-}
+STRATEGIES = addresses.MEANDER | {2: "one way, retraction and back at the positioning feed"}
 
 
 @CYCLES("CYCL DEF 232", "Face milling", source="12.7")
@@ -30,7 +28,7 @@ class FaceMilling(Cycle):
     """Mills a level surface in several infeeds, each level backwards over the one before; the last one finishes."""
 
     does = MILLS
-
+    about = in_program_coordinates
     strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
     start_1st_axis: float = coordinate("Q225", "starting point, first axis", example=10)
     start_2nd_axis: float = coordinate("Q226", "starting point, second axis", example=12)
@@ -54,22 +52,19 @@ class FaceMilling(Cycle):
     side_clearance: float = addresses.side_clearance()
     second_clearance: float = addresses.second_clearance(predef=True, example=50)
 
-    def contradictions(self) -> Iterator[tuple[str, str]]:
+    def contradictions(self) -> Iterator[Fault]:
         if self.end_3rd_axis > self.start_3rd_axis:
             yield "end_3rd_axis", f"must not lie above Q227 = {self.start_3rd_axis:g}, got {self.end_3rd_axis:g}"
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if self.height == 0:
             return
-        if self.maximum_plunging_depth == 0 and self.roughing > DRIFT:
-            yield "maximum_plunging_depth", "must be greater than 0, got 0"
-        if not m.radius > 0:
-            yield "", f"needs a tool with a radius, got {m.radius:g}"
+        if self.roughing > DRIFT:
+            yield from not_zero(self, "maximum_plunging_depth")
+        yield from with_radius(m)
         if self.flat(m) <= 0:
             yield "", f"needs a tool that is flat below, got R {m.radius * m.scale:g} and R2 {m.tool.corner:g}"
-        for name in ("feed", "finishing_feed", "prepositioning_feed"):
-            if getattr(self, name) == 0:
-                yield name, "must be greater than 0, got 0"
+        yield from not_zero(self, "feed", "finishing_feed", "prepositioning_feed")
         yield from too_many("maximum_plunging_depth", self.levels)
         yield from too_many("maximum_overlap", lambda: self.across(self.flat(m)))
         if len(self.levels()) * len(self.across(self.flat(m))) > MOST:
@@ -92,11 +87,11 @@ class FaceMilling(Cycle):
 
     def levels(self) -> tuple[float, ...]:
         """Equal infeeds down to the allowance, and then the allowance."""
-        last = self.end_3rd_axis
-        rough: tuple[float, ...] = ()
-        if self.roughing > DRIFT:
-            rough = rows(self.start_3rd_axis, last + self.floor_allowance, self.maximum_plunging_depth)[1:]
-        return (*rough, last) if self.floor_allowance else rough
+        last = (self.end_3rd_axis,) if self.floor_allowance else ()
+        if self.roughing <= DRIFT:
+            return last
+        rough_end = self.end_3rd_axis + self.floor_allowance
+        return rows(self.start_3rd_axis, rough_end, self.maximum_plunging_depth)[1:] + last
 
     def across(self, flat: float) -> tuple[float, ...]:
         """Where the lines lie: the first on the edge or, with an overlap over 1, inside; the edge of the last on the far edge."""
@@ -122,9 +117,6 @@ class FaceMilling(Cycle):
             link = feed if self.strategy == 1 else self.prepositioning_feed
             way = passes.reversed() if k % 2 else passes
             yield Layer("finishing" if finishing else name, level, way, feed, link, self.prepositioning_feed)
-
-    def about(self, m: Machine) -> tuple[float, float]:
-        return 0.0, 0.0
 
     def moves(self, m: Machine) -> Iterator[Step]:
         if self.height == 0:

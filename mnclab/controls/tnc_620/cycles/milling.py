@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 AnyFigure: TypeAlias = "AnyPocket | AnySlot | AnyStud"
 
 Place = tuple[float, float]
+STUDS = ("CYCL DEF 256", "CYCL DEF 257", "CYCL DEF 258")
 
 
 class Figure(NamedTuple):
@@ -37,11 +38,6 @@ class Figure(NamedTuple):
     start: Place
     centre: Place
     steps: Iterable[Step]
-
-
-def in_program_coordinates(c: AnyFigure, m: Machine) -> Place:
-    """`about` of all of them: the steps of a figure are moved to their place."""
-    return 0.0, 0.0
 
 
 def edges(tool: Tool) -> float:
@@ -84,19 +80,24 @@ def contradictions(c: AnyFigure) -> Iterator[Fault]:
     yield from too_many("finishing_infeed", lambda: wall_levels(c))
 
 
-def check(c: AnyFigure, m: Machine, finishing_feed: float) -> Iterator[Fault]:
-    """The sign of the depth, a tool with a radius, feeds for all that is done, a number of levels to wait for."""
+def finishing_feed(c: AnyFigure) -> float:
+    """Q385, which came later than the studs: 0 is the milling feed there."""
+    return float(c.finishing_feed or (c.milling_feed if c.code in STUDS else 0.0))
+
+
+def check(c: AnyFigure, m: Machine) -> Iterator[Fault]:
+    """The sign of the depth, a tool with a radius, feeds for all that is done, a number of levels to wait for; its shape."""
+    if c.depth == 0:
+        return
     yield from c.signs(m)
     yield from with_radius(m)
     finishes = c.machining_operation != 1 and (c.side_allowance > 0 or c.floor_allowance > 0)
-    for name, feed, needed in (
-        ("milling_feed", c.milling_feed, c.machining_operation != 2),
-        ("plunging_feed", c.plunging_feed, True),
-        ("finishing_feed", finishing_feed, finishes),
-    ):
-        if needed and feed == 0:
-            yield name, "must be greater than 0 to mill with, got 0"
+    used = {
+        "milling_feed": c.machining_operation != 2, "plunging_feed": True, "finishing_feed": finishes and not finishing_feed(c),
+    }  # fmt: skip
+    yield from not_zero(c, *(name for name, needed in used.items() if needed), purpose="to mill with")
     yield from too_many("infeed", lambda: levels(c, m))
+    yield from c.fits(m)
 
 
 def mill(

@@ -19,7 +19,9 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length, number
-from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
+from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import faults, is_round
 from mnclab.machining import patterns
@@ -35,55 +37,43 @@ WAY: dict[float, str] = {0: "straight", 1: "on the pitch circle"}
 Floats = NDArray[np.float64]
 
 
-class PointPattern(Cycle, ABC):
+class PointPattern(AtSurface, ABC):
     """What both have in common: heights, the machining cycle, the way from point to point."""
 
+    about = in_program_coordinates
+    works = ()
     combines: ClassVar[frozenset[str]] = frozenset(f"CYCL DEF {n}" for n in _BOTH)
-    clearance: float
-    surface: float
-    second_clearance: float
     move_to_clearance: float
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if m.cycle is None:
             yield "", "has no machining cycle to run: define one before it, for example CYCL DEF 200"
             return
-        if m.cycle.cycle.code not in self.combines:
-            sentence = f"cannot be combined with {m.cycle.cycle.code} ({m.cycle.cycle.title})"
-            if m.settings["pattern_cycles"] == "refuse" or m.cycle.cycle.code == "CYCL DEF 254":
+        run = m.cycle.cycle
+        if run.code not in self.combines:
+            sentence = f"cannot be combined with {run.code} ({run.title})"
+            if m.settings["pattern_cycles"] == "refuse" or run.code == "CYCL DEF 254":
                 yield "", sentence
             else:
                 m.warn(f"{self.code} {sentence}")
-        for sentence in faults(m.cycle.cycle.does, m):
-            yield "", f"cannot run {m.cycle.cycle.code} here, which {sentence}"
+        for sentence in faults(run.does, m):
+            yield "", f"cannot run {run.code} here, which {sentence}"
         if m.side:
             yield "", "cannot run under radius compensation: write R0 before it"
 
     @property
     def between(self) -> float:
         """The level from point to point."""
-        return self.above if self.move_to_clearance == 0 else self.high
-
-    @property
-    def above(self) -> float:
-        return self.surface + self.clearance
-
-    @property
-    def high(self) -> float:
-        """The second set-up clearance, where it is the greater one."""
-        return self.surface + max(self.clearance, self.second_clearance)
+        return self.above if self.move_to_clearance == 0 else self.end
 
     @abstractmethod
     def points(self) -> Floats:
         """Where the cycle runs, (n, 2)."""
 
-    def about(self, m: Machine) -> tuple[float, float]:
-        return 0.0, 0.0
-
     def moves(self, m: Machine) -> Iterator[Step]:
         points = self.points()
         (x, y), others = points[0].tolist(), points[1:]
-        yield Go("to the second set-up clearance", self.high)
+        yield Go("to the second set-up clearance", self.end)
         yield Go("to the first point", x=x, y=y)
         yield from self.work(last=not len(others))
         yield from self.others(m, others)
@@ -101,7 +91,7 @@ class PointPattern(Cycle, ABC):
     def work(self, last: bool) -> Iterator[Step]:
         """At a point: to the set-up clearance, and the machining cycle; it ends at the level between the points."""
         yield Go("to the set-up clearance", self.above)
-        yield Call({"second_clearance": (self.high if last else self.between) - self.surface})
+        yield Call({"second_clearance": (self.end if last else self.between) - self.surface})
 
 
 @CYCLES("CYCL DEF 220", "Polar pattern", runs="definition", source="7.2")
@@ -114,7 +104,7 @@ class PolarPattern(PointPattern):
     starting_angle: float = addresses.angle("Q245", "starting angle", example=0)
     stopping_angle: float = addresses.angle("Q246", "stopping angle", example=360, note="where Q247 is 0")
     stepping_angle: float = addresses.angle(
-        "Q247", "stepping angle", incremental=True, example=0, note="0: from the other angles and the number"
+        "Q247", "stepping angle", incremental=True, note="0: from the other angles and the number", example=0
     )
     nr_of_repetitions: float = number("Q241", "number of operations", example=8)
     clearance: float = addresses.clearance()
@@ -123,7 +113,7 @@ class PolarPattern(PointPattern):
     move_to_clearance: float = choice("Q301", "level between the points", TRAVERSE)
     type_of_traverse: float = choice("Q365", "way between the points", WAY)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         if self.type_of_traverse == 1 and not is_round(m):
             yield "type_of_traverse", "must be 0 under unequal scales of the plane, got 1: the way would be an ellipse"
@@ -179,18 +169,15 @@ class CartesianPattern(PointPattern):
     second_clearance: float = addresses.second_clearance()
     move_to_clearance: float = choice("Q301", "level between the points", TRAVERSE)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         yield from super().check(m)
         if m.cycle is not None and m.cycle.cycle.code == "CYCL DEF 254" and m.variables.get("Q367") == 0:
             yield "", "cannot be combined with CYCL DEF 254 and Q367 = 0"
-        if self.number_of_columns * self.number_of_lines > MOST:
-            many = self.number_of_columns * self.number_of_lines
+        if (many := self.number_of_columns * self.number_of_lines) > MOST:
             yield "number_of_lines", f"makes {many:g} points, more than {MOST}"
 
     def points(self) -> Floats:
-        return patterns.grid(
-            (self.starting_point_1st_axis, self.starting_point_2nd_axis),
-            (self.spacing_in_1st_axis, self.spacing_in_2nd_axis),
-            (int(self.number_of_columns), int(self.number_of_lines)),
-            math.radians(self.angle_of_rotation),
-        )
+        start = self.starting_point_1st_axis, self.starting_point_2nd_axis
+        spacing = self.spacing_in_1st_axis, self.spacing_in_2nd_axis
+        count = int(self.number_of_columns), int(self.number_of_lines)
+        return patterns.grid(start, spacing, count, math.radians(self.angle_of_rotation))

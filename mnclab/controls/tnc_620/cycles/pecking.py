@@ -78,7 +78,6 @@ class SingleLipDrilling(Hole):
     """
 
     own_spindle = True
-
     clearance: float = addresses.clearance()
     depth: float = addresses.depth()
     feed: float = addresses.plunge_feed()

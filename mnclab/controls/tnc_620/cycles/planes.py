@@ -9,13 +9,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
+from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import RAPID, Go, Say
 
 
+def in_program_coordinates(c: Cycle, m: Machine) -> tuple[float, float]:
+    """`about` of the cycles whose steps stand where the program says, not about the tool."""
+    return 0.0, 0.0
+
+
 class AtSurface(Cycle):
-    """What a cycle at a surface shares; who inherits declares the parameters."""
+    """What cycles at a surface share; who inherits declares the parameters."""
 
     clearance: float
     surface: float
@@ -53,7 +59,7 @@ class AtSurface(Cycle):
         """E, the plane at the end of the cycle: nothing stands in the way there."""
         return self.surface + max(self.second_clearance, self.clearance)
 
-    def signs(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def signs(self, m: Machine) -> Iterator[Fault]:
         """The first depth that is not 0 sets the direction (displayDepthErr: downwards); the others follow it."""
         worked = {name: depth for name, depth in self.depths().items() if depth}
         for number, (name, depth) in enumerate(worked.items()):

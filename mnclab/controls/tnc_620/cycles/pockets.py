@@ -16,7 +16,7 @@ from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.addresses import choice, distance, length
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, at_most
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, tool
@@ -43,8 +43,8 @@ class RectangularPocket(AtSurface):
     """Mills a rectangular pocket: roughing in layers from the centre outwards, then its walls, then its floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
-
+    about = in_program_coordinates
+    check = milling.check
     machining_operation: float = addresses.operation()
     first_side_length: float = distance("Q218", "first side length", example=80)
     second_side_length: float = distance("Q219", "second side length", example=60)
@@ -73,10 +73,7 @@ class RectangularPocket(AtSurface):
             half = min(self.first_side_length, self.second_side_length) / 2
             yield from at_most(self, "corner_radius", half, "half the shorter side")
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
+    def fits(self, m: Machine) -> Iterator[Fault]:
         least = 2 * (m.radius + self.side_allowance)
         for name in ("first_side_length", "second_side_length"):
             yield from at_least(self, name, least, "the tool diameter and twice Q368")
@@ -104,9 +101,9 @@ class CircularPocket(AtSurface):
     """Mills a circular pocket about the tool position: roughing in layers outwards, then its wall, then its floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
+    check = milling.check
     contradictions = milling.contradictions
-
     machining_operation: float = addresses.operation()
     circle_diameter: float = length("Q223", "circle diameter", example=60)
     side_allowance: float = addresses.side_allowance()
@@ -125,10 +122,7 @@ class CircularPocket(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
+    def fits(self, m: Machine) -> Iterator[Fault]:
         least = 2 * (m.radius + self.side_allowance)
         yield from at_least(self, "circle_diameter", least, "the tool diameter and twice Q368")
         yield from check_pocket(self, m, self.pocket(m))

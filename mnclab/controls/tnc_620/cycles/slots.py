@@ -17,7 +17,7 @@ from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.cycles.faults import Fault, at_least
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.controls.tnc_620.cycles.pockets import check_angle, feeds, slopes
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
@@ -48,9 +48,9 @@ class StraightSlot(AtSurface):
     """Mills a straight slot: roughing in layers, to and fro on a ramp, then its side, then its floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
+    check = milling.check
     contradictions = milling.contradictions
-
     machining_operation: float = addresses.operation()
     slot_length: float = length("Q218", "slot length", note="over all", example=80)
     slot_width: float = addresses.slot_width()
@@ -71,10 +71,7 @@ class StraightSlot(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
+    def fits(self, m: Machine) -> Iterator[Fault]:
         yield from at_least(self, "slot_length", self.slot_width, "the width Q219")
         yield from check_slot(self, m, self.line(), self.line_length)
 
@@ -104,9 +101,9 @@ class CircularSlot(AtSurface):
     """Mills slots on a pitch circle: each roughed in layers, to and fro on a ramp, then its side, then its floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
+    check = milling.check
     contradictions = milling.contradictions
-
     machining_operation: float = addresses.operation()
     slot_width: float = addresses.slot_width()
     side_allowance: float = addresses.side_allowance()
@@ -132,10 +129,7 @@ class CircularSlot(AtSurface):
     finishing_feed: float = addresses.finishing_feed(example=500)
     feed_reference: float = addresses.feed_reference()
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, self.finishing_feed)
+    def fits(self, m: Machine) -> Iterator[Fault]:
         if self.pitch_circle_diameter <= self.slot_width + NOTHING:
             found = f"{self.slot_width:g}, got {self.pitch_circle_diameter:g}"
             yield "pitch_circle_diameter", f"must be greater than the slot width Q219, {found}"

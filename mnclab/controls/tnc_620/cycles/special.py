@@ -5,11 +5,11 @@ Engraving and face milling have files of their own.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, increment, length, seconds
+from mnclab.controls.tnc_620.cycles.faults import Fault
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import TAPS
@@ -66,16 +66,6 @@ class Tolerance(Cycle):
         yield Write("history", self.rotary_axis_tolerance, "tolerance of rotary axes")
 
 
-def hobbing_tolerance(contact_length: float, rotary_tolerance: float) -> float:
-    """T (mm) that TA (degrees) costs an end mill whose flank cuts over a contact length, mm (12.5): K L TA, K = 0.0175."""
-    return 0.0175 * contact_length * rotary_tolerance
-
-
-def toroid_rotary_tolerance(major_radius: float, tolerance: float) -> float:
-    """The angle (degrees) that a tolerance T (mm) allows a toroid cutter of a major radius, mm (12.5): 180 T / (π R)."""
-    return math.degrees(tolerance / major_radius)
-
-
 @CYCLES("CYCL DEF 239", "Ascertaining the load", runs="definition", source="12.8")
 class LoadAscertaining(Cycle):
     """Finds what the load of the table weighs, or forgets it. How the axes move for that only the machine knows: no path."""
@@ -96,20 +86,19 @@ class ThreadCutting(Cycle):
     call with the depth reversed runs the thread back.
     """
 
+    own_spindle = True
+    does = TAPS
     thread_depth: float = increment(
         "DEPTH", "depth of the thread from where the tool stands", at_least=-99999, at_most=99999, example=-20
     )
     thread_pitch: float = param("PITCH", "pitch of the thread", modal=True, note="positive: a right-hand thread", example=1.5)
 
-    own_spindle = True
-    does = TAPS
-
-    def contradictions(self) -> Iterator[tuple[str, str]]:
+    def contradictions(self) -> Iterator[Fault]:
         if self.thread_pitch == 0 or abs(self.thread_pitch) > addresses.FAR:
-            allowed = f"must be at most {addresses.FAR:.10g} either way and not 0"
-            yield "thread_pitch", f"{allowed}, got {self.thread_pitch:g}"
+            most = f"{addresses.FAR:.10g} either way and not 0"
+            yield "thread_pitch", f"must be at most {most}, got {self.thread_pitch:g}"
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if m.turning:
             yield "", "needs a spindle that stands still: it would stop it and cut with no rotation; write M5 before"
         if not m.speed:

@@ -1,8 +1,7 @@
 """Studs: cycles 256 (rectangular, 6.6), 257 (circular, 6.7) and 258 (polygon, 6.8).
 
 C is the centre of the stud, R the tool radius, S the start beside the blank: the edge of the tool is 2 mm away from it, so
-there must be room for the tool diameter and 2 mm. On S the tool goes down, and to it it comes back from every level. A
-finishing feed of 0 is the milling feed: Q385 came later than the cycles.
+there must be room for the tool diameter and 2 mm. On S the tool goes down, and to it it comes back from every level.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from mnclab.controls.tnc_620.cycles.addresses import choice, length, number
 from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, at_most
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine
@@ -43,9 +42,9 @@ class RectangularStud(AtSurface):
     """Mills a rectangular stud free: roughing in layers from the blank inwards, then its side, then the floor about it."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
+    check = milling.check
     contradictions = milling.contradictions
-
     first_side_length: float = length("Q218", "first side length", example=60)
     blank_side_1: float = length("Q424", "first side of the blank", note="at least Q218", example=74)
     second_side_length: float = length("Q219", "second side length", example=40)
@@ -69,10 +68,7 @@ class RectangularStud(AtSurface):
     finishing_infeed: float = addresses.finishing_infeed(default=0)
     finishing_feed: float = addresses.finishing_feed(default=0, example=800)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, finishing_feed(self))
+    def fits(self, m: Machine) -> Iterator[Fault]:
         yield from at_least(self, "blank_side_1", self.first_side_length, "the side of the stud Q218", 0.0)
         yield from at_least(self, "blank_side_2", self.second_side_length, "the side of the stud Q219", 0.0)
         half = min(self.first_side_length, self.second_side_length) / 2
@@ -117,8 +113,8 @@ class CircularStud(AtSurface):
     """Mills a circular stud about the tool position free: on a spiral from the blank inwards, then its side and the floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
-
+    about = in_program_coordinates
+    check = milling.check
     finished_diameter: float = length("Q223", "diameter of the finished stud", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="at least Q223", example=80)
     side_allowance: float = addresses.side_allowance()
@@ -145,10 +141,7 @@ class CircularStud(AtSurface):
         if -1 < self.starting_angle < 0:
             yield "starting_angle", f"must be -1 or at least 0, got {self.starting_angle:g}"
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, finishing_feed(self))
+    def fits(self, m: Machine) -> Iterator[Fault]:
         yield from at_least(self, "blank_diameter", self.finished_diameter, "the diameter of the stud Q223", 0.0)
         yield from check_passes(self, m)
 
@@ -179,9 +172,9 @@ class PolygonStud(AtSurface):
     """Mills a regular polygon about the tool position free: on a spiral from the round blank inwards, then side and floor."""
 
     does = MILLS
-    about = milling.in_program_coordinates
+    about = in_program_coordinates
+    check = milling.check
     contradictions = milling.contradictions
-
     reference_circle: float = choice("Q573", "reference circle", CIRCLES, example=0)
     reference_diameter: float = length("Q571", "diameter of the reference circle", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="greater than Q571", example=80)
@@ -203,10 +196,7 @@ class PolygonStud(AtSurface):
     finishing_infeed: float = addresses.finishing_infeed()
     finishing_feed: float = addresses.finishing_feed(example=800)
 
-    def check(self, m: Machine) -> Iterator[Fault]:
-        if self.depth == 0:
-            return
-        yield from milling.check(self, m, finishing_feed(self))
+    def fits(self, m: Machine) -> Iterator[Fault]:
         if self.blank_diameter <= self.reference_diameter:
             found = f"{self.reference_diameter:g}, got {self.blank_diameter:g}"
             yield "blank_diameter", f"must be greater than the reference circle Q571, {found}"
@@ -249,11 +239,6 @@ AnyStud: TypeAlias = RectangularStud | CircularStud | PolygonStud
 # --- what they share ------------------------------------------------------------------------------------------------
 
 
-def finishing_feed(c: AnyStud) -> float:
-    """As in roughing where none is given."""
-    return float(c.finishing_feed or c.milling_feed)
-
-
 def check_passes(c: AnyStud, m: Machine) -> Iterator[Fault]:
     """A number of passes that somebody would wait for."""
     yield from too_many("overlap", lambda: c.clearing(m.radius, c.side_allowance, True))
@@ -264,7 +249,7 @@ def check_passes(c: AnyStud, m: Machine) -> Iterator[Fault]:
 def mill(c: AnyStud, m: Machine, centre: Place, last: Iterable[Step] = ()) -> Iterator[Step]:
     """To S, and from there roughing in layers, the side in infeeds, the floor; at the end the tool stays above S."""
     plunge = rate(c.plunging_feed)
-    finishing = Feeds(finishing_feed(c), plunge)
+    finishing = Feeds(milling.finishing_feed(c), plunge)
     work = milling.work(c, m, (Feeds(c.milling_feed, plunge), finishing, finishing))
 
     def figures() -> Iterator[Figure]:  # a stud has none where its depth is 0, and its sizes anything

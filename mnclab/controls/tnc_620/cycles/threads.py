@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, increment
@@ -50,7 +50,6 @@ class InnerThreadMilling(AtSurface):
 
     does = MILLS_THREADS
     works = ("thread_depth",)
-
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-20)
@@ -62,10 +61,6 @@ class InnerThreadMilling(AtSurface):
     second_clearance: float = addresses.second_clearance(example=50)
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
-
-    @property
-    def way(self) -> Way:
-        return Way(inside(self.milling_type), int(self.threads_per_step))
 
     def check(self, m: Machine) -> Iterator[Fault]:
         if self.thread_depth:
@@ -86,7 +81,6 @@ class ThreadMillingCountersinking(AtSurface):
 
     does = MILLS_THREADS
     works = ("thread_depth", "countersinking_depth", "depth_at_front")
-
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-16)
@@ -105,16 +99,12 @@ class ThreadMillingCountersinking(AtSurface):
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
 
-    @property
-    def way(self) -> Way:
-        return Way(inside(self.milling_type))
-
     def check(self, m: Machine) -> Iterator[Fault]:
         sinks = bool(self.countersinking_depth or self.depth_at_front)
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=sinks)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        yield from remark_on_the_end(self, m, "countersinking_depth")
+        yield from remark_on_the_end(self, m, self.countersinking_depth)
         yield Go("to the set-up clearance", self.above)
         feed, position = self.countersinking_feed, rate(self.prepositioning_feed)
         if self.countersinking_depth:
@@ -126,7 +116,7 @@ class ThreadMillingCountersinking(AtSurface):
                 yield Go("to the countersinking depth", level, feed)
             lead = abs(self.pitch)
             radius = (self.nominal_diameter - CORE * lead) / 2 - m.radius - self.side_clearance
-            yield from chamfer(radius, lead, sense=self.way.rotation, feed=feed, position_feed=position)
+            yield from chamfer(radius, lead, sense=way(self).rotation, feed=feed, position_feed=position)
         yield from front(self, m, feed)
         yield from thread(self, m)
         yield from self.leave()
@@ -138,7 +128,6 @@ class OutsideThreadMilling(AtSurface):
 
     does = MILLS_THREADS
     works = ("thread_depth", "depth_at_front")
-
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-20)
@@ -153,11 +142,6 @@ class OutsideThreadMilling(AtSurface):
     countersinking_feed: float = addresses.countersinking_feed()
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
-
-    @property
-    def way(self) -> Way:
-        """Outside, climb milling turns clockwise."""
-        return Way(-inside(self.milling_type), int(self.threads_per_step), external=True)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         sinks = bool(self.depth_at_front)
@@ -179,7 +163,6 @@ class ThreadDrillingMilling(AtSurface):
 
     does = MILLS_THREADS
     works = ("thread_depth", "total_hole_depth", "depth_at_front")
-
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-16)
@@ -199,10 +182,6 @@ class ThreadDrillingMilling(AtSurface):
     milling_feed: float = addresses.edge_feed()
     approach_feed: float = addresses.approach_feed()
 
-    @property
-    def way(self) -> Way:
-        return Way(inside(self.milling_type))
-
     def check(self, m: Machine) -> Iterator[Fault]:
         drills, mills = bool(self.total_hole_depth), bool(self.thread_depth or self.depth_at_front)
         yield from check(self, m, plunging_feed=drills, milling_feed=mills)
@@ -216,7 +195,7 @@ class ThreadDrillingMilling(AtSurface):
         return infeeds(self.surface, self.surface + self.total_hole_depth, self.infeed)
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        yield from remark_on_the_end(self, m, "total_hole_depth")
+        yield from remark_on_the_end(self, m, self.total_hole_depth)
         yield Go("to the set-up clearance", self.above)
         if self.total_hole_depth:
             every = self.chip_breaking_depth
@@ -236,7 +215,6 @@ class HelicalThreadMilling(AtSurface):
 
     does = MILLS_THREADS
     works = ("thread_depth", "depth_at_front")
-
     nominal_diameter: float = addresses.nominal_diameter()
     pitch: float = addresses.pitch()
     thread_depth: float = addresses.thread_depth(example=-16)
@@ -249,11 +227,6 @@ class HelicalThreadMilling(AtSurface):
     second_clearance: float = addresses.second_clearance(example=50)
     countersinking_feed: float = addresses.countersinking_feed()
     milling_feed: float = addresses.edge_feed()
-
-    @property
-    def way(self) -> Way:
-        """One continuous helix, always downwards: the hand of the thread alone says which way round."""
-        return Way(-hand(self), 1, either_way=True)
 
     def check(self, m: Machine) -> Iterator[Fault]:
         return check(self, m, milling_feed=bool(self.thread_depth), countersinking_feed=bool(self.depth_at_front))
@@ -270,17 +243,23 @@ class HelicalThreadMilling(AtSurface):
         yield from self.leave()
 
 
-Countersunk: TypeAlias = (
-    ThreadMillingCountersinking | OutsideThreadMilling | ThreadDrillingMilling | HelicalThreadMilling
-)
-AnyThread: TypeAlias = InnerThreadMilling | Countersunk
+Countersunk = ThreadMillingCountersinking | OutsideThreadMilling | ThreadDrillingMilling | HelicalThreadMilling
+AnyThread = InnerThreadMilling | Countersunk
 
 # --- what all share --------------------------------------------------------------------------------------------------
 
 
-def inside(milling_type: float) -> int:
-    """The rotation inside a thread: climb milling runs counter-clockwise there."""
-    return -1 if milling_type < 0 else 1
+def way(c: AnyThread) -> Way:
+    """Climb milling runs counter-clockwise inside a thread, clockwise outside.
+
+    265 mills one continuous helix, always downwards: the hand of the thread alone says which way round.
+    """
+    if isinstance(c, HelicalThreadMilling):
+        return Way(-hand(c), 1, either_way=True)
+    inside = -1 if c.milling_type < 0 else 1
+    if isinstance(c, OutsideThreadMilling):
+        return Way(-inside, int(c.threads_per_step), external=True)
+    return Way(inside, int(c.threads_per_step) if isinstance(c, InnerThreadMilling) else 0)
 
 
 def hand(c: AnyThread) -> int:
@@ -290,26 +269,26 @@ def hand(c: AnyThread) -> int:
 
 def path(c: AnyThread, m: Machine) -> Path:
     """Where the tool centre runs."""
-    return path_of(c.nominal_diameter, m.radius, abs(c.pitch), c.way.external)
+    return path_of(c.nominal_diameter, m.radius, abs(c.pitch), way(c).external)
 
 
 def passes(c: AnyThread) -> list[tuple[float, float]]:
     """Start and end levels of the helices; a thread upwards is one downwards turned over at its end."""
-    bottom, upwards, lead = c.surface + c.thread_depth, hand(c) * c.way.rotation > 0, abs(c.pitch)
+    bottom, upwards, lead = c.surface + c.thread_depth, hand(c) * way(c).rotation > 0, abs(c.pitch)
     if c.thread_depth < 0:
-        return helices(-c.thread_depth, lead, bottom, upwards, c.way.a_step)
-    found = helices(c.thread_depth, lead, 0.0, not upwards, c.way.a_step)
+        return helices(-c.thread_depth, lead, bottom, upwards, way(c).a_step)
+    found = helices(c.thread_depth, lead, 0.0, not upwards, way(c).a_step)
     return [(bottom - begin, bottom - end) for begin, end in found]
 
 
 def check(c: AnyThread, m: Machine, **feeds: bool) -> Iterator[Fault]:
     """Spindle, tool, pitch, signs, room for the tool, and the `feeds` that the cycle runs at where something is not 0."""
     if not any(c.depths().values()):
-        every = " and ".join(address(c, name) for name in c.depths())
-        yield next(iter(c.depths())), f"leaves nothing to do: {every} are 0"
-    if c.way.either_way and not m.turning:
+        every = " and ".join(p.address for p in c.parameters() if p.name in c.works)
+        yield c.works[0], f"leaves nothing to do: {every} are 0"
+    if way(c).either_way and not m.turning:
         yield "", "needs a turning spindle: write M3 or M4 before"
-    if not c.way.either_way and m.turning != 1:
+    if not way(c).either_way and m.turning != 1:
         yield "", "needs a tool that turns right: write M3 before"
     yield from with_radius(m)
     if c.pitch == 0:
@@ -317,22 +296,16 @@ def check(c: AnyThread, m: Machine, **feeds: bool) -> Iterator[Fault]:
     yield from not_zero(c, "nominal_diameter")
     yield from c.signs(m)
     yield from not_zero(c, "prepositioning_feed", *(name for name, used in feeds.items() if used))
-    if c.thread_depth and not c.way.external and 2 * m.radius >= c.nominal_diameter:
+    if c.thread_depth and not way(c).external and 2 * m.radius >= c.nominal_diameter:
         yield "nominal_diameter", f"must be greater than the tool, {2 * m.radius:g}, got {c.nominal_diameter:g}"
     if c.thread_depth:
         yield from too_many("pitch", lambda: passes(c))
 
 
-def address(c: AnyThread, name: str) -> str:
-    """Of a parameter."""
-    return next(p.address for p in c.parameters() if p.name == name)
-
-
-def remark_on_the_end(c: AnyThread, m: Machine, name: str) -> Iterator[Say]:
+def remark_on_the_end(c: AnyThread, m: Machine, end: float) -> Iterator[Say]:
     """The thread ends a third of a pitch above the end of the hole or of the countersink, or there is a warning."""
-    depth = abs(getattr(c, name))
-    if c.thread_depth and depth and abs(c.thread_depth) > depth - abs(c.pitch) / 3 + 1e-9:
-        least = f"at least a third of the pitch less deep than {address(c, name)} = {getattr(c, name):g}"
+    if c.thread_depth and end and abs(c.thread_depth) > abs(end) - abs(c.pitch) / 3 + 1e-9:
+        least = f"at least a third of the pitch less deep than Q356 = {end:g}"
         word = m.cycle.words.get("thread_depth") if m.cycle else None
         yield Say(f"Q201 (thread depth) should be {least}, got {c.thread_depth:g}", word=word)
 
@@ -341,10 +314,10 @@ def thread(c: AnyThread, m: Machine) -> Iterator[Step]:
     """Every helix with its approach and departure; nothing without a depth."""
     if c.thread_depth:
         slow = getattr(c, "approach_feed", 0.0) or c.milling_feed  # cycle 265 has no Q512
-        of_centre = partial(centre_feed, nominal=c.nominal_diameter, tool_radius=m.radius, external=c.way.external)
+        of_centre = partial(centre_feed, nominal=c.nominal_diameter, tool_radius=m.radius, external=way(c).external)
         yield from mill_thread(
-            path(c, m), passes(c), pitch=abs(c.pitch), sense=c.way.rotation, feed=of_centre(c.milling_feed),
-            approach_feed=of_centre(slow), position_feed=rate(c.prepositioning_feed), external=c.way.external,
+            path(c, m), passes(c), pitch=abs(c.pitch), sense=way(c).rotation, feed=of_centre(c.milling_feed),
+            approach_feed=of_centre(slow), position_feed=rate(c.prepositioning_feed), external=way(c).external,
         )  # fmt: skip
 
 
@@ -353,4 +326,4 @@ def front(c: Countersunk, m: Machine, feed: float, plunge: float | None = None) 
     if c.depth_at_front:
         down = rate(c.prepositioning_feed) if plunge is None else plunge
         yield Go("to the depth at front", c.surface + c.depth_at_front, down)
-        yield from countersink(path(c, m), c.offset_at_front, sense=c.way.rotation, feed=feed, external=c.way.external)
+        yield from countersink(path(c, m), c.offset_at_front, sense=way(c).rotation, feed=feed, external=way(c).external)

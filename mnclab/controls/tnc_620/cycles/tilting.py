@@ -13,6 +13,9 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles import chain
 from mnclab.controls.tnc_620.cycles.addresses import angle, distance, feed
+from mnclab.controls.tnc_620.cycles.chain import Given, Values
+from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import tilting
 from mnclab.geometry.frames import Matrix
@@ -20,7 +23,6 @@ from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
 from mnclab.machining.steps import Go, Say, Step, Swivel, Write
-from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 SETTINGS = (
@@ -35,8 +37,6 @@ SETTINGS = (
 )  # fmt: skip
 AXES = "ABC"
 RESULTS = {"A": "Q120", "B": "Q121", "C": "Q122"}
-
-
 STILL: dict[str, Any] = {"default": None, "default_means": "they are not moved"}
 tilt = partial(angle, default=None, default_means="as it is")
 
@@ -49,6 +49,7 @@ class WorkingPlane(Cycle):
     the function is off.
     """
 
+    about = in_program_coordinates
     angle_a: float | None = tilt("A", "tilt angle A")
     angle_b: float | None = tilt("B", "tilt angle B")
     angle_c: float | None = tilt("C", "tilt angle C")
@@ -58,9 +59,7 @@ class WorkingPlane(Cycle):
     )
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """Angles are absolute; one that is not written is that of the cycle before."""
         chain.absolute(m, cls.code, given)
         if given:
@@ -72,31 +71,21 @@ class WorkingPlane(Cycle):
     def angles(self) -> dict[str, float]:
         return {"A": self.angle_a or 0.0, "B": self.angle_b or 0.0, "C": self.angle_c or 0.0}
 
-    @property
-    def off(self) -> bool:
-        """Whether the function is switched off: no word was written."""
-        return self.angle_a is None
-
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if m.side:
             yield "", "cannot tilt the plane under radius compensation: write R0 before"
         if (self.rotary_feed is None) != (self.set_up_clearance is None):
             name = "rotary_feed" if self.rotary_feed is None else "set_up_clearance"
             yield name, "is missing: to position the rotary axes both F and ABST are needed"
-        if self.rotary_feed == 0:
-            yield "rotary_feed", "must be greater than 0 to position the rotary axes, got 0"
+        yield from not_zero(self, "rotary_feed", purpose="to position the rotary axes")
         pair: str = m.settings["rotary_axes"]
-        if m.settings["tilt_angles"] == "axes":
-            for axis, angle in self.angles.items():
-                if angle and axis not in pair:
-                    there = f"the rotary axes are {' and '.join(sorted(pair))}"
-                    yield f"angle_{axis.lower()}", f"must be 0, got {angle:g}: {there}"
-
-    def about(self, m: Machine) -> tuple[float, float]:
-        return 0.0, 0.0
+        for axis, value in self.angles.items() if m.settings["tilt_angles"] == "axes" else ():
+            if value and axis not in pair:
+                there = f"the rotary axes are {' and '.join(sorted(pair))}"
+                yield f"angle_{axis.lower()}", f"must be 0, got {value:g}: {there}"
 
     def moves(self, m: Machine) -> Iterator[Step]:
-        if self.off:
+        if self.angle_a is None:  # no word was written: the function is off
             yield Write("memory", {}, "tilt_angles")
             if chain.TILT in m.frames and (left := (yield from chain.untilt(m))):
                 sentence = f"is switched off, and {', '.join(left)} defined behind it act in the untilted system"
@@ -133,11 +122,9 @@ class WorkingPlane(Cycle):
         travel = self.set_up_clearance * (tilting.direction(pair, to) - tilting.direction(pair, now))
         way = math.degrees(max(abs(to[axis] - now[axis]) for axis in AXES))
         a, b, c = (math.degrees(to[axis]) for axis in AXES)
-        if not way:
-            return
-        if not (length := math.hypot(*travel)):
+        if length := way and math.hypot(*travel):
+            yield Write("rotary", tuple(map(math.radians, (a, b, c))))
+            x, y, z = m.to_program(p + d for p, d in zip(m.tip, travel, strict=True))
+            yield Go("tilt", z, length * self.rotary_feed / way, x, y)
+        elif way:
             yield Swivel("tilt", (a, b, c), self.rotary_feed)
-            return
-        yield Write("rotary", tuple(map(math.radians, (a, b, c))))
-        x, y, z = m.to_program(p + d for p, d in zip(m.tip, travel, strict=True))
-        yield Go("tilt", z, length * self.rotary_feed / way, x, y)

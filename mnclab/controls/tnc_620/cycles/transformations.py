@@ -1,4 +1,4 @@
-"""Mirror image, rotation and scaling (11.5 to 11.8): each acts as soon as it is defined, about the datum that is active then.
+"""Datums, mirror image, rotation and scaling (11.2 to 11.8): each acts as soon as it is defined, about the datum active then.
 
 The tool is neither mirrored nor scaled: its radius is that of the tool table on the machine, and it stays on the side of the
 contour on which it was. The chain of the transformations is in `controls.tnc_620.cycles.chain`.
@@ -7,20 +7,27 @@ contour on which it was. The chain of the transformations is in `controls.tnc_62
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import partial
-from typing import Any
 
 from mnclab.controls.tnc_620.cycles import addresses, chain
-from mnclab.controls.tnc_620.cycles.addresses import coordinate, ratio
+from mnclab.controls.tnc_620.cycles.addresses import coordinate, count, ratio
+from mnclab.controls.tnc_620.cycles.chain import Given, Values
+from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.tables.datum_tables import row_of
 from mnclab.geometry import frames
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
+from mnclab.machine.setup import Datum
 from mnclab.machining.steps import Step, Write
-from mnclab.text.program import Word
 
 CYCLES = CycleTable()
 NOT_BUILT = "UVW"  # secondary axes
+AXES = "xyzabc"
+linear = partial(coordinate, default=None, default_means="as it is")
+rotary = partial(linear, unit="deg")
+factor = partial(ratio, at_least=0.000001, at_most=99.999999)  # of enlargement or reduction
+centre = partial(coordinate, default=None, default_means="the active datum")
 
 
 @CYCLES("CYCL DEF 8", "Mirroring", runs="definition", source="11.5")
@@ -32,7 +39,7 @@ class Mirroring(Cycle):
         modal=True, note="letters: X, Y, X Y; not the tool axis",
     )  # fmt: skip
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         named = self.mirrored_axes or ()
         if len(named) > 3:
             yield "mirrored_axes", f"must be at most three, got {' '.join(named)}"
@@ -45,9 +52,9 @@ class Mirroring(Cycle):
 
     def moves(self, m: Machine) -> Iterator[Step]:
         named = self.mirrored_axes or ()
-        linear = "".join(axis for axis in named if axis in "XYZ")
+        mirrored = "".join(axis for axis in named if axis in "XYZ")
         yield Write("memory", "".join(axis for axis in named if axis in "ABC"), "rotary_mirror")
-        yield from chain.define(m, chain.MIRROR, frames.mirror(linear) if linear else None)
+        yield from chain.define(m, chain.MIRROR, frames.mirror(mirrored) if mirrored else None)
 
 
 @CYCLES("CYCL DEF 10", "Rotation", runs="definition", source="11.6")
@@ -57,9 +64,7 @@ class Rotation(Cycle):
     angle: float = addresses.angle("ROT", "rotation angle", note="IROT adds to the active angle", example=30)
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         """An increment within its range is added to the active angle; the sum has no limit and counts modulo a whole turn."""
         if "angle" in given and given["angle"].incremental and abs(values["angle"]) <= 360:
             values["angle"] = math.fmod(chain.angle_of(m) + values["angle"], 360)
@@ -69,11 +74,6 @@ class Rotation(Cycle):
         yield Write("side", 0)
         yield from chain.remember_angle(m, self.angle)
         yield from chain.define(m, chain.ROTATION, frames.turn(math.radians(self.angle)) if self.angle % 360 else None)
-
-
-#: A factor of enlargement or reduction.
-factor = partial(ratio, at_least=0.000001, at_most=99.999999)
-centre = partial(coordinate, default=None, default_means="the active datum")
 
 
 @CYCLES("CYCL DEF 11", "Scaling", runs="definition", source="11.7")
@@ -102,9 +102,7 @@ class AxisScaling(Cycle):
     centre_z: float | None = centre("CCZ", "centre of the scaling along Z")
 
     @classmethod
-    def prepare(
-        cls, values: dict[str, Any], given: Mapping[str, Word], m: Machine, kept: dict[str, Any]
-    ) -> dict[str, Any]:
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
         chain.absolute(m, cls.code, given)
         if not {"x", "y", "z"} & given.keys():
             m.alarm(f"{cls.code} needs an axis and its factor, for example CYCL DEF 26.1 X 1.4 Y 0.6", None)
@@ -113,3 +111,73 @@ class AxisScaling(Cycle):
     def moves(self, m: Machine) -> Iterator[Step]:
         scales, about = (self.x, self.y, self.z), (self.centre_x or 0.0, self.centre_y or 0.0, self.centre_z or 0.0)
         yield from chain.define(m, chain.FACTORS, frames.scale(*scales, about) if scales != (1, 1, 1) else None)
+
+
+@CYCLES("CYCL DEF 7", "Datum shift", runs="definition", source="11.2")
+class DatumShift(Cycle):
+    """Moves the datum; IX counts from the shift that was valid before, an axis that is not named keeps its shift.
+
+    `#5` takes the shift from a row of the active datum table; an empty field there leaves its axis as it is.
+    """
+
+    x: float | None = linear("X", "datum shift along X")
+    y: float | None = linear("Y", "datum shift along Y")
+    z: float | None = linear("Z", "datum shift along Z")
+    a: float | None = rotary("A", "datum shift of A")
+    b: float | None = rotary("B", "datum shift of B")
+    c: float | None = rotary("C", "datum shift of C")
+    datum_number: float | None = count(
+        "#", "row of the datum table", at_most=9999, default=None, default_means="the shift is written"
+    )
+
+    @classmethod
+    def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
+        for name, before in zip(AXES, (*chain.shift_of(m), *chain.rotary(m)[0]), strict=True):
+            if name in given and given[name].incremental:
+                values[name] += before
+        return values
+
+    @property
+    def written(self) -> dict[str, float]:
+        """The axes that are named, with their values."""
+        return {axis: value for axis in AXES if (value := getattr(self, axis)) is not None}
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        if not self.written and self.datum_number is None:
+            yield "", "needs an axis, for example CYCL DEF 7.1 X+60"
+        if self.written and self.datum_number is not None:
+            yield "datum_number", "and shifts of axes cannot stand in one definition"
+        elif self.datum_number is not None:
+            try:
+                row_of(m, int(self.datum_number))
+            except LookupError as error:
+                yield "datum_number", str(error.args[0])
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        new = self.written if self.datum_number is None else row_of(m, int(self.datum_number))
+        x, y, z = (new.get(axis, before) for axis, before in zip("xyz", chain.shift_of(m), strict=True))
+        turned = tuple(new.get(axis, before) for axis, before in zip("abc", chain.rotary(m)[0], strict=True))
+        yield Write("memory", turned, "rotary_shift")
+        yield from chain.define(m, chain.SHIFT, frames.shift(x, y, z) if (x, y, z) != (0, 0, 0) else None)
+
+
+@CYCLES("CYCL DEF 247", "Presetting", runs="definition", source="11.4")
+class Presetting(Cycle):
+    """Makes a row of the preset table the datum of the program; cycles 7, 8, 10, 11 and 26 are over, a tilt stays."""
+
+    preset_number: float = count("Q339", "number of the preset", at_most=65535, note="0: the one set by hand", example=0)
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        row = int(self.preset_number)
+        if row and row not in m.tables.presets:
+            known = ", ".join(map(str, sorted(m.tables.presets))) or "none but 0"
+            yield "preset_number", f"names row {row}, which the preset table does not have (rows: {known})"
+        preset = m.tables.presets.get(row, Datum())
+        if any((preset.a, preset.b, preset.c, preset.rotation)):
+            yield "preset_number", f"names row {row}, which carries a rotation: that is not built yet"
+
+    def moves(self, m: Machine) -> Iterator[Step]:
+        row = int(self.preset_number)
+        yield from chain.reset(m)
+        yield Write("memory", row, "preset")
+        yield Write("datum", m.tables.presets.get(row, Datum()), "preset")

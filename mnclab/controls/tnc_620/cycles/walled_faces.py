@@ -14,6 +14,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length
+from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.milling import edges
 from mnclab.controls.tnc_620.cycles.planes import AtSurface
@@ -31,29 +32,15 @@ from mnclab.machining.steps import Go, Say, Step
 from mnclab.path.tool import Tool
 
 CYCLES = CycleTable()
-STRATEGIES: dict[float, str] = {
-    0: "meander, stepover outside the surface",
-    1: "meander, stepover at its edge",
-    2: "line by line, ends outside the surface",
-    3: "line by line, ends at its edge",
-    4: "spiral from the outside inwards",
-}
+STRATEGIES = addresses.MEANDER | {
+    2: "line by line, ends outside the surface", 3: "line by line, ends at its edge", 4: "spiral from the outside inwards",
+}  # fmt: skip
 DIRECTIONS: dict[float, str] = {1: "along the reference axis", 2: "along the minor axis"}
 WALLS: dict[float, str] = {
-    0: "no limit",
-    -1: "a wall in the negative reference axis",
-    1: "in the positive reference axis",
-    -2: "in the negative minor axis",
-    2: "in the positive minor axis",
-}
-POSITION: dict[float, str] = {
-    -1: "the tool is at the starting corner",
-    0: "at the centre of the surface",
-    1: "at the lower left corner",
-    2: "at the lower right corner",
-    3: "at the upper right corner",
-    4: "at the upper left corner",
-}
+    0: "no limit", -1: "a wall in the negative reference axis", 1: "in the positive reference axis",
+    -2: "in the negative minor axis", 2: "in the positive minor axis",
+}  # fmt: skip
+POSITION = {-1: "the tool is at the starting corner", 0: "at the centre of the surface"} | addresses.CORNERS
 INTO = "the sign points into the surface"
 
 
@@ -62,7 +49,6 @@ class WalledFaceMilling(AtSurface):
     """Mills a level surface that up to three walls may bound: levels in equal infeeds, a last one finishes, then the walls."""
 
     does = MILLS
-
     machining_operation: float = addresses.operation()
     strategy: float = choice("Q389", "machining strategy", STRATEGIES, example=2)
     milling_direction: float = choice("Q350", "milling direction", DIRECTIONS, example=1)
@@ -87,8 +73,6 @@ class WalledFaceMilling(AtSurface):
     finishing_infeed: float = addresses.finishing_infeed(example=4)
     surface_position: float = choice("Q367", "surface position", POSITION, default=-1, example=-1)
 
-    # --- what is done ------------------------------------------------------------------------------------------------
-
     @property
     def roughs(self) -> bool:
         return self.machining_operation != 2
@@ -100,8 +84,6 @@ class WalledFaceMilling(AtSurface):
     @property
     def finishes_side(self) -> bool:
         return self.machining_operation != 1 and self.side_allowance > 0 and bool(self.walled.walls)
-
-    # --- heights -----------------------------------------------------------------------------------------------------
 
     def depths(self) -> dict[str, float]:
         return {"end_tool_axis": self.end_tool_axis - self.surface}
@@ -126,13 +108,11 @@ class WalledFaceMilling(AtSurface):
         if self.finishes_floor:
             last = rows(self.left_over, self.end_tool_axis, min(self.floor_allowance, edges(tool)))[1:]
             parts.append(("floor finishing", self.left_over, last, self.finishing_feed))
-        found = []
-        for what, top, heights, feed in parts:
-            tops = (top, *heights)
-            found += [Level(*each, feed) for each in zip(numbered(what, len(heights)), heights, tops)]
-        return found
-
-    # --- where -------------------------------------------------------------------------------------------------------
+        return [
+            Level(*each, feed)
+            for what, top, heights, feed in parts
+            for each in zip(numbered(what, len(heights)), heights, (top, *heights))
+        ]
 
     @property
     def walled(self) -> Walled:
@@ -156,8 +136,7 @@ class WalledFaceMilling(AtSurface):
             over=outside if self.strategy in (0, 2) else self.side_clearance, first=max(0.0, self.overlap - 1) * radius,
             allowance=self.side_allowance, one_way=self.strategy in (2, 3),
         )  # fmt: skip
-        bounded = bool(walled.walls & {axis, -axis})
-        along = self.along(radius, self.side_allowance) if bounded else ()
+        along = self.along(radius, self.side_allowance) if walled.walls & {axis, -axis} else ()
         clear = not {axis, -axis} <= walled.walls
         return Passes(lines[0].begin, clear, lines, self.strategy in (2, 3), along)
 
@@ -167,36 +146,27 @@ class WalledFaceMilling(AtSurface):
         beyond[int(self.milling_direction) - 1] += self.side_clearance
         return self.walled.along(radius, outside=(beyond[0], beyond[1]), allowance=allowance)
 
-    # --- checks ------------------------------------------------------------------------------------------------------
-
-    def contradictions(self) -> Iterator[tuple[str, str]]:
+    def contradictions(self) -> Iterator[Fault]:
         for name in ("limit_1", "limit_2", "limit_3"):
             if (limit := getattr(self, name)) and self.strategy == 4:
                 yield name, f"must be 0 in spiral machining (Q389 = 4), got {limit:g}"
-        depth = abs(self.end_tool_axis - self.surface)
-        if depth == 0:
-            return
-        if self.max_plunging_depth == 0:
-            yield "max_plunging_depth", "must be greater than 0, got 0"
-        if self.floor_allowance >= depth:
-            yield "floor_allowance", f"must be less than the depth {depth:g}, got {self.floor_allowance:g}"
+        if depth := self.end_tool_axis - self.surface:
+            yield from not_zero(self, "max_plunging_depth")
+            yield from less_than_depth(self, "floor_allowance", depth)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if self.down == 0:
             return
         if self.down < 0 and m.settings["depth_error"]:
             found = f"{self.surface:g}, got {self.end_tool_axis:g}: it works upwards"
             yield "end_tool_axis", f"must lie below Q227 = {found}"
-        if m.radius <= 0:
-            yield "", f"needs a tool with a radius, got {m.radius:g}"
-            return
+        yield from with_radius(m)
         for name in ("first_side_length", "second_side_length"):
             if getattr(self, name) == 0:
                 yield name, "must not be 0"
         finishes = self.finishes_side or self.finishes_floor
         used = {"milling_feed": self.roughs, "finishing_feed": finishes, "prepositioning_feed": True}
-        for name in (name for name, needed in used.items() if needed and getattr(self, name) == 0):
-            yield name, "must be greater than 0 to mill with, got 0"
+        yield from not_zero(self, *(name for name, needed in used.items() if needed), purpose="to mill with")
         yield from self.check_walls(m.radius)
         yield from too_many("max_plunging_depth", partial(self.rough_levels, tool(m)))
         yield from too_many("finishing_infeed", partial(self.wall_levels, tool(m)))
@@ -205,7 +175,7 @@ class WalledFaceMilling(AtSurface):
         yield from too_many("overlap", lambda: rows(0, min(length, width) if self.strategy == 4 else across, step))
         yield from few_passes("max_plunging_depth", len(self.rough_levels(tool(m))), 1 + int(across / step))
 
-    def check_walls(self, radius: float) -> Iterator[tuple[str, str]]:
+    def check_walls(self, radius: float) -> Iterator[Fault]:
         walled, least = self.walled, 2 * (radius + self.side_allowance)
         sizes = (("first_side_length", walled.length), ("second_side_length", walled.width))
         for axis, (name, size) in enumerate(sizes, 1):
@@ -217,8 +187,6 @@ class WalledFaceMilling(AtSurface):
                 found = f"{widest:g} to fit between the limits, got {self.corner_radius:g}"
                 yield "corner_radius", f"must be at most {found}"
                 return
-
-    # --- steps -------------------------------------------------------------------------------------------------------
 
     def about(self, m: Machine) -> tuple[float, float]:
         half = np.array([self.first_side_length, self.second_side_length]) / 2
@@ -238,11 +206,9 @@ class WalledFaceMilling(AtSurface):
         if self.walled.has_corners and self.corner_radius < m.radius:
             yield Say(f"Q220={self.corner_radius:g}: the corners get the radius of the tool, {m.radius:g}{remark(m)}")
         if (scrapes := passes.scrapes(levels, self.clearance)) > 1e-9:
-            yield Say(
-                f"Q200={self.clearance:g}: the rapid way back to the next line passes {scrapes:.10g} mm below what that line "
-                "has still to take away",
-                hint="choose Q200 not smaller than the infeed",
-            )
+            below = f"{scrapes:.10g} mm below what that line has still to take away"
+            sentence = f"Q200={self.clearance:g}: the rapid way back to the next line passes {below}"
+            yield Say(sentence, hint="choose Q200 not smaller than the infeed")
         x, y = passes.start if levels else begin(walls[0]).tolist()
         yield Go("to the second set-up clearance", max(m.programmed[2], self.end))
         yield Go("over the start", x=x, y=y)

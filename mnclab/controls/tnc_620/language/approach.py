@@ -73,12 +73,12 @@ def approach(m: Machine, words: Words) -> None:
 
 def lead_feed(m: Machine) -> float:
     """The feed of the line to the auxiliary point: rapid if the block before was, else the feed as it was."""
-    last = m.recorder.last()
-    kind = last[0] if last else None
-    for path in () if last else reversed(m.settled):
-        if len(motion := path.kind[path.is_motion]):
-            kind = motion[-1]
-            break
+    kind: Kind | None
+    if last := m.recorder.last():
+        kind = last[0]
+    else:
+        settled = (path.kind[path.is_motion] for path in reversed(m.settled))
+        kind = next((motion[-1] for motion in settled if len(motion)), None)
     return INF if kind == Kind.RAPID else m.feed_of(None)
 
 
@@ -95,11 +95,10 @@ def point(m: Machine, words: Words, meaning: str) -> dict[str, float]:
 def begin_side(m: Machine, words: Words) -> None:
     """RL or RR; R0 where the form needs no side. What was compensated before ends where the tool stands."""
     given = [words[name] for name in SIDES if name in words]
-    code = words.code
     if not given and not m.side:
-        m.alarm(f"{code} needs RL or RR", hint="the side on which the tool runs beside the contour")
+        m.alarm(f"{words.code} needs RL or RR", hint="the side on which the tool runs beside the contour")
     if form(words) in ("LN", "CT") and given and given[0].address == "R0":
-        m.alarm(f"{code} needs RL or RR: without a side it has no direction", given[0])
+        m.alarm(f"{words.code} needs RL or RR: without a side it has no direction", given[0])
     if m.side and not m.recorded_only:
         m.observe()
     side(m, words, begins=True)

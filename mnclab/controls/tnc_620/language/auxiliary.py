@@ -7,8 +7,6 @@ from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 
 FUNCTIONS = FunctionTable()
-HANDWHEEL = " ".join(f"M118:{axis}" for axis in "XYZABC")
-
 TURNING = {"M3": "Spindle on clockwise", "M4": "Spindle on counter-clockwise"}
 COOLANT = {"M7": "Second coolant on", "M8": "Coolant on"}
 BOTH = {"M13": "Spindle on clockwise, coolant on", "M14": "Spindle on counter-clockwise, coolant on"}
@@ -53,7 +51,7 @@ def orient(m: Machine, words: Words) -> None:
     m.set_modal("spindle", "M5")
 
 
-@FUNCTIONS("M118", "Handwheel superimposition", takes=HANDWHEEL, source="1.2")
+@FUNCTIONS("M118", "Handwheel superimposition", takes="M118:X M118:Y M118:Z M118:A M118:B M118:C", source="1.2")
 def handwheel(m: Machine, words: Words) -> None:
     """Nothing moves: there is no handwheel whose steps could be added."""
     m.warn("M118 changes nothing here: there is no handwheel", words.words[0])

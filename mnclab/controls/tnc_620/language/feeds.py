@@ -84,9 +84,6 @@ def named(m: Machine, word: Word) -> float | str:
     return value * m.speed * (teeth(m, word) if per == "FZ" else 1)
 
 
-# --- rules that change the feed along the way ---------------------------------------------------------------------------
-
-
 def from_here(m: Machine, **changed: Any) -> None:
     """Another rule from this block on, in a new list: a recorded label leaves the old one."""
     last = m.feed_rules[-1] if m.feed_rules else FeedRule(0)

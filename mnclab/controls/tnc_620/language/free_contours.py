@@ -21,7 +21,7 @@ from mnclab.controls.tnc_620.language.free_words import describe
 from mnclab.controls.tnc_620.language.motion import SIDED, TOLERANCE, feed, refuse_rapid, side
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry import free_choice
-from mnclab.geometry.free_contour import FreeContour, Pair, Piece, known
+from mnclab.geometry.free_contour import Element, FreeContour, Pair, Piece, known
 from mnclab.geometry.newton import Exhausted
 from mnclab.geometry.quadratic_form import Form
 from mnclab.geometry.readings import Contradiction, TooManyReadings
@@ -169,20 +169,11 @@ class Chain:
         if reading is None:
             return
         open_ = set(contour.open_unknowns(reading))
-        first, parts = len(contour.elements) - 1, ["end point"]
-        for k, element in enumerate(contour.elements):
-            named = {
-                "direction": element.normal and element.normal.x, "place": element.offset,
-                "centre": element.centre and element.centre.x, "radius": element.radius, "end point": element.end.x,
-            }  # fmt: skip
-            known_not = [name for name, form in named.items() if form is not None and form.variables & open_]
-            if element.end.y.variables & open_ and "end point" not in known_not:
-                known_not.append("end point")
-            if known_not:
-                first, parts = k, known_not
-                break
-        missing, block = contour.missing(reading), self.blocks[first]
-        unknown = f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else parts[0]
+        parts = [_open_parts(element, open_) for element in contour.elements]
+        k = next((k for k, names in enumerate(parts) if names), len(parts) - 1)
+        *others, last = parts[k] or ["end point"]
+        unknown = f"{', '.join(others)} and {last}" if others else last
+        block, missing = self.blocks[k], contour.missing(reading)
         need = "too much of it is open" if missing is None else "no solution was found"
         if missing:
             need = f"{missing} more {'datum is' if missing == 1 else 'data are'} needed"
@@ -209,6 +200,16 @@ class Chain:
         return left[0]
 
 
+def _open_parts(element: Element, unknowns: set[int]) -> list[str]:
+    """What of an element is not known."""
+    named = (
+        ("direction", element.normal and element.normal.x), ("place", element.offset),
+        ("centre", element.centre and element.centre.x), ("radius", element.radius),
+        ("end point", element.end.x), ("end point", element.end.y),
+    )  # fmt: skip
+    return list(dict.fromkeys(name for name, form in named if form is not None and form.variables & unknowns))
+
+
 def _fixed(pair: Pair, values: np.ndarray[Any, Any]) -> Pair:
     """A point whose unknowns are settled, as numbers."""
     return known(pair.x.at(values), pair.y.at(values))
@@ -226,7 +227,7 @@ def _heading(m: Machine) -> float | None:
 
 @FUNCTIONS("FC FCT", {"FC": "Free arc", "FCT": "Free tangential arc"}, takes=ARC, collects=True, source="8.13, example")
 @FUNCTIONS("FL FLT", LINES, takes=LINE, collects=True, source="8.13, example")
-def element(m: Machine, words: Words) -> None:
+def free_element(m: Machine, words: Words) -> None:
     """A line or an arc told by what is known of it; FLT and FCT join the element before tangentially."""
     own = feed(m, words)
     if words.code in ("FC", "FCT"):

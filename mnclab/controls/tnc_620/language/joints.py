@@ -16,28 +16,20 @@ FUNCTIONS = FunctionTable()
 @FUNCTIONS("RND", "Corner rounding", takes="R F", collects=True, source="8.13, example")
 def rounding(m: Machine, words: Words) -> None:
     """A tangent arc between the element before and the one after; F counts for the rounding alone."""
-    mark(m, words, Rounding(size(m, words, "R", "rounding radius"), m.step, own_feed(m, words)), "R")
+    join(m, words, Rounding, "R", "rounding radius")
 
 
 @FUNCTIONS("CHF", "Chamfer", takes="length F", collects=True, source="9.2")
 def chamfer(m: Machine, words: Words) -> None:
     """Cuts a corner of two lines off, the length along each of them; F counts for the chamfer alone."""
-    mark(m, words, Chamfer(size(m, words, "length", "chamfer side length"), m.step, own_feed(m, words)), "length")
+    join(m, words, Chamfer, "length", "chamfer side length")
 
 
-def size(m: Machine, words: Words, address: str, meaning: str) -> float:
-    """The radius or the length, mm on the machine."""
+def join(m: Machine, words: Words, make: type[Rounding] | type[Chamfer], address: str, meaning: str) -> None:
     shown = f"{words.code} {address}" if address.isupper() else words.code
     if address not in words:
         m.alarm(f"{words.code} needs the {'radius R' if address == 'R' else meaning}")
-    return scaled(m, above_zero(m, words[address], f"{shown} ({meaning})"))
-
-
-def own_feed(m: Machine, words: Words) -> float:
-    """The feed of the corner alone, mm/min; nan if it has none of its own."""
-    return above_zero(m, words["F"], f"{words.code} F (feed rate)") if "F" in words else math.nan
-
-
-def mark(m: Machine, words: Words, joint: Rounding | Chamfer, address: str) -> None:
-    if not m.mark_joint(joint):
+    size = scaled(m, above_zero(m, words[address], f"{shown} ({meaning})"))
+    own_feed = above_zero(m, words["F"], f"{words.code} F (feed rate)") if "F" in words else math.nan
+    if not m.mark_joint(make(size, m.step, own_feed)):
         m.alarm(f"{words.code} needs a path element directly before it", words[address])

@@ -23,6 +23,8 @@ from mnclab.text.program import Word
 FUNCTIONS = FunctionTable()
 AXES = "XYZ"
 SIDES = {"R0": 0, "RL": 1, "RR": -1}
+#: FMAX holds for its block alone, and the manual's own program C210 (6.10) has such a move after it.
+FEED_NEEDED = "write F or FMAX; with the setting feed_needed = False such a move is at rapid, with a warning"
 SIDED = f"R0 RL RR {FORMS}"
 SAME = 1e-9  # rad: an end at the angle of the start is a whole turn
 TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue: C)
@@ -46,10 +48,6 @@ def side(m: Machine, words: Words, begins: bool) -> None:
         what = f"{word} cannot {'begin' if wanted else 'end'} the radius compensation in {words.code}"
         m.alarm(what, word, "write it in a straight line L")
     m.change("side", wanted)
-
-
-#: FMAX holds for its block alone, and the manual's own program C210 (6.10) has such a move after it.
-FEED_NEEDED = "write F or FMAX; with the setting feed_needed = False such a move is at rapid, with a warning"
 
 
 @FUNCTIONS("L", "Straight line", takes=f"X Y Z A B C PR PA {SIDED}", source="4.11, example")

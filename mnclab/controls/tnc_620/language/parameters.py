@@ -42,7 +42,7 @@ def give(m: Machine, word: Word, value: float | str) -> None:
     name = str(word.value)
     if name in PREASSIGNED:
         m.alarm(
-            f"{name} ({MEANINGS[name]}) is kept by the control and cannot be assigned", word, "take another parameter"
+            f"{name} ({KEPT[name][0]}) is kept by the control and cannot be assigned", word, "take another parameter"
         )
     m.variables[name] = value
 
@@ -93,29 +93,16 @@ def spindle_status(m: Machine) -> float:
     return -1.0 if not senses else 2.0 if senses[-1] > 0 else 3.0
 
 
-def coolant_status(m: Machine) -> float:
-    return 0.0 if m.modal.get("coolant", "M9") == "M9" else 1.0
-
-
-def tool_axis(m: Machine) -> float:
-    """2 for Z; -1 while no tool was called."""
-    return 2.0 if m.tool.number else -1.0
-
-
-MEANINGS = {
-    "Q108": "radius of the active tool with its deltas", "Q109": "tool axis", "Q110": "spindle status",
-    "Q111": "coolant", "Q112": "overlap factor of pockets", "Q113": "unit of the main program",
-    "Q114": "length of the active tool with its deltas",
-}  # fmt: skip
-PREASSIGNED: dict[str, Callable[[Machine], float | None]] = {
-    "Q108": lambda m: m.tool.effective_radius / m.variable_unit,
-    "Q109": tool_axis,
-    "Q110": spindle_status,
-    "Q111": coolant_status,
-    "Q112": lambda m: float(m.settings["overlap"]),
-    "Q113": lambda m: 1.0 if memory(m).main_unit == "INCH" else 0.0,
-    "Q114": lambda m: m.tool.effective_length / m.variable_unit,
+KEPT: dict[str, tuple[str, Callable[[Machine], float | None]]] = {
+    "Q108": ("radius of the active tool with its deltas", lambda m: m.tool.effective_radius / m.variable_unit),
+    "Q109": ("tool axis", lambda m: 2.0 if m.tool.number else -1.0),  # 2 is Z, -1 while no tool was called
+    "Q110": ("spindle status", spindle_status),
+    "Q111": ("coolant", lambda m: 0.0 if m.modal.get("coolant", "M9") == "M9" else 1.0),
+    "Q112": ("overlap factor of pockets", lambda m: float(m.settings["overlap"])),
+    "Q113": ("unit of the main program", lambda m: 1.0 if memory(m).main_unit == "INCH" else 0.0),
+    "Q114": ("length of the active tool with its deltas", lambda m: m.tool.effective_length / m.variable_unit),
 }
+PREASSIGNED = {name: value for name, (_, value) in KEPT.items()}
 
 NAMES = re.compile(r"(?:Q1?\d{1,3}|Q[LR][1-4]?\d{1,2}|QS1?\d{1,3})")
 
@@ -133,19 +120,14 @@ def start(m: Machine) -> None:
             m.variables[name] = value if isinstance(value, str) else float(value)
 
 
-def scale(m: Machine, index: float) -> float | None:
-    """How much longer the machine's way is than the program's along an axis (1 X, 2 Y, 3 Z)."""
-    return float(np.linalg.norm(m.frames.matrix[:3, int(index) - 1])) if index in (1, 2, 3) else None
-
-
-SYSTEM: dict[tuple[float, float], Callable[[Machine, float], float | None]] = {
-    (20, 1): lambda m, index: float(m.tool.number),
-    (20, 3): lambda m, index: tool_axis(m),
-    (20, 4): lambda m, index: m.speed,
-    (20, 5): lambda m, index: spindle_status(m),
-    (20, 8): lambda m, index: coolant_status(m),
-    (20, 9): lambda m, index: m.feed,
-    (210, 4): scale,
+#: ID20, by NR.
+SYSTEM: dict[float, Callable[[Machine], float | None]] = {
+    1: lambda m: float(m.tool.number),
+    3: PREASSIGNED["Q109"],
+    4: lambda m: m.speed,
+    5: spindle_status,
+    8: PREASSIGNED["Q111"],
+    9: lambda m: m.feed,
 }
 
 
@@ -154,8 +136,11 @@ def read_system(m: Machine, words: Words) -> None:
     """ID20: tool, axis, speed, spindle, coolant, feed (NR 1, 3, 4, 5, 8, 9); ID210 NR4: the scale of axis IDX."""
     identity, number = m.value(words["ID"]), m.value(words["NR"])
     index = m.value(words["IDX"]) if "IDX" in words else 1.0
-    read = SYSTEM.get((identity, number))
-    value = read(m, index) if read else None
+    value = None
+    if identity == 20 and number in SYSTEM:
+        value = SYSTEM[number](m)
+    elif (identity, number) == (210, 4) and index in (1, 2, 3):  # how much longer the machine's way is along X, Y, Z
+        value = float(np.linalg.norm(m.frames.matrix[:3, int(index) - 1]))
     m.variables.state_read = m.step
     if value is None:
         m.alarm(

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from mnclab.controls.tnc_620.language.checks import counted, not_negative, whole
 from mnclab.controls.tnc_620.reading.pattern_words import ADDRESSES, CLOSED, FORMS
 from mnclab.controls.tnc_620.state import memory
-from mnclab.controls.tnc_620.tables.point_tables import read_points
+from mnclab.controls.tnc_620.tables import point_tables
+from mnclab.controls.tnc_620.tables.table_files import read_table
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machining import patterns
@@ -67,7 +68,7 @@ def pattern_def(m: Machine, words: Words) -> None:
 @FUNCTIONS("SEL PATTERN,", "Point table", takes="file", source="3.4")
 def sel_pattern(m: Machine, words: Words) -> None:
     """The points of a file NAME.PNT; nothing moves."""
-    table = read_points(m, words["file"])
+    _, table = read_table(m, words["file"], "SEL PATTERN", "point table", ".PNT", point_tables.parse)
     m.flow.spend(len(table.points))
     activate(m, Pattern(table.points[~table.hidden], table.clearance[~table.hidden], True))
 
@@ -151,9 +152,6 @@ def check_number(element: Element, expected: int) -> None:
         m.alarm(f"{element.name} stands where {head.address}{expected} is expected", head)
 
 
-# --- forms: the points (n, 3) of an element ---------------------------------------------------------------------------
-
-
 def position(element: Element, before: Floats | None) -> Floats:
     """POS: one point, absolute or counted from the one before, axis by axis."""
     begin = np.zeros(3) if before is None else before
@@ -193,4 +191,5 @@ def circle(element: Element, before: Floats | None) -> Floats:
     return element.at_surface(patterns.circle(centre, diameter / 2, start, step, count))
 
 
+#: Each makes the points (n, 3) of an element.
 FORM = {"POS": position, "ROW": row, "PAT": grid, "FRAME": grid, "CIRC": circle, "PITCHCIRC": circle}

@@ -15,6 +15,7 @@ from mnclab.machine.setup import Datum
 from mnclab.running.performing import perform
 
 FUNCTIONS = FunctionTable()
+STOPS = {"M0": "Program stop", "M1": "Optional stop"}
 
 Corner = tuple[float, float, float]
 
@@ -87,7 +88,8 @@ def least_corner(m: Machine, words: Words) -> None:
     axis = str(words["axis"].value)
     if axis not in ("X", "Y", "Z"):
         m.alarm(f"BLK FORM 0.1: the tool axis must be X, Y or Z, got {axis}", words["axis"])
-    keep(m, Blank(axis, corner(m, words, None)))
+    memory(m).stock = Blank(axis, corner(m, words))
+    m.log("stock", memory(m).stock)
 
 
 @FUNCTIONS("BLK FORM 0.2,", "Blank: greatest corner", takes="X Y Z", source="4.11, example")
@@ -100,10 +102,11 @@ def greatest_corner(m: Machine, words: Words) -> None:
     for axis, low, high in zip("XYZ", blank.minimum, greatest, strict=True):
         if not high > low:
             m.alarm(f"BLK FORM 0.2 {axis} (greatest corner) must be greater than {low:g}, got {high:g}", words[axis])
-    keep(m, blank._replace(maximum=greatest))
+    memory(m).stock = blank._replace(maximum=greatest)
+    m.log("stock", memory(m).stock)
 
 
-def corner(m: Machine, words: Words, least: Corner | None) -> Corner:
+def corner(m: Machine, words: Words, least: Corner | None = None) -> Corner:
     for axis in "XYZ":
         what = f"{words.code} {axis} (coordinate of the corner)"
         if axis not in words:
@@ -114,15 +117,8 @@ def corner(m: Machine, words: Words, least: Corner | None) -> Corner:
     return x, y, z
 
 
-def keep(m: Machine, blank: Blank) -> None:
-    memory(m).stock = blank
-    m.log("stock", blank)
-
-
 @FUNCTIONS("STOP", "Program stop", phase="end", source="Klartext, not described")
-@FUNCTIONS(
-    "M0 M1", {"M0": "Program stop", "M1": "Optional stop"}, phase="end", modal=False, source="Klartext, not described"
-)
+@FUNCTIONS("M0 M1", STOPS, phase="end", modal=False, source="Klartext, not described")
 def stop(m: Machine, words: Words) -> None:
     """Wait for the operator, after the motion of the block."""
     m.stop()

@@ -10,6 +10,8 @@ from collections.abc import Generator, Iterator
 from typing import Any
 
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, distance
+from mnclab.controls.tnc_620.cycles.faults import Fault
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
 from mnclab.controls.tnc_620.state import active_preset
 from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
@@ -24,6 +26,7 @@ TRANSFER: dict[float, str] = {-1: "do not use", 0: "datum table", 1: "preset tab
 class PresetInOneAxis(Cycle):
     """One touch along an axis; the touched point gets the coordinate Q333."""
 
+    about = in_program_coordinates
     x: float = coordinate("Q263", "first touch point, reference axis", example=20)
     y: float = coordinate("Q264", "first touch point, minor axis", example=10)
     z: float = coordinate("Q261", "measuring height of the ball's centre", example=-5)
@@ -35,23 +38,18 @@ class PresetInOneAxis(Cycle):
     datum: float = coordinate("Q333", "new coordinate of the touched point", default=0)
     transfer: float = choice("Q303", "measured value transfer", TRANSFER, example=1)
 
-    def check(self, m: Machine) -> Iterator[tuple[str, str]]:
+    def check(self, m: Machine) -> Iterator[Fault]:
         if not m.tool.number:
             yield "", "needs a tool call before it, which names the probe and its axis"
-        active = [name for name, _ in m.frames if name != "preset" and name in m.frames]
-        if active:
+        if active := [name for name, _ in m.frames if name != "preset" and name in m.frames]:
             yield "", f"cannot run while a {active[0]} is active"
         if self.transfer == -1 and self.row:
             yield "transfer", "-1 does not say where row Q305 is: choose 0 (datum table) or 1 (preset table)"
 
-    def about(self, m: Machine) -> tuple[float, float]:
-        return 0.0, 0.0
-
     def moves(self, m: Machine) -> Generator[Step, Any, None]:
         k, ball, probe = int(self.axis) - 1, m.radius, m.setup.probe
-        away = probe.clearance + self.clearance + ball
         start = [self.x, self.y, self.z]  # of the ball's centre
-        start[k] -= self.direction * away
+        start[k] -= self.direction * (probe.clearance + self.clearance + ball)
         pole = start[2] - ball
         if m.programmed[2] < self.height:
             yield Go("to the clearance height", self.height)
@@ -65,20 +63,15 @@ class PresetInOneAxis(Cycle):
 
     def preset(self, m: Machine, k: int, found: float) -> Iterator[Step]:
         """Write the row, and activate it where it is row 0 or the active one (TNC 15.1)."""
-        active = active_preset(m)
-        before = m.tables.presets.get(active, Datum())
-        if self.transfer == 0 and self.row:
-            row = m.tables.datums.get(int(self.row), Datum())
-            yield Write("datums", with_axis(row, k, found - self.datum), int(self.row))
+        axis, shift, number, active = "xyz"[k], found - self.datum, int(self.row), active_preset(m)
+        if self.transfer == 0 and number:
+            row = m.tables.datums.get(number, Datum())
+            yield Write("datums", row._replace(**{axis: shift}), number)
             return
-        base = before if self.row == 0 or self.row == active else m.tables.presets.get(int(self.row), Datum())
-        preset = with_axis(base, k, before[k] + found - self.datum)
-        yield Write("presets", preset, int(self.row))
-        if self.row in (0, active):
-            yield Write("memory", int(self.row), "preset")
+        before = m.tables.presets.get(active, Datum())
+        row = before if number in (0, active) else m.tables.presets.get(number, Datum())
+        preset = row._replace(**{axis: before[k] + found - self.datum})
+        yield Write("presets", preset, number)
+        if number in (0, active):
+            yield Write("memory", number, "preset")
             yield Write("datum", preset, "preset")
-
-
-def with_axis(datum: Datum, axis: int, value: float) -> Datum:
-    """A row with one of its linear axes replaced."""
-    return datum._replace(**{"xyz"[axis]: value})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 
 from mnclab.controls.tnc_620.reading.formulas import operand
 from mnclab.controls.tnc_620.reading.words import FLAGS, TEXT, WHOLE, Cursor, Fault, Read
@@ -56,33 +57,24 @@ def call_label(cursor: Cursor) -> None:
         cursor.add("REP", float(found.group(1)), begin)
 
 
-def jump(number: int) -> Read:
+def jump(cursor: Cursor, number: int) -> None:
     """FN 9 to FN 12: two operands, a comparison, and the label to go to."""
     word = COMPARISONS[number]
     example = f"FN {number}: IF +Q1 {word} +Q3 GOTO LBL 5"
     hint = f"for example {example}"
-
-    def read(cursor: Cursor) -> None:
-        if not cursor.match(_IF):
-            raise Fault(f"FN {number} needs IF", cursor.blanks(), hint=hint)
-        if number == 9 and (found := cursor.match(_DEFINED)):
-            cursor.builder.word("parameter", found.group(1).upper(), found.start(1), len(found.group(1)))
-            cursor.builder.word("state", found.group(2).upper(), found.start(2), len(found.group(2)))
-        else:
-            operand(cursor, "first", example)
-            begin = cursor.blanks()
-            if not cursor.match(re.compile(rf"{word}(?![A-Z])", FLAGS)):
-                raise Fault(f"FN {number} compares with {word}", begin, hint=hint)
-            operand(cursor, "second", example)
-        begin = cursor.blanks()
-        if not cursor.match(_GOTO):
-            raise Fault("GOTO LBL is missing", begin, hint=hint)
-        label(cursor, parameter=True)
-
-    return read
+    cursor.expect(_IF, f"FN {number} needs IF", hint)
+    if number == 9 and (found := cursor.match(_DEFINED)):
+        for k, address in enumerate(("parameter", "state"), start=1):
+            cursor.builder.word(address, found.group(k).upper(), found.start(k), len(found.group(k)))
+    else:
+        operand(cursor, "first", example)
+        cursor.expect(re.compile(rf"{word}(?![A-Z])", FLAGS), f"FN {number} compares with {word}", hint)
+        operand(cursor, "second", example)
+    cursor.expect(_GOTO, "GOTO LBL is missing", hint)
+    label(cursor, parameter=True)
 
 
-JUMPS: dict[int, Read] = {number: jump(number) for number in COMPARISONS}
+JUMPS: dict[int, Read] = {number: partial(jump, number=number) for number in COMPARISONS}
 
 
 def name_of_program(cursor: Cursor, address: str = "name", what: str = "CALL PGM") -> None:

@@ -14,13 +14,9 @@ from mnclab.text.program import INCREMENTAL
 GRID = ("X", "Y", "DX", "DY", "NUMX", "NUMY", "ROT", "ROTX", "ROTY", "Z")
 #: The addresses of each form; of STEP and END of PITCHCIRC one is written.
 FORMS: dict[str, tuple[str, ...]] = {
-    "POS": ("X", "Y", "Z"),
-    "ROW": ("X", "Y", "D", "NUM", "ROT", "Z"),
-    "PAT": GRID,
-    "FRAME": GRID,
-    "CIRC": ("X", "Y", "D", "START", "NUM", "Z"),
-    "PITCHCIRC": ("X", "Y", "D", "START", "STEP", "END", "NUM", "Z"),
-}
+    "POS": ("X", "Y", "Z"), "ROW": ("X", "Y", "D", "NUM", "ROT", "Z"), "PAT": GRID, "FRAME": GRID,
+    "CIRC": ("X", "Y", "D", "START", "NUM", "Z"), "PITCHCIRC": ("X", "Y", "D", "START", "STEP", "END", "NUM", "Z"),
+}  # fmt: skip
 ADDRESSES = tuple(dict.fromkeys(address for form in FORMS.values() for address in form))
 CLOSED = ")"
 
@@ -47,8 +43,7 @@ class PatternWords:
             elif not self.form:
                 self.head(cursor)
             elif not self.opened:
-                if not cursor.match(_OPEN):
-                    raise Fault(f"{self.form} needs its words in brackets", begin, hint=f"write {self.form}1 (X+… Y+…)")
+                cursor.expect(_OPEN, f"{self.form} needs its words in brackets", f"write {self.form}1 (X+… Y+…)")
                 self.opened = True
             elif cursor.match(_CLOSE):
                 cursor.add(CLOSED, None, begin)
@@ -58,9 +53,8 @@ class PatternWords:
 
     def head(self, cursor: Cursor) -> None:
         begin = cursor.at
-        found = cursor.match(_FORM)
-        if found is None:
-            raise Fault(f"a pattern must be one of {', '.join(FORMS)}", begin, hint="for example POS1 (X+10 Y+20 Z+0)")
+        what, hint = f"a pattern must be one of {', '.join(FORMS)}", "for example POS1 (X+10 Y+20 Z+0)"
+        found = cursor.expect(_FORM, what, hint)
         self.form = found.group(1).upper()
         if not found.group(2):
             raise Fault(f"{self.form} needs its number", begin, len(found.group()), f"write {self.form}1")
@@ -86,8 +80,7 @@ class PatternWords:
         address, begin, flag = self.pending
         value = cursor.value()
         if value is None:
-            where = begin if same_line else cursor.at
-            raise Fault(f"{address} needs a number", where, len(address) if same_line else 1)
+            raise Fault(f"{address} needs a number", *((begin, len(address)) if same_line else (cursor.at, 1)))
         self.pending = None
         if not same_line:
             cursor.builder.words.pop()  # the word without a number

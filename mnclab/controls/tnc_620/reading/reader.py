@@ -29,6 +29,7 @@ from mnclab.text.words import Scan, characters, scan
 
 _UNIT = re.compile(r"(?<![^\r\n])[ \t\ufeff]*(?:/[ \t]*)?(?:\d+[ \t]*)?BEGIN[ \t]+PGM[ \t]([^\r\n;~]*)", FLAGS)
 _HEAD = re.compile(r"[ \t]*(/?)[ \t]*(\d*)[ \t]*(/?)[ \t]*")
+_BEFORE_COMMENT = re.compile(r'(?:[^;"]++|"[^"]*+(?:"|$))*+')
 _SPACED = re.compile(r"Q(\d+)[ \t]+=", FLAGS)
 _WORD = re.compile(r"[A-Z]+|\S", re.IGNORECASE)
 _PLAIN = "FRXYZ"  # letters of plain lines
@@ -116,13 +117,9 @@ class _Lines:
             begin, content = 1, content[1:]
         tilde = content.endswith("~")
         content = content.removesuffix("~")
-        comment, quoted = -1, False
-        if ";" in content:
-            for k, c in enumerate(content):
-                quoted ^= c == '"'
-                if c == ";" and not quoted:
-                    comment, content = begin + k, content[:k]
-                    break
+        comment = -1
+        if ";" in content and (words := _BEFORE_COMMENT.match(content)) and words.end() < len(content):
+            comment, content = begin + words.end(), words.group()
         return begin, begin + len(content.rstrip(" \t")), comment, tilde
 
     def goes_on(self, at: int, stop: int) -> bool:
@@ -164,13 +161,22 @@ class _Lines:
             self.statement, self.faulty = statement, was_faulty
             if was_faulty:
                 return
-            self.check_part(before, statement, begin, cursor.at - begin, skip)
+            if statement.part <= before.part:
+                what = f"{statement.keyword}.{statement.part} stands after {before.keyword}.{before.part}"
+                raise Fault(what, begin, cursor.at - begin)
+            if skip != self.skip:
+                raise Fault("all sub-blocks of a cycle must be marked with / or none", begin, cursor.at - begin)
         else:
             self.builder.block(start, statement.keyword if statement else "", skip)
             self.statement, self.skip = statement, skip
             if statement is None:
                 raise self.unknown(cursor)
-            self.check_order(statement, begin, cursor.at - begin)
+            if statement.keyword == "BEGIN PGM":
+                if self.begun:
+                    raise Fault("BEGIN PGM stands twice: a file holds one program", begin, cursor.at - begin)
+                self.begun = True
+            if statement.keyword == "END PGM" and self.end is None:
+                self.end = begin
             if statement.part > 0:
                 what = f"{statement.keyword}.{statement.part} stands without {statement.keyword}.0 before it"
                 raise Fault(what, begin, cursor.at - begin)
@@ -180,21 +186,6 @@ class _Lines:
     def close(self, cursor: Cursor) -> None:
         if not cursor.done:
             raise cursor.unexpected()
-
-    def check_part(self, before: Statement, now: Statement, begin: int, length: int, skip: bool) -> None:
-        if now.part <= before.part:
-            raise Fault(f"{now.keyword}.{now.part} stands after {before.keyword}.{before.part}", begin, length)
-        if skip != self.skip:
-            raise Fault("all sub-blocks of a cycle must be marked with / or none", begin, length)
-
-    def check_order(self, statement: Statement, begin: int, length: int) -> None:
-        """BEGIN PGM stands once; END PGM is the last block that counts."""
-        if statement.keyword == "BEGIN PGM":
-            if self.begun:
-                raise Fault("BEGIN PGM stands twice: a file holds one program", begin, length)
-            self.begun = True
-        if statement.keyword == "END PGM" and self.end is None:
-            self.end = begin
 
     def unknown(self, cursor: Cursor) -> Fault:
         found = _WORD.match(self.text, cursor.at, cursor.stop)

@@ -10,10 +10,11 @@ import re
 from functools import partial
 from typing import NamedTuple
 
-from mnclab.controls.tnc_620.reading import labels, sub_blocks
+from mnclab.controls.tnc_620.reading import labels
 from mnclab.controls.tnc_620.reading.formulas import FN, assignment, declared_text, text_assignment, text_formula
 from mnclab.controls.tnc_620.reading.pattern_words import PatternWords
-from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, TEXT, WHOLE, Cursor, Fault, Read
+from mnclab.controls.tnc_620.reading.sub_blocks import READERS
+from mnclab.controls.tnc_620.reading.words import FLAGS, NUMBER, TEXT, Cursor, Fault, Read
 
 
 class Statement(NamedTuple):
@@ -21,10 +22,8 @@ class Statement(NamedTuple):
 
     keyword: str
     read: Read
-    more: Read | None = None
-    """Reads a further line that has no block number; None when only a line ending in ~ can be continued."""
-    part: int = -1
-    """k of a sub-block n.k, -1 for everything else."""
+    more: Read | None = None  # reads a further line without a block number; None: only a line ending in ~ goes on
+    part: int = -1  # k of a sub-block n.k
 
 
 plain: Read = Cursor.words
@@ -37,25 +36,16 @@ def ignored(cursor: Cursor) -> None:
     cursor.at = cursor.stop
 
 
-def leading(name: str) -> Read:
+def leading(cursor: Cursor, name: str) -> None:
     """A number without an address, then words."""
-
-    def read(cursor: Cursor) -> None:
-        begin = cursor.blanks()
-        if (value := cursor.value()) is not None:
-            cursor.add(name, value, begin)
-        cursor.words()
-
-    return read
+    begin = cursor.blanks()
+    if (value := cursor.value()) is not None:
+        cursor.add(name, value, begin)
+    cursor.words()
 
 
-def tool_call(cursor: Cursor) -> None:
-    tool(cursor)
-    with_axis(cursor)
-
-
-def tool(cursor: Cursor) -> None:
-    """A tool by number, by name in quotes or in a text parameter; nothing if none of them is there."""
+def tool(cursor: Cursor, words: Read) -> None:
+    """Perhaps a tool by number, by name in quotes or in a text parameter, then words."""
     begin = cursor.blanks()
     if found := cursor.match(TEXT):
         cursor.add("tool", found.group(1).strip(), begin)
@@ -63,27 +53,23 @@ def tool(cursor: Cursor) -> None:
         cursor.add("text", f"QS{int(found.group(1))}", begin)
     elif (value := cursor.value()) is not None:
         cursor.add("tool", value, begin)
-
-
-def tool_def(cursor: Cursor) -> None:
-    tool(cursor)
-    with_radius(cursor)
+    words(cursor)
 
 
 def program_name(cursor: Cursor) -> None:
     """BEGIN PGM and END PGM: name and unit."""
     begin = cursor.blanks()
-    parts = cursor.rest().rsplit(None, 1)
-    if not parts or parts[-1].upper() not in ("MM", "INCH"):
+    *name, unit = cursor.rest().rsplit(None, 1) or [""]
+    if unit.upper() not in ("MM", "INCH"):
         cursor.at = cursor.stop
         what = "the unit of the program is missing: MM or INCH must follow its name"
-        raise Fault(what, begin, max(1, len(" ".join(parts))))
-    unit_at = begin + cursor.rest().rindex(parts[-1])
-    if len(parts) == 2:
-        cursor.at = begin + len(parts[0])
-        cursor.add("name", parts[0], begin)
-    cursor.at = unit_at + len(parts[-1])
-    cursor.add("unit", parts[-1].upper(), unit_at)
+        raise Fault(what, begin, max(1, len(" ".join((*name, unit)))))
+    if name:
+        cursor.at = begin + len(name[0])
+        cursor.add("name", name[0], begin)
+    at = cursor.text.rindex(unit, begin, cursor.stop)
+    cursor.at = at + len(unit)
+    cursor.add("unit", unit.upper(), at)
     cursor.at = cursor.stop
 
 
@@ -93,14 +79,10 @@ def file_name(cursor: Cursor) -> None:
     if found := cursor.match(TEXT):
         name = found.group(1).strip()
     else:
-        name = cursor.rest().strip()
-        cursor.at = cursor.stop
+        name, cursor.at = cursor.rest().strip(), cursor.stop
     if not name:
         raise Fault("the name of a file is missing", begin, hint='for example SEL PATTERN "HOLES"')
     cursor.add("file", name, begin)
-
-
-# --- cycles -----------------------------------------------------------------------------------------------------------
 
 
 def cycle_parameters(cursor: Cursor) -> None:
@@ -128,52 +110,23 @@ def cycle_parameters(cursor: Cursor) -> None:
         builder.word(name, value, begin, cursor.at - begin)
 
 
-def name_of_cycle(cursor: Cursor, stop: int = -1) -> None:
+def name_of_cycle(cursor: Cursor, stop: int | None = None) -> None:
     """The name is free; what looks like a word in it would be lost, which is said."""
-    stop = cursor.stop if stop < 0 else stop
+    stop = cursor.stop if stop is None else stop
     for found in _LIKE_A_WORD.finditer(cursor.text, cursor.at, stop):
         message = f"{found.group()} is read as part of the cycle's name and not obeyed"
         cursor.builder.alarm(message, found.start(), len(found.group()), severity="warning")
     cursor.at = stop
 
 
-def contour_labels(cursor: Cursor) -> None:
-    """14.1: the numbers of the labels, `1/2/3/4`, after a word in the language of the dialog."""
-    cursor.match(_DIALOG)
-    while not cursor.done:
-        cursor.match(_SLASH)
-        begin = cursor.blanks()
-        found = cursor.match(WHOLE)
-        if found is None:
-            raise Fault("a contour label must be a whole number", begin)
-        cursor.add("LBL", float(found.group(1)), begin)
-
-
-def datum_shift(cursor: Cursor) -> None:
-    begin = cursor.blanks()
-    if cursor.match(_ROW):
-        cursor.add("#", cursor.needed("# needs the number of a row", begin), begin)
-    cursor.words()
-
-
-#: How sub-blocks n.1, n.2 … are read; the others are known by their number alone.
-PARTS: dict[str, Read] = {
-    "CYCL DEF 7": datum_shift,
-    **sub_blocks.READERS,
-    "CYCL DEF 10": plain,
-    "CYCL DEF 11": plain,
-    "CYCL DEF 12": labels.program_of_cycle,
-    "CYCL DEF 14": contour_labels,
-}
-
-
 _FORMS = "LT LN CT LCT PLT PLN PCT PLCT".split()
 WORDS: dict[str, Read] = {
     "L": plain, "CC": plain, "C": plain, "CT": plain, "LP": plain, "CP": plain, "CTP": plain, "CR": with_radius,
-    "RND": with_radius, "CHF": leading("length"), "FPOL": plain, "FL": plain, "FLT": plain, "FC": with_radius,
-    "FCT": with_radius, "FSELECT": leading("number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
+    "RND": with_radius, "CHF": partial(leading, name="length"), "FPOL": plain, "FL": plain, "FLT": plain, "FC": with_radius,
+    "FCT": with_radius, "FSELECT": partial(leading, name="number"), "STOP": plain, "CYCL CALL POS": plain, "CYCL CALL PAT": plain,
     "CYCL CALL": plain, "LBL": labels.set_label, "CALL LBL": labels.call_label, "CALL PGM": labels.name_of_program,
-    "SEL PGM": labels.select_program, "CALL SELECTED PGM": plain, "TOOL CALL": tool_call, "TOOL DEF": tool_def,
+    "SEL PGM": labels.select_program, "CALL SELECTED PGM": plain,
+    "TOOL CALL": partial(tool, words=with_axis), "TOOL DEF": partial(tool, words=with_radius),
     "DECLARE STRING": declared_text, "SEL PATTERN": file_name, "SEL TABLE": file_name,
     "PATTERN DEF": plain,  # whose lines PatternWords reads
     "BEGIN PGM": program_name, "END PGM": program_name, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
@@ -201,10 +154,7 @@ _STRING = re.compile(r"[ \t]*QS[ \t]*\d{1,4}", FLAGS)
 _LIKE_A_WORD = re.compile(
     r"(?<![\w.-])(?:I?[XYZUVWABC][+-]?\d|[A-Z]{1,4}[+-]\d|[MFS]\d|FMAX|R[0LR]\b)(?:[\d.,]*\d)?", FLAGS
 )
-_DIALOG = re.compile(r"[^\d;~]*")
 _TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
-_SLASH = re.compile(r"[ \t]*/")
-_ROW = re.compile(r"#")
 
 
 def recognize(cursor: Cursor) -> Statement | None:
@@ -256,5 +206,5 @@ def _cycle(cursor: Cursor, found: re.Match[str]) -> Statement:
     part = int(found.group(3))
     if part == 0:
         return Statement(keyword, ignored if word == "TCH PROBE" else name_of_cycle, None, 0)
-    read = PARTS.get(f"{keyword}.{part}", PARTS.get(keyword, ignored))
+    read = READERS.get(f"{keyword}.{part}", READERS.get(keyword, ignored))
     return Statement(keyword, read, read, part)

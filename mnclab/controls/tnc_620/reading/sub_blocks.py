@@ -7,63 +7,71 @@ they are passed over, and what the number means follows from its place.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from functools import partial
 
-from mnclab.controls.tnc_620.reading.words import FLAGS, Cursor, Read, from_inches
+from mnclab.controls.tnc_620.reading.labels import program_of_cycle
+from mnclab.controls.tnc_620.reading.words import FLAGS, WHOLE, Cursor, Read, from_inches
 
+_LABELS, _SLASH = re.compile(r"[^\d;~]*"), re.compile(r"[ \t]*/")
+_ROW = re.compile(r"#")
 _LETTER = re.compile(r"[ \t]*([XYZUVWABC])(?![A-Z\d])", FLAGS)
-_CENTRE = re.compile(r"I?CC", FLAGS)
 _DIALOG = re.compile(r"(?:(?!Q[LR]?\d)[^\d\s;~+.,=-])*(?:[ \t]+(?:(?!Q[LR]?\d)[^\d\s;~+.,=-])+)*", FLAGS)
 _EQUALS = re.compile(r"[ \t]*=", FLAGS)
 _TOLERANCE = re.compile(r"T(?![A-Z])", FLAGS)
-_MODE = re.compile(r"HSC[ \t]*(?:-[ \t]*)?MODE[ \t]*:?", FLAGS)
-_ANGLE = re.compile(r"TA", FLAGS)
+_FILTER = re.compile(r"HSC[ \t]*(?:-[ \t]*)?MODE[ \t]*:?|TA", FLAGS)
+
+
+def contour_labels(cursor: Cursor) -> None:
+    """14.1: the numbers of the labels, `1/2/3/4`, after a word in the language of the dialog."""
+    cursor.match(_LABELS)
+    while not cursor.done:
+        cursor.match(_SLASH)
+        begin = cursor.blanks()
+        found = cursor.expect(WHOLE, "a contour label must be a whole number")
+        cursor.add("LBL", float(found.group(1)), begin)
+
+
+def datum_shift(cursor: Cursor) -> None:
+    begin = cursor.blanks()
+    if cursor.match(_ROW):
+        cursor.add("#", cursor.needed("# needs the number of a row", begin), begin)
+    cursor.words()
 
 
 def mirrored(cursor: Cursor) -> None:
     """8.1: letters of axes, or none."""
     while not cursor.done:
         begin = cursor.at
-        found = cursor.match(_LETTER)
-        if found is None:
-            raise cursor.unexpected("only letters of axes stand here, for example X Y")
+        found = cursor.expect(_LETTER, "only letters of axes stand here, for example X Y")
         cursor.add("axes", found.group(1).upper(), begin)
 
 
-def of_two_units(is_length: Callable[[Cursor], bool]) -> Read:
-    """Words of which only some are in the unit of the program."""
-
-    def read(cursor: Cursor) -> None:
-        inch = cursor.inch
-        try:
-            while not cursor.done:
-                cursor.inch = inch and is_length(cursor)
-                cursor.word()
-        finally:
-            cursor.inch = inch
-
-    return read
+def of_two_units(cursor: Cursor, lengths: re.Pattern[str]) -> None:
+    """Words of which only those that begin so are in the unit of the program."""
+    inch = cursor.inch
+    try:
+        while not cursor.done:
+            cursor.inch = inch and lengths.match(cursor.text, cursor.at, cursor.stop) is not None
+            cursor.word()
+    finally:
+        cursor.inch = inch
 
 
 #: 26.1: a factor for each axis, which has no unit, and the coordinates of the centre.
-factors = of_two_units(lambda cursor: _CENTRE.match(cursor.text, cursor.at, cursor.stop) is not None)
+factors = partial(of_two_units, lengths=re.compile(r"I?CC", FLAGS))
 #: 19.1: angles, the feed of the rotary axes in degrees a minute, and a length.
-tilting = of_two_units(lambda cursor: cursor.text[cursor.at] not in "Ff")
+tilting = partial(of_two_units, lengths=re.compile(r"[^F]", FLAGS))
 
 
-def after_dialog(address: str, meaning: str) -> Read:
+def after_dialog(cursor: Cursor, address: str, meaning: str) -> None:
     """One number behind the words of the dialog and perhaps `=`."""
-
-    def read(cursor: Cursor) -> None:
-        begin = cursor.blanks()
-        cursor.match(_DIALOG)
-        cursor.match(_EQUALS)
-        value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, cursor.at - begin))
-        cursor.add(address, value, begin)
-        if not cursor.done:
-            raise cursor.unexpected()
-
-    return read
+    begin = cursor.blanks()
+    cursor.match(_DIALOG)
+    cursor.match(_EQUALS)
+    value = cursor.needed(f"a number is missing: the {meaning}", begin, max(1, cursor.at - begin))
+    cursor.add(address, value, begin)
+    if not cursor.done:
+        raise cursor.unexpected()
 
 
 def tolerance(cursor: Cursor) -> None:
@@ -71,8 +79,7 @@ def tolerance(cursor: Cursor) -> None:
     begin = cursor.blanks()
     if cursor.done:
         return
-    if cursor.match(_TOLERANCE) is None:
-        raise cursor.unexpected("T, the tolerance, stands here")
+    cursor.expect(_TOLERANCE, "T, the tolerance, stands here")
     value = cursor.needed("T needs a number", begin)
     cursor.add("T", from_inches(value) if cursor.inch else value, begin)
 
@@ -81,22 +88,23 @@ def filters(cursor: Cursor) -> None:
     """32.2: the filter and the tolerance of rotary axes, in either order."""
     while not cursor.done:
         begin = cursor.at
-        if cursor.match(_MODE):
-            address = "HSC-MODE"
-        elif cursor.match(_ANGLE):
-            address = "TA"
-        else:
-            raise cursor.unexpected("HSC-MODE:0 or 1 and TA stand here")
+        found = cursor.expect(_FILTER, "HSC-MODE:0 or 1 and TA stand here")
+        address = "TA" if found.group().upper() == "TA" else "HSC-MODE"
         cursor.add(address, cursor.needed(f"{address} needs a number", begin, cursor.at - begin), begin)
 
 
-#: By cycle, or by cycle and number of the sub-block.
+#: By cycle, or by cycle and number of the sub-block; the others are known by their number alone.
 READERS: dict[str, Read] = {
+    "CYCL DEF 7": datum_shift,
     "CYCL DEF 8": mirrored,
-    "CYCL DEF 9.1": after_dialog("DWELL", "dwell in seconds"),
-    "CYCL DEF 13.1": after_dialog("ANGLE", "angle of the spindle"),
-    "CYCL DEF 18.1": after_dialog("DEPTH", "depth of the thread"),
-    "CYCL DEF 18.2": after_dialog("PITCH", "pitch of the thread"),
+    "CYCL DEF 9.1": partial(after_dialog, address="DWELL", meaning="dwell in seconds"),
+    "CYCL DEF 10": Cursor.words,
+    "CYCL DEF 11": Cursor.words,
+    "CYCL DEF 12": program_of_cycle,
+    "CYCL DEF 13.1": partial(after_dialog, address="ANGLE", meaning="angle of the spindle"),
+    "CYCL DEF 14": contour_labels,
+    "CYCL DEF 18.1": partial(after_dialog, address="DEPTH", meaning="depth of the thread"),
+    "CYCL DEF 18.2": partial(after_dialog, address="PITCH", meaning="pitch of the thread"),
     "CYCL DEF 19": tilting,
     "CYCL DEF 26": factors,
     "CYCL DEF 32.1": tolerance,

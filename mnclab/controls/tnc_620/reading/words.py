@@ -102,6 +102,14 @@ class Cursor:
             self.at = found.end()
         return found
 
+    def expect(self, pattern: re.Pattern[str], fault: str, hint: str = "") -> re.Match[str]:
+        """Take what must stand here; `fault` says so."""
+        begin = self.blanks()
+        found = self.match(pattern)
+        if found is None:
+            raise Fault(fault, begin, hint=hint)
+        return found
+
     def add(self, address: str, value: Any, offset: int, flag: int = 0) -> None:
         """A word from `offset` to here; `value` as in `text.program.Word`."""
         if self.inch and address in LENGTHS and isinstance(value, float | Expression):

@@ -51,7 +51,10 @@ def parse(text: str) -> Rows:
     unit = dict.fromkeys(LINEAR, lines.unit)
     rows: dict[int, Mapping[str, float]] = {}
     for number, fields in lines.rows("DOC"):
-        values = {name: _value(name, field, number) for name, field in fields.items()}
+        values = {name: value(field, name, number) for name, field in fields.items()}
+        for name, field in fields.items():
+            if abs(values[name]) > 99999.9999:
+                raise Fault(f"{name} must be at least -99999.9999 and at most 99999.9999, got {field}", number)
         row = values.pop("D", -1.0)
         if row != int(row) or not 0 <= row <= 9999:
             raise Fault("the column D must be a whole number from 0 to 9999", number)
@@ -59,10 +62,3 @@ def parse(text: str) -> Rows:
             raise Fault(f"row {int(row)} is there twice", number)
         rows[int(row)] = {name.lower(): found * unit.get(name, 1.0) for name, found in values.items()}
     return rows
-
-
-def _value(name: str, field: str, number: int) -> float:
-    found = value(field, name, number)
-    if abs(found) > 99999.9999:
-        raise Fault(f"{name} must be at least -99999.9999 and at most 99999.9999, got {field}", number)
-    return found

@@ -8,9 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.controls.tnc_620.tables.table_files import Fault, Lines, read_table, value
-from mnclab.machine.machine import Machine
-from mnclab.text.program import Word
+from mnclab.controls.tnc_620.tables.table_files import Fault, Lines, value
 
 HIDDEN = {"Y": True, "YES": True, "1": True, "N": False, "NO": False, "0": False, "": False}
 
@@ -23,11 +21,8 @@ class PointTable(NamedTuple):
     clearance: NDArray[np.float64]
 
 
-def read_points(m: Machine, word: Word) -> PointTable:
-    return read_table(m, word, "SEL PATTERN", "point table", ".PNT", parse)[1]
-
-
 def parse(text: str) -> PointTable:
+    """A table from its text."""
     lines = Lines(text)
     for axis in "XY":
         if axis not in lines.columns:
