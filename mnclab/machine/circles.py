@@ -84,7 +84,10 @@ def on_machine(m: Machine, word: Word | None = None) -> int:
 
 
 def turn(m: Machine, centre: Point, angle: float, level: float | None = None, f: float | None = None) -> None:
-    """Round a centre in the plane by an angle, to a level along its normal; a whole turn ends where it began."""
+    """Round a point of the plane by an angle (rad, any number of turns), to a level along its normal.
+
+    A whole turn ends where it began.
+    """
     first, second, normal = PLANES[m.plane]
     feed, sense = m.feed_of(f), on_machine(m)
     check_start(m)

@@ -123,24 +123,22 @@ class Control:
     `codes` are the addresses whose value makes a code (G and M). `word_functions`: an address may be a function by
     itself (F, S, T), which a control of keywords does not want, where C is a statement and an axis. `motion` is the
     group whose modal function runs when axis words are left over. `storage` says where cycle parameters live until
-    the call ("instance" or "variables"). `together` raises alarms for a keyword and words that may
-    not stand in one block, and gives remarks about them; it is asked once for each kind of block.
-    `refused` maps codes that are known but not built, or do not exist, to the sentence that says so. `one_command`:
-    a block is a single command, and no words of another stand beside it (else S, F, M … may stand in any block).
-    `meanings` says what the words of functions are, by address ("DR") or, where that is not enough, by code and address
-    ("G4 P"). `relative` are words so written that count from the last position under G91, beside coordinates;
-    `told` says what the value of a word of a function means (the last argument: how many of its address stand before);
-    `absolute_with` codes in whose block coordinates are absolute even then; `marks` says what the marks on a word of a
-    function or cycle do (the last argument: whether the word calls it).
-    `to_turn` says what makes the spindle turn, as a hint.
-    `names` leads from other names of cycles (DIN/ISO) to their codes; help knows them.
+    the call ("instance" or "variables"). `together` raises alarms for a keyword and words that may not stand in one
+    block, and gives remarks about them; it is asked once for each kind of block. `refused` maps codes that are known but
+    not built, or do not exist, to the sentence that says so. `one_command`: a block is a single command, and no words of
+    another stand beside it (else S, F, M … may stand in any block). `meanings` says what the words of functions are, by
+    address ("DR") or, where that is not enough, by code and address ("G4 P"). `relative` are words so written that count
+    from the last position under G91, beside coordinates, `absolute_with` codes in whose block coordinates are absolute
+    even then. `told` says what the value of a word of a function means (the last argument: how many of its address stand
+    before), `marks` what the marks on a word of a function or cycle do (the last argument: whether the word calls it).
+    `to_turn` is the hint what makes the spindle turn. `names` leads from other names of cycles (DIN/ISO) to their codes.
     `named` gives the number (mm/min) that a word such as FAUTO stands for in a cycle, or the word itself; `predefined`
     what PREDEF stands for in a parameter of a cycle of a code; `calls_again` whether a modal call of a cycle (a modal
-    function of the group "call") calls it in a block with a keyword and words.
-    `memory` makes what the control keeps beside the common state of a machine, a dataclass.
-    `preassigned` are variables that the control keeps itself; names that begin with `local_variables` belong to one
-    program. `modern` writes a program in the notation of today, where the control's own is another. `trial` writes a
-    short program around a cycle and its words (address and value), for its form; None where it cannot.
+    function of the group "call") calls it in a block with a keyword and words. `memory` makes what the control keeps
+    beside the common state of a machine, a dataclass. `preassigned` are variables that the control keeps itself; names
+    that begin with `local_variables` belong to one program. `modern` writes a program in the notation of today, where the
+    control's own is another. `trial` writes a short program around a cycle and its words (address and value), for its
+    form; None where it cannot.
     """
 
     name: str

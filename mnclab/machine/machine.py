@@ -75,15 +75,15 @@ class Machine(Placed):
         value = word.value
         if isinstance(value, float):
             return value
-        if isinstance(value, Expression | NumberFromText):
-            try:
-                if isinstance(value, Expression) and len(value.tokens) > LONG:
-                    self.flow.spend(len(value.tokens) // LONG)
-                return value.evaluate(self.variables)
-            except Alarm as alarm:
-                alarm.span = alarm.span and alarm.span._replace(program=self.program)
-                raise
-        self.alarm(f"{word.address} needs a number", word)
+        if not isinstance(value, Expression | NumberFromText):
+            self.alarm(f"{word.address} needs a number", word)
+        try:
+            if isinstance(value, Expression) and len(value.tokens) > LONG:
+                self.flow.spend(len(value.tokens) // LONG)
+            return value.evaluate(self.variables)
+        except Alarm as alarm:
+            alarm.span = alarm.span and alarm.span._replace(program=self.program)
+            raise
 
     def change(self, name: str, value: Any) -> None:
         """Set an attribute (feed, side, plane, …) and note it in the history, where the table of `State` says so.
@@ -159,16 +159,11 @@ class Machine(Placed):
     ) -> None:  # fmt: skip
         """An arc in the active plane, +1 counter-clockwise, by its centre (axis number -> coordinate) or signed radius.
 
-        A third coordinate makes a helix. Start and end within a micrometre are a full circle by centre; a radius that
-        is too small, a centre on the start, ends at unequal distances from the centre are alarms.
+        A third coordinate makes a helix. Start and end within a micrometre are a full circle by centre.
         """
         circles.arc(self, self.target(x, y, z), sense, centre, radius, self.feed_of(f, word), word, tolerance)
 
-    def turn(
-        self, centre: tuple[float, float], angle: float, level: float | None = None, f: float | None = None
-    ) -> None:
-        """Round a point of the plane by an angle (rad, any number of turns), to a level along its normal."""
-        circles.turn(self, centre, angle, level, f)
+    turn = circles.turn
 
     def at_block_end(self, undo: Callable[[], None]) -> None:
         self.block_end.append(undo)

@@ -62,7 +62,7 @@ def found(m: Machine, name: str, what: str, span: Span | None, kind: str = "prog
                 return Found(known, source, caller.folder)
             return Found(str(source), _text(source, what, span), str(source.parent))
     file = _beside(caller, _last(wanted))
-    if file is not None and _leads_out(file, caller.folder):
+    if file is not None and not Path(os.path.realpath(file)).is_relative_to(os.path.realpath(caller.folder)):
         elsewhere = "it is a symbolic link to another folder, and files are taken from the folder of the program alone"
         raise Alarm(f"{what} {name}: {elsewhere}", span, hint="Setup(files=…) names files that lie elsewhere")
     if file is None:
@@ -81,11 +81,6 @@ def _beside(caller: Program, wanted: str) -> Path | None:
     except OSError:
         return None
     return next((path for name in names if os.path.isfile(path := Path(caller.folder, name))), None)
-
-
-def _leads_out(file: Path, folder: str) -> bool:
-    """Whether a file in a folder is a symbolic link to another folder."""
-    return not Path(os.path.realpath(file)).is_relative_to(os.path.realpath(folder))
 
 
 def _text(path: Path, what: str, span: Span | None) -> str:
@@ -109,5 +104,4 @@ def _last(name: str) -> str:
 def alarms_of(program: Program, index: int) -> Iterator[Alarm]:
     """The alarms that a reader found in a program, at their places in a run."""
     for alarm in program.alarms:
-        place = alarm.span._replace(program=index) if alarm.span else None
-        yield alarm.changed(span=place, source=program)
+        yield alarm.changed(span=alarm.span and alarm.span._replace(program=index), source=program)
