@@ -322,3 +322,10 @@ def test_a_parameter_can_be_explained(control, code, parameter, row):
     assert f"<code>{parameter.address}</code>" in page
     for choice, meaning in (parameter.choices or {}).items():
         assert f"{choice:g} {meaning}" in text and escape(f"{choice:g} {meaning}") in page
+
+
+@pytest.mark.parametrize("name", sorted(mnc.controls))
+def test_no_family_of_cycles_is_deeper_than_two_classes(name):
+    for cycle in mnc.controls[name].cycles.values():
+        family = [each.__name__ for each in cycle.__mro__ if issubclass(each, Cycle) and each is not Cycle]
+        assert len(family) <= 2, family

@@ -12,7 +12,7 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import distance, increment, length, seconds
 from mnclab.controls.tnc_620.cycles.chain import MIRROR
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, oriented
-from mnclab.controls.tnc_620.cycles.holes import Hole, rate
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, rate
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS, SHIFTS, tool, with_the_spindle
@@ -34,7 +34,7 @@ def as_if_not_mirrored(m: Machine, steps: Iterable[Step]) -> Iterator[Step]:
 
 
 @CYCLES("CYCL DEF 202", "Boring", source="4.5")
-class Boring(Hole):
+class Boring(AtSurface):
     """Bores, stops the spindle at an angle, moves 0.2 mm off the wall and withdraws; ends on the axis of the hole."""
 
     clearance: float = addresses.clearance()
@@ -61,7 +61,7 @@ class Boring(Hole):
 
 
 @CYCLES("CYCL DEF 204", "Back boring", source="4.7")
-class BackBoring(Hole):
+class BackBoring(AtSurface):
     """Counterbores from below, with a bar that goes through the hole off its axis.
 
     Levels count for the lower end of the bar; its edge is Q252 above that.
@@ -109,7 +109,7 @@ class BackBoring(Hole):
 
 
 @CYCLES("CYCL DEF 208", "Bore milling", source="4.9")
-class BoreMilling(Hole):
+class BoreMilling(AtSurface):
     """Mills a hole on a helix from the set-up plane, with a full circle at the bottom; as wide as the tool it drills it.
 
     The infeed per turn is reduced where the plunge angle of the tool (ANGLE) demands it. A mirrored plane does not change

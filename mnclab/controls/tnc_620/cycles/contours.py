@@ -12,8 +12,7 @@ from typing import Any, NamedTuple
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import FAR, choice, coordinate, count, distance, increment, length, ratio
 from mnclab.controls.tnc_620.cycles.faults import Fault, with_radius
-from mnclab.controls.tnc_620.cycles.holes import rate
-from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates, rate
 from mnclab.controls.tnc_620.state import memory
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region

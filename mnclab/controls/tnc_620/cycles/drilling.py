@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_angle
-from mnclab.controls.tnc_620.cycles.holes import Hole, point_length, rate
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, point_length, rate
 from mnclab.machine.cycle import CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import is_round, tool
@@ -20,7 +20,7 @@ CENTRED: dict[float, str] = {0: "to the depth Q201", 1: "to the diameter Q344"}
 
 
 @CYCLES("CYCL DEF 240", "Centering", source="4.2")
-class Centering(Hole):
+class Centering(AtSurface):
     """Centres to a depth, or so deep that the point of the tool leaves a cone of a diameter on the surface."""
 
     clearance: float = addresses.clearance()
@@ -62,7 +62,7 @@ class Centering(Hole):
 
 
 @CYCLES("CYCL DEF 200", "Drilling", source="4.3")
-class Drilling(Hole):
+class Drilling(AtSurface):
     """Drills in infeeds with full retraction to the set-up plane, a dwell after each infeed, and a rapid to the end plane."""
 
     clearance: float = addresses.clearance()
@@ -77,14 +77,14 @@ class Drilling(Hole):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         yield from drill(
-            self.levels(m), above=self.above, feed=self.feed, reenter=self.clearance, dwell_top=self.dwell_top,
+            self.pecks(m), above=self.above, feed=self.feed, reenter=self.clearance, dwell_top=self.dwell_top,
             dwell_each=self.dwell_bottom, dwell_bottom=self.dwell_bottom,
         )  # fmt: skip
         yield from self.leave()
 
 
 @CYCLES("CYCL DEF 201", "Reaming", source="4.4")
-class Reaming(Hole):
+class Reaming(AtSurface):
     """In and out at feed: a reamer does not leave its hole at rapid."""
 
     clearance: float = addresses.clearance()
@@ -102,7 +102,7 @@ class Reaming(Hole):
 
 
 @CYCLES("CYCL DEF 203", "Universal drilling", source="4.6")
-class UniversalDrilling(Hole):
+class UniversalDrilling(AtSurface):
     """Drills with infeeds that may shrink; breaks the chip Q213 times before each full retraction.
 
     The infeed after the last chip break ends with the retraction, so Q213 + 1 infeeds lie between two of them. Back in the
@@ -126,7 +126,7 @@ class UniversalDrilling(Hole):
 
     def steps(self, m: Machine) -> Iterator[Step]:
         yield from drill(
-            self.levels(m), above=self.above, feed=self.feed, reenter=self.break_retract or self.clearance,
+            self.pecks(m), above=self.above, feed=self.feed, reenter=self.break_retract or self.clearance,
             withdraw=rate(self.retract_feed, self.feed), dwell_top=self.dwell_top, dwell_bottom=self.dwell_bottom,
             breaks=int(self.chip_breaks), back=self.break_retract,
         )  # fmt: skip

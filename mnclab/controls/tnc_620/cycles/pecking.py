@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, count, distance, ratio
 from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero
-from mnclab.controls.tnc_620.cycles.holes import Hole, rate
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, rate
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machining.depths import advanced_stops, infeeds
@@ -22,13 +22,13 @@ ENTRY: dict[float, str] = {3: "clockwise (M3)", 4: "counter-clockwise (M4)", 5: 
 TURNING = {3: 1, 4: -1, 5: 0}
 
 
-def guide(c: Hole) -> Guided:
+def guide(c: AtSurface) -> Guided:
     """Where drilling begins, and where chips are cleared."""
     return guided(c.surface, c.start_depth, c.clearance, c.down)
 
 
 @CYCLES("CYCL DEF 205", "Universal pecking", source="4.8")
-class UniversalPecking(Hole):
+class UniversalPecking(AtSurface):
     """Drills in infeeds that may shrink, breaks the chip every Q257 within each, and clears the chips after it.
 
     Back in the hole the rapid stops above the last depth: by Q258 the first time, by Q259 the last, evenly between.
@@ -59,7 +59,7 @@ class UniversalPecking(Hole):
         yield from too_many("break_every", lambda: infeeds(self.begin, self.bottom(m), self.break_every))
 
     def steps(self, m: Machine) -> Iterator[Step]:
-        levels, way, out = self.levels(m), guide(self), rate(self.retract_feed, self.feed)
+        levels, way, out = self.pecks(m), guide(self), rate(self.retract_feed, self.feed)
         yield Go("to the start of the drilling", way.start, rate(self.positioning_feed))
         yield from drill(
             levels, above=way.clear, start=self.begin, feed=self.feed, dwell_bottom=self.dwell_bottom,
@@ -70,7 +70,7 @@ class UniversalPecking(Hole):
 
 
 @CYCLES("CYCL DEF 241", "Single-lip deep-hole drilling", source="4.10")
-class SingleLipDrilling(Hole):
+class SingleLipDrilling(AtSurface):
     """Drills deep with a single-lip drill: slow in and out, fast and with coolant while it cuts, no retraction between.
 
     The spindle is left as it turns on the way out. A dwell on the way lasts as long as the one at the bottom.
@@ -115,7 +115,7 @@ class SingleLipDrilling(Hole):
         way, out = guide(self), rate(self.retract_feed, self.feed)
         on, off = (f"coolant M{code:g}" if code else "" for code in (self.coolant_on, self.coolant_off))
         yield from gun_drill(
-            self.levels(m), above=way.clear, start=way.start, feed=self.feed, approach=rate(self.positioning_feed),
+            self.pecks(m), above=way.clear, start=way.start, feed=self.feed, approach=rate(self.positioning_feed),
             retract=out, entry=(TURNING[int(self.spindle_direction)], self.entry_speed), speed=self.drilling_speed,
             dwell=self.dwell_bottom, pause=self.surface - self.down * self.dwell_depth if self.dwell_depth else None,
             feed_after=self.feed * self.factor / 100, coolant=(on, off), cool_until_slow=True,

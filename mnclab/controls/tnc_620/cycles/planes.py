@@ -1,4 +1,4 @@
-"""The planes of a cycle in the tool axis, and the rule of the sign of its depths (4.3, 5.2, 5.5, 6.2).
+"""The planes of a cycle in the tool axis, the rule of the sign of its depths (4.3, 5.2, 5.5, 6.2), and the way to a hole (4).
 
 S is the surface Q203, A = S + Q200 the set-up plane, E the plane at the end: S + Q204 where that is higher than A. A positive
 depth works upwards from A = S - Q200, where the setting "depth_error" allows it; E stays above the surface.
@@ -7,13 +7,15 @@ depth works upwards from A = S - Q200, where the setting "depth_error" allows it
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import ClassVar
 
-from mnclab.controls.tnc_620.cycles.faults import Fault
-from mnclab.machine.cycle import Cycle
+from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero, with_angle
+from mnclab.machine.cycle import Cycle, too_many
 from mnclab.machine.machine import Machine
-from mnclab.machining.steps import RAPID, Go, Say
+from mnclab.machine.true_size import tool
+from mnclab.machining.depths import infeeds
+from mnclab.machining.steps import RAPID, Go, Say, Step
 
 
 def in_program_coordinates(c: Cycle, m: Machine) -> tuple[float, float]:
@@ -22,12 +24,21 @@ def in_program_coordinates(c: Cycle, m: Machine) -> tuple[float, float]:
 
 
 class AtSurface(Cycle):
-    """What cycles at a surface share; who inherits declares the parameters."""
+    """What cycles at a surface share; who inherits declares the parameters.
+
+    `check` and `moves` are those of a hole, which says in `steps` what happens below A; others have their own.
+    """
 
     clearance: float
     surface: float
     second_clearance: float
     depth: float
+    feed: float
+    infeed: float | None = 0.0
+    decrement = 0.0
+    min_infeed = 0.0
+    start_depth = 0.0
+    reference = 0.0
 
     works: ClassVar[tuple[str, ...]] = ("depth",)
     """Its depths, in the order in which their signs are evaluated."""
@@ -72,3 +83,55 @@ class AtSurface(Cycle):
         if self.down < 0:
             yield Go("retract", self.above, feed)
         yield Go("retract", self.end, feed)
+
+    # --- holes -------------------------------------------------------------------------------------------------------
+
+    def reach(self, m: Machine) -> float:
+        """Where the hole ends, counted from the surface, mm."""
+        return self.depth
+
+    def steps(self, m: Machine) -> Iterable[Step]:
+        """From the set-up plane down, and back to it or to the second set-up clearance."""
+        raise NotImplementedError
+
+    def bottom(self, m: Machine) -> float:
+        """B, where the tip of the tool ends: with Q395 = 1 its cylindrical part reaches the depth."""
+        point = point_length(tool(m).effective_radius, tool(m).angle) if self.reference == 1 else 0.0
+        return self.surface + self.reach(m) - self.down * point
+
+    def check(self, m: Machine) -> Iterator[Fault]:
+        yield from self.signs(m)
+        if self.reference == 1:
+            yield from with_angle(m, "reference")
+        yield from not_zero(self, "feed", purpose="to drill with")
+        if self.depth:
+            yield from less_than_depth(self, "start_depth", self.depth)
+        if self.start_depth:
+            yield from not_zero(self, "positioning_feed", purpose="to reach the starting point")
+        yield from too_many("infeed", lambda: self.pecks(m))
+
+    @property
+    def begin(self) -> float:
+        """Where infeeds count from."""
+        return self.surface - self.down * self.start_depth
+
+    def pecks(self, m: Machine) -> tuple[float, ...]:
+        """The depths of the infeeds."""
+        return infeeds(self.begin, self.bottom(m), self.infeed, self.decrement, self.min_infeed)
+
+    def moves(self, m: Machine) -> Iterable[Step]:
+        return [Go("to the set-up clearance", self.above), *self.steps(m)] if self.down else [self.left_out]
+
+
+def point_length(radius: float, angle: float) -> float:
+    """How far a drill of an angle (degrees) reaches beyond its cylindrical part, mm.
+
+    >>> round(point_length(2.4, 120), 4)
+    1.3856
+    """
+    return radius / math.tan(math.radians(angle / 2))
+
+
+def rate(feed: float | str, otherwise: float = RAPID) -> float:
+    """The feed of a move: rapid for the word FMAX, and another feed in the place of 0."""
+    return RAPID if isinstance(feed, str) else feed or otherwise

@@ -16,9 +16,8 @@ import numpy as np
 from mnclab.controls.tnc_620.cycles import addresses, milling
 from mnclab.controls.tnc_620.cycles.addresses import choice, length, number
 from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, at_most
-from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.milling import Figure, Place
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates, rate
 from mnclab.controls.tnc_620.cycles.pockets import CORNER, SIGNS
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
 from mnclab.machine.machine import Machine

@@ -15,8 +15,7 @@ from typing import NamedTuple
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, increment
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, with_radius
-from mnclab.controls.tnc_620.cycles.holes import rate
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, rate
 from mnclab.machine.cycle import CycleTable, too_many
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import MILLS_THREADS

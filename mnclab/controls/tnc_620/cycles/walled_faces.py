@@ -15,9 +15,8 @@ import numpy as np
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length
 from mnclab.controls.tnc_620.cycles.faults import Fault, less_than_depth, not_zero, with_radius
-from mnclab.controls.tnc_620.cycles.holes import rate
 from mnclab.controls.tnc_620.cycles.milling import edges
-from mnclab.controls.tnc_620.cycles.planes import AtSurface
+from mnclab.controls.tnc_620.cycles.planes import AtSurface, rate
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS, SIGNS
 from mnclab.geometry.contours import Contour
 from mnclab.machine.cycle import CycleTable, few_passes, too_many
