@@ -86,8 +86,8 @@ def compensation_panel(run: Run, **options: Any) -> Any:
         setup = run.setup.with_radius(boxes["radius"].value)
         if corners:
             setup = setup.with_settings(outside_corners=boxes["corners"].value)
-        live.run = run.again(setup)
-        return lambda: live.run.plot_compensation(size=(6.4, 5.2), **options), verdict(live.run)
+        live.run = again = run.again(setup)
+        return lambda: again.plot_compensation(size=(6.4, 5.2), **options), verdict(again)
 
     return _following(boxes, ipywidgets.HBox([*boxes.values()]), work)
 
@@ -148,8 +148,8 @@ def profile_panel(profile: Profile, **options: Any) -> Any:
     def work(live: Any) -> Work:
         wanted = {name: box.value for name, box in boxes.items()}
         part = wanted.pop("override") / 100
-        live.profile = profile.again(replace(limits, **wanted | {"jerk": wanted["jerk"] or None}), part)
-        return lambda: live.profile.plot(**options), f'<div role="status">{live.profile._repr_html_()}</div>'
+        live.profile = again = profile.again(replace(limits, **wanted | {"jerk": wanted["jerk"] or None}), part)
+        return lambda: again.plot(**options), f'<div role="status">{again._repr_html_()}</div>'
 
     return _following(boxes, ipywidgets.VBox([*boxes.values()]), work)
 
@@ -273,8 +273,8 @@ def _program(
             live.picture.value = f"<p>no picture yet: {what}</p>"
             return None
         program.value = f"<pre>{escape(source)}</pre>"
-        live.run = run_text(source, control, setup)
-        return lambda: live.run.plot(view=view, size=SIZE), verdict(live.run)
+        live.run = run = run_text(source, control, setup)
+        return lambda: run.plot(view=view, size=SIZE), verdict(run)
 
     left = ipywidgets.VBox(rows if ticks is None else [*rows, program])
     return _following(boxes, left, work, *(ticks or {}).values(), beside=True)
