@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 import mnclab
-from mnclab.machine.cycle import param
+from mnclab.machine.cycle import Cycle, param
 
 CATALOGUE = Path(__file__).parents[1] / "authorities" / "catalogue"
 
@@ -324,8 +324,8 @@ def test_a_parameter_can_be_explained(control, code, parameter, row):
         assert f"{choice:g} {meaning}" in text and escape(f"{choice:g} {meaning}") in page
 
 
-@pytest.mark.parametrize("name", sorted(mnc.controls))
+@pytest.mark.parametrize("name", sorted(mnclab.controls))
 def test_no_family_of_cycles_is_deeper_than_two_classes(name):
-    for cycle in mnc.controls[name].cycles.values():
+    for cycle in mnclab.controls[name].cycles.values():
         family = [each.__name__ for each in cycle.__mro__ if issubclass(each, Cycle) and each is not Cycle]
         assert len(family) <= 2, family
