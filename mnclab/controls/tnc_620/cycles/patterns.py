@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, increment, length, number
 from mnclab.controls.tnc_620.cycles.faults import Fault
-from mnclab.controls.tnc_620.cycles.planes import AtSurface, in_program_coordinates
-from mnclab.machine.cycle import CycleTable
+from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
+from mnclab.machine.cycle import Cycle, CycleTable
 from mnclab.machine.machine import Machine
 from mnclab.machine.true_size import faults, is_round
 from mnclab.machining import patterns
@@ -37,12 +37,14 @@ WAY: dict[float, str] = {0: "straight", 1: "on the pitch circle"}
 Floats = NDArray[np.float64]
 
 
-class PointPattern(AtSurface, ABC):
+class PointPattern(Cycle, ABC):
     """What both have in common: heights, the machining cycle, the way from point to point."""
 
     about = in_program_coordinates
-    works = ()
     combines: ClassVar[frozenset[str]] = frozenset(f"CYCL DEF {n}" for n in _BOTH)
+    clearance: float
+    surface: float
+    second_clearance: float
     move_to_clearance: float
 
     def check(self, m: Machine) -> Iterator[Fault]:
@@ -60,6 +62,16 @@ class PointPattern(AtSurface, ABC):
             yield "", f"cannot run {run.code} here, which {sentence}"
         if m.side:
             yield "", "cannot run under radius compensation: write R0 before it"
+
+    @property
+    def above(self) -> float:
+        """The set-up clearance over the surface."""
+        return self.surface + self.clearance
+
+    @property
+    def end(self) -> float:
+        """The second set-up clearance, where it is the greater one."""
+        return self.surface + max(self.second_clearance, self.clearance)
 
     @property
     def between(self) -> float:
