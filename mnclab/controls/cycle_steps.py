@@ -8,89 +8,30 @@ for among the tools of the setup; a touch finds the part where it is aimed at; w
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Any
 
 from mnclab.controls.choice import help
+from mnclab.controls.cycle_table import CycleSteps, Point, Row
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Setup
 from mnclab.machine.touching import Contact
 from mnclab.machine.true_size import MILLS
-from mnclab.path.listing import figure, point
+from mnclab.path.listing import figure
 from mnclab.running.binding import store, value_of
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import Place, run_cycle
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import plain, shown
+from mnclab.text.given import plain
 from mnclab.text.nearest import hint
 from mnclab.text.program import Word, place_of
-from mnclab.text.tables import html_table, text_table
 
 from mnclab.machining.steps import (  # isort: skip
-    Along, Blocks, Call, Coolant, Each, Go, Orient, Record, Say, Spin, Step, Swivel, Thread, Touch, Turn, Wait, Write,
+    Along, Blocks, Call, Each, Go, Record, Step, Swivel, Thread, Touch, Turn, Wait,
 )  # fmt: skip
-
-Point = tuple[float, float, float]
-HEAD = ("step", "label", "x", "y", "z", "feed", "")
-SPINDLE = {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}
-
-
-class Row(NamedTuple):
-    """A step, where the tool stands after a motion (mm, in the program), and its feed in words."""
-
-    step: Step
-    end: Point | None = None
-    feed: str = ""
-
-
-class CycleSteps(Sequence[Step]):
-    """The steps of a cycle from a place on, and the values (by address) that they were made with; shown as a table."""
-
-    def __init__(self, cycle: type[Cycle], values: dict[str, Any], start: Point, rows: Sequence[Row]) -> None:
-        self.cycle, self.values, self.start, self.rows = cycle, values, start, tuple(rows)
-
-    def __len__(self) -> int:
-        return len(self.rows)
-
-    def __getitem__(self, index: Any) -> Any:
-        return tuple(row.step for row in self.rows[index]) if isinstance(index, slice) else self.rows[index].step
-
-    @property
-    def title(self) -> str:
-        given = {address: v if isinstance(v, str) else shown(v) for address, v in self.values.items()}
-        said = " ".join((f"{self.cycle.code} {self.cycle.title}:", *map("=".join, given.items())))
-        return f"{said}, called at {point(self.start)}"
-
-    def cells(self) -> Iterator[tuple[str, ...]]:
-        for step, end, feed in self.rows:
-            places = ("", "", "") if end is None else map(figure, end)
-            detail = DETAILS[type(step)](step) if type(step) in DETAILS else ""
-            yield type(step).__name__.lower(), step.label, *places, feed, detail
-
-    def __str__(self) -> str:
-        return f"{self.title}\n{text_table(HEAD, self.cells())}"
-
-    __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        return f"<p>{self.title}</p>{html_table(HEAD, self.cells(), numbers=(2, 3, 4, 5))}"
-
-
-#: What a step does beside going to its end.
-DETAILS: dict[type[Step], Callable[[Any], str]] = {
-    Turn: lambda step: f"{figure(math.degrees(step.angle))}°",
-    Thread: lambda step: f"{figure(step.pitch)} mm/rev",
-    Wait: lambda step: f"{figure(step.seconds)} s",
-    Spin: lambda s: SPINDLE[s.turning] + (f", {figure(s.speed)} rev/min" if s.turning and s.speed else ""),
-    Orient: lambda step: f"at {figure(step.angle)}°",
-    Coolant: lambda step: "on" if step.on else "off",
-    Swivel: lambda step: " ".join(f"{axis}{figure(angle)}°" for axis, angle in zip("ABC", step.angles, strict=True)),
-    Say: lambda step: step.text,
-    Write: lambda step: f"{step.what} {'' if step.key is None else step.key} = {shown(step.value)}",
-}
 
 
 def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any) -> CycleSteps:
@@ -111,8 +52,7 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
         try:
             definition, start = define(machine, cycle, given), machine.programmed
             run_cycle(machine, definition, noting(machine, cycle, rows))
-            shown_values = {p.address: given[p.name] for p in cycle.parameters() if p.name in given}
-            return CycleSteps(cycle, shown_values, start, rows)
+            return CycleSteps(cycle, given, start, rows, lathe=found.control.lathe, per_rev=machine.per_rev)
         except Alarm as alarm:
             faults.append(Alarm(alarm.message, hint=alarm.hint))  # without its place in a program
     raise faults[0]
@@ -144,7 +84,7 @@ def situations(control: Control, cycle: type[Cycle], setup: Setup) -> Iterator[M
     """Machines on which a cycle may run: with each tool, first those made for it, with the spindle on and off."""
     wanted = "mill" if cycle.does == MILLS else "probe" if "PROBE" in cycle.code else "drill"
     tools = sorted((n for n in setup.tools if n), key=lambda number: setup.tools[number].kind != wanted)
-    places = ((40.0, 0.0, 5.0), (0.0, 0.0, 5.0)) if control.lathe else ((20.0, 10.0, 20.0),)
+    places = (trial_start(control, cycle, setup), (0.0, 0.0, 5.0)) if control.lathe else ((20.0, 10.0, 20.0),)
     called = next((each for each in control.cycles.values() if each.runs == "call"), None)  # by a pattern
     for place, turning, number in product(places, (1, 0), tools):
         machine = Interpreter(control, setup, control.read("", "")).machine
@@ -158,6 +98,17 @@ def situations(control: Control, cycle: type[Cycle], setup: Setup) -> Iterator[M
         machine.change("feed", 0.2 if machine.per_rev else 100.0)
         machine.cycle = Definition(called, called.code, {}, {}, None) if called else None
         yield machine
+
+
+def trial_start(control: Control, cycle: type[Cycle], setup: Setup) -> Point:
+    """Where the trial program of a lathe calls the cycle: the examples of its parameters are made for that place."""
+    text = control.trial(cycle, []) if control.trial else None
+    if text is None:
+        return 40.0, 0.0, 5.0
+    before = text[: text.rindex(f"\n{cycle.code}") + 1]
+    trial = Interpreter(control, Setup(settings=setup.settings), control.read(before, ""))  # tools of its own
+    trial.run()
+    return trial.machine.programmed
 
 
 def define(m: Machine, cycle: type[Cycle], given: dict[str, Any]) -> Definition:
@@ -189,9 +140,11 @@ def noting(m: Machine, cycle: type[Cycle], rows: list[Row]) -> Callable[[Iterabl
         if isinstance(step, Wait) and not step.seconds:
             return
         moved = isinstance(step, Go | Turn | Along | Thread | Swivel | Touch)
-        feed = getattr(step, "feed", None) if not isinstance(step, Thread) else math.nan
-        feed = m.feed if feed is None else feed
+        own = getattr(step, "feed", None)
+        feed = m.feed if own is None else own
         words = "rapid" if feed == math.inf else "" if feed is None or math.isnan(feed) else figure(feed)
+        if isinstance(step, Thread):
+            words = figure(step.pitch) + " mm/rev" * (not m.per_rev)
         rows.append(Row(step, m.programmed, words) if moved else Row(step))
 
     def through(steps: Iterable[Step], about: Place) -> Generator[Step, Any, Any]:

@@ -5,6 +5,7 @@ import math
 import pytest
 
 import mnclab as mnc
+from mnclab.controls.cycle_table import written
 from mnclab.machining.steps import Call, Go, Touch, Wait, Write
 
 CYCLES = [(name, cycle.code) for name, control in mnc.controls.items() for cycle in dict.fromkeys(control.cycles.values())]
@@ -27,8 +28,12 @@ def test_every_cycle_shows_its_steps(control: str, code: str) -> None:
         return
     found = mnc.steps(code, control)
     lines = str(found).splitlines()
-    assert len(found) and len(lines) == len(found) + 3 and lines[0].startswith(code)
-    assert found._repr_html_().count("<tr>") == len(found) + 1
+    rows = found.cells()
+    assert 0 < len(rows) <= len(found) and len(lines) == len(rows) + 3 and lines[0].startswith(code)
+    assert found._repr_html_().count("<tr>") == len(rows) + 1
+    assert sum(step != "write" for step, *_ in rows) == sum(not isinstance(step, Write) for step in found)
+    assert {len(row) for row in rows} == {len(found.head)} and ":," not in found.title
+    assert not any(mark in row[-1] for row in rows for mark in ("{", "array(", "Data(", "Datum(", "nan", "None", "'"))
 
 
 def test_the_steps_of_drilling() -> None:
@@ -56,8 +61,62 @@ def test_a_touch_finds_what_it_is_aimed_at() -> None:
 def test_a_pattern_calls_the_cycle_at_each_of_its_points() -> None:
     found = mnc.steps("220", "tnc-620", Q241=3)
     assert sum(isinstance(step, Call) for step in found) == 3
+    said = [row[-1] for row in found.cells() if row[0] == "call"]
+    assert said[0] == "the cycle defined before, with second clearance 2" and said[-1].endswith("second clearance 20")
     centres = [row.end[:2] for row in found.rows if row.end and row.step.label.endswith("point")]
     assert centres[0] == pytest.approx((90, 50)) and centres[1] == pytest.approx((30, 50 + 40 * math.sin(math.tau / 3)))
+
+
+@pytest.mark.parametrize(
+    ("code", "values", "said"),
+    [
+        ("CYCL DEF 8", {}, ["frame mirror: none"]),
+        ("CYCL DEF 8", {"axes": ("X",)}, ["frame mirror: X"]),
+        ("CYCL DEF 11", {}, ["frame scale: 0.5 0.5 0.5"]),
+        ("CYCL DEF 10", {}, ["radius compensation: off", "frame rotation: turn by 30°"]),
+        ("CYCL DEF 13", {}, ["orientation: 90"]),
+        ("CYCL DEF 20", {}, ["kept for later blocks: contour data"]),
+        ("CYCL DEF 32", {}, ["tolerance: as the limits have it", "filter: finishing: more exact", "tolerance of rotary axes: 0"]),
+        ("CYCL DEF 32", {"T": 0.05}, ["tolerance: 0.05", "filter: finishing: more exact", "tolerance of rotary axes: 0"]),
+        ("GLOBAL DEF 110", {}, ["default Q370: 1", "default Q351: 1", "default Q366: 0"]),
+        ("TCH PROBE 419", {}, ["presets row 0: X14", "preset: 0", "datum: X14 Y0 Z0"]),
+    ],
+)
+def test_what_stays_is_said_in_words(code: str, values: dict[str, float], said: list[str]) -> None:
+    assert [row[-1] for row in mnc.steps(code, "tnc-620", **values).cells() if row[-1]] == said
+
+
+def test_what_stays_of_other_cycles() -> None:
+    assert "coolant M9" in [row[-1] for row in mnc.steps("G307", "mnc").cells()]
+    assert written(Write("variable", 5.0, "Q1")) == "variable Q1 = 5"
+    assert written(Write("rotary", (0.0, math.pi / 6, 0.0))) == "rotary: A0 B30 C0"
+
+
+def test_the_title_has_every_value_of_an_address() -> None:
+    title = mnc.steps("G77", "nc-31", stock_per_pass=300).title
+    assert "X=3000 Z=-2000 F=2000 P=300 P=500 ~=1, called at X20 Z2, X as radius" in title
+    assert "P=92 P=25 P=0" in mnc.steps("G31", "nc-31").title
+
+
+def test_the_title_is_written_as_the_table_is() -> None:
+    assert "Q201=-13.3333 " in mnc.steps("200", "tnc-620", Q201=-40 / 3).title
+    assert mnc.steps("CYCL DEF 8", "tnc-620").title == "CYCL DEF 8 Mirroring, called at X20 Y10 Z20"
+    assert "Q500=&lt;b&gt;A &amp; B" in mnc.steps("CYCL DEF 225", "tnc-620", Q500="<b>A & B")._repr_html_()
+
+
+def test_a_lathe_has_no_y_and_feeds_per_revolution() -> None:
+    """From the diameter of 40 to the one of 30, 2 a pass: five passes, which end at the radius 15."""
+    found = mnc.steps("G77", "nc-31")
+    assert found.head == ("step", "label", "x", "z", "feed, mm/rev", "")
+    assert found.cells()[0] == ("go", "pass 1 of 5, infeed", "19", "2", "rapid", "")
+    assert mnc.steps("G77", "jnc-t01").head[4] == "feed, mm/min"
+    diameters = mnc.Setup(settings={"diameter": True})
+    assert mnc.steps("G77", "jnc-t01", diameters).title.endswith("called at X20 Z5, X as radius")
+
+
+def test_a_thread_says_its_pitch_as_its_feed() -> None:
+    assert [row[4] for row in mnc.steps("G31", "nc-31").cells() if row[0] == "thread"] == ["1.5"] * 4
+    assert {row[5] for row in mnc.steps("207", "tnc-620").cells() if row[0] == "thread"} == {"1.5 mm/rev"}
 
 
 @pytest.mark.parametrize(
