@@ -20,8 +20,8 @@ class Moment(NamedTuple):
     """The machine after one step: the block, the programmed point (program coordinates, mm), what was active and what
     the block changed; `rows` are the rows of the toolpath that it made.
 
-    `text` is its line as written. A moment inside a block (`Run.when`) has the row of the toolpath, the share of it (0 to 1) that was done, and
-    the tool tip there, mm; -1 for a row where the block moved nothing.
+    A moment inside a block (`Run.when`) has the row of the toolpath, the share of it (0 to 1) that was done, and
+    the tool tip there, mm; -1 for a row where the block moved nothing. `text` is the line as written.
     """
 
     step: int
@@ -43,9 +43,7 @@ class Moment(NamedTuple):
     def page(self) -> list[tuple[str, str]]:
         changed = with_feed(self.changed, self.state)
         active = {
-            name: value
-            for name, value in self.state.items()
-            if name not in changed and not does_nothing(name, value)
+            name: value for name, value in self.state.items() if name not in changed and not does_nothing(name, value)
         }
         first, stop = self.rows.start, self.rows.stop
         rows = "none" if first == stop else f"{first}" if stop == first + 1 else f"{first} to {stop - 1}"
@@ -63,9 +61,7 @@ class Moment(NamedTuple):
         wide = max(len(title) for title, _ in page) + 4
         lines = [self.title]
         for title, value in page:
-            lines += wrap(
-                value, WIDTH, initial_indent=f"  {title:{wide - 2}}", subsequent_indent=" " * wide
-            )
+            lines += wrap(value, WIDTH, initial_indent=f"  {title:{wide - 2}}", subsequent_indent=" " * wide)
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
