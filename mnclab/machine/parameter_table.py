@@ -32,14 +32,21 @@ def left_out(p: Parameter) -> str:
     return p.default_means or default
 
 
+def _filled(cycle: type[Cycle]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """The heads and rows of the parameters of a cycle, without notes where there is none."""
+    rows = [row(p) for p in cycle.parameters()]
+    width = len(Row._fields) - (not any(each.note for each in rows))
+    return Row._fields[:width], [each[:width] for each in rows]
+
+
 def help_text(cycle: type[Cycle]) -> str:
     """The title of a cycle, what it does, and its parameters."""
-    table = text_table(Row._fields, map(row, cycle.parameters()))
+    table = text_table(*_filled(cycle))
     return f"{cycle.code}  {cycle.title}  ({cycle.source})\n{(cycle.__doc__ or '').strip()}\n\n{table}"
 
 
 def help_html(cycle: type[Cycle]) -> str:
     """The same as HTML."""
-    table = html_table(Row._fields, map(row, cycle.parameters()), code=(0,))
+    table = html_table(*_filled(cycle), code=(0,))
     about = f"<p>{escape(cycle.__doc__ or '')} ({escape(cycle.source)})</p>"
     return f"<h4><code>{cycle.code}</code> {escape(cycle.title)}</h4>{about}{table}"

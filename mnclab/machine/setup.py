@@ -11,11 +11,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mnclab.machine.setup_page import page
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.records import written
+from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Revolved, blank
 
 
@@ -226,18 +228,10 @@ class Setup:
         object.__setattr__(self, "start", tuple(map(float, self.start)))
 
     def __repr__(self) -> str:
-        lines = ["Setup"]
-        for name in MEANT:
-            value = getattr(self, name)
-            if name == "tools" and dict(value) == dict(MAGAZINE):
-                usual = ", ".join(tool.name for tool in MAGAZINE.values() if tool.kind)
-                lines.append(f"  tools: the usual ones: {usual}")
-            elif isinstance(value, Mapping):
-                quoted = shown if name in NAMED else repr
-                lines += [f"  {name}[{key!r}]: {quoted(each)}" for key, each in value.items()]
-            elif value is not None:
-                lines.append(f"  {name}: {value!r}")
-        return "\n".join(lines)
+        return "\n".join(["Setup", *(f"  {title}: {said}" for title, said in page(self, MAGAZINE))])
+
+    def _repr_html_(self) -> str:
+        return f"<h4>Setup</h4>{html_table((), page(self, MAGAZINE))}"
 
     def kept(self) -> Setup:
         """A copy, checked again, whose tables nobody can write to: what a run was made with."""

@@ -64,13 +64,15 @@ class History(Mapping[str, Any]):
         return {name: value for name in self._open if (value := self.value(name, step)) is not None}
 
     def changes(self, step: int) -> dict[str, Any]:
-        """What this step changed."""
+        """What this step changed; a value that was written again as it was is no change."""
         found = {}
         for name in self._open:
             at, values = self._log(name)
             index = int(np.searchsorted(at, step, "right")) - 1
             if index >= 0 and at[index] == step:
-                found[name] = _plain(values[index])
+                value = _plain(values[index])
+                if index == 0 or value != _plain(values[index - 1]):
+                    found[name] = value
         return found
 
     def __repr__(self) -> str:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.path.listing import point
-from mnclab.runs.values import said
+from mnclab.runs.values import does_nothing, told, with_feed
 from mnclab.text.program import Block
 from mnclab.text.tables import html_table
 
@@ -21,7 +21,7 @@ class Moment(NamedTuple):
     the block changed; `rows` are the rows of the toolpath that it made.
 
     A moment inside a block (`Run.when`) has the row of the toolpath, the share of it (0 to 1) that was done, and
-    the tool tip there, mm; -1 for a row where the block moved nothing.
+    the tool tip there, mm; -1 for a row where the block moved nothing. `text` is the line as written.
     """
 
     step: int
@@ -34,8 +34,17 @@ class Moment(NamedTuple):
     row: int = -1
     share: float = 1.0
     point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    text: str = ""
+
+    @property
+    def title(self) -> str:
+        return f"line {self.line}: {self.text or self.block}"
 
     def page(self) -> list[tuple[str, str]]:
+        changed = with_feed(self.changed, self.state)
+        active = {
+            name: value for name, value in self.state.items() if name not in changed and not does_nothing(name, value)
+        }
         first, stop = self.rows.start, self.rows.stop
         rows = "none" if first == stop else f"{first}" if stop == first + 1 else f"{first} to {stop - 1}"
         inside = f", {100 * self.share:.4g} % of row {self.row}" if self.share != 1 else ""
@@ -43,27 +52,23 @@ class Moment(NamedTuple):
             ("programmed point", point(np.array(self.position))),
             ("tool tip", point(np.array(self.point))),
             ("rows of the path", rows + inside),
-            ("changed", _listed(self.changed)),
-            ("active", _listed({name: value for name, value in self.state.items() if name not in self.changed})),
+            ("changed", _listed(told(changed, self.state))),
+            ("active", _listed(told(active, self.state))),
         ]
 
     def __repr__(self) -> str:
         page = self.page()
         wide = max(len(title) for title, _ in page) + 4
-        lines = [f"line {self.line}: {self.block}"]
+        lines = [self.title]
         for title, value in page:
-            lines += wrap(
-                value or "nothing", WIDTH, initial_indent=f"  {title:{wide - 2}}", subsequent_indent=" " * wide
-            )
+            lines += wrap(value, WIDTH, initial_indent=f"  {title:{wide - 2}}", subsequent_indent=" " * wide)
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        title = f"line {self.line}: <code>{escape(str(self.block))}</code>"
+        title = f"line {self.line}: <code>{escape(self.text or str(self.block))}</code>"
         return f"<h4>{title}</h4>{html_table((), self.page())}"
 
 
-def _listed(values: dict[str, Any]) -> str:
-    """Names with their values, but for the place of the tool, which is told anyway."""
-    told = [f"{name} {said(name, value)}".rstrip() for name, value in values.items() if name != "position"]
-    more = [f"… {len(told) - SHOWN} more"] if len(told) > SHOWN else []
-    return ", ".join(told[:SHOWN] + more)
+def _listed(words: list[str]) -> str:
+    more = [f"… {len(words) - SHOWN} more"] if len(words) > SHOWN else []
+    return ", ".join(words[:SHOWN] + more) or "nothing"

@@ -31,7 +31,7 @@ from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
 from mnclab.runs.moment import Moment
 from mnclab.runs.moments import Moments, when
-from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, several
+from mnclab.text.alarm import ALARM, Alarm, by_place, card_html, first_of, quoted, several
 from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
 from mnclab.text.program import Program
@@ -120,7 +120,8 @@ class Run:
         tip = path.end[b - 1] if b else path.start[0] if len(path) else np.array(self.setup.start)
         state, changed, row = self.history.at(step), self.history.changes(step), b - 1 if b > a else -1
         line, point = block.span.line, tuple(tip.tolist())
-        return Moment(step, line, block, position, state, changed, slice(a, b), row, point=point)
+        text = quoted(self.programs[which].line_text(line).strip())[0]
+        return Moment(step, line, block, position, state, changed, slice(a, b), row, point=point, text=text)
 
     @property
     def stock(self) -> Blank | None:

@@ -1,7 +1,8 @@
-"""Values of the history in words."""
+"""Values of the history in words: each alone (`said`), or with its field name and unit (`told`)."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,55 @@ from mnclab.geometry import frames
 from mnclab.path.listing import figure, point
 
 Matrix = NDArray[np.float64]
+
+
+#: How values print whose names in the history are short: the words before the number, its unit.
+MEASURED = {
+    "speed": ("speed", "rev/min"),
+    "surface": ("cutting speed", "m/min"),
+    "speed_limit": ("speed limit", "rev/min"),
+}
+WORDS = {
+    "turning": ("spindle", {1: "clockwise", -1: "counter-clockwise", 0: "stopped"}),
+    "side": ("compensation", {1: "left", -1: "right", 0: "off"}),
+}
+UNTOLD = ("position", "per_rev", "per_time")  # the place is told anyway, how the feed counts is told by its unit
+
+
+def told(values: Mapping[str, Any], state: Mapping[str, Any]) -> list[str]:
+    """Some values of a moment in words with units; `state` holds all that was active then."""
+    return [_told(name, value, state) for name, value in values.items() if name not in UNTOLD]
+
+
+def with_feed(changed: Mapping[str, Any], state: Mapping[str, Any]) -> Mapping[str, Any]:
+    """What a step changed, with the feed where the same number now counts in another unit."""
+    counts_otherwise = not {"per_rev", "per_time"}.isdisjoint(changed) and "feed" in state
+    return {"feed": state["feed"], **changed} if counts_otherwise else changed
+
+
+def _told(name: str, value: Any, state: Mapping[str, Any]) -> str:
+    if name in WORDS:
+        title, words = WORDS[name]
+        return f"{title} {words[int(value)]}"
+    title, unit = MEASURED.get(name, (name, ""))
+    if name == "feed":
+        unit = "s" if state.get("per_time") else "mm/rev" if state.get("per_rev") else "mm/min"
+    if value is None or does_nothing(name, value):
+        return f"{title} none"
+    if isinstance(value, int | float):
+        return f"{title} {short(value)} {unit}".rstrip()
+    return f"{title} {said(name, value)}".rstrip()
+
+
+def does_nothing(name: str, value: Any) -> bool:
+    """Whether a value is that of something switched off, which need not be told of a machine at rest."""
+    still = name == "side" and value == 0 or name == "speed_limit" and value == np.inf
+    return still or (name.startswith("frame ") and value is not None and np.array_equal(value, frames.IDENTITY))
+
+
+def short(value: float) -> str:
+    """A number with three decimals at most; one that is smaller with three digits."""
+    return figure(value, 3) if abs(value) >= 5e-4 or not value else f"{value:.3g}"
 
 
 def said(name: str, value: Any) -> str:

@@ -142,3 +142,20 @@ def test_nothing_is_shared_between_setups_and_runs():
     run = mnclab.run("T1\nG0 X1\n", "mnc", given_own)
     run.tables.tools[1] = Tool(radius=9)
     assert given_own.tools[1].radius == 7 and run.again(given_own).toolpath.radius[-1] == 7
+
+
+def test_the_page_of_a_setup_is_in_words_with_units():
+    drill, sides = Tool(radius=4, length=80, kind="drill", angle=118), ((0, 0, -20), (60, 40, 0))
+    given = Setup(tools={1: drill}, datums={2: (1, 2)}, stock=sides, limits=Limits(jerk=5), variables={"Q1": 2})
+    assert repr(given).splitlines() == [
+        "Setup",
+        "  T1: drill, radius 4 mm, length 80 mm, angle 118°",
+        "  datum 2: X1 Y2 Z0",
+        "  stock: X0 Y0 Z-20 to X60 Y40 Z0",
+        "  probe: as usual",
+        "  limits: jerk 5 mm/s³",
+        "  start: X0 Y0 Z0",
+        "  variable Q1: 2",
+    ]
+    assert ">limits</td>" in given._repr_html_() and ">jerk 5 mm/s³</td>" in given._repr_html_()
+    assert "  limits: as usual\n" in repr(Setup()) and "  tools: the usual ones: end mill 10," in repr(Setup())

@@ -16,7 +16,7 @@ FAR = 99999.9999  # mm, the largest length that a cycle takes
 FAST = 99999.999  # mm/min
 LONG = 3600.0  # s
 
-CLIMB: dict[float, str] = {1: "climb", -1: "conventional", 0: "climb"}
+CLIMB: dict[float, str] = {1: "climb", -1: "conventional", 0: "as 1"}
 TIP: dict[float, str] = {0: "depth refers to the tool tip", 1: "depth refers to the cylindrical part of the tool"}
 DISENGAGE: dict[float, str] = {0: "not at all", 1: "in -X", 2: "in -Y", 3: "in +X", 4: "in +Y"}
 OPERATION: dict[float, str] = {0: "roughing and finishing", 1: "only roughing", 2: "only finishing"}

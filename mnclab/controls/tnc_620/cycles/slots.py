@@ -31,7 +31,7 @@ from mnclab.machining.milling.pocket_steps import Down
 from mnclab.machining.steps import Step
 
 CYCLES = CycleTable()
-PLUNGE: dict[float, str] = {0: "vertical", 1: "reciprocating", 2: "reciprocating"}
+PLUNGE: dict[float, str] = {0: "vertical", 1: "reciprocating", 2: "as 1"}
 LENGTHWISE: dict[float, str] = {
     0: "the tool is at the centre of the slot", 1: "at its left end", 2: "at the centre of the left arc",
     3: "at the centre of the right arc", 4: "at its right end",

@@ -1,0 +1,82 @@
+"""A setup as people read it: one row for each thing on the machine, in words with units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from typing import TYPE_CHECKING, Any
+
+from mnclab.path.limits import Limits
+from mnclab.path.listing import figure
+from mnclab.path.tool import Tool
+from mnclab.text.given import shown
+from mnclab.workpiece.blank import Box, blank
+
+if TYPE_CHECKING:
+    from mnclab.machine.setup import Setup
+
+AXES = ("X", "Y", "Z", "A", "B", "C", "rotation ")  # of a datum
+ROWS = {"datums": "datum", "presets": "preset", "correctors": "corrector"}
+NAMED = {"files": "file", "settings": "setting", "variables": "variable"}
+UNITS = {
+    "angle": "°", "plunge_angle": "°", "main_angle": "°", "auxiliary_angle": "°", "teeth": "",
+    "feed": " mm/min", "rapid": " mm/min", "acceleration": " mm/s²", "jerk": " mm/s³", "corner_jump": " mm/min",
+    "corner_speed": "", "rapid_motion": "", "spindle": " rev/min", "spindle_acceleration": " rev/min in a second",
+    "tool_change": " s",
+}  # fmt: skip
+MM = " mm"  # of all others
+
+
+def page(setup: Setup, usual: Mapping[int, Tool]) -> list[tuple[str, str]]:
+    """What there is and how it is, in the order of declaration; `usual` are the tools that need no list."""
+    return list(_rows(setup, usual))
+
+
+def _rows(setup: Setup, usual: Mapping[int, Tool]) -> Iterator[tuple[str, str]]:
+    if dict(setup.tools) == dict(usual):
+        yield "tools", f"the usual ones: {', '.join(tool.name for tool in usual.values() if tool.kind)}"
+    else:
+        yield from ((f"T{number}", tool_line(tool)) for number, tool in setup.tools.items())
+    for name, title in ROWS.items():
+        yield from ((f"{title} {row}", place(each)) for row, each in getattr(setup, name).items())
+    if setup.stock is not None:
+        stock = blank(setup.stock)
+        yield "stock", f"{place(stock.low)} to {place(stock.high)}" if isinstance(stock, Box) else str(stock)
+    if setup.part is not None:
+        yield "part", getattr(setup.part, "__name__", None) or repr(setup.part)
+    yield "probe", ", ".join(_different(setup.probe, type(setup.probe)())) or "as usual"
+    yield "limits", ", ".join(_different(setup.limits, Limits())) or "as usual"
+    yield "start", place(setup.start)
+    for name, title in NAMED.items():
+        yield from ((f"{title} {key}", shown(each)) for key, each in getattr(setup, name).items())
+
+
+def tool_line(tool: Tool) -> str:
+    """`end mill 10, radius 5 mm, plunge angle 3°`: what is known of a tool, but for its number."""
+    sizes = _different(tool, Tool(), leave=("number", "name", "kind"))
+    return ", ".join([tool.name or tool.kind or "tool", *sizes])
+
+
+def place(values: Any) -> str:
+    """A point or datum: X, Y and Z in mm, then the angles that are not 0, in degrees."""
+    told = zip(AXES, (*values, 0.0, 0.0, 0.0)[: max(len(values), 3)])
+    return " ".join(f"{axis}{figure(float(value))}" for k, (axis, value) in enumerate(told) if k < 3 or value)
+
+
+def _different(record: Any, usual: Any, leave: tuple[str, ...] = ()) -> Iterator[str]:
+    """The values of a record that differ from the usual ones, each with its name and unit."""
+    names = [each.name for each in fields(record)] if is_dataclass(record) else record._fields
+    for name in names:
+        value = getattr(record, name)
+        if name not in leave and value != getattr(usual, name):
+            yield f"{name.replace('_', ' ')} {_value(value)}{UNITS.get(name, MM) if value is not None else ''}"
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, tuple):  # of each axis; of travel from and to
+        if value and isinstance(value[0], tuple):
+            return ", ".join(f"{axis} {_value(low)} to {_value(high)}" for axis, (low, high) in zip("XYZ", value))
+        return " ".join(map(_value, value))
+    if value is None:
+        return "none"
+    return value if isinstance(value, str) else figure(float(value))
