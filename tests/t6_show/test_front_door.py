@@ -208,6 +208,10 @@ def test_every_function_of_the_door_has_parameters_with_names(name):
 def test_a_name_that_is_not_there_has_a_near_one():
     with pytest.raises(AttributeError, match="mnclab has no 'comparee' \\(near: compare\\)"):
         getattr(mnclab, "comparee")  # noqa: B009
+    with pytest.raises(AttributeError, match="mnclab has no 'Boxx' .*mnclab.part.box"):
+        getattr(mnclab, "Boxx")  # noqa: B009
+    with pytest.raises(AttributeError, match="mnclab has no 'Setupp' \\(near: Setup\\)"):
+        getattr(mnclab, "Setupp")  # noqa: B009
     with pytest.raises(AttributeError, match="mnclab.part has no 'boxx' \\(near: box\\)"):
         getattr(mnclab.part, "boxx")  # noqa: B009
 
