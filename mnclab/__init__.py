@@ -34,6 +34,7 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.runs.run import Run
 from mnclab.text.alarm import Alarm
+from mnclab.text.nearest import nearest as _nearest
 from mnclab.text.opening import Shelf
 from mnclab.text.program import Program
 
@@ -136,7 +137,12 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    return getattr(OPENED, name)
+    if name in OPENED.__all__:
+        return getattr(OPENED, name)
+    shelves = {each: shelf for shelf in (part, blank, area, strategies, schemes) for each in shelf.__all__}
+    near = [] if name.startswith("_") else _nearest(name, dict.fromkeys([*__all__, *OPENED.__all__, *shelves]))
+    said = ", ".join(f"{shelves[each].__name__}.{each}" if each in shelves else each for each in near)
+    raise AttributeError(f"mnclab has no {name!r}" + (f" (near: {said})" if said else ""))
 
 
 def __dir__() -> list[str]:

@@ -30,7 +30,7 @@ from mnclab.machining.milling.strategies import STRATEGIES, clear
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, choice, faults_as_alarms, shown
+from mnclab.text.given import check_number, choice, faults_as_alarms, plain, shown
 from mnclab.text.progress import progress
 
 if TYPE_CHECKING:
@@ -138,13 +138,21 @@ def compare(
     `limits` the time comes from the feed-rate profile. An Alarm where the tool does not fit.
     """
     _check(region, strategies, limits)
-    radius = tool.effective_radius if isinstance(tool, Tool) else tool
+    _check_numbers(depth, feed, plunge_feed, rapid, allowance, limit)
+    if not isinstance(entry, Entry):
+        raise Alarm(f"the entry must be an Entry, got {shown(entry)}", hint='mnclab.strategies.Entry("helix", 3)')
+    if not isinstance(climb, bool | np.bool_):
+        raise Alarm(f"climb must be True or False, got {shown(climb)}")
+    depth, feed, plunge_feed, rapid, allowance, limit = plain([depth, feed, plunge_feed, rapid, allowance, limit])
+    radius = plain(tool.effective_radius if isinstance(tool, Tool) else tool)
     check_number(radius, "the tool (its radius, mm, or a Tool)", above=0)
     if stepover is None:
         check_number(overlap, "the overlap (of two passes, a share of the tool diameter)", at_least=0)
         if not overlap < 1:
             raise Alarm(f"the overlap must be below 1, the whole tool diameter, got {overlap:g}")
-        stepover = 2 * radius * (1 - overlap)
+        stepover = 2 * radius * (1 - plain(overlap))
+    check_number(stepover, "the stepover (mm)", above=0)
+    stepover = plain(stepover)
     named = strategies if isinstance(strategies, Mapping) else {name: name for name in strategies}
     trials = []
     with progress("comparing", len(named), "strategies") as done:
@@ -176,6 +184,17 @@ def _check(region: Region, strategies: Strategies, limits: Limits | None) -> Non
             choice(how, "a strategy", STRATEGIES)
     if not isinstance(limits, Limits | None):
         raise Alarm(f"limits must be Limits, got {shown(limits)}", hint="mnclab.Limits(acceleration=1000)")
+
+
+def _check_numbers(
+    depth: float, feed: float, plunge_feed: float, rapid: float, allowance: float, limit: float
+) -> None:  # fmt: skip
+    check_number(depth, "the depth of a level (mm)", above=0)
+    check_number(feed, "the feed (mm/min)", above=0)
+    check_number(plunge_feed, "the plunge feed (mm/min)", above=0)
+    check_number(rapid, "the rapid rate (mm/min)", above=0)
+    check_number(allowance, "the allowance (mm)", at_least=0, at_most=1e6)
+    check_number(limit, "the limit (of the engagement, degrees)", at_least=0, at_most=360)
 
 
 def level_moves(clearing: Clearing, entry: Entry, depth: float, climb: bool) -> tuple[list[Contour], list[bool]]:

@@ -43,7 +43,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, choice, faults_as_alarms, shown
+from mnclab.text.given import check_number, choice, faults_as_alarms, plain, shown
 
 if TYPE_CHECKING:
     from mnclab.show.plot.picture import Picture
@@ -191,18 +191,34 @@ def compare(
         raise Alarm(f"the tool must be a Tool, got {shown(tool)}", hint='mnclab.Tool(kind="turning", main_angle=95)')
     check_number(blank, "the radius of the blank (mm)", above=0)
     contour = checked(profile)
+    _check_numbers(depth, step, surface, lift, front)
+    check_number(feed, "the feed (mm/rev)", above=0)
+    if not isinstance(feeds, Mapping | None):
+        raise Alarm(f"feeds must be a dict of roles and feeds, got {shown(feeds)}", hint=f"roles: {', '.join(ROLES)}")
+    if not isinstance(limits, Limits | None):
+        raise Alarm(f"limits must be Limits, got {shown(limits)}", hint="mnclab.Limits(acceleration=1000)")
+    blank, depth, step, feed, spindle, surface, rapid, lift, front = plain(
+        [blank, depth, step, feed, spindle, surface, rapid, lift, front]
+    )
     by_role = {role: feed for role in ROLES} | {PLUNGE: feed / 2} | dict(feeds or {})
     if unknown := set(by_role) - set(ROLES):
-        raise Alarm(f"there is no role {min(unknown)!r}; known: {', '.join(ROLES)}")
+        raise Alarm(f"there is no role {shown(min(unknown, key=str))}; known: {', '.join(ROLES)}")
     rates = {"spindle speed": spindle, "rapid rate": rapid} | {f"feed of {k}": v for k, v in by_role.items()}
     for name, value in rates.items():
         check_number(value, f"the {name}", above=0)
+    by_role = {role: plain(value) for role, value in by_role.items()}
     wanted = SUITED[zone_of(contour, blank)] if schemes is None else schemes
-    named = wanted if isinstance(wanted, Mapping) else {name: name for name in wanted}
+    if isinstance(wanted, str) or not isinstance(wanted, Iterable):
+        example = f'["loop", "zigzag"], or a dict of names; known: {", ".join(SCHEMES)}'
+        raise Alarm(f"schemes must be a list of names, got {shown(wanted)}", hint=example)
+    values = wanted.values() if isinstance(wanted, Mapping) else wanted
+    for how in (values := tuple(values)):
+        if not isinstance(how, Plan) and not callable(how):
+            choice(how, "a scheme", SCHEMES)
+    named = dict(zip(wanted if isinstance(wanted, Mapping) else values, values, strict=True))
     trials = []
     for name, how in named.items():
         if isinstance(how, str):
-            choice(how, "a scheme", SCHEMES)
             along = (tools[0].width or depth) if step is None else step
             plan = SCHEMES[how](contour, blank, along if how == "descent" else depth, tools[0], lift=lift, front=front)
         else:
@@ -210,6 +226,16 @@ def compare(
         path = toolpath(plan, by_role, spindle, surface, tools)
         trials.append(TurningTrial(name, path, limits, rapid, plan, contour, blank, tools))
     return TurningComparison(tuple(trials))
+
+
+def _check_numbers(depth: float, step: float | None, surface: float | None, lift: float, front: float) -> None:
+    check_number(depth, "the depth of a pass (mm)", above=0)
+    if step is not None:
+        check_number(step, "the step of the descent (mm)", above=0)
+    if surface is not None:
+        check_number(surface, "the cutting speed (surface, m/min)", above=0)
+    check_number(lift, "the lift (mm)", at_least=0)
+    check_number(front, "the way in front of the face (front, mm)", at_least=0)
 
 
 def toolpath(

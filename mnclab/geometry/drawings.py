@@ -10,7 +10,10 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import length_of
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown
 
+EXAMPLE = "mnclab.area.area_of(mnclab.area.svg('drawing.svg'))"
 SAME = 1e-3  # mm, below which ends of a drawing count as one point
 
 
@@ -20,6 +23,10 @@ def area_of(contours: Iterable[Contour], tolerance: float = SAME) -> Region:
     Open contours are joined where their ends meet within `tolerance`. Raises ValueError where nothing is closed, or
     contours cross each other.
     """
+    contours = list(contours) if isinstance(contours, Iterable) else [contours]
+    if wrong := [each for each in contours if not isinstance(each, Contour)]:
+        raise Alarm(f"an area is made of a list of contours, got {shown(wrong[0])}", hint=EXAMPLE)
+    check_number(tolerance, "the tolerance (mm)", above=0)
     loops = [contour for contour in joined(contours, tolerance) if contour.closed and abs(contour.area) > tolerance**2]
     if not loops:
         raise ValueError("the drawing has no closed contour")

@@ -14,8 +14,10 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.vectors import at_angle
+from mnclab.text.alarm import Alarm
 from mnclab.text.extras import require
 from mnclab.text.file import read
+from mnclab.text.given import check_number, shown
 
 TO_MM = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 8: 2.54e-5, 9: 0.0254, 10: 914.4, 13: 1e-3, 14: 100.0}
 
@@ -23,19 +25,19 @@ TO_MM = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 8: 2.54e-5, 9: 0.0254, 1
 def contours(source: str | Path, tolerance: float = 0.01, layer: str | None = None) -> list[Contour]:
     """All contours of the model space of a file, or of one layer; pieces are not yet joined (`drawings.joined`).
 
-    Raises ValueError where the file is no DXF, Alarm without ezdxf.
+    Raises ValueError where the file is no DXF, Alarm where there is none and without ezdxf.
     """
     require("ezdxf", "DXF drawings", "dxf")
     import ezdxf
 
+    if not isinstance(source, str | Path):
+        raise Alarm(f"a DXF drawing is the path of a file, got {shown(source)}")
+    check_number(tolerance, "the tolerance (mm)")
     if not tolerance > 0:
         raise ValueError(f"the tolerance must be greater than 0, got {tolerance:g}")
-    if Path(source).exists():
-        read(source, source)  # refuses what is no file, which would be waited for
+    read(source, source)  # refuses what is no file, which would be waited for
     try:
         drawing = ezdxf.readfile(str(source))
-    except FileNotFoundError:
-        raise
     except (ezdxf.DXFError, UnicodeDecodeError, OSError) as error:
         raise ValueError(f"{source} is no DXF: {error}") from None
     scale = TO_MM.get(int(drawing.header.get("$INSUNITS", 0)), 1.0)

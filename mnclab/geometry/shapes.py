@@ -10,8 +10,11 @@ from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.vectors import at_angle, left, length_of, turned
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, check_point, shown, whole
 
 QUARTER = float(np.tan(np.pi / 8))  # the bulge of a quarter circle
+MOST_CORNERS = 1_000_000  # of a polygon
 
 
 def rectangle(
@@ -21,6 +24,11 @@ def rectangle(
 
     Raises ValueError where a side is not greater than 0 or the corners do not fit.
     """
+    for name, number in (("length", length), ("width", width), ("corner radius", corner)):
+        check_number(number, f"the {name} of a rectangle (mm)")
+    _check_place("a rectangle", centre, angle)
+    if whole(begin, "the axis at which a rectangle begins") not in (0, 1):
+        raise Alarm(f"a rectangle begins at the axis 0 (X) or 1 (Y), got {shown(begin)}")
     a, b = length / 2, width / 2
     if not (a > 0 and b > 0):
         raise ValueError(f"the sides of a rectangle must be greater than 0, got {length:g} and {width:g}")
@@ -44,6 +52,9 @@ def slot(line: Contour, width: float) -> Contour:
     An arc may come in pieces, so that it can go all the way round. Raises ValueError where the line has a corner, or is
     bent too much for the width.
     """
+    if not isinstance(line, Contour):
+        raise Alarm(f"the centre line of a slot must be a Contour, got {shown(line)}")
+    check_number(width, "the width of a slot (mm)")
     if not is_smooth(line):
         raise ValueError("a slot has a centre line of one straight line or one arc")
     half, bulge = width / 2, line.bulge[:-1]
@@ -66,6 +77,9 @@ def is_smooth(line: Contour) -> bool:
 
 def arc(radius: float, begin: float, sweep: float) -> Contour:
     """An arc about (0, 0) from the angle `begin` (rad) on, at most a full turn; above half a turn in two pieces."""
+    check_number(radius, "the radius of an arc (mm)")
+    check_number(begin, "the angle at which an arc begins (rad)")
+    check_number(sweep, "the angle that an arc goes through (rad)")
     count = 1 if abs(sweep) <= np.pi else 2
     way = begin + sweep * np.arange(count + 1) / count
     bulge = np.append(np.full(count, np.tan(sweep / count / 4)), 0.0)
@@ -74,10 +88,19 @@ def arc(radius: float, begin: float, sweep: float) -> Contour:
 
 def polygon(corners: int, radius: float, *, centre: ArrayLike = (0, 0), angle: float = 0.0) -> Contour:
     """A regular polygon in a circle of a radius, its first corner at `angle`."""
+    check_number(corners, "the number of corners of a polygon", at_most=MOST_CORNERS)
+    corners = whole(corners, "the number of corners of a polygon")
+    check_number(radius, "the radius of a polygon (mm)")
+    _check_place("a polygon", centre, angle)
     if corners < 3 or not radius > 0:
         raise ValueError(f"a polygon has at least 3 corners and a radius above 0, got {corners} and {radius:g}")
     way = angle + 2 * np.pi * np.arange(corners) / corners
     return Contour(placed(radius * at_angle(way), centre, 0.0))
+
+
+def _check_place(figure: str, centre: ArrayLike, angle: float) -> None:
+    check_point(centre, f"the centre of {figure} (mm)", flat=True)
+    check_number(angle, f"the angle of {figure} (rad)")
 
 
 def placed(points: Floats, centre: ArrayLike, angle: float) -> Floats:

@@ -16,7 +16,9 @@ from xml.etree import ElementTree
 import numpy as np
 
 from mnclab.geometry.contours import Contour, Floats, keeps_circles
+from mnclab.text.alarm import Alarm
 from mnclab.text.file import read
+from mnclab.text.given import check_number, shown
 
 FIGURE = re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?")
 NUMBER = re.compile(rf"\s*(?:,\s*)?({FIGURE.pattern})")
@@ -33,6 +35,9 @@ def contours(source: str | Path, tolerance: float = 0.01) -> list[Contour]:
 
     Raises ValueError where the text is no SVG or a path is misspelt.
     """
+    if not isinstance(source, str | Path):
+        raise Alarm(f"an SVG drawing is its text or the path of a file, got {shown(source)}")
+    check_number(tolerance, "the tolerance (mm)")
     if not tolerance > 0:
         raise ValueError(f"the tolerance must be greater than 0, got {tolerance:g}")
     text = source if isinstance(source, str) and "<" in source else read(source, source).decode("utf-8")

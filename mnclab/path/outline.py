@@ -8,6 +8,8 @@ from mnclab.geometry.contours import Contour
 from mnclab.path.kinds import Kind
 from mnclab.path.plane import PlaneView
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown
 
 
 def outline(path: Toolpath) -> Contour:
@@ -15,6 +17,7 @@ def outline(path: Toolpath) -> Contour:
 
     Arcs of more than half a turn become two, since a bulge tan(sweep / 4) has no whole circle.
     """
+    _check_path(path)
     view, points, bulges = PlaneView(path), list[np.ndarray](), list[float]()
     for row in np.flatnonzero(view.moves):
         sweep, start = float(view.sweep[row]) if view.arc[row] else 0.0, view.start[row, :2]
@@ -28,6 +31,11 @@ def outline(path: Toolpath) -> Contour:
     return Contour(np.array(points), np.array(bulges))
 
 
+def _check_path(path: Toolpath) -> None:
+    if not isinstance(path, Toolpath):
+        raise Alarm(f"an outline is that of a Toolpath, got {shown(path)}", hint="the toolpath of a run: run.toolpath")
+
+
 def _turned(point: np.ndarray, centre: np.ndarray, angle: float) -> np.ndarray:
     c, s = np.cos(angle), np.sin(angle)
     x, y = point - centre
@@ -39,6 +47,8 @@ def outlines(path: Toolpath, tolerance: float = 0.01) -> tuple[Contour, ...]:
 
     A rapid or a move along the tool axis parts runs. What is cut and does not close, an approach for one, is left out.
     """
+    _check_path(path)
+    check_number(tolerance, "the tolerance (mm)", above=0)
     view = PlaneView(path)
     cuts = view.moves & (path.kind != Kind.RAPID) & (path.kind != Kind.PROBE)
     level = np.abs(view.end[:, 2] - view.start[:, 2]) < tolerance

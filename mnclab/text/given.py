@@ -76,13 +76,13 @@ def plain(value: Any) -> Any:
     return float(value) if isinstance(value, Real) and not isinstance(value, int | float) else value
 
 
-def check_point(value: Any, what: str) -> None:
-    """An Alarm unless `value` is three numbers."""
+def check_point(value: Any, what: str, *, flat: bool = False) -> None:
+    """An Alarm unless `value` is three numbers, or two in a `flat` figure."""
     try:
-        three = not isinstance(value, str | Mapping) and len(value) == 3
+        right = not isinstance(value, str | Mapping) and len(value) == 3 - flat
     except TypeError:  # of what has no length
-        three = False
-    if not three:
-        raise Alarm(f"{what} must be three numbers (x, y, z), got {shown(value)}")
+        right = False
+    if not right:
+        raise Alarm(f"{what} must be {'two numbers (x, y)' if flat else 'three numbers (x, y, z)'}, got {shown(value)}")
     for each in value:
         check_number(each, what)

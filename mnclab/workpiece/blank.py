@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number
+from mnclab.text.given import check_number, check_point
 from mnclab.text.records import written
 
 CORNERS = 96  # of a circle in a picture
@@ -119,7 +119,8 @@ def cylinder(
 ) -> Revolved:
     """A cylinder from `low` to `high` along an axis through `at`, mm; a tube with a `bore` radius."""
     for name, number in (("radius", radius), ("bore", bore), ("low", low), ("high", high)):
-        check_number(number, f"{name} of a cylinder", endless=True)
+        check_number(number, f"the {name} of a cylinder (mm)")
+    check_point(at, "the point on the axis of a cylinder (mm)")
     if not radius > bore >= 0 or not high > low or axis not in ("X", "Y", "Z"):
         found = f"radius {radius:g}, bore {bore:g}, {low:g} to {high:g}, axis {axis!r}"
         raise Alarm(f"a cylinder needs radius > bore >= 0, high > low and axis X, Y or Z; got {found}")

@@ -92,7 +92,7 @@ def _cylinder(along: Floats, middle: Floats, half: float, radius: float, p: Floa
 
 def plane(point: ArrayLike, normal: ArrayLike) -> Part:
     """Half of space, bounded by the plane through `point`; the normal points away from the material."""
-    through, out = _place(point, "a point of a plane"), _unit(normal, "the normal of a plane")
+    through, out = _place(point, "a point of a plane"), _unit(_place(normal, "the normal of a plane"), "the normal of a plane")
     return Part(partial(_plane, through, out), "plane")
 
 

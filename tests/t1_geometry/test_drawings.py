@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mnclab import Alarm
 from mnclab.geometry import dxf, svg
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.drawings import area_of, joined
@@ -149,3 +150,8 @@ def test_a_dxf_file(tmp_path):
     (tmp_path / "no.dxf").write_text("nothing")
     with pytest.raises(ValueError, match="no DXF"):
         dxf.contours(tmp_path / "no.dxf")
+    with pytest.raises(Alarm, match="cannot be read: No such file"):
+        dxf.contours(tmp_path / "gone.dxf")
+    for wrong in (None, 5, b"part.dxf"):
+        with pytest.raises(Alarm, match="the path of a file"):
+            dxf.contours(wrong)

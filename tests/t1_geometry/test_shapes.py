@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mnclab import Alarm
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.shapes import arc, polygon, rectangle, slot
 
@@ -69,3 +70,30 @@ def test_polygon():
 def test_what_is_no_figure(make, message):
     with pytest.raises(ValueError, match=message):
         make()
+
+
+LINE = Contour([(0, 0), (30, 0)], closed=False)
+TAKES_NUMBERS = {
+    "length": lambda wrong: rectangle(wrong, 5),
+    "width": lambda wrong: rectangle(5, wrong),
+    "corner radius": lambda wrong: rectangle(5, 5, wrong),
+    "centre of a rectangle": lambda wrong: rectangle(5, 5, centre=wrong),
+    "angle of a rectangle": lambda wrong: rectangle(5, 5, angle=wrong),
+    "rectangle begins": lambda wrong: rectangle(5, 5, begin=wrong),
+    "width of a slot": lambda wrong: slot(LINE, wrong),
+    "centre line": lambda wrong: slot(wrong, 5),
+    "radius of an arc": lambda wrong: arc(wrong, 0, 1),
+    "angle at which": lambda wrong: arc(5, wrong, 1),
+    "angle that": lambda wrong: arc(5, 0, wrong),
+    "number of corners": lambda wrong: polygon(wrong, 5),
+    "radius of a polygon": lambda wrong: polygon(5, wrong),
+    "centre of a polygon": lambda wrong: polygon(5, 5, centre=wrong),
+    "angle of a polygon": lambda wrong: polygon(5, 5, angle=wrong),
+}
+
+
+@pytest.mark.parametrize("what", TAKES_NUMBERS)
+@pytest.mark.parametrize("wrong", [None, np.nan, np.inf, "5", [1], 10**400], ids=lambda value: repr(value)[:9])
+def test_what_is_no_number_is_an_alarm(what, wrong):
+    with pytest.raises(Alarm, match=what):
+        TAKES_NUMBERS[what](wrong)

@@ -7,6 +7,7 @@ import pytest
 
 from mnclab import Alarm, Limits, Tool
 from mnclab.comparison.strategies import COLUMNS, compare
+from mnclab.comparison.turning_schemes import compare as compare_turning
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.shapes import rectangle
@@ -14,6 +15,7 @@ from mnclab.machining.milling import concentric
 from mnclab.machining.milling.strategies import STRATEGIES
 
 BOX = Region.of(rectangle(60, 40))
+SHOULDER = Contour([(0, 20), (-40, 20), (-50, 30)], closed=False)
 
 
 @pytest.fixture(scope="module")
@@ -81,3 +83,35 @@ def test_time_under_limits_of_the_axes():
     )
     assert quick == pytest.approx(free, rel=1e-3)
     assert slow > 1.05 * free
+
+
+NUMBERS = ["depth", "feed", "plunge_feed", "rapid", "overlap", "stepover", "allowance", "limit", "entry", "climb"]
+NO_NUMBERS = [np.nan, np.inf, "5", [1], -5.0, 10**400, {}]
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+@pytest.mark.parametrize("wrong", NO_NUMBERS, ids=lambda value: repr(value)[:9])
+def test_what_is_no_sensible_number_is_an_alarm(name, wrong):
+    with pytest.raises(Alarm, match=name.split("_")[0]):
+        compare(BOX, 5.0, ["rings"], **{name: wrong})
+
+
+@pytest.mark.parametrize("name", ["depth", "step", "feed", "feeds", "spindle", "surface", "rapid", "lift", "front"])
+@pytest.mark.parametrize("wrong", [*NO_NUMBERS[:-1], {"plunge": -1}], ids=lambda value: repr(value)[:9])
+def test_so_it_is_for_turning(name, wrong):
+    with pytest.raises(Alarm, match=name.rstrip("s")):
+        compare_turning(SHOULDER, 30, schemes=["loop"], **{name: wrong})
+
+
+def test_what_is_turned_needs_names():
+    for wrong in ("loop", 5, [5], [None], {"mine": 5}):
+        with pytest.raises(Alarm, match="scheme"):
+            compare_turning(SHOULDER, 30, schemes=wrong)
+
+
+def test_numbers_of_numpy_are_numbers():
+    given = {name: np.float32(2) for name in ("depth", "feed", "plunge_feed", "rapid", "stepover", "limit")}
+    found = compare(BOX, np.int8(5), ["rings"], climb=np.True_, allowance=np.float64(0), **given)
+    assert repr(found) == repr(compare(BOX, 5.0, ["rings"], **{name: 2.0 for name in given}))
+    turned = compare_turning(SHOULDER, np.int64(30), schemes=["loop"], depth=np.int8(4), feed=np.float64(0.5))
+    assert repr(turned) == repr(compare_turning(SHOULDER, 30, schemes=["loop"], depth=4, feed=0.5))

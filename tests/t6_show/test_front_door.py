@@ -92,6 +92,20 @@ DOORS = {
     "a text for a corner of a part": lambda run: mnclab.part.box("a", (1, 1, 1)),
     "a ball without a radius": lambda run: mnclab.part.ball((0, 0, 0), None),
     "a text for a blank": lambda run: mnclab.blank.cylinder("a", 0, 1),
+    "an endless blank": lambda run: mnclab.blank.cylinder(5, 0, float("inf")),
+    "a blank about a text": lambda run: mnclab.blank.cylinder(5, 0, 1, at="x"),
+    "an endless normal": lambda run: mnclab.part.plane((0, 0, 0), (0, 0, float("inf"))),
+    "nothing for an area": lambda run: mnclab.area.area_of(None),
+    "numbers for an area": lambda run: mnclab.area.area_of([1]),
+    "a text for a tolerance": lambda run: mnclab.area.area_of([], "x"),
+    "nothing for a drawing": lambda run: mnclab.area.svg(None),
+    "a number for a drawing": lambda run: mnclab.area.svg(5),
+    "a tolerance of nothing": lambda run: mnclab.area.svg("<svg/>", None),
+    "a run for its path": lambda run: mnclab.area.outline(run),
+    "nothing for a path": lambda run: mnclab.area.outlines(None),
+    "a path and a text": lambda run: mnclab.area.outlines(run.toolpath, "x"),
+    "nothing to clear": lambda run: mnclab.strategies.clear("rings", None, 4, 4),
+    "an entry at a text": lambda run: mnclab.strategies.Entry("helix", "x"),
     "an array for rapids": lambda run: Limits(rapid_motion=np.array([1, 2])),
     "arrays of axes": lambda run: Setup(kinematics=np.array([1, 2])),
     "no kinematics": lambda run: Setup(kinematics=False),
@@ -194,6 +208,10 @@ def test_every_function_of_the_door_has_parameters_with_names(name):
 def test_a_name_that_is_not_there_has_a_near_one():
     with pytest.raises(AttributeError, match="mnclab has no 'comparee' \\(near: compare\\)"):
         getattr(mnclab, "comparee")  # noqa: B009
+    with pytest.raises(AttributeError, match="mnclab has no 'Boxx' .*mnclab.part.box"):
+        getattr(mnclab, "Boxx")  # noqa: B009
+    with pytest.raises(AttributeError, match="mnclab has no 'Setupp' \\(near: Setup\\)"):
+        getattr(mnclab, "Setupp")  # noqa: B009
     with pytest.raises(AttributeError, match="mnclab.part has no 'boxx' \\(near: box\\)"):
         getattr(mnclab.part, "boxx")  # noqa: B009
 

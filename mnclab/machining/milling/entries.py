@@ -22,6 +22,7 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.machining.depths import MOST, TooMany
 from mnclab.machining.milling.clearing import Piece, begin
 from mnclab.machining.steps import Go, Step, Turn
+from mnclab.text.given import check_number
 
 DRIFT = 1e-9
 CHORDS = 16  # of a quarter circle in a vertical plane: a hundredth of a millimetre off at a radius of 8 mm
@@ -54,6 +55,9 @@ class Entry:
     def __post_init__(self) -> None:
         if self.kind not in ("vertical", "helix", "ramp"):
             raise ValueError(f'an entry is "vertical", "helix" or "ramp", got {self.kind!r}')
+        check_number(self.angle, "the plunge angle of an entry (degrees)")
+        if self.size is not None:
+            check_number(self.size, "the size of an entry (mm)", above=0)
         if self.kind != "vertical" and not 0 < self.angle <= 90:
             raise ValueError(f"the plunge angle must lie above 0 and not above 90 degrees, got {self.angle:g}")
 

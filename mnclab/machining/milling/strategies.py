@@ -18,6 +18,8 @@ from mnclab.machining.milling.lines import one_way, zigzag
 from mnclab.machining.milling.rings import rings
 from mnclab.machining.milling.spirals import spiral
 from mnclab.machining.milling.trochoids import trochoidal
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import shown
 
 STRATEGIES: dict[str, Callable[..., Clearing]] = {
     "rings": rings, "spiral": spiral, "zigzag": zigzag, "one way": one_way, "trochoidal": trochoidal,
@@ -31,6 +33,8 @@ def clear(
     complete: bool = True, **more: Any,
 ) -> Clearing:  # fmt: skip
     """`region` cleared by the strategy of this name, and if `complete` what it leaves cleared as well."""
+    if not isinstance(region, Region):
+        raise Alarm(f"a strategy clears a Region, got {shown(region)}", hint="mnclab.area.Region.of(a contour)")
     if strategy not in STRATEGIES:
         raise ValueError(f"unknown strategy {strategy!r}; known are {', '.join(STRATEGIES)}")
     found = STRATEGIES[strategy](region, radius, stepover, allowance=allowance, climb=climb, **more)
