@@ -25,7 +25,7 @@ from mnclab.running.binding import store, value_of
 from mnclab.running.interpreter import Interpreter
 from mnclab.running.performing import Place, run_cycle
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import plain
+from mnclab.text.given import check_number, plain, shown
 from mnclab.text.nearest import hint
 from mnclab.text.program import Word, place_of
 
@@ -40,6 +40,8 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
     `values` go by address or by name, in the units of programs; those that are not given are the examples of the
     declaration. `setup` is the machine, of whose tools the first that fits is taken.
     """
+    if not isinstance(setup, Setup | None):
+        raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint="Setup(tools={1: Tool(radius=5)})")
     found = help(code, control)
     cycle: Any = found.entry
     if not (isinstance(cycle, type) and issubclass(cycle, Cycle)):
@@ -69,7 +71,7 @@ def chosen(cycle: type[Cycle], values: dict[str, Any]) -> dict[str, Any]:
             raise Alarm(f"{cycle.code} has no parameter {name}; it has {addresses}", hint=hint(name, known))
         if known[name].name in given:
             raise Alarm(f"{cycle.code} {known[name].address} is given twice, as an address and as {known[name].name}")
-        given[known[name].name] = plain(value)
+        given[known[name].name] = allowed(cycle, known[name], plain(value))
     replaced = {p.instead for p in parameters if p.name in given} | given.keys()
     for p in parameters:
         if p.name in replaced or (p.instead and (p.instead in given or not p.required)):
@@ -78,6 +80,17 @@ def chosen(cycle: type[Cycle], values: dict[str, Any]) -> dict[str, Any]:
         if (value := first if p.example is None else p.example) is not None:
             given[p.name] = value
     return given
+
+
+def allowed(cycle: type[Cycle], parameter: Parameter, value: Any) -> Any:
+    """A value that a program could write: a text, a finite number, or several where a parameter takes them."""
+    what = f"{cycle.code} {parameter.address} ({parameter.meaning})"
+    for one in value if isinstance(value, tuple) and parameter.several else (value,):
+        if not isinstance(one, str):
+            check_number(one, what, at_least=-1e15, at_most=1e15)
+            if parameter.type == "text" and not isinstance(parameter.default, int | float):
+                raise Alarm(f"{what} must be a text, got {shown(value)}")
+    return value
 
 
 def situations(control: Control, cycle: type[Cycle], setup: Setup) -> Iterator[Machine]:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.language.checks import first
-from mnclab.controls.tnc_620.language.feeds import FORMS, feed
+from mnclab.controls.tnc_620.language.feeds import FEED_WORDS, feed
 from mnclab.controls.tnc_620.language.motion import coordinates
 from mnclab.controls.tnc_620.language.pattern_definitions import Pattern
 from mnclab.controls.tnc_620.state import memory
@@ -41,7 +41,7 @@ PLACES = frozenset("X Y Z U V W A B C PR PA".split())
 PLACED_BY_DATUM = frozenset(f"CYCL DEF {n}" for n in (12, *range(21, 26), 27, 28, 29, 39, 275, 276))
 
 
-@FUNCTIONS("CYCL CALL,", "Cycle call", group="call", modal=False, phase="call", takes=FORMS, source="3.1")
+@FUNCTIONS("CYCL CALL,", "Cycle call", group="call", modal=False, phase="call", takes=FEED_WORDS, source="3.1")
 def cycle_call(m: Machine, words: Words) -> None:
     """Runs the cycle defined last where the tool stands; F sets the feed of the following blocks, not that of the cycle."""
     feed(m, words)
@@ -87,7 +87,7 @@ def ready(m: Machine, code: str, word: Word | None = None) -> Definition:
 
 
 @FUNCTIONS(
-    "CYCL CALL POS,", "Cycle call at a position", group="call", modal=False, phase="call", takes=f"X Y Z {FORMS}", source="3.1"
+    "CYCL CALL POS,", "Cycle call at a position", group="call", modal=False, phase="call", takes=f"X Y Z {FEED_WORDS}", source="3.1"
 )  # fmt: skip
 def cycle_call_at(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at X Y, its surface shifted by Z; F is the feed of the approach alone."""
@@ -139,7 +139,7 @@ def call_at(definition: Definition, x: float, y: float, z: float, **instead: flo
         yield Write("frame", None, "point")
 
 
-@FUNCTIONS(f"{CODE},", "Cycle call at a pattern", group="call", modal=False, phase="call", takes=FORMS, source="3.1")
+@FUNCTIONS(f"{CODE},", "Cycle call at a pattern", group="call", modal=False, phase="call", takes=FEED_WORDS, source="3.1")
 def cycle_call_pattern(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at every point of the pattern; F is the feed from point to point."""
     definition = ready(m, CODE)

@@ -16,7 +16,7 @@ from mnclab.path.feed_rules import FeedRule
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
-FORMS = "F FMAX FAUTO FU FZ"
+FEED_WORDS = "F FMAX FAUTO FU FZ"
 MEANINGS = {"F": "feed rate", "FU": "feed per revolution", "FZ": "feed per tooth"}
 EDGES = {"M109": "everywhere", "M110": "inside", "M111": ""}
 TITLES = {
@@ -27,7 +27,7 @@ TITLES = {
 
 def feed(m: Machine, words: Words) -> float | None:
     """Set the feed of this and the following blocks; inf for FMAX, which counts in its block alone."""
-    word = one_of(m, words, FORMS.split(), "one feed")
+    word = one_of(m, words, FEED_WORDS.split(), "one feed")
     if word is None:
         return None
     if word.address == "FMAX":

@@ -7,7 +7,7 @@ from typing import Any
 
 from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
 from mnclab.controls.tnc_620.language.checks import counted, one_of
-from mnclab.controls.tnc_620.language.feeds import FORMS, feed
+from mnclab.controls.tnc_620.language.feeds import FEED_WORDS, feed
 from mnclab.controls.tnc_620.language.machine_datum import machine_target
 from mnclab.controls.tnc_620.language.pole import angle_here, polar_point, pole
 from mnclab.controls.tnc_620.state import memory
@@ -25,7 +25,7 @@ AXES = "XYZ"
 SIDES = {"R0": 0, "RL": 1, "RR": -1}
 #: FMAX holds for its block alone, and the manual's own program C210 (6.10) has such a move after it.
 FEED_NEEDED = "write F or FMAX; with the setting feed_needed = False such a move is at rapid, with a warning"
-SIDED = f"R0 RL RR {FORMS}"
+SIDED = f"R0 RL RR {FEED_WORDS}"
 SAME = 1e-9  # rad: an end at the angle of the start is a whole turn
 TOLERANCE = 0.016  # mm between the radii at start and end of an arc (catalogue: C)
 
