@@ -87,7 +87,8 @@ def ready(m: Machine, code: str, word: Word | None = None) -> Definition:
 
 
 @FUNCTIONS(
-    "CYCL CALL POS,", "Cycle call at a position", group="call", modal=False, phase="call", takes=f"X Y Z {FEED_WORDS}", source="3.1"
+    "CYCL CALL POS,", "Cycle call at a position", group="call", modal=False, phase="call", takes=f"X Y Z {FEED_WORDS}",
+    source="3.1",
 )  # fmt: skip
 def cycle_call_at(m: Machine, words: Words) -> None:
     """Runs the cycle defined last at X Y, its surface shifted by Z; F is the feed of the approach alone."""
