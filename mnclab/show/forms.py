@@ -20,6 +20,7 @@ import numpy as np
 
 from mnclab.controls.choice import help as help_on
 from mnclab.controls.choice import run as run_text
+from mnclab.controls.cycle_steps import steps
 from mnclab.machine import trial
 from mnclab.machine.cycle import Cycle, Parameter
 from mnclab.machine.parameter_table import left_out
@@ -96,7 +97,7 @@ def form(code: str, control: str) -> Any:
     """The parameters of a cycle as boxes, in the order of the manual, with a picture of the cycle run alone.
 
     A parameter that may be left out has a box to tick before its word is written. The result has `boxes` (by name of
-    the parameter), `ticks` and `run`, the last run.
+    the parameter), `ticks`, `run`, the last run, and `steps()`, the steps of the cycle with these values as a table.
     """
     require("ipywidgets", "forms")
     import ipywidgets
@@ -117,15 +118,18 @@ def form(code: str, control: str) -> Any:
         else:
             rows.append(box)
 
+    def written() -> dict[str, Any]:
+        return {name: box.value for name, box in boxes.items() if name not in ticks or ticks[name].value}
+
     def text() -> str | None:
-        values = {name: box.value for name, box in boxes.items() if name not in ticks or ticks[name].value}
+        values = written()
         defaults = {p.name: p.default for p in chosen.parameters() if not p.required}
         return trial.program(help_page.control, chosen, {n: v for n, v in values.items() if v != defaults.get(n)})
 
     title = ipywidgets.HTML(f"<strong><code>{escape(chosen.code)}</code> {escape(chosen.title)}</strong>")
     setup = Setup(start=(30, 0, 20)) if help_page.control.lathe else None  # clear of the chuck's axis
     live = _program(boxes, [title, *rows], text, help_page.control.name, setup, "auto", ticks)
-    live.ticks = ticks
+    live.ticks, live.steps = ticks, lambda: steps(chosen.code, help_page.control.name, setup, **written())
     return live
 
 

@@ -160,3 +160,12 @@ def test_a_rapid_that_is_left_out_is_a_word_to_tick():
     assert "Q208" not in live.run.program.text and not live.ticks["retract_feed"].value
     live.ticks["retract_feed"].value = True
     assert "Q208=+120" in live.run.program.text
+
+
+def test_a_form_shows_the_steps_of_its_cycle():
+    """Pecks of 6 from the surface 0 to -14: -6, -12 and the rest; the box changes them to 7: -7, -14."""
+    form = mnclab.form("CYCL DEF 200", "tnc-620")
+    form.boxes["depth"].value, form.boxes["infeed"].value = -14, 6
+    pecks = [step.z for step in form.steps() if step.label.startswith("peck")]
+    form.boxes["infeed"].value = 7
+    assert pecks == [-6, -12, -14] and [s.z for s in form.steps() if s.label.startswith("peck")] == [-7, -14]
