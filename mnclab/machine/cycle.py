@@ -16,8 +16,6 @@ from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
-import numpy as np
-
 from mnclab.machine import true_size
 from mnclab.machining.depths import TooMany
 from mnclab.machining.steps import Step
@@ -85,7 +83,7 @@ class Parameter:
             "greater than": self.above, "at least": self.at_least, "less than": self.below, "at most": self.at_most,
         }  # fmt: skip
         parts = ["a whole number"] if self.type == "integer" else []
-        parts += [f"{words} {_plainly(limit)}" for words, limit in limits.items() if limit is not None]
+        parts += [f"{words} {limit:.10g}" for words, limit in limits.items() if limit is not None]
         return " and ".join(parts)
 
     def refuses(self, value: float) -> bool:
@@ -99,10 +97,6 @@ class Parameter:
             or (self.type == "integer" and value != int(value))
         )
 
-
-def _plainly(limit: float) -> str:
-    """A limit without a power of ten where it is small: 0.000001."""
-    return np.format_float_positional(limit, trim="-") if 0 < abs(limit) < 1e-4 else f"{limit:.10g}"
 
 
 def param(

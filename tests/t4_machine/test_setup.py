@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Alarm, Datum, Limits, Probe, Setup, Tool
-from mnclab.workpiece.blank import Box, Revolved, cylinder
+from mnclab.workpiece.blank import Box, Revolved
 
 NAN, INF = math.nan, math.inf
 NEVER = [NAN, INF, -INF, "3", None, True, [1], {}, 1j, 10**400]
@@ -83,7 +83,7 @@ def test_a_probe_that_cannot_be(named):
         ({"stock": 5}, "stock must be two corners"),
         ({"stock": Box((0, 0, 0), (1, 1, NAN))}, "stock must be two corners"),
         ({"stock": Revolved(((-5.0, 0.0), (-5.0, 9.0)))}, "stock must be two corners"),
-        ({"stock": cylinder(INF, 0, 5)}, "stock must be two corners"),
+        ({"stock": Revolved(((INF, 0.0), (INF, 5.0)), "Z", (0.0, 0.0, 0.0), 0.0)}, "stock must be two corners"),
         ({"part": 5}, "part must be a part"),
         ({"part": "cut"}, "not built yet"),
         ({"probe": 5}, "probe must be a Probe"),
