@@ -91,8 +91,8 @@ class AtSurface(Cycle):
         return self.depth
 
     def steps(self, m: Machine) -> Iterable[Step]:
-        """From the set-up plane down, and back to it or to the second set-up clearance."""
-        raise NotImplementedError
+        """From the set-up plane down, and back to it or to the second set-up clearance: none but at a hole."""
+        return ()
 
     def bottom(self, m: Machine) -> float:
         """B, where the tip of the tool ends: with Q395 = 1 its cylindrical part reaches the depth."""
