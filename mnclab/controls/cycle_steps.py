@@ -96,7 +96,8 @@ def allowed(cycle: type[Cycle], parameter: Parameter, value: Any) -> Any:
 def situations(control: Control, cycle: type[Cycle], setup: Setup) -> Iterator[Machine]:
     """Machines on which a cycle may run: with each tool, first those made for it, with the spindle on and off."""
     wanted = "mill" if cycle.does == MILLS else "probe" if "PROBE" in cycle.code else "drill"
-    tools = sorted((n for n in setup.tools if n), key=lambda number: setup.tools[number].kind != wanted)
+    magazine = control.magazine if setup.tools is None else setup.tools
+    tools = sorted((n for n in magazine if n), key=lambda number: magazine[number].kind != wanted)
     places = (trial_start(control, cycle, setup), (0.0, 0.0, 5.0)) if control.lathe else ((20.0, 10.0, 20.0),)
     called = next((each for each in control.cycles.values() if each.runs == "call"), None)  # by a pattern
     for place, turning, number in product(places, (1, 0), tools):

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
+from mnclab.machine.magazine import MILLS, Magazine
 from mnclab.machine.settings import Setting, settings_html, with_every
 from mnclab.text.notation import Notation
 from mnclab.text.program import Program, Word
@@ -138,7 +139,7 @@ class Control:
     beside the common state of a machine, a dataclass. `preassigned` are variables that the control keeps itself; names
     that begin with `local_variables` belong to one program. `modern` writes a program in the notation of today, where the
     control's own is another. `trial` writes a short program around a cycle and its words (address and value), for its
-    form; None where it cannot.
+    form; None where it cannot. `magazine` are the tools of a setup that was given none.
     """
 
     name: str
@@ -179,6 +180,7 @@ class Control:
     local_variables: str = ""
     trial: Callable[[type[Cycle], list[tuple[str, Any]]], str | None] | None = None
     modern: Callable[[Program], Notation] | None = None
+    magazine: Magazine = field(default_factory=lambda: MILLS)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "settings", with_every(self.settings))

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mnclab.machine.magazine import MILLS, Magazine
 from mnclab.machine.setup_page import page
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
@@ -19,6 +20,7 @@ from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.records import written
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Revolved, blank
+from mnclab.workpiece.part import Part
 
 
 class _Datum(NamedTuple):
@@ -70,18 +72,6 @@ class Probe(_Probe):
         for name in ("reach", "feed", "rapid"):
             check_number(getattr(found, name), f"the {name} of a probe", above=0, endless=name == "rapid")
         return found
-
-
-#: A small magazine, so that a first program needs no table. Lengths are 0: the tip is the spindle reference.
-MAGAZINE: Mapping[int, Tool] = MappingProxyType({
-    0: Tool(number=0, name="none"),
-    1: Tool(radius=5, number=1, name="end mill 10", plunge_angle=3, cutting_length=25, teeth=3, kind="mill"),
-    2: Tool(radius=4, number=2, name="drill 8", angle=118, cutting_length=60, teeth=2, kind="drill"),
-    3: Tool(radius=3, number=3, name="end mill 6", plunge_angle=3, cutting_length=20, teeth=3, kind="mill"),
-    4: Tool(radius=2, number=4, name="end mill 4", plunge_angle=3, cutting_length=12, teeth=2, kind="mill"),
-    5: Tool(radius=8, number=5, name="end mill 16", plunge_angle=3, cutting_length=40, teeth=4, kind="mill"),
-    6: Tool(radius=2, number=6, name="probe 4", kind="probe"),
-})  # fmt: skip
 
 
 ROWS = ("tools", "datums", "presets", "correctors")
@@ -148,9 +138,21 @@ def _stock(what: str, given: Any) -> None:
 
 
 def _part(what: str, given: Any) -> None:
-    if isinstance(given, str) and given == "cut":
-        raise Alarm('Setup(part="cut") is not built yet: give what a probe touches as a part')
-    _must(given is None or callable(given), what, "a part", given)
+    cut = isinstance(given, str) and given == "cut"
+    _must(given is None or cut or callable(given), what, 'a part, or "cut" for what the program cuts', given)
+
+
+def _fixtures(what: str, given: Any) -> None:
+    _must(isinstance(given, tuple | list), what, "a tuple of boxes and parts", given)
+    for number, each in enumerate(given):
+        if not isinstance(each, Part):
+            _stock(f"{what}[{number}]", each)
+            _must(each is not None, f"{what}[{number}]", "two corners, a blank or a part", each)
+
+
+def _tools(what: str, given: Any) -> None:
+    if given is not None:
+        _rows(_a(Tool, "a Tool"))(what, given)
 
 
 def _not_built(what: str, given: Any) -> None:
@@ -160,7 +162,7 @@ def _not_built(what: str, given: Any) -> None:
 
 #: What each part of a setup is: what checks it, and the hint of an alarm about it.
 MEANT: Mapping[str, tuple[Check, str]] = {
-    "tools": (_rows(_a(Tool, "a Tool")),
+    "tools": (_tools,
               "a tool is its radius and length in mm, and what else is known of it: "
               'Setup(tools={1: mnclab.Tool(radius=4, length=80, kind="drill")})'),
     "datums": (_rows(_datum), "a datum is a zero point in machine coordinates, mm: Setup(datums={1: (100, 50, -200)})"),
@@ -168,6 +170,7 @@ MEANT: Mapping[str, tuple[Check, str]] = {
     "correctors": (_rows(_datum), "a corrector is an offset along the axes, mm: Setup(correctors={1: (0, 0, 80)})"),
     "stock": (_stock, "the blank is two corners, or mnclab.blank.cylinder(…): Setup(stock=((0, 0, -20), (60, 40, 0)))"),
     "part": (_part, "a part is what a probe touches: Setup(part=mnclab.part.box((0, 0, -20), (60, 40, 0)))"),
+    "fixtures": (_fixtures, "fixtures hold the blank, on a lathe the chuck: Setup(fixtures=(((0, 0, -20), (10, 40, 15)),))"),
     "probe": (_a(Probe, "a Probe"), "how a touch probe moves: Setup(probe=mnclab.Probe(clearance=2, reach=10, feed=100))"),
     "limits": (_a(Limits, "a Limits"), "what the axes can do: Setup(limits=mnclab.Limits(rapid=10000, acceleration=1000))"),
     "start": (lambda what, given: check_point(given, what),
@@ -188,7 +191,9 @@ MEANT: Mapping[str, tuple[Check, str]] = {
 class Setup:
     """Everything a program finds on the machine; never changed by a run, which keeps a copy that nobody can write to.
 
-    `start` is the spindle reference, mm; it, `part` and `stock` are in machine coordinates. `stock` is the blank: two
+    `tools` None: those of the magazine of the control. `start` is the spindle reference, mm; it, `part`, `stock` and
+    `fixtures` are in machine coordinates. `part` "cut" is what the program itself has cut so far. `fixtures` are pairs of
+    corners, blanks and parts; on a lathe, the chuck. `stock` is the blank: two
     corners, or a body of revolution (`mnclab.workpiece.blank.cylinder`). `files` maps names to texts or paths of other
     programs and tables. `settings` overrides the declared choices of the control (`mnclab.help("settings", control)`).
     `correctors` are offsets along the axes, mm, of the controls whose words D or L name them. Tools given without a
@@ -197,12 +202,13 @@ class Setup:
     `kinematics` and `true_tools` are not built yet. An Alarm names what cannot be.
     """
 
-    tools: Mapping[int, Tool] = field(default_factory=lambda: MAGAZINE)
+    tools: Magazine | None = None
     datums: Mapping[int, Datum | tuple[float, ...]] = field(default_factory=dict)
     presets: Mapping[int, Datum | tuple[float, ...]] = field(default_factory=dict)
     correctors: Mapping[int, Datum | tuple[float, ...]] = field(default_factory=dict)
     stock: Any = None
     part: Any = None
+    fixtures: tuple[Any, ...] = ()
     probe: Probe = Probe()
     limits: Limits = field(default_factory=Limits)
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -220,7 +226,7 @@ class Setup:
             except Alarm as alarm:
                 alarm.hint = alarm.hint or means
                 raise
-        for name in ROWS:
+        for name in ROWS if self.tools is not None else ROWS[1:]:
             rows = getattr(self, name).items()
             object.__setattr__(self, name, {row: tuple(v) if isinstance(v, list) else v for row, v in rows})
         for name in NAMED:
@@ -228,14 +234,16 @@ class Setup:
         object.__setattr__(self, "start", tuple(map(float, self.start)))
 
     def __repr__(self) -> str:
-        return "\n".join(["Setup", *(f"  {title}: {said}" for title, said in page(self, MAGAZINE))])
+        return "\n".join(["Setup", *(f"  {title}: {said}" for title, said in page(self))])
 
     def _repr_html_(self) -> str:
-        return f"<h4>Setup</h4>{html_table((), page(self, MAGAZINE))}"
+        return f"<h4>Setup</h4>{html_table((), page(self))}"
 
-    def kept(self) -> Setup:
-        """A copy, checked again, whose tables nobody can write to: what a run was made with."""
-        found = replace(self, stock=deepcopy(self.stock))
+    def kept(self, magazine: Magazine = MILLS) -> Setup:
+        """A copy, checked again, whose tables nobody can write to: what a run was made with, the tools of a magazine if
+        it had none."""
+        tools = magazine if self.tools is None else self.tools
+        found = replace(self, tools=tools, stock=deepcopy(self.stock), fixtures=deepcopy(tuple(self.fixtures)))
         for name in (*ROWS, *NAMED):
             object.__setattr__(found, name, MappingProxyType(getattr(found, name)))
         return found
@@ -243,12 +251,13 @@ class Setup:
     def __reduce__(self) -> tuple[Any, ...]:
         """For copies and pickles, which take no mapping that is only read."""
         values = {each.name: getattr(self, each.name) for each in fields(self)}
-        tables = {name: dict(values[name]) for name in (*ROWS, *NAMED)}
-        return _again, (values | tables, isinstance(self.tools, MappingProxyType))
+        tables = {name: dict(values[name]) for name in (*ROWS, *NAMED) if values[name] is not None}
+        return _again, (values | tables, isinstance(self.datums, MappingProxyType))
 
     def with_radius(self, radius: float) -> Setup:
         """The same machine with another radius, mm, in all its tools but the probes."""
-        tools = {n: t if t.kind == "probe" else t.of_radius(radius) for n, t in self.tools.items()}
+        given = MILLS if self.tools is None else self.tools
+        tools = {n: t if t.kind == "probe" else t.of_radius(radius) for n, t in given.items()}
         return replace(self, tools=tools)
 
     def with_settings(self, **settings: Any) -> Setup:
@@ -265,9 +274,9 @@ def _again(values: Mapping[str, Any], kept: bool) -> Setup:
 class Tables:
     """The tables of one run: copies that the program may write to."""
 
-    def __init__(self, setup: Setup) -> None:
-        self.tools: dict[int, Tool] = {0: MAGAZINE[0]}
-        for number, tool in setup.tools.items():
+    def __init__(self, setup: Setup, magazine: Magazine = MILLS) -> None:
+        self.tools: dict[int, Tool] = {0: magazine[0]}
+        for number, tool in (magazine if setup.tools is None else setup.tools).items():
             self.tools[number] = tool if tool.number == number else replace(tool, number=number)
         self.datums, self.presets, self.correctors = (
             {row: Datum(*datum) for row, datum in table.items()}

@@ -24,11 +24,14 @@ Result = TypeVar("Result")
 #: The format, as the help of the command line shows it.
 FORMAT = """\
 start = [0, 0, 300]            # machine position of the spindle before the program, mm
+part = "cut"                   # a probe touches what the program has cut
 
 [tools.1]                      # the row of the tool table; every key may be left out
 radius = 5                     # mm; also length, name, corner, dl, dr, teeth, kind, cutting_length, pitch,
 length = 80                    # and in degrees angle (of the point) and plunge_angle; of a lathe tool main_angle and
-                               # auxiliary_angle, from the axis to the edges, and width of a blade in mm
+                               # auxiliary_angle, from the axis to the edges, and width of a blade in mm; for
+                               # collisions centre_cutting (true, false), hand, shank = [radius, from],
+                               # holder = [[radius, from], …], mm above the tip
 
 [datums]                       # work offsets: machine coordinates of the zero points, mm
 1 = [100, 50, -200]
@@ -38,6 +41,10 @@ length = 80                    # and in degrees angle (of the point) and plunge_
 radius = 25                    # mm; also bore (of a tube), axis "X", "Y" or "Z", at (a point on the axis)
 low = -60
 high = 2
+
+[[fixtures]]                   # what holds the blank (on a lathe: the chuck), written like the stock, one table each
+low = [-30, 0, -20]
+high = [0, 40, 15]
 
 [presets]                      # written like datums, where a control has them
 [correctors]                   # offsets along the axes, written like datums, where words D or L name them
@@ -52,8 +59,8 @@ high = 2
 
 ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum}
 RECORDS = {"limits": Limits, "probe": Probe}
-TEXTS = ("name", "kind", "corner_speed", "rapid_motion")  # of a tool; of the limits
-KNOWN = ("start", "stock", *ROWS, *RECORDS, "settings", "files", "variables")
+TEXTS = ("name", "kind", "hand", "corner_speed", "rapid_motion")  # of a tool; of the limits
+KNOWN = ("start", "stock", "part", "fixtures", *ROWS, *RECORDS, "settings", "files", "variables")
 KEY = r"""(?:[\w-]+|"[^"]*"|'[^']*')"""
 PATH = rf"{KEY}(?:[ \t]*\.[ \t]*{KEY})*"
 WRITTEN = re.compile(rf"^[ \t]*\[\[?[ \t]*({PATH})[ \t]*\]|(?:^|[{{,])[ \t]*({PATH})[ \t]*=")
@@ -156,6 +163,10 @@ def _setup(table: Mapping[str, Any], file: File) -> Setup:
         with file.at(name):
             if name == "start":
                 found[name] = _point(value, name)
+            elif name == "part":
+                found[name] = value
+            elif name == "fixtures":
+                found[name] = tuple(_stock(_table(each, name), name, file) for each in _list(value, name))
             elif name in RECORDS:
                 found[name] = record(RECORDS[name], value, file, name)
             elif name in NOT_BUILT:
@@ -187,26 +198,26 @@ def _rows(table: Mapping[str, Any], name: str, file: File) -> dict[int, Any]:
 def _stock(table: Mapping[str, Any], stock: str, file: File) -> Blank:
     """The blank: a cylinder where it has a radius, else a box."""
     if "radius" not in table:
-        check_names(table, ("low", "high"), "stock without a radius", file, stock)
+        check_names(table, ("low", "high"), f"{stock} without a radius", file, stock)
         corners = []
         for name in ("low", "high"):
             with file.at(stock, name):
                 if name not in table:
-                    needs = "stock needs low and high, two corners [x, y, z], or a radius"
-                    raise Alarm(f"{needs}: stock.{name} is missing")
-                corners.append(_point(table[name], f"stock.{name}"))
+                    needs = "needs low and high, two corners [x, y, z], or a radius"
+                    raise Alarm(f"{stock} {needs}: {stock}.{name} is missing")
+                corners.append(_point(table[name], f"{stock}.{name}"))
         return Box(*corners)
     check_names(table, ("radius", "low", "high", "bore", "axis", "at"), stock, file, stock)
     numbers = {name: table.get(name, 0.0) for name in ("radius", "low", "high", "bore")}
     for name, number in numbers.items():
         with file.at(stock, name):
-            check_number(number, f"stock.{name}")
+            check_number(number, f"{stock}.{name}")
     with file.at(stock, "at"):
-        at = _point(table.get("at", [0.0, 0.0, 0.0]), "stock.at")
+        at = _point(table.get("at", [0.0, 0.0, 0.0]), f"{stock}.at")
     try:
         return cylinder(**numbers, axis=table.get("axis", "Z"), at=at)
     except Alarm as fault:
-        raise Alarm(f"stock: {fault.message}") from None
+        raise Alarm(f"{stock}: {fault.message}") from None
 
 
 def record(kind: Any, value: Any, file: File, *keys: str) -> Any:
@@ -233,7 +244,7 @@ def _check_kind(value: Any, where: str, name: str) -> None:
     """An Alarm unless a field is a text where it must be one, else a number or a list of them."""
     if name in TEXTS and not isinstance(value, str):
         raise Alarm(f"{where} must be a text, got {shown(value)}")
-    for each in value if isinstance(value, list) else [value]:
+    for each in value if isinstance(value, list) else [] if isinstance(value, bool) else [value]:
         if name not in TEXTS and not isinstance(each, list):
             check_number(each, where, endless=True)
 
@@ -266,6 +277,12 @@ TABLES: dict[str, Callable[[Mapping[str, Any], str, File], Any]] = {
 def _table(value: Any, where: str) -> Mapping[str, Any]:
     if not isinstance(value, dict):
         raise Alarm(f"{where} must be a table, got {shown(value)}", hint=f"write [{where}] on a line of its own")
+    return value
+
+
+def _list(value: Any, where: str) -> list[Any]:
+    if not isinstance(value, list):
+        raise Alarm(f"{where} must be a list of tables, got {shown(value)}", hint=f"write [[{where}]] before each")
     return value
 
 

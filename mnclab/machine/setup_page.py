@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from typing import TYPE_CHECKING, Any
 
+from mnclab.machine.magazine import LATHES, MILLS
 from mnclab.path.limits import Limits
 from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
@@ -22,18 +23,21 @@ UNITS = {
     "angle": "°", "plunge_angle": "°", "main_angle": "°", "auxiliary_angle": "°", "teeth": "",
     "feed": " mm/min", "rapid": " mm/min", "acceleration": " mm/s²", "jerk": " mm/s³", "corner_jump": " mm/min",
     "corner_speed": "", "rapid_motion": "", "spindle": " rev/min", "spindle_acceleration": " rev/min in a second",
-    "tool_change": " s",
+    "tool_change": " s", "centre_cutting": "", "hand": "", "shank": " mm", "holder": " mm",
 }  # fmt: skip
 MM = " mm"  # of all others
 
 
-def page(setup: Setup, usual: Mapping[int, Tool]) -> list[tuple[str, str]]:
-    """What there is and how it is, in the order of declaration; `usual` are the tools that need no list."""
-    return list(_rows(setup, usual))
+def page(setup: Setup) -> list[tuple[str, str]]:
+    """What there is and how it is, in the order of declaration."""
+    return list(_rows(setup))
 
 
-def _rows(setup: Setup, usual: Mapping[int, Tool]) -> Iterator[tuple[str, str]]:
-    if dict(setup.tools) == dict(usual):
+def _rows(setup: Setup) -> Iterator[tuple[str, str]]:
+    usual = next((each for each in (MILLS, LATHES) if setup.tools == each), None)
+    if setup.tools is None:
+        yield "tools", "those of the control"
+    elif usual is not None:
         yield "tools", f"the usual ones: {', '.join(tool.name for tool in usual.values() if tool.kind)}"
     else:
         yield from ((f"T{number}", tool_line(tool)) for number, tool in setup.tools.items())
@@ -43,7 +47,9 @@ def _rows(setup: Setup, usual: Mapping[int, Tool]) -> Iterator[tuple[str, str]]:
         stock = blank(setup.stock)
         yield "stock", f"{place(stock.low)} to {place(stock.high)}" if isinstance(stock, Box) else str(stock)
     if setup.part is not None:
-        yield "part", getattr(setup.part, "__name__", None) or repr(setup.part)
+        cut = "what the program has cut so far" if setup.part == "cut" else None
+        yield "part", cut or getattr(setup.part, "__name__", None) or repr(setup.part)
+    yield from (("fixture", str(each)) for each in setup.fixtures)
     yield "probe", ", ".join(_different(setup.probe, type(setup.probe)())) or "as usual"
     yield "limits", ", ".join(_different(setup.limits, Limits())) or "as usual"
     yield "start", place(setup.start)
@@ -73,8 +79,10 @@ def _different(record: Any, usual: Any, leave: tuple[str, ...] = ()) -> Iterator
 
 
 def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, tuple):  # of each axis; of travel from and to
-        if value and isinstance(value[0], tuple):
+        if value and isinstance(value[0], tuple) and len(value) == 3:
             return ", ".join(f"{axis} {_value(low)} to {_value(high)}" for axis, (low, high) in zip("XYZ", value))
         return " ".join(map(_value, value))
     if value is None:

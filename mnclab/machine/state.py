@@ -83,7 +83,7 @@ class State:
 
     # what a program has said
     modal: dict[str, str] = part(lambda m: {})  # the active code of each group
-    tables: Tables = part(lambda m: Tables(m.setup), outlives=True)
+    tables: Tables = part(lambda m: Tables(m.setup, m.control.magazine), outlives=True)
     variables: Variables = part(Variables, outlives=True)
     measured: Measured = part(Measured, outlives=True)
     variable_unit: float = part(1.0)  # mm that a length of 1 in a variable stands for: 25.4 in a program in inches

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 from mnclab.text.nearest import hint
 from mnclab.text.records import written
 
-TEXTS = ("name", "kind")
+TEXTS = ("name", "kind", "hand")
+HANDS = ("right", "left")
 KINDS = (
     "", "mill", "face mill", "thread mill", "chamfer", "drill", "reamer", "countersink", "tap", "probe",
     "turning", "boring", "grooving", "thread",
 )  # fmt: skip
 LATHE = ("turning", "boring", "grooving", "thread")  # their corner is the nose, whatever the radius
+BODIES = ("centre_cutting", "shank", "holder")  # no plain numbers
 SIZES = ("radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle")  # never negative
 
 
@@ -25,7 +28,12 @@ class Tool:
     `angle` is the point angle, `plunge_angle` the steepest plunge, `dl` and `dr` are deltas added to length and
     radius, `corner` is the corner radius, `cutting_length` the length of the edges, `pitch` that of a tap.
     Of a lathe tool `main_angle` and `auxiliary_angle` lie between the cutting edges and the axis (0: not given),
-    `width` is that of a grooving tool, whose tip is its left corner, and `corner` the nose radius.
+    `width` is that of a grooving tool, whose tip is its left corner, and `corner` the nose radius. The programmed tip
+    of a lathe tool is the imaginary sharp point.
+
+    Collisions are judged by `centre_cutting` (None: whether it may plunge is not judged), `hand` ("right" turns with
+    M3), `shank`, the radius of what is behind the edges and how far above the tip it begins, and `holder`, such pairs
+    from the tip up. Of chamfer tools and countersinks `angle` is the included one.
 
     An Alarm names a dimension that makes no sense. Negative may be the deltas, and the length against a zero tool; a
     radius below 0 is written as a negative `dr`.
@@ -47,12 +55,18 @@ class Tool:
     main_angle: float = 0.0
     auxiliary_angle: float = 0.0
     width: float = 0.0
+    centre_cutting: bool | None = None
+    hand: str = "right"
+    shank: tuple[float, float] | None = None
+    holder: tuple[tuple[float, float], ...] = ()
 
     __repr__ = written
 
     def __post_init__(self) -> None:
         for each in fields(self):
             value, what = getattr(self, each.name), f"the {each.name.replace('_', ' ')} of a tool"
+            if each.name in BODIES:
+                continue
             if each.name not in TEXTS:
                 check_number(value, what, at_least=0 if each.name in SIZES else None)
             elif not isinstance(value, str):
@@ -62,9 +76,25 @@ class Tool:
         if self.kind not in KINDS:
             near = hint(self.kind[:40].lower(), KINDS[1:], 1) or f"known: {', '.join(KINDS[1:])}"
             raise Alarm(f"a tool cannot be of the kind {shown(self.kind)}", hint=near)
+        if self.hand not in HANDS:
+            raise Alarm(f"the hand of a tool must be right or left, got {shown(self.hand)}")
+        self._check_body()
         if 0 < self.radius < self.corner * (1 - 1e-9) and self.kind not in LATHE:
             found = f"{self.corner:g} and {self.radius:g}"
             raise Alarm(f"the corner radius of a tool must not be greater than its radius, got {found}")
+
+    def _check_body(self) -> None:
+        """What is behind the edges, as pairs of numbers; an Alarm where it is none, or grows downwards."""
+        if not isinstance(self.centre_cutting, bool | None):
+            raise Alarm(f"the centre_cutting of a tool must be True, False or None, got {shown(self.centre_cutting)}")
+        if self.shank is not None:
+            object.__setattr__(self, "shank", _pair("shank", self.shank))
+        if not isinstance(self.holder, tuple | list):
+            raise Alarm(f"the holder of a tool must be pairs of a radius and a height, mm, got {shown(self.holder)}")
+        object.__setattr__(self, "holder", tuple(_pair("holder", each) for each in self.holder))
+        heights = [height for _, height in self.holder]
+        if heights != sorted(heights):
+            raise Alarm(f"the holder of a tool is given from the tip up, got {shown(self.holder)}")
 
     def of_radius(self, radius: float, dr: float = 0.0) -> Tool:
         """The same tool with another radius, mm; a corner that this has no room for is as large as it."""
@@ -78,3 +108,13 @@ class Tool:
     @property
     def effective_length(self) -> float:
         return self.length + self.dl
+
+
+def _pair(name: str, given: Any) -> tuple[float, float]:
+    """A radius and how far above the tip it begins, mm."""
+    if not isinstance(given, tuple | list) or len(given) != 2:
+        raise Alarm(f"the {name} of a tool is a radius and a height above the tip, mm, got {shown(given)}")
+    for each, what in zip(given, ("radius", "height")):
+        check_number(each, f"the {what} of the {name} of a tool", at_least=0)
+    radius, height = map(float, given)
+    return radius, height

@@ -26,7 +26,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
-from mnclab.runs import still_spindle
+from mnclab.runs import material, still_spindle
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
 from mnclab.runs.moment import Moment
@@ -37,6 +37,8 @@ from mnclab.text.given import shown, whole
 from mnclab.text.program import Program
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
+from mnclab.workpiece.collision import Collisions
+from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -85,7 +87,7 @@ class Run:
 
     def _tables_of_history(self) -> Tables:
         """The tables with only those writes that came before a fault."""
-        tables, last = Tables(self.setup), len(self.steps.block) - 1
+        tables, last = Tables(self.setup, self.control.magazine), len(self.steps.block) - 1
         for name in self.history:
             table, _, row = name.partition(" ")
             if table in ("tools", "datums", "presets"):
@@ -183,6 +185,28 @@ class Run:
         if not isinstance(limits, Limits):
             raise Alarm(f"limits must be Limits or the name of a machine, got {shown(limits)}", hint='"small-mill"')
         return Profile(path, limits, override=override, rapid_motion=motion, waits=waits, source=self.program)
+
+    def place_of_line(self, line: int, program: int = 0) -> str:
+        """`FILE:LINE`, as alarms have it."""
+        return f"{self.programs[program].name}:{line}"
+
+    def workpiece(
+        self, line: int | None = None, pass_: int = 1, row: int | None = None,
+        *, step: float | None = None, stock: Any = None,
+    ) -> Workpiece:  # fmt: skip
+        """What is left of the blank at the end, after the `pass_`-th execution of a line, or after a row of the path.
+
+        `step` mm is the side of a cell of a milled part (default: a four-hundredth of its longer side), `stock` another
+        blank in machine coordinates. An Alarm without a blank.
+        """
+        return material.workpiece(self, line, pass_, row, step, stock)
+
+    def collisions(self, stock: Any = None, *, step: float | None = None) -> Collisions:
+        """What meets what it must not: rapids in material, shank, holder, fixtures, a still spindle, …, by rows.
+
+        The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`.
+        """
+        return material.collisions(self, stock, step)
 
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""
@@ -297,7 +321,9 @@ def run_program(program: Program, control: Control, setup: Setup | None = None, 
     """Run a program that was read; with `strict` the first alarm is raised instead of collected."""
     if not isinstance(setup, Setup | None):
         raise Alarm(f"setup must be a Setup, got {shown(setup)}", hint=EXAMPLE)
-    setup = (Setup() if setup is None else setup).kept()  # somebody may have written into its tables, and may again
+    setup = (Setup() if setup is None else setup).kept(
+        control.magazine
+    )  # somebody may have written into its tables, and may again
     interpreter = Interpreter(control, setup, program)
     machine, alarms = interpreter.machine, interpreter.alarms
     broken, collecting = False, gc.isenabled()

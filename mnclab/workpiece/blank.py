@@ -135,3 +135,41 @@ def blank(given: Any) -> Blank | None:
         return None
     low, high = np.asarray(given, dtype=np.float64).tolist()
     return Box(tuple(low), tuple(high))
+
+
+def top_of(body: Blank, x: Array, y: Array) -> Array:
+    """How high a blank reaches at points (m,); nan beside it."""
+    return _faces(body, x, y)[1]
+
+
+def floor_of(body: Blank, x: Array, y: Array) -> Array:
+    """How low a blank reaches at points (m,); nan beside it."""
+    return _faces(body, x, y)[0]
+
+
+def _faces(body: Blank, x: Array, y: Array) -> tuple[Array, Array]:
+    low, high = body.bounds
+    inside = (x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])
+    bottom, top = np.full(x.shape, low[2]), np.full(x.shape, high[2])
+    if isinstance(body, Revolved):
+        profile, at = np.array(body.profile, dtype=np.float64), np.array(body.at, dtype=np.float64)
+        if body.axis == "Z":
+            rho = np.hypot(x - at[0], y - at[1])
+            bottom, top, inside = _stacked(profile, body.bore, rho, at[2])
+        else:
+            along, beside = (x - at[0], y - at[1]) if body.axis == "X" else (y - at[1], x - at[0])
+            radius = np.interp(along, profile[:, 1], profile[:, 0], left=np.nan, right=np.nan)
+            half = np.sqrt(np.where(np.abs(beside) <= radius, radius * radius - beside * beside, np.nan))
+            bottom, top, inside = at[2] - half, at[2] + half, np.isfinite(half)
+    return np.where(inside, bottom, np.nan), np.where(inside, top, np.nan)
+
+
+def _stacked(profile: Array, bore: float, rho: Array, at: float) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Of a body that stands on its end: lowest and highest place where its profile is as wide as `rho`."""
+    low, high = np.full(rho.shape, np.inf), np.full(rho.shape, -np.inf)
+    for (r0, z0), (r1, z1) in zip(profile[:-1], profile[1:]):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            crossing = np.where(r1 == r0, z0, z0 + (z1 - z0) * (rho - r0) / (r1 - r0))
+        for z, there in ((z0, rho <= r0), (z1, rho <= r1), (crossing, (rho >= min(r0, r1)) & (rho <= max(r0, r1)))):
+            low, high = np.where(there, np.minimum(low, z), low), np.where(there, np.maximum(high, z), high)
+    return low + at, high + at, (rho >= bore) & np.isfinite(low)

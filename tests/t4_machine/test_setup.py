@@ -129,10 +129,10 @@ def test_a_setup_of_anything_is_a_setup_or_an_alarm(name, value):
 
 
 def test_nothing_is_shared_between_setups_and_runs():
-    magazine = dict(Setup().tools)
-    setup, own = Setup(), {1: Tool(radius=7)}
+    own = {1: Tool(radius=7)}
+    setup = Setup(tools=own)
     setup.tools[1] = Tool(radius=99)
-    assert Setup().tools == magazine and mnclab.run("T1\nG0 X1\n", "mnc").toolpath.radius[-1] == 5
+    assert own[1].radius == 7 and mnclab.run("T1\nG0 X1\n", "mnc").toolpath.radius[-1] == 5
     setup.tools[1] = 5
     with pytest.raises(Alarm, match=r"tools\[1\] must be a Tool, got 5"):
         mnclab.run("T1\nG0 X1\n", "mnc", setup)

@@ -13,7 +13,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.machine.setup import MAGAZINE
+from mnclab.machine.magazine import MILLS
 
 FOLDER = Path(__file__).parents[1] / "programs"
 FILES = sorted(file for file in FOLDER.glob("*/*") if file.suffix != ".expected")
@@ -27,7 +27,7 @@ SETUPS = {
         settings={"undescribed": "accept"},
     ),
     "mnc": Setup(
-        tools={**MAGAZINE, 7: Tool(radius=3, length=50, dl=0.2)},
+        tools={**MILLS, 7: Tool(radius=3, length=50, dl=0.2)},
         datums={1: (100, 50, 20), 2: (110, 40, 20)},
     ),
 }

@@ -12,6 +12,7 @@ from mnclab.controls.jnc_t01.state import Memory
 from mnclab.machine.control import Control, Modal
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
+from mnclab.machine.magazine import LATHES
 from mnclab.machine.settings import Setting, one_of
 from mnclab.machine.trial import TrialWords, in_block
 from mnclab.running.bulk import PlainWords
@@ -94,6 +95,7 @@ CONTROL = Control(
     relative=("G92 X", "G92 Z"),
     together=together,
     lathe=True,
+    magazine=LATHES,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
         ready=motion.plain,

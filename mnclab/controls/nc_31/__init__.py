@@ -12,6 +12,7 @@ from mnclab.controls.nc_31.reader import looks_like, read
 from mnclab.controls.nc_31.state import Memory
 from mnclab.machine.control import Control
 from mnclab.machine.cycle import Cycle
+from mnclab.machine.magazine import LATHES
 from mnclab.machine.settings import Setting, one_of
 from mnclab.machine.trial import TrialWords, number
 
@@ -67,6 +68,7 @@ CONTROL = Control(
     marks=notation.marks,
     one_command=True,
     lathe=True,
+    magazine=LATHES,
     to_turn="write S before the move, and M3 or M4 where M5 was written",
     modern=lambda program: notation.modern(program, CYCLES),
     trial=trial_program,

@@ -1,0 +1,86 @@
+"""What is cut: the rows of a path, the tool of every row as its table stood there, the blank, what holds it.
+
+All of it stands in the coordinates of the path. This is all that the room of the workpiece knows of a run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from mnclab.path.columns import Index, Mask
+from mnclab.path.kinds import Kind
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath
+from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.part import Part
+
+CUTS = (Kind.LINE, Kind.ARC)  # what moves at feed; a probe cuts nothing
+
+
+def _lines(line: int, program: int) -> str:
+    return f"line {line}"
+
+
+@dataclass(frozen=True, eq=False)
+class Cutting:
+    """Rows of a path (n,) and what they meet.
+
+    `tools[which[row]]` is the tool of a row. From row `arrived` on the tool's height is known at the end of a row, from
+    `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `tilted` rows are made with a tool that does not stand along Z. `fixtures` hold the
+    blank. `name` says in which program a line stands ("FILE:LINE").
+    """
+
+    path: Toolpath
+    tools: Sequence[Tool]
+    which: Index
+    stock: Blank | Any
+    arrived: int = 0
+    known: int = 0
+    tilted: Mask | None = None
+    fixtures: Sequence[Blank | Part] = ()
+    travel: Any = None
+    name: Any = field(default=_lines)
+
+    def __len__(self) -> int:
+        return len(self.path)
+
+    def until(self, row: int) -> Cutting:
+        """The same up to a row and with it."""
+        tilted = None if self.tilted is None else self.tilted[: row + 1]
+        return replace(self, path=self.path[: row + 1], which=self.which[: row + 1], tilted=tilted)
+
+    def tool(self, row: int) -> Tool:
+        return self.tools[int(self.which[row])]
+
+    @cached_property
+    def cuts(self) -> Mask:
+        """Rows that may take material away (n,): moves at feed and rapids, of a tool that is none to measure with.
+
+        A rapid takes nothing away before the height of the tool is known.
+        """
+        path = self.path
+        moves = np.isin(path.kind, (*CUTS, Kind.RAPID))
+        moves &= (path.kind != Kind.RAPID) | (np.arange(len(path)) >= self.arrived)
+        bodies = np.array([tool.kind != "probe" and tool_exists(tool) for tool in self.tools], dtype=bool)
+        return np.asarray(moves & bodies[self.which] if len(bodies) else moves & False)
+
+    @cached_property
+    def from_home(self) -> Mask:
+        """Rows (n,) whose start nobody has said: only their end counts."""
+        rows = np.arange(len(self.path))
+        first = (rows == self.arrived) | (self.path.kind == Kind.RAPID)
+        return np.asarray((rows >= self.arrived) & (rows < self.known) & first)
+
+    @property
+    def lathe(self) -> bool:
+        return self.path.lathe
+
+
+def tool_exists(tool: Tool) -> bool:
+    """Whether a tool has a body: a mill a radius, a lathe tool its kind."""
+    return tool.effective_radius > 0 or tool.kind in ("turning", "boring", "grooving", "thread")

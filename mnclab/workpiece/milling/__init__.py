@@ -1,0 +1,8 @@
+"""What a mill leaves: its tools swept along their moves over a map of heights.
+
+    cutters  what a tool is below: flat, corner, cone
+    moves    the rows of a path as straight moves and arcs, each with its cutter
+    swept    exact: how high each move leaves the material at points
+    raster   the map: cells, tiles, and the sweep over them
+    milled   what is left, as people ask for it
+"""

@@ -1,0 +1,116 @@
+"""The rows of a path as moves of a cutter: straight ones and arcs about Z, in the order of the rows.
+
+Arcs in other planes, and arcs whose ends do not lie on one circle, become chords within `CHORD` mm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.kinds import Kind
+from mnclab.path.points import points
+from mnclab.path.toolpath import Toolpath
+from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.milling.cutters import Cutter, cutter_of
+
+CHORD = 1e-4  # mm, of arcs that are not about Z
+ROUND = 1e-6  # mm, by which both ends of an arc may miss its circle
+STILL = 1e-12  # mm, below which a move does not go on in the plane
+
+
+@dataclass(frozen=True, eq=False)
+class Moves:
+    """k moves: `start` and `end` (k, 3) of the tip, `row` (k,) of the path, ascending.
+
+    Of arcs (`arc`) `centre` (k, 2) in the plane and `sweep` (k,) rad. `radius`, `flat`, `corner`, `slope` (k,) are those
+    of the `Cutter`.
+    """
+
+    row: Index
+    start: Array
+    end: Array
+    arc: Mask
+    centre: Array
+    sweep: Array
+    radius: Array
+    flat: Array
+    corner: Array
+    slope: Array
+
+    def __len__(self) -> int:
+        return len(self.row)
+
+    def __getitem__(self, which: Index | Mask | slice) -> Moves:
+        return Moves(**{name: column[which] for name, column in vars(self).items()})
+
+    def with_cutter(self, cutters: Array, lift: Array | float = 0.0) -> Moves:
+        """The same moves of other cutters (k, 4), as `Cutter` has its fields, `lift` mm (k,) above the tip."""
+        radius, flat, corner, slope = np.broadcast_to(cutters, (len(self), 4)).T
+        up = np.zeros((len(self), 3))
+        up[:, 2] = lift
+        return replace(
+            self, start=self.start + up, end=self.end + up, radius=radius, flat=flat, corner=corner, slope=slope
+        )
+
+    @property
+    def low(self) -> Array:
+        """The lowest place of each tip (k,)."""
+        return np.minimum(self.start[:, 2], self.end[:, 2])
+
+    @property
+    def boxes(self) -> Array:
+        """What each move reaches in the plane (k, 4): least x, least y, greatest x, greatest y."""
+        low = np.minimum(self.start[:, :2], self.end[:, :2])
+        high = np.maximum(self.start[:, :2], self.end[:, :2])
+        if self.arc.any():
+            centre, spoke = self.centre[self.arc], self.start[self.arc, :2] - self.centre[self.arc]
+            round_ = np.hypot(spoke[:, 0], spoke[:, 1])[:, None]
+            low[self.arc], high[self.arc] = centre - round_, centre + round_
+        wide = self.radius[:, None]
+        return np.concatenate([low - wide, high + wide], axis=1)
+
+
+def moves_of(cutting: Cutting, rows: Mask | None = None) -> Moves:
+    """The moves of the rows that cut, or of other ones; a tilted tool has none."""
+    path = cutting.path
+    chosen = cutting.cuts if rows is None else rows
+    if cutting.tilted is not None:
+        chosen = chosen & ~cutting.tilted
+    cutters = np.array([cutter_of(tool) for tool in cutting.tools], dtype=np.float64).reshape(-1, len(Cutter._fields))
+    index = np.flatnonzero(chosen)
+    arc = path.kind[index] == Kind.ARC
+    bent = arc & ~_about_z(path, index)
+    pieces = [_plain(path, index[~bent])]
+    pieces += [_chords(path, int(row)) for row in index[bent]]
+    row, start, end = (np.concatenate(column) for column in zip(*pieces, strict=True))
+    order = np.argsort(row, kind="stable")
+    row, start, end = row[order], start[order], end[order]
+    start = np.where(cutting.from_home[row][:, None], end, start)
+    known = np.zeros(len(path), dtype=bool)
+    known[index[arc & ~bent]] = True
+    known &= ~cutting.from_home
+    arcs = known[row]
+    centre = np.where(arcs[:, None], path.centre[row, :2], 0.0)
+    sweep = np.where(arcs, path.sweep[row] * np.sign(path.axis[row, 2]), 0.0)
+    radius, flat, corner, slope = cutters[cutting.which[row]].T.copy()
+    return Moves(row, start, end, arcs, centre, sweep, radius, flat, corner, slope)
+
+
+def _about_z(path: Toolpath, rows: Index) -> Mask:
+    """Which arcs turn about Z on a true circle."""
+    centre = path.centre[rows, :2]
+    one, other = (np.hypot(*(ends[rows, :2] - centre).T) for ends in (path.start, path.end))
+    upright = np.abs(path.axis[rows, 2]) > 1 - 1e-12
+    return np.asarray(upright & (np.abs(one - other) <= ROUND))
+
+
+def _plain(path: Toolpath, rows: Index) -> tuple[Index, Array, Array]:
+    return rows, path.start[rows], path.end[rows]
+
+
+def _chords(path: Toolpath, row: int) -> tuple[Index, Array, Array]:
+    places = points(path[row : row + 1], CHORD)[0]
+    return np.full(len(places) - 1, row), places[:-1], places[1:]

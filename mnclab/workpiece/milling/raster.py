@@ -1,0 +1,115 @@
+"""The map of a milled part: square cells over the blank, and the sweep of moves over them, tile by tile.
+
+In a tile few moves are looked at, all of them at once. What is asked for decides the order: only the heights (`lowered`:
+deep moves first, those that cannot reach the material any more are left out), or what each move took away (`in_order`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from mnclab.path.columns import Array, Index
+from mnclab.workpiece.milling.moves import Moves
+from mnclab.workpiece.milling.swept import left_by
+
+TILE = 32  # cells of a tile's side
+AT_ONCE = 1 << 17  # points times moves that are looked at together
+
+
+@dataclass(frozen=True)
+class Raster:
+    """Square cells of `step` mm from a corner `low` (x, y); `shape` is (ny, nx)."""
+
+    low: tuple[float, float]
+    step: float
+    shape: tuple[int, int]
+
+    @classmethod
+    def over(cls, bounds: Array, step: float) -> Raster:
+        """Cells over a box (2, 3); the last of a row or column may stand over."""
+        (x0, y0), (x1, y1) = bounds[:, :2].tolist()
+        count = [max(int(np.ceil((high - low) / step - 1e-9)), 1) for low, high in ((y0, y1), (x0, x1))]
+        return cls((x0, y0), step, (count[0], count[1]))
+
+    @property
+    def x(self) -> Array:
+        """The middles of the cells of a row (nx,)."""
+        return self.low[0] + self.step * (np.arange(self.shape[1]) + 0.5)
+
+    @property
+    def y(self) -> Array:
+        """The middles of the cells of a column (ny,)."""
+        return self.low[1] + self.step * (np.arange(self.shape[0]) + 0.5)
+
+    def tiles(self) -> Iterator[tuple[slice, slice]]:
+        """Rows and columns of every tile."""
+        for j in range(0, self.shape[0], TILE):
+            for i in range(0, self.shape[1], TILE):
+                yield slice(j, min(j + TILE, self.shape[0])), slice(i, min(i + TILE, self.shape[1]))
+
+    def middles(self, tile: tuple[slice, slice]) -> tuple[Array, Array]:
+        """x and y of the cells of a tile (m,), row by row."""
+        y, x = np.meshgrid(self.y[tile[0]], self.x[tile[1]], indexing="ij")
+        return x.ravel(), y.ravel()
+
+
+class Spots(NamedTuple):
+    """Points (m,) that lie close together, with the share of area that each stands for, mm²."""
+
+    x: Array
+    y: Array
+    area: Array
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        return float(self.x.min()), float(self.y.min()), float(self.x.max()), float(self.y.max())
+
+
+def near(moves: Moves, boxes: Array, x: Array, y: Array, below: float) -> Index:
+    """The moves that may reach one of some points lower than `below`; `boxes` are those of the moves."""
+    x0, y0, x1, y1 = x.min(), y.min(), x.max(), y.max()
+    found = np.flatnonzero(
+        (boxes[:, 0] <= x1) & (boxes[:, 1] <= y1) & (boxes[:, 2] >= x0) & (boxes[:, 3] >= y0) & (moves.low < below)
+    )
+    if not len(found):
+        return found
+    reach = moves.radius[found] + np.hypot(x1 - x0, y1 - y0) / 2 + 1e-9
+    none = np.zeros_like(reach)
+    discs = moves[found].with_cutter(np.stack([reach, reach, none, none], axis=1))
+    middle = left_by(discs, np.array([(x0 + x1) / 2]), np.array([(y0 + y1) / 2]))
+    return found[np.isfinite(middle[:, 0])]
+
+
+def lowered(moves: Moves, boxes: Array, x: Array, y: Array, top: Array) -> Array:
+    """The heights (m,) that all moves leave together at points whose material reaches up to `top` (m,)."""
+    heights = top.copy()
+    found = near(moves, boxes, x, y, float(top.max()))
+    found = found[np.argsort(moves.low[found], kind="stable")]
+    many = max(AT_ONCE // max(len(x), 1), 1)
+    for first in range(0, len(found), many):
+        chunk = found[first : first + many]
+        chunk = chunk[moves.low[chunk] < heights.max()]
+        if not len(chunk):
+            break
+        np.minimum(heights, left_by(moves[chunk], x, y).min(axis=0), out=heights)
+    return heights
+
+
+def in_order(moves: Moves, boxes: Array, x: Array, y: Array, top: Array) -> Iterator[tuple[Index, Array, Array]]:
+    """For some moves after the other: which (k,), the heights before each of them and what each leaves (k, m).
+
+    A move may leave more than was there: it took nothing.
+    """
+    heights = top.copy()
+    found = near(moves, boxes, x, y, float(top.max()))
+    many = max(AT_ONCE // max(len(x), 1), 1)
+    for first in range(0, len(found), many):
+        chunk = found[first : first + many]
+        left = left_by(moves[chunk], x, y)
+        upto = np.minimum.accumulate(np.concatenate([heights[None], left]), axis=0)
+        yield chunk, upto[:-1], left
+        heights = upto[-1]

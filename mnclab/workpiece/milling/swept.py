@@ -1,0 +1,198 @@
+"""Exact: how high moves leave the material at points.
+
+The height at a point is the least of `z(t) + h(rho(t))` along a move, where `h` is the lower side of the cutter and `rho`
+the distance of the point from the tool's axis. `h` never falls outwards and is convex, so along a straight move the sum
+is convex too: its least value lies where the slopes are equal, at the rim of the tool, or at an end of the move.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mnclab.path.columns import Array, Mask
+from mnclab.workpiece.milling.cutters import edge_height
+from mnclab.workpiece.milling.moves import STILL, Moves
+
+FULL_TURN = 2 * np.pi
+NONE = np.inf  # where a move does not reach
+HALVINGS = 26  # of the place of the least height under a round corner: 1e-8 of it, and the height to its square
+SAMPLES = 33  # along a turn of a helix, before its least height is narrowed down
+TOUCH = 1e-12  # of a radius, by which a point on the rim is under the tool
+
+
+def left_by(moves: Moves, x: Array, y: Array) -> Array:
+    """The height (k, m) that each of k moves leaves at each of m points, mm; infinite where it does not reach."""
+    found = np.full((len(moves), len(x)), NONE)
+    travel = np.hypot(*(moves.end[:, :2] - moves.start[:, :2]).T)
+    level = moves.start[:, 2] == moves.end[:, 2]
+    standing = ~moves.arc & (travel <= STILL)
+    classes = (
+        (standing, _standing),
+        (~moves.arc & ~standing & level, _level),
+        (~moves.arc & ~standing & ~level, _sloping),
+        (moves.arc & level, _level_arc),
+        (moves.arc & ~level, _helix),
+    )
+    for which, sweep in classes:
+        if which.all():
+            return sweep(moves, x, y)
+        if which.any():
+            found[which] = sweep(moves[which], x, y)
+    return found
+
+
+def _raised(moves: Moves, z: Array, rho2: Array) -> Array:
+    """Heights under cutters whose tips stand at `z`, at squared distances from their axes (k, m)."""
+    radius = moves.radius[:, None]
+    reached = rho2 <= radius * radius * (1 + TOUCH)
+    if not (moves.flat < moves.radius).any():
+        return np.where(reached, z, NONE)
+    flat, corner, slope = moves.flat[:, None], moves.corner[:, None], moves.slope[:, None]
+    return np.where(reached, z + edge_height(np.sqrt(rho2), flat, corner, slope), NONE)
+
+
+def _standing(moves: Moves, x: Array, y: Array) -> Array:
+    """A plunge, or a tool that stands."""
+    rho2 = (x - moves.start[:, :1]) ** 2 + (y - moves.start[:, 1:2]) ** 2
+    return _raised(moves, moves.low[:, None], rho2)
+
+
+def _along(moves: Moves, x: Array, y: Array) -> tuple[Array, Array, Array]:
+    """How far points lie ahead of the start and, squared, beside the line (k, m); the length of each move (k, 1)."""
+    dx, dy = (moves.end - moves.start)[:, :2].T
+    length = np.hypot(dx, dy)
+    ux, uy = (dx / length)[:, None], (dy / length)[:, None]
+    px, py = x - moves.start[:, :1], y - moves.start[:, 1:2]
+    return px * ux + py * uy, (px * uy - py * ux) ** 2, length[:, None]
+
+
+def _level(moves: Moves, x: Array, y: Array) -> Array:
+    """A straight move at one height."""
+    ahead, beside2, length = _along(moves, x, y)
+    past = ahead - np.clip(ahead, 0.0, length)
+    return _raised(moves, moves.start[:, 2:], beside2 + past * past)
+
+
+def _sloping(moves: Moves, x: Array, y: Array) -> Array:
+    """A straight move that goes up or down: where the tool stood that cut deepest at a point."""
+    ahead, beside2, length = _along(moves, x, y)
+    slope = (moves.end[:, 2:] - moves.start[:, 2:]) / length
+    behind = _lowest(moves, beside2, np.abs(slope))  # how far the tool was past, or before, the point
+    place = np.clip(ahead - np.sign(slope) * behind, 0.0, length)
+    rho2 = beside2 + (ahead - place) ** 2
+    return _raised(moves, moves.start[:, 2:] + slope * place, rho2)
+
+
+def _lowest(moves: Moves, beside2: Array, slope: Array) -> Array:
+    """How far along its move from a point the cutter is that leaves it lowest (k, m), were the move without ends."""
+    radius, flat = moves.radius[:, None], moves.flat[:, None]
+    rim = np.sqrt(np.maximum(radius * radius - beside2, 0.0))
+    inner = np.sqrt(np.maximum(flat * flat - beside2, 0.0))
+    corner, cone = moves.corner[:, None], moves.slope[:, None]
+    found = np.where(moves.flat[:, None] >= radius, rim, inner)
+    ball = (moves.corner > 0) & (moves.flat == 0)
+    if ball.any():
+        free = np.sqrt(np.maximum(corner[ball] ** 2 - beside2[ball], 0.0))
+        found[ball] = free * slope[ball] / np.sqrt(1 + slope[ball] ** 2)
+    bull = (moves.corner > 0) & (moves.flat > 0)
+    if bull.any():
+        found[bull] = _under_corner(inner[bull], rim[bull], beside2[bull], slope[bull], flat[bull], corner[bull])
+    pointed = moves.slope > 0
+    if pointed.any():
+        rise, m = cone[pointed], slope[pointed]
+        steep = m >= rise
+        out = m / np.sqrt(np.where(steep, 1.0, rise * rise - m * m))
+        free = np.where(steep, rim[pointed], np.sqrt(beside2[pointed]) * out)
+        found[pointed] = np.clip(free, inner[pointed], rim[pointed])
+    return found
+
+
+def _under_corner(low: Array, high: Array, beside2: Array, slope: Array, flat: Array, corner: Array) -> Array:
+    """The place between two where the corner rises as the move does."""
+    low, high = low.copy(), high.copy()
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        rho = np.sqrt(beside2 + middle * middle)
+        out = rho - flat
+        rises = out * middle > slope * rho * np.sqrt(np.maximum(corner * corner - out * out, 0.0))
+        high = np.where(rises, middle, high)
+        low = np.where(rises, low, middle)
+    return (low + high) / 2
+
+
+def _polar(moves: Moves, x: Array, y: Array) -> tuple[Array, Array, Array]:
+    """Distances from the centres (k, m), how far round from the start (0 to a turn) in the sense of travel, path radius."""
+    cx, cy = moves.centre[:, :1], moves.centre[:, 1:]
+    px, py = x - cx, y - cy
+    spoke = moves.start[:, :2] - moves.centre
+    first = np.arctan2(spoke[:, 1], spoke[:, 0])[:, None]
+    turned = (np.arctan2(py, px) - first) * np.sign(moves.sweep)[:, None]
+    return np.hypot(px, py), np.mod(turned, FULL_TURN), np.hypot(spoke[:, 0], spoke[:, 1])[:, None]
+
+
+def _level_arc(moves: Moves, x: Array, y: Array) -> Array:
+    out, turned, round_ = _polar(moves, x, y)
+    on = turned <= np.abs(moves.sweep)[:, None]
+    rho2 = (out - round_) ** 2
+    if not on.all():
+        ends = (
+            (x - ends[:, :1]) ** 2 + (y - ends[:, 1:2]) ** 2 for ends in (moves.start, moves.end)
+        )
+        rho2 = np.where(on, rho2, np.minimum(*ends))
+    return _raised(moves, moves.start[:, 2:], rho2)
+
+
+def _helix(moves: Moves, x: Array, y: Array) -> Array:
+    """An arc that goes up or down; it is looked at in the sense in which it goes down."""
+    down = moves.end[:, 2:] < moves.start[:, 2:]
+    start, end = np.where(down, moves.start, moves.end), np.where(down, moves.end, moves.start)
+    moves = Moves(**{**vars(moves), "start": start, "end": end, "sweep": np.where(down[:, 0], 1, -1) * moves.sweep})
+    out, turned, round_ = _polar(moves, x, y)
+    whole = np.abs(moves.sweep)[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cosine = (out * out + round_ * round_ - moves.radius[:, None] ** 2) / (2 * out * round_)
+    cosine = np.where(out * round_ > 0, cosine, np.where(np.maximum(out, round_) <= moves.radius[:, None], -2.0, 2.0))
+    half = np.arccos(np.clip(cosine, -1.0, 1.0))  # the tool is over a point while it is this near in angle
+    reached = cosine <= 1
+    best = np.full(out.shape, NONE)
+    last = np.floor((whole - turned + half) / FULL_TURN)  # the last turn on which it comes over the point
+    for turn in (last, last - 1):
+        low = np.maximum(turned + FULL_TURN * turn - half, 0.0)
+        high = np.minimum(turned + FULL_TURN * turn + half, whole)
+        over = reached & (low <= high)
+        place = _lowest_of_turn(moves, low, high, out, turned, round_, whole)
+        best = np.minimum(best, np.where(over, _on_helix(moves, place, out, turned, round_, whole, over), NONE))
+    return best
+
+
+def _on_helix(
+    moves: Moves, place: Array, out: Array, turned: Array, round_: Array, whole: Array, over: Mask | None = None
+) -> Array:
+    """Heights under a tool at angles `place` along helices; `over` says that the tool does reach the points."""
+    z = moves.start[:, 2:] + (moves.end[:, 2:] - moves.start[:, 2:]) * place / whole
+    rho2 = np.maximum(out * out + round_ * round_ - 2 * out * round_ * np.cos(place - turned), 0.0)
+    if over is not None:
+        rho2 = np.minimum(rho2, moves.radius[:, None] ** 2)
+    return _raised(moves, z, rho2)
+
+
+def _lowest_of_turn(
+    moves: Moves, low: Array, high: Array, out: Array, turned: Array, round_: Array, whole: Array
+) -> Array:
+    """Where on a turn from `low` to `high` (rad along the helix) a point is left lowest: the end, for a flat tool."""
+    found, bent = high.copy(), moves.flat < moves.radius
+    if not bent.any():
+        return found
+    some, low, high = moves[bent], low[bent], np.maximum(low, high)[bent]
+    rest = out[bent], turned[bent], round_[bent], whole[bent]
+    share = np.linspace(0.0, 1.0, SAMPLES)
+    heights = np.stack([_on_helix(some, low + (high - low) * part, *rest, over=np.ones(1, bool)) for part in share])
+    nearest = heights.argmin(axis=0)
+    left = low + (high - low) * share[np.maximum(nearest - 1, 0)]
+    right = low + (high - low) * share[np.minimum(nearest + 1, SAMPLES - 1)]
+    for _ in range(2 * HALVINGS):
+        third = (right - left) / 3
+        one, other = (_on_helix(some, at, *rest, over=np.ones(1, bool)) for at in (left + third, right - third))
+        left, right = np.where(one > other, left + third, left), np.where(one > other, right, right - third)
+    found[bent] = (left + right) / 2
+    return found

@@ -1,0 +1,127 @@
+"""What is left of a blank after some rows of a path: the face that the milled and the turned part share."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.columns import Array
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import choice
+from mnclab.workpiece.cutting import Cutting
+
+if TYPE_CHECKING:
+    import pyvista
+    from matplotlib.figure import Figure
+
+    from mnclab.geometry.contours import Contour
+    from mnclab.workpiece.part import Part
+
+SHARES = ("line", "tool", "row")
+
+
+class Solid(NamedTuple):
+    """A closed surface: `points` (n, 3) mm, `triangles` (m, 3) seen counter-clockwise from outside.
+
+    `row` (m,) is the row of the path that cut a triangle, -1 where the blank is untouched.
+    """
+
+    points: Array
+    triangles: NDArray[np.int64]
+    row: NDArray[np.int64]
+
+    @property
+    def volume(self) -> float:
+        """mm³, by the divergence theorem."""
+        a, b, c = self.points[self.triangles].transpose(1, 0, 2)
+        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+class Workpiece(ABC):
+    """What is left of `cutting.stock`, in the coordinates of the path.
+
+    `method` says how it was found, `error` (mm) how far a surface may be off, `notes` what this picture of the part
+    cannot hold and which rows it leaves out.
+    """
+
+    cutting: Cutting
+    method: str
+    error: float
+    notes: tuple[str, ...]
+
+    @property
+    @abstractmethod
+    def volume(self) -> float:
+        """What is left, mm³."""
+
+    @property
+    @abstractmethod
+    def removed(self) -> float:
+        """What was taken away, mm³."""
+
+    @abstractmethod
+    def removed_by_row(self) -> Array:
+        """What each row of the path took away (n,), mm³; the sum is `removed`."""
+
+    @abstractmethod
+    def cut(self, plane: str, at: float = 0.0) -> list[Contour]:
+        """A section: closed contours of the material in a plane "XY", "XZ" or "YZ" (a lathe: "ZX") at a coordinate, mm."""
+
+    @property
+    @abstractmethod
+    def part(self) -> Part:
+        """What a probe touches."""
+
+    @abstractmethod
+    def solid(self) -> Solid:
+        """The part as a closed surface."""
+
+    def removed_by(self, what: str = "line") -> dict[int, float]:
+        """mm³ by "line" (of the main program or a called one), "tool" or "row"; the values sum to `removed`."""
+        choice(what, "what removed_by sums over", SHARES)
+        volumes = self.removed_by_row()
+        keys = np.arange(len(volumes)) if what == "row" else getattr(self.cutting.path, what)
+        known, index = np.unique(keys, return_inverse=True)
+        sums = np.bincount(index, volumes, minlength=len(known))
+        return {int(key): float(total) for key, total in zip(known, sums) if total != 0}
+
+    # --- doors -------------------------------------------------------------------------------------------------------
+
+    def plot(self, **options: Any) -> Figure:
+        """The part from above in shaded relief, or the half section of a lathe; see `show.plot.part.plot_part`."""
+        from mnclab.show.plot.part import plot_part
+
+        return plot_part(self, **options)
+
+    def scene(self, **options: Any) -> pyvista.Plotter:
+        """The part as a body (needs pyvista); see `show.part_scene.scene`."""
+        from mnclab.show.part_scene import scene
+
+        return scene(self, **options)
+
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write one file; the suffix says what: stl, gltf, glb, vtk (the body), svg, pdf, png (the picture), csv."""
+        from mnclab.show.export_part import save
+
+        return save(self, path, **options)
+
+    def __repr__(self) -> str:
+        told = f"{self.volume:.3f} mm³ left, {self.removed:.3f} mm³ removed"
+        head = f"<{type(self).__name__}: {told}; {self.method}, within {self.error:.3g} mm>"
+        return "\n".join([head, *(f"  note: {note}" for note in self.notes)])
+
+
+def no_blank() -> Alarm:
+    """The alarm of a workpiece without a blank."""
+    hint = "the blank is two corners or a cylinder: Setup(stock=((0, 0, -20), (60, 40, 0))), or BLK FORM in the program"
+    return Alarm("there is no blank to cut", hint=hint)
+
+
+def sections(planes: Sequence[str], plane: str) -> str:
+    """A plane that is asked for; an Alarm names the known ones."""
+    return choice(plane, "the plane of a section", tuple(planes))
