@@ -7,7 +7,7 @@ samples, it is halved until it is straight within `STRAIGHT`, or until it is a w
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,6 +17,8 @@ from mnclab.workpiece.milling.sweep import Sweep, grouped
 
 STRAIGHT = 1e-4  # mm
 WALL = 1e-9  # mm
+RIM = 1e-6  # mm, of a level section
+REACH = 4  # tiles of the side of a square whose points are looked at together
 HALVINGS = 40
 
 Sides = Callable[[Array], tuple[Array, Array]]  # upper and lower side of the material along a line (m,)
@@ -99,7 +101,14 @@ class Level:
     height: float
 
     def __call__(self, x: Array, y: Array) -> Mask:
-        return np.asarray((self.sweep.faces(x, y)[1] <= self.height) & (self.height < self.sweep.at(x, y)))
+        return self._among(x, y, self.sweep.at(x, y))
+
+    def nearby(self, x: Array, y: Array) -> Mask:
+        """The same, of points that lie close together."""
+        return self._among(x, y, self.sweep.left(x, y))
+
+    def _among(self, x: Array, y: Array, heights: Array) -> Mask:
+        return np.asarray((self.sweep.faces(x, y)[1] <= self.height) & (self.height < heights))
 
     def about(self, x: Array, y: Array) -> Level:
         return Level(self.sweep.about(x, y), self.height)
@@ -110,9 +119,9 @@ def level(sweep: Sweep, height: float, x: Array, y: Array) -> list[Contour]:
 
     Material lies to the left of a contour: outlines are counter-clockwise, holes clockwise.
     """
-    solid = Level(sweep, height)
+    solid = Level(replace(sweep, moves=sweep.moves[sweep.moves.low < height]), height)
     grid = solid(*(each.ravel() for each in np.meshgrid(x, y))).reshape(len(y), len(x))
-    return [Contour(merged(_rounded(solid, line))) for line in _chains(*_crossings(solid, grid, x, y))]
+    return [Contour(merged(line)) for line in _rounded(solid, _chains(*_crossings(solid, grid, x, y)))]
 
 
 def _crossings(solid: Level, grid: Mask, x: Array, y: Array) -> tuple[Array, Array]:
@@ -150,12 +159,12 @@ def _crossings(solid: Level, grid: Mask, x: Array, y: Array) -> tuple[Array, Arr
 def _halved(solid: Level, inner: Array, outer: Array) -> Array:
     """Where the material ends between points within it and points outside (n, 2)."""
     inner, outer = inner.copy(), outer.copy()
-    for some in grouped(inner[:, 0], inner[:, 1], solid.sweep.raster.tile):
+    for some in grouped(inner[:, 0], inner[:, 1], REACH * solid.sweep.raster.tile):
         a, b = inner[some], outer[some]
         there = solid.about(*np.concatenate([a, b]).T)
-        while np.abs(b - a).max() > WALL:
+        while np.abs(b - a).max() > RIM:
             middle = (a + b) / 2
-            within = there(*middle.T)[:, None]
+            within = there.nearby(*middle.T)[:, None]
             a, b = np.where(within, middle, a), np.where(within, b, middle)
         inner[some], outer[some] = a, b
     return (inner + outer) / 2
@@ -176,27 +185,26 @@ def _chains(points: Array, after: Array) -> list[Array]:
     return found
 
 
-def _rounded(solid: Level, line: Array) -> Array:
-    """A closed line with more points wherever it cuts off a bend or a corner of the material."""
-    points = np.concatenate([line, line[:1]])
-    open_ = np.arange(len(line))
+def _rounded(solid: Level, lines: list[Array]) -> list[Array]:
+    """Closed lines with more points wherever they cut off a bend or a corner of the material."""
+    points = np.concatenate([np.concatenate([line, line[:1]]) for line in lines] or [np.zeros((0, 2))])
+    of = np.repeat(np.arange(len(lines)), [len(line) + 1 for line in lines])
+    open_ = np.flatnonzero(np.diff(of) == 0)  # stretches that may not be straight yet, by their first point
     for _ in range(HALVINGS):
         way = points[open_ + 1] - points[open_]
-        length = np.hypot(*way.T)
-        open_, way, length = open_[length > STRAIGHT], way[length > STRAIGHT], length[length > STRAIGHT, None]
+        long = np.hypot(*way.T) > STRAIGHT
+        open_, way = open_[long], way[long]
         if not len(open_):
             break
-        middle, out = points[open_] + way / 2, way[:, ::-1] * [1, -1] / length  # to the right, where there is no material
-        within = solid(middle[:, 0], middle[:, 1])[:, None]
-        reach = np.where(within, 1, -1) * out
-        probes = middle + STRAIGHT * reach
-        bent = solid(probes[:, 0], probes[:, 1])[:, None] == within
-        far = middle + length * reach
-        bent &= solid(far[:, 0], far[:, 1])[:, None] != within  # else the rim turns away from here: it is left as it is
-        bent = bent[:, 0]
-        open_, middle, far, within = open_[bent], middle[bent], far[bent], within[bent]
+        out = way[:, ::-1] * [1, -1]  # to the right, where there is no material
+        middle, near = points[open_] + way / 2, STRAIGHT * out / np.hypot(*way.T)[:, None]
+        within = solid(*middle.T)[:, None]
+        near, out = np.where(within, near, -near), np.where(within, out, -out)
+        bent = solid(*(middle + near).T) == within[:, 0]
+        bent &= solid(*(middle + out).T) != within[:, 0]  # else the rim turns away from here: it is left as it is
+        open_, middle, far, within = open_[bent], middle[bent], (middle + out)[bent], within[bent]
         there = _halved(solid, np.where(within, middle, far), np.where(within, far, middle))
-        points = np.insert(points, open_ + 1, there, axis=0)
+        points, of = np.insert(points, open_ + 1, there, axis=0), np.insert(of, open_ + 1, of[open_])
         first = open_ + np.arange(len(open_))
         open_ = np.stack([first, first + 1], axis=1).ravel()
-    return points[:-1]
+    return [points[of == k][:-1] for k in range(len(lines))]
