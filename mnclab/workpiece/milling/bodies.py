@@ -53,6 +53,11 @@ def holder(tool: Tool) -> list[Body]:
     return [_disc("holder", radius, begin, tool.effective_radius) for radius, begin in tool.holder]
 
 
+def bodies_of(tool: Tool) -> list[Body]:
+    """All of them, from the tip up."""
+    return [edges(tool), *above_edges(tool), *holder(tool)]
+
+
 def _disc(name: str, radius: float, lift: float, inner: float) -> Body:
     smaller = max(radius - TOLERANCE, radius / 2)
     return Body(name, Cutter(smaller, smaller), lift + TOLERANCE, inner)

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from mnclab.path.columns import Index, Mask
+from mnclab.path.columns import Mask
 from mnclab.path.tool import Tool
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting

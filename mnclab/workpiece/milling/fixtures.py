@@ -8,7 +8,7 @@ import numpy as np
 
 from mnclab.path.columns import Array
 from mnclab.workpiece.blank import Blank, top_of
-from mnclab.workpiece.milling.bodies import TOLERANCE, Body, above_edges, edges, holder
+from mnclab.workpiece.milling.bodies import TOLERANCE, Body, bodies_of
 from mnclab.workpiece.milling.footprint import under
 from mnclab.workpiece.milling.judging import MOST, Judged, Judging, Met
 from mnclab.workpiece.milling.swept import left_by
@@ -27,7 +27,7 @@ def in_fixtures(scene: Judging) -> Iterator[tuple[str, str, Met]]:
             continue
         for index, tool in enumerate(scene.cutting.tools):
             mine = scene.which == index
-            for body in (edges(tool), *above_edges(tool), *holder(tool)) if mine.any() else ():
+            for body in bodies_of(tool) if mine.any() else ():
                 for met in _met(scene, fixture, held, np.asarray(mine), body):
                     yield "fixture", f"the {body.name} in a fixture", met
 
@@ -48,7 +48,7 @@ def _met(
         own_top = _top(fixture, *own, float(scene.moves.low.min()), float(scene.moves.end[:, 2].max()))
         px, py = np.concatenate([own[0], x]), np.concatenate([own[1], y])
         low = left_by(move, px, py)[0]
-        deep = np.nan_to_num(np.concatenate([own_top, top]) - low, nan=0.0)
+        deep = np.fmax(np.concatenate([own_top, top]) - low, 0.0)
         deepest = int(np.round(deep, 6).argmax())
         if deep[deepest] > 0:
             place = float(px[deepest]), float(py[deepest]), float(low[deepest]) - TOLERANCE
@@ -61,7 +61,7 @@ def _points(scene: Judging, fixture: Blank | Part) -> tuple[Array, Array, Array]
     if not len(moves):
         return np.empty(0), np.empty(0), np.empty(0)
     if isinstance(fixture, Part):
-        wide = max((body.cutter.radius for tool in scene.cutting.tools for body in (edges(tool), *above_edges(tool), *holder(tool))))
+        wide = max(body.cutter.radius for tool in scene.cutting.tools for body in bodies_of(tool))
         low, high = scene.boxes[:, :2].min(axis=0) - wide, scene.boxes[:, 2:].max(axis=0) + wide
     else:
         low, high = fixture.bounds[:, :2]
@@ -83,4 +83,5 @@ def _top(fixture: Blank | Part, x: Array, y: Array, low: float, high: float) -> 
         going = going[(gap > CLOSED) & (z[going] > low)]
         if not len(going):
             break
+    z[going] = low  # grazed, not met
     return np.where(z > low, z, np.nan)

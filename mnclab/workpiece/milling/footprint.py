@@ -31,6 +31,7 @@ def under(move: Moves, radius: float, bounds: Array, step: float, most: int) -> 
         return ends[0][:, 0], ends[0][:, 1]
     share = np.linspace(first, last, min(int(way / apart) + 2, STATIONS))
     lanes = np.linspace(-radius, radius, max(2 * int(np.ceil(radius / apart)), LANES) + 1)
+    lanes = lanes[np.argsort(np.abs(lanes), kind="stable")]  # of places that are as deep the axis is named
     between = tips(move, share)[:, None, :2] + lanes[:, None] * _aside(move, share)[:, None]
     found = np.concatenate([ends[0], between.reshape(-1, 2), *ends[1:]])
     return found[:, 0], found[:, 1]
