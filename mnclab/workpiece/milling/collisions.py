@@ -39,7 +39,7 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
     for kind, said, met in _kinds(scene):
         row = int(scene.moves.row[met.judged.move])
         line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
-        message = f"{said}, {met.depth:.3f} mm deep at {_at(met.place)}"
+        message = f"{said}, {met.depth:.3f} mm deep at {_at(met.place)}{_hint(scene, kind, met.judged.move)}"
         each = Collision(kind, message, line, program, row, met.place, met.depth, _file(cutting, line, program))
         known = found.get((row, kind))
         if known is None or each.depth > known.depth:
@@ -49,6 +49,16 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
 
 def _at(place: tuple[float, float, float]) -> str:
     return " ".join(f"{axis}{value + 0.0:.3f}" for axis, value in zip("XYZ", place))
+
+
+def _hint(scene: Judging, kind: str, move: int) -> str:
+    """What a learner has forgotten, where the mistake is a known one."""
+    if kind == "plunge":
+        return " (a ramp, a helix or a hole drilled before)"
+    if kind != "rapid":
+        return ""
+    down = scene.standing[move]
+    return " (a rapid ends above the material, the rest goes at feed)" if down else " (first Z above the part, then X and Y)"
 
 
 def _file(cutting: Cutting, line: int, program: int) -> str:
