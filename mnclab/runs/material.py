@@ -27,6 +27,7 @@ from mnclab.workpiece.workpiece import Workpiece, no_blank
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
+JUDGED = 3000  # rows up to which a player asks for collisions
 TILT = "frame tilt"  # the frame of a tilted working plane: the tool stands along its Z
 
 
@@ -162,3 +163,10 @@ def _beyond_travel(run: Run) -> Iterator[Collision]:
     file = run.programs[span.program].name
     message = f"{alarm.message}, {depth:.3f} mm beyond"
     yield Collision("travel", message, span.line, span.program, len(run.toolpath) - 1, (x, y, z), depth, file)
+
+
+def played(run: Run) -> tuple[Cutting | None, Collisions]:
+    """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
+    if run.stock is None:
+        return None, Collisions()
+    return cutting_of(run), Collisions()

@@ -190,7 +190,7 @@ def bar_of(colour: str, values: np.ndarray) -> dict[str, Any]:
     bar = BAR | {"title": TITLES[colour]}
     spread = float(np.ptp(values)) if len(values) else 0.0
     if colour in ("tool", "line"):  # whole numbers alone
-        bar |= {"fmt": "%.0f", "n_labels": min(int(spread), 4) + 1}
+        bar |= {"fmt": "%.0f", "n_labels": int(spread) + 1 if spread < 6 else 5}
     return bar
 
 

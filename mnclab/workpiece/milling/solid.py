@@ -13,7 +13,7 @@ import numpy as np
 
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.workpiece.milling.divided import divided
-from mnclab.workpiece.milling.lattice import Lattice, lattice_of
+from mnclab.workpiece.milling.lattice import Lattice, lattice_of, rows_at
 from mnclab.workpiece.workpiece import Solid
 
 if TYPE_CHECKING:
@@ -37,7 +37,8 @@ def solid_of(workpiece: Milled) -> Solid:
     for side, node in ((0, first), (1, last)):
         empty = found.through & ~solid[node]
         beside[empty, side] = foot[empty]
-    faces = [_top(found, beside), _bottom(found, foot, below), _rim(found, beside, foot, below)]
+    row_of = rows_at(workpiece, *found.nodes.T, found.z)
+    faces = [_top(found, beside, row_of), _bottom(found, foot, below), _rim(found, beside, foot, below)]
     triangles, row = (np.concatenate(column) for column in zip(*faces))
     points = _points(found)
     used, index = np.unique(triangles, return_inverse=True)
@@ -54,31 +55,6 @@ def _points(found: Lattice) -> Array:
         np.column_stack([nodes, found.floor]),
         np.column_stack([place, foot]),
     ])  # fmt: skip
-
-
-def _cells(found: Lattice) -> tuple[Index, Index]:
-    """Corners (cells, 4) and edges (cells, 4) of every cell, counter-clockwise."""
-    ny, nx = len(found.y) - 1, len(found.x) - 1
-    j, i = (each.ravel() for each in np.meshgrid(np.arange(ny), np.arange(nx), indexing="ij"))
-    node, flat, up = j * (nx + 1) + i, j * nx + i, (ny + 1) * nx + j * (nx + 1) + i
-    corners = np.stack([node, node + 1, node + nx + 2, node + nx + 1], axis=1)
-    return corners, np.stack([flat, up + 1, flat + nx, up], axis=1)
-
-
-def _dividing(found: Lattice, corners: Index, wall: Index) -> tuple[Index, Index, Index]:
-    """Of cells with walls: which edges have one, which of them divide (bits), and the diagonal that stays joined."""
-    bits = 1 << np.arange(4)
-    walls = ((wall >= 0) * bits).sum(axis=1)
-    through = (wall >= 0) & found.through[wall]
-    jump = np.where(wall >= 0, np.abs(found.sides[wall, 0] - found.sides[wall, 1]), -1.0)
-    count = (wall >= 0).sum(axis=1)
-    least = np.argsort(jump, axis=1)[:, 1]  # of three, the smallest does not divide
-    dividing = np.where(count == 1, 0, walls)
-    dividing = np.where(count == 3, walls & ~(1 << least), dividing)
-    dividing = np.where(~found.solid[corners].all(axis=1), (through * bits).sum(axis=1), dividing)
-    z = found.z[corners]
-    diagonal = (np.abs(z[:, 0] - z[:, 2]) > np.abs(z[:, 1] - z[:, 3])).astype(np.int64)
-    return walls, dividing, diagonal
 
 
 def _divided(
@@ -107,29 +83,29 @@ def _sides(wall: Index, beside: Index) -> Index:
     return found
 
 
-def _top(found: Lattice, beside: Index) -> Faces:
-    corners, edges = _cells(found)
+def _top(found: Lattice, beside: Index, row_of: Index) -> Faces:
+    corners, edges = found.cells()
     wall = found.wall[edges]
     plain = (wall < 0).all(axis=1)
     solid = found.solid[corners]
-    triangles, row = _sheet(found, found.z, corners, plain & solid.all(axis=1), found.row)
+    triangles, row = _sheet(found, found.z, corners, plain & solid.all(axis=1), row_of)
     some = ~plain
-    cases = _dividing(found, corners[some], wall[some])
+    cases = found.dividing(corners[some], wall[some])
     cut, one, other = _divided(corners[some], _sides(wall[some], beside), *cases)
     kept = (one != other) | found.solid[one]
     cut, one, other = cut[kept], one[kept], other[kept]
     lower = np.where(found.z[one] <= found.z[other], one, other)
-    return np.concatenate([triangles, cut]), np.concatenate([row, found.row[lower]])
+    return np.concatenate([triangles, cut]), np.concatenate([row, row_of[lower]])
 
 
 def _bottom(found: Lattice, foot: Index, below: int) -> Faces:
     """The lower side, divided only where something goes through; seen from below."""
-    corners, edges = _cells(found)
+    corners, edges = found.cells()
     wall = found.wall[edges]
     some = ((wall >= 0) & found.through[wall]).any(axis=1) if len(foot) else np.zeros(len(wall), dtype=bool)
     full = found.solid[corners].all(axis=1)
     triangles, _ = _sheet(found, found.floor, corners, ~some & full, np.full(len(found.z), -1))
-    _, dividing, diagonal = _dividing(found, corners[some], wall[some])
+    _, dividing, diagonal = found.dividing(corners[some], wall[some])
     sides = np.repeat(foot[wall[some]][:, :, None], 2, axis=2) - below if len(foot) else np.empty((0, 4, 2), int)
     cut, one, other = _divided(corners[some], sides, dividing, dividing, diagonal)
     cut = cut[(one == other) & found.solid[one]]
