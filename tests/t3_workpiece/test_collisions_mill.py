@@ -64,7 +64,7 @@ def test_a_rapid_through_the_wall_between_two_slots(wall, depth):
     other = 40 + wall
     text = f"G0 X20 Y30 Z5|G1 Z-5 F100|G1 X30|G0 Z5|G0 X{other}|G1 Z-5|G1 X80|G0 Z-{depth}|G0 X20|G0 Z50"
     each = only(met(text, TOOLS["mill"]), "rapid", 11, depth)
-    assert 35 <= each.place[0] <= 35 + wall + 2.6 and abs(each.place[1] - 30) <= 5  # the wall is concave on both sides
+    assert 30 <= each.place[0] <= 40 + wall and abs(each.place[1] - 30) <= 5  # the wall is concave on both sides
 
 
 def test_a_rapid_that_falls_on_its_way():
@@ -158,10 +158,10 @@ def test_a_thinner_shank_goes_where_the_edges_were():
 
 
 def test_edges_go_before_the_shank_along_a_helix_and_a_ramp():
-    """A bore of 30 mm, 10 mm deep, in turns of 1 mm, with edges of 2 mm; and to and fro along a ramp of 1 mm."""
+    """A bore of 18 mm, 10 mm deep, in turns of 1 mm, with edges of 2 mm; and to and fro along a ramp of 1 mm."""
     tool = Tool(5, cutting_length=2, kind="mill")
-    helix = "|".join(f"G3 X60 Y30 Z-{k} I-10 J0" for k in range(1, 11))
-    assert not met(f"G0 X60 Y30 Z5|G1 Z0 F100|{helix}|G3 X60 Y30 I-10 J0|G1 X50|G0 Z50", tool)
+    helix = "|".join(f"G3 X54 Y30 Z-{k} I-4 J0" for k in range(1, 11))
+    assert not met(f"G0 X54 Y30 Z5|G1 Z0 F100|{helix}|G3 X54 Y30 I-4 J0|G1 X50|G0 Z50", tool)
     ramp = "|".join(f"G1 X{40 + 20 * (k % 2)} Z-{k}" for k in range(1, 11))
     assert not met(f"G0 X40 Y30 Z5|G1 Z0 F100|{ramp}|G0 Z50", tool)
 
@@ -172,7 +172,7 @@ def test_edges_go_before_the_shank_along_a_helix_and_a_ramp():
 def test_a_holder_comes_down_on_the_blank(wide, begin, rapid):
     """Past the blank, 2 mm from its side: the tool misses it, and the holder is 1.25 mm lower than its top."""
     tool = Tool(5, holder=((wide, begin), (wide + 5, begin + 20)), kind="mill")
-    text = f"G0 X-20 Y-7 Z50|G1 Z-{begin + 1.25} F100|G{0 if rapid else 1} X120|G0 Z50"
+    text = f"G0 X-60 Y-7 Z50|G1 Z-{begin + 1.25} F100|G{0 if rapid else 1} X120|G0 Z50"
     found = met(text, tool)
     assert [(each.kind, each.line) for each in found][-1] == ("holder", 5)
     assert found[-1].depth == pytest.approx(1.25) and 0 <= found[-1].place[1] <= wide - 7
@@ -204,15 +204,15 @@ def test_a_tool_in_a_fixture(name, rapid, height):
 @pytest.mark.parametrize("name", ["box", "bolt", "part"])
 @pytest.mark.parametrize("body", ["shank", "holder"])
 def test_what_is_behind_the_edges_in_a_fixture(name, body):
-    """The tool passes the clamp at Y50; what is 15 mm wide, 8 mm above its tip, does not."""
+    """The tool passes the clamp at Y47; what is 15 mm wide, 8 mm above its tip, does not."""
     tool = Tool(3, shank=(15, 8)) if body == "shank" else Tool(3, holder=((15, 8),))
-    found = met("G0 X-20 Y50 Z50|G0 Z1|G0 X120|G0 Z50", tool, fixtures=(CLAMPS[name],))
+    found = met("G0 X-20 Y47 Z50|G0 Z1|G0 X120|G0 Z50", tool, fixtures=(CLAMPS[name],))
     each = only(found, "fixture", 5, 3, 1e-5)
     assert body in each.message
 
 
 def test_a_fixture_that_is_passed_is_none():
-    text = "G0 X-20 Y50 Z50|G0 Z1|G0 X120|G0 Z50"
+    text = "G0 X-20 Y47 Z50|G0 Z1|G0 X120|G0 Z50"
     assert not met(text, Tool(3), fixtures=tuple(CLAMPS.values()))
 
 
