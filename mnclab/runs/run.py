@@ -24,6 +24,7 @@ from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
+from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import material, still_spindle
@@ -56,7 +57,7 @@ class Run:
     """The result of running a program: both paths, alarms, history, and where the machine stands.
 
     `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
-    `gouge = "mark"` all of them.
+    `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates.
     """
 
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
@@ -77,6 +78,7 @@ class Run:
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
         self.frames = machine.frames
         self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
+        self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
