@@ -67,10 +67,8 @@ class Relief {
     this.depths = carving.depths;
     this.sent = [];  // the tiles that the texture holds
     this.uploads = 0;
-    // without a graphics card every second cell must do while something moves, and smooth edges cost too much
-    const quick = canvas.getContext("webgl2", {antialias: true, premultipliedAlpha: false, failIfMajorPerformanceCaveat: true});
-    this.slow = !quick;
-    this.gl = quick || canvas.getContext("webgl2", {antialias: false, premultipliedAlpha: false});
+    this.slow = drawnByProcessor();  // then every second cell must do while something moves, and smooth edges cost too much
+    this.gl = canvas.getContext("webgl2", {antialias: !this.slow, premultipliedAlpha: false});
     if (!this.gl) return;
     canvas.addEventListener("webglcontextlost", event => event.preventDefault());
     canvas.addEventListener("webglcontextrestored", () => this.prepare());
@@ -159,6 +157,15 @@ class Relief {
       gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
     }
   }
+}
+
+// Whether there is no graphics card, so that the processor draws.
+function drawnByProcessor() {
+  const gl = document.createElement("canvas").getContext("webgl2", {failIfMajorPerformanceCaveat: true});
+  if (!gl) return true;
+  const names = gl.getExtension("WEBGL_debug_renderer_info"), name = gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
 // A colour of the style sheet, #rrggbb, as three shares.
