@@ -26,7 +26,7 @@ FLOORS = {
 OUTSIDE = {  # package -> the only modules of mnclab that import it
     "shapely": ("geometry.shapely",),
     "matplotlib": ("show.plot",),
-    "pyvista": ("show.scene",),
+    "pyvista": ("show.scene", "show.part_scene"),
     "vtkmodules": ("show.scene",),
     "ezdxf": ("geometry.dxf",),
     "ipywidgets": ("show.forms", "show.editor"),

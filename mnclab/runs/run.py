@@ -227,7 +227,8 @@ class Run:
         `colour` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
         colour of the cuts shows; `arrows=False`, `marks=False` and `stock=False` leave out arrowheads, crosses at zero
         points and poles, and the outline of the blank; `view` "XY", "XZ", "YZ" or "ZX"; `frame` "all" or "cuts"; `size`
-        in inches; `ax` axes of one's own; `part=True` draws what is left of the blank under the path. All of them are explained in `mnclab.show.plot.path.plot_path`.
+        in inches; `ax` axes of one's own; `part=True` draws what is left of the blank under the path. All of them are
+        explained in `mnclab.show.plot.path.plot_path`.
         """
         from mnclab.show.plot.path import plot_run
 
@@ -272,7 +273,8 @@ class Run:
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player), dxf, ngc, stl, gltf, glb, vtk.
 
-        Pictures take the options of `plot`; `true_size=True` makes an svg in true millimetres.
+        Pictures take the options of `plot`; `true_size=True` makes an svg in true millimetres. The bodies (stl, gltf, glb,
+        vtk) are those of the part; `of="path"` writes the path.
         """
         from mnclab.show.export import save
 

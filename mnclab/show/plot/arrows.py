@@ -76,4 +76,4 @@ def draw_arrival(ax: Axes, view: View, place: Array, size: float) -> None:
     end = place[[view.right, view.up]]
     home = end + ARRIVAL * size * np.array([1.0 if view.diameter else 0.0, 1.0])
     look = {"arrowstyle": "-|>", "color": colours.RAPID.colour, "linewidth": 1.2, "linestyle": (0, (3, 1.5)), "shrinkB": 4}
-    ax.annotate("", end, home, arrowprops=look, zorder=3.3, annotation_clip=False)
+    ax.annotate("", tuple(end), tuple(home), arrowprops=look, zorder=3.3, annotation_clip=False)

@@ -71,7 +71,7 @@ def plot_part(
         ax.autoscale_view()
         return cast(Figure, ax.get_figure(root=True))
     views = [VIEWS["XY"], *(each.view for each in cuts)]
-    handles = [Patch(facecolor=shade, edgecolor=colours.INK, linewidth=0.5, label=name) for name, shade in names]
+    handles: list[Any] = [Patch(facecolor=shade, edgecolor=colours.INK, linewidth=0.5, label=name) for name, shade in names]
     handles.append(Line2D([], [], **BLANK))
     handles += [Line2D([], [], **MARK)] if len(marks) else []
     labels = [str(each.get_label()) for each in handles]

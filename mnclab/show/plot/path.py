@@ -195,7 +195,8 @@ def _arrival(path: Toolpath, known: int) -> int:
 def _marks(path: Toolpath, stopped: bool, home: bool) -> list[tuple[Mark, Array]]:
     """Marks and where they stand (m, 3)."""
     found = [(mark, path.end[path.kind == kind]) for kind, mark in MARKS.items()]
-    found += [(colours.HOME if home else colours.START, path.start[:1]), (colours.ALARM if stopped else colours.END, path.end[-1:])]
+    found += [(colours.HOME if home else colours.START, path.start[:1])]
+    found += [(colours.ALARM if stopped else colours.END, path.end[-1:])]
     return [(mark, places) for mark, places in found if len(places)]
 
 

@@ -79,8 +79,10 @@ def draw_section(ax: Axes, workpiece: Workpiece, section: Section) -> None:
         ax.add_patch(hatch)
     for line in workpiece.cutting.stock.outline(view.right, view.up):
         ax.add_line(Line2D(line[:, 0], line[:, 1], **{**colours.BLANK.style(), "linestyle": (0, (6, 2))}))
-    place = {"xy": (0.5, 0.965), "xycoords": "axes fraction", "ha": "center", "va": "top"}
-    ax.annotate(section.title, **place, fontsize=SMALL + 1, path_effects=HALO, zorder=5)
+    ax.annotate(
+        section.title, (0.5, 0.965), xycoords="axes fraction", ha="center", va="top", fontsize=SMALL + 1, path_effects=HALO,
+        zorder=5,
+    )  # fmt: skip
 
 
 def outline_of(contours: Sequence[Contour]) -> Path:
@@ -105,8 +107,8 @@ def mark_section(ax: Axes, section: Section, low: Array, high: Array) -> None:
         tail = end.copy()
         tail[fixed] -= looks
         arrow = {"arrowstyle": "-|>", "color": colours.INK, "linewidth": 1.2, "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0}
-        ax.annotate("", end, tail, arrowprops=arrow, zorder=3.1)
+        ax.annotate("", tuple(end), tuple(tail), arrowprops=arrow, zorder=3.1)
         ax.annotate(
-            section.letter, tail, (0, -6 if fixed == 1 else 0), textcoords="offset points", fontsize=SMALL + 1,
+            section.letter, tuple(tail), (0, -6 if fixed == 1 else 0), textcoords="offset points", fontsize=SMALL + 1,
             ha="center" if fixed == 1 else "left", va="center", weight="bold", path_effects=HALO, zorder=3.2,
         )  # fmt: skip
