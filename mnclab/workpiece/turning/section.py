@@ -70,7 +70,7 @@ class Drawing:
         angle = sense[element] * (begin[element] + rank - 1) * step[element]
         with np.errstate(invalid="ignore"):
             on_circle = centres[element] + np.where(np.isinf(radii), 0.0, radii)[element, None] * at_angle(angle)
-        points = np.round(np.where((rank == 0)[:, None], starts[element], on_circle), PLACES)
+        points: Floats = np.where((rank == 0)[:, None], starts[element], on_circle).round(PLACES)
         contour = which[element]
         heads = np.searchsorted(contour, np.arange(len(self.contours)))
         after = np.arange(1, len(points) + 1)

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.vectors import length_of
 from mnclab.path.inserts import angles_of, cutting_part, turns
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
@@ -46,9 +47,17 @@ class _Room:
     deep: float
 
     def meets(self, contour: Contour) -> bool:
-        (z0, r0), (z1, r1) = contour.bounds.tolist()
+        (z0, r0), (z1, r1) = box_of(contour)
         near = r0 < 0 < r1 or min(abs(r0), abs(r1)) < self.radius
         return bool(near and z1 > self.low and z0 < self.high)
+
+
+def box_of(contour: Contour) -> list[list[float]]:
+    """Corners of a box in which a contour lies; arcs may leave some room in it."""
+    points, rise = contour.points, 0.0
+    if contour.bulge.any():
+        rise = float((np.abs(contour.bulge) * length_of(contour.ends - points)).max()) / 2
+    return [(points.min(axis=0) - rise).tolist(), (points.max(axis=0) + rise).tolist()]
 
 
 def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: float) -> Strokes:
@@ -72,7 +81,7 @@ def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: f
         a, b = (float(start[k, 0]), float(start[k, 1])), (float(end[k, 0]), float(end[k, 1]))
         for contour in _of_row(cutting, row, a, b, axis, body_of):
             if room.meets(contour):
-                mirrored = contour.bounds[0, 1] < 0
+                mirrored = box_of(contour)[0][1] < 0 and contour.bounds[0, 1] < 0
                 found = [contour, Contour(contour.points * (1, -1), -contour.bulge).reversed()] if mirrored else [contour]
                 contours += found
                 owners += [row] * len(found)

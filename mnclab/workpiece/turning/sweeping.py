@@ -92,8 +92,7 @@ def along_line(body: list[Edge], start: Point, end: Point) -> Contour | None:
         if last is not None:
             points.append((last.end[0] + x, last.end[1] + y))
             bulges.append(0.0)
-    contour = Contour(points, bulges)
-    return contour if contour.area > NOTHING else None
+    return Contour(points, bulges)
 
 
 def _before(sides: list[int], k: int) -> int:
