@@ -26,6 +26,7 @@ from mnclab.workpiece.workpiece import Workpiece, no_blank
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
+JUDGED = 3000  # rows up to which a player asks for collisions
 TILT = "frame tilt"  # the frame of a tilted working plane: the tool stands along its Z
 
 
@@ -146,3 +147,10 @@ def collisions(run: Run, stock: Any = None, step: float | None = None) -> Collis
     from mnclab.workpiece.milling.collisions import collisions_of as of_mill
 
     return of_mill(cutting, step)
+
+
+def played(run: Run) -> tuple[Cutting | None, Collisions]:
+    """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
+    if run.stock is None:
+        return None, Collisions()
+    return cutting_of(run), Collisions()

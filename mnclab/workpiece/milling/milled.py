@@ -14,6 +14,7 @@ from mnclab.workpiece.blank import floor_of, top_of
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.moves import CHORD, Moves, moves_of
 from mnclab.workpiece.milling.raster import Raster, in_order, lowered
+from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Solid, Workpiece
 
@@ -115,7 +116,10 @@ class Milled(Workpiece):
 
     @property
     def part(self) -> Part:
-        raise NotImplementedError
+        return Touched(self.cutting.stock, self.moves).part
 
     def solid(self) -> Solid:
-        raise NotImplementedError
+        """The top with its walls at their true places, the sides and the lower side of the blank."""
+        from mnclab.workpiece.milling.solid import solid_of
+
+        return solid_of(self)
