@@ -16,6 +16,7 @@ from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
+from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import shown, whole
 from mnclab.workpiece.blank import blank
@@ -39,6 +40,7 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
         raise no_blank() if stock is None else Alarm(f"stock must be two corners or a blank, got {shown(stock)}")
     body = body if stock is None else body.moved(-origin)
     tools, which, lift = tools_of_rows(run)
+    tools, which = cycle_tools(run, tools, which)
     if lift.any():
         path = lifted(path, lift)
     return Cutting(
