@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.machine.control import Control
+from mnclab.machine.cutting_rows import stock_of
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
 from mnclab.machine.settling import paths, shifted, stop_at_travel
@@ -36,7 +37,7 @@ from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
 from mnclab.text.program import Program
 from mnclab.text.tables import html_table
-from mnclab.workpiece.blank import Blank, Box, Revolved, blank
+from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.collision import Collisions
 from mnclab.workpiece.workpiece import Workpiece
 
@@ -128,13 +129,7 @@ class Run:
     @property
     def stock(self) -> Blank | None:
         """The blank in the coordinates of the toolpath: that of the setup, else the last one that the program gives."""
-        if self.setup.stock is not None:
-            found = blank(self.setup.stock)
-            return found and found.moved(-self.toolpath.origin)
-        given = [value for _, value in self.history.changed("stock")]
-        if not given or isinstance(given[-1], Revolved):
-            return given[-1] if given else None
-        return None if given[-1].maximum is None else Box(given[-1].minimum, given[-1].maximum)
+        return stock_of(self.setup.stock, self.history.changed("stock"), np.array(self.toolpath.origin))
 
     def _executions(self, line: int, program: int) -> NDArray[np.intp]:
         """The steps that executed the block of a line."""
