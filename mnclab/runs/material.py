@@ -18,6 +18,12 @@ from mnclab.workpiece.workpiece import Workpiece, no_blank
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
+<<<<<<< HEAD
+=======
+JUDGED = 3000  # rows up to which a player asks for collisions
+TILT = "frame tilt"  # the frame of a tilted working plane: the tool stands along its Z
+
+>>>>>>> part
 
 def cutting_of(run: Run, stock: Any = None) -> Cutting:
     """What a run cuts; `stock` in machine coordinates instead of its own blank. An Alarm without any."""
@@ -75,3 +81,10 @@ def collisions(run: Run, stock: Any = None, step: float | None = None) -> Collis
     from mnclab.workpiece.milling.collisions import collisions_of as of_mill
 
     return of_mill(cutting, step)
+
+
+def played(run: Run) -> tuple[Cutting | None, Collisions]:
+    """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
+    if run.stock is None:
+        return None, Collisions()
+    return cutting_of(run), Collisions()

@@ -237,7 +237,7 @@ class Run:
         """
         from mnclab.show.player import player
 
-        return player(self, self.profile(limits), **options)
+        return player(self, self.profile(limits), *material.played(self), **options)
 
     def plot_compensation(self, **options: Any) -> Figure:
         """The contour, the tool-centre path beside it, and how its corners were found.

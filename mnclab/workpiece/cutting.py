@@ -31,9 +31,8 @@ class Cutting:
     """Rows of a path (n,) and what they meet.
 
     `tools[which[row]]` is the tool of a row. From row `arrived` on the tool's height is known at the end of a row, from
-    `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `tilted` rows are
-    made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line stands
-    ("FILE:LINE").
+    `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `tilted` rows
+    are made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line stands ("FILE:LINE").
     """
 
     path: Toolpath

@@ -119,4 +119,7 @@ class Milled(Workpiece):
         return Touched(self.cutting.stock, self.moves).part
 
     def solid(self) -> Solid:
-        raise NotImplementedError
+        """The top with its walls at their true places, the sides and the lower side of the blank."""
+        from mnclab.workpiece.milling.solid import solid_of
+
+        return solid_of(self)
