@@ -18,12 +18,8 @@ from mnclab.workpiece.workpiece import Workpiece, no_blank
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
-<<<<<<< HEAD
-=======
 JUDGED = 3000  # rows up to which a player asks for collisions
-TILT = "frame tilt"  # the frame of a tilted working plane: the tool stands along its Z
 
->>>>>>> part
 
 def cutting_of(run: Run, stock: Any = None) -> Cutting:
     """What a run cuts; `stock` in machine coordinates instead of its own blank. An Alarm without any."""
