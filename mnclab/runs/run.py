@@ -39,6 +39,7 @@ from mnclab.text.program import Program
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.collision import Collisions
+from mnclab.workpiece.removal import Removal
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
@@ -202,6 +203,10 @@ class Run:
         The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`.
         """
         return material.collisions(self, stock, step)
+
+    def removal(self, limits: Limits | str | None = None, *, step: float | None = None) -> Removal:
+        """How much material goes by row, line and tool, and how fast; `limits` as in `profile`, `step` as in `workpiece`."""
+        return Removal(self.workpiece(step=step), self.profile(limits))
 
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""
