@@ -26,8 +26,8 @@ FLOORS = {
 OUTSIDE = {  # package -> the only modules of mnclab that import it
     "shapely": ("geometry.shapely",),
     "matplotlib": ("show.plot",),
-    "pyvista": ("show.scene",),
-    "vtkmodules": ("show.scene",),
+    "pyvista": ("show.scene", "show.part_scene"),
+    "vtkmodules": ("show.scene", "show.part_scene"),
     "ezdxf": ("geometry.dxf",),
     "ipywidgets": ("show.forms", "show.editor"),
     "IPython": ("show.magic",),

@@ -34,10 +34,11 @@ from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import CHORD_ERROR, broad, outlined, swept, under
 from mnclab.machining.turning.passes import FRONT, LIFT
-from mnclab.machining.turning.profiles import checked, edges_of, reachable
+from mnclab.machining.turning.profiles import checked, reachable
 from mnclab.machining.turning.schemes import SCHEMES
 from mnclab.machining.turning.strokes import PLUNGE, RAPID, ROLES, Plan
 from mnclab.machining.turning.zones import CLOSED, COMBINED, OPEN, SEMI_OPEN, zone_of
+from mnclab.path.inserts import edges_of
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool

@@ -1,4 +1,4 @@
-"""A run in three dimensions: path, tool and blank in a pyvista `Plotter`. The only file that imports pyvista.
+"""A run in three dimensions: path, tool, blank or part in a pyvista `Plotter`; `part_scene` and this file know pyvista.
 
 The scene shows itself in Jupyter as a still picture, which works everywhere and needs no server. `scene.show()` does
 the same; `scene.show(jupyter_backend="html")` turns in the browser and needs `mnclab[html]`. VTK without OpenGL ends
@@ -52,6 +52,7 @@ def scene(
     row: int = -1,
     tool: bool = True,
     stock: bool | Blank | tuple[ArrayLike, ArrayLike] = True,
+    part: bool = False,
     axes: bool = True,
     size: tuple[int, int] = SIZE,
 ) -> pyvista.Plotter:
@@ -60,7 +61,7 @@ def scene(
     `colour` of the cuts: "kind", "feed" (mm/min), "tool", "z" (mm) or "line"; rapids are thin and red in all of them.
     `row`: where the tool stands, by default at the end. `stock`: whether the blank of the setup or the program
     is shown, or another one, mm in the coordinates of the path: two opposite corners (3,) or a body of
-    `workpiece.blank`. `size` in pixels.
+    `workpiece.blank`. `part` shows what is left of the blank after `row` in place of it. `size` in pixels.
 
     An Alarm says in a sentence what is missing: pyvista, or something for VTK to draw with.
     """
@@ -68,9 +69,7 @@ def scene(
         raise Alarm(f"colour must be one of {', '.join(COLOURS)}, got {shown(colour)}")
     check_drawing()
     path = run.toolpath
-    plotter: Any = _class()(off_screen=True, window_size=list(size))
-    plotter.alt = f"scene of {path!r}"
-    plotter.set_background("white")
+    plotter = new_plotter(f"scene of {path!r}", size)
     _add_path(plotter, path, colour)
     if tool and (body := solids.tool_of(run, row)):
         look: dict[str, Any] = {"specular": 0.4, "smooth_shading": True, "split_sharp_edges": True}
@@ -79,18 +78,39 @@ def scene(
     if stock is not True and stock is not False and given is None:
         raise Alarm(f"stock must be True, False, two corners (3,) or a body of workpiece.blank, got {shown(stock)}")
     blank = solids.body_of(given) if given else None
-    if blank:
+    corners = blank.points if blank else None
+    if part:
+        from mnclab.show.part_scene import add_part
+
+        left = run.workpiece(row=row) if len(path) else run.workpiece()
+        solid = left.solid()
+        corners = solid.points
+        add_part(plotter, left, solid, "none")
+    elif blank:
         plotter.add_mesh(_surface(blank), color=STOCK, opacity=0.25, name="blank")
         edges = _surface(blank).extract_feature_edges()
         plotter.add_mesh(edges, color="#7d7664", line_width=1, name="edges of the blank")
     if axes:
         plotter.add_axes(line_width=3, color="black")
         if len(path):
-            _add_rulers(plotter, path.bounds, blank)
-    plotter.view_vector((0.0, 1.0, 0.0) if path.lathe else (-0.5, -1.0, 0.7), (1, 0, 0) if path.lathe else (0, 0, 1))
-    plotter.enable_parallel_projection()
-    plotter.camera.zoom(0.85)
+            add_rulers(plotter, path.bounds if corners is None else np.concatenate([path.bounds, corners]))
+    view_from(plotter, (0.0, 1.0, 0.0) if path.lathe else (-0.5, -1.0, 0.7), path.lathe)
     return plotter
+
+
+def new_plotter(alt: str, size: tuple[int, int]) -> Any:
+    """An empty scene on white; `alt` says in words what it shows."""
+    plotter: Any = _class()(off_screen=True, window_size=list(size))
+    plotter.alt = alt
+    plotter.set_background("white")
+    return plotter
+
+
+def view_from(plotter: Any, towards: tuple[float, float, float], lathe: bool, zoom: float = 0.85) -> None:
+    """Look from a side without perspective; on a lathe X stands upright."""
+    plotter.view_vector(towards, (1, 0, 0) if lathe else (0, 0, 1))
+    plotter.enable_parallel_projection()
+    plotter.camera.zoom(zoom)
 
 
 def check_drawing() -> None:
@@ -160,17 +180,22 @@ def _add_path(plotter: Any, path: Toolpath, colour: str) -> None:
         plotter.add_mesh(mesh, color=FEED, line_width=2.5, name="cuts")
         return
     values = strokes[cuts][:, :, 2].ravel() if colour == "z" else getattr(path, colour)[row[cuts]]
-    bar = BAR | {"title": TITLES[colour]}
-    spread = float(np.ptp(values))
-    if colour in ("tool", "line") and spread < 6:  # whole numbers alone
-        bar["n_labels"] = int(spread) + 1
+    bar = bar_of(colour, values)
     (mesh.point_data if colour == "z" else mesh.cell_data)[colour] = values.astype(np.float64)
     plotter.add_mesh(mesh, scalars=colour, cmap=MAP, line_width=2.5, scalar_bar_args=bar, name="cuts")
 
 
-def _add_rulers(plotter: Any, bounds: np.ndarray, blank: solids.Body | None) -> None:
-    """Rulers around path and blank, from one round number to another."""
-    corners = bounds if blank is None else np.concatenate([bounds, blank.points])
+def bar_of(colour: str, values: np.ndarray) -> dict[str, Any]:
+    """How the scale of a colour looks."""
+    bar = BAR | {"title": TITLES[colour]}
+    spread = float(np.ptp(values)) if len(values) else 0.0
+    if colour in ("tool", "line"):  # whole numbers alone
+        bar |= {"fmt": "%.0f", "n_labels": int(spread) + 1 if spread < 6 else 5}
+    return bar
+
+
+def add_rulers(plotter: Any, corners: np.ndarray) -> None:
+    """Rulers around points (n, 3), from one round number to another."""
     low, high = corners.min(axis=0), corners.max(axis=0)
     if not np.isfinite(low).all():
         return

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from mnclab.text.alarm import SHOWN, several
 from mnclab.text.records import written
 from mnclab.text.tables import html_table
 
@@ -48,18 +49,41 @@ class Collision(NamedTuple):
 
 
 class Collisions(tuple[Collision, ...]):
-    """Collisions in the order of the rows; shows itself as a table."""
+    """Collisions in the order of the rows, each row and kind once.
+
+    Shows itself as a table of the first lines, where those of one kind in one line stand together: the deepest, and how
+    many more. A path of ten thousand cuts with a still spindle is one mistake.
+    """
 
     def __new__(cls, found: Iterable[Collision] = ()) -> Collisions:
         return super().__new__(cls, sorted(found, key=lambda each: (each.row, each.kind)))
 
+    @property
+    def by_line(self) -> list[tuple[Collision, int]]:
+        """The deepest of each kind in each line, and how many there are, in the order of their first rows."""
+        groups: dict[tuple[int, int, str], list[Collision]] = {}
+        for each in self:
+            groups.setdefault((each.program, each.line, each.kind), []).append(each)
+        return [(max(group, key=lambda each: each.depth), len(group)) for group in groups.values()]
+
+    def _shown(self) -> tuple[list[tuple[Collision, str]], str]:
+        """What people are shown: the first lines, each with how many more it has, and a sentence about the others."""
+        groups = self.by_line
+        first = [(each, f"; {n - 1} more like it in this line" if n > 1 else "") for each, n in groups[:SHOWN]]
+        rest = sum(n for _, n in groups[SHOWN:])
+        more = f"… and {several(rest, 'more collision')}, {len(self)} in all" if rest else ""
+        return first, more
+
     def __repr__(self) -> str:
-        return "\n".join(map(str, self)) or "no collisions"
+        first, more = self._shown()
+        return "\n".join([*(f"{each}{others}" for each, others in first), *filter(None, [more])]) or "no collisions"
 
     def _repr_html_(self) -> str:
+        first, more = self._shown()
         rows = [
             (f"{each.file}:{each.line}".lstrip(":"), each.kind, f"{each.depth:.3f} mm",
-             " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", each.place)), each.message)
-            for each in self
+             " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", each.place)), each.message + others)
+            for each, others in first
         ]  # fmt: skip
-        return html_table(HEAD, rows, numbers=(2,)) if rows else "<p>no collisions</p>"
+        table = html_table(HEAD, rows, numbers=(2,)) if rows else "<p>no collisions</p>"
+        return table + (f"<p>{more}</p>" if more else "")

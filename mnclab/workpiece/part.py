@@ -31,10 +31,12 @@ AT_ONCE = 200  # places looked at in one go
 
 @dataclass(frozen=True)
 class Part:
-    """Material, given by its signed distance; `name` says what it is."""
+    """Material, given by its signed distance; `name` says what it is, `at_once` at how many places a ball is tried in
+    one go."""
 
     distance: Callable[[Floats], Floats]
     name: str = "part"
+    at_once: int = AT_ONCE
 
     def __repr__(self) -> str:
         return f"<Part: {self.name}>"
@@ -135,7 +137,7 @@ def contact(part: Part, start: ArrayLike, direction: ArrayLike, radius: float, r
         if free > reach:
             return None
         step = max(room, CREEP)
-        places = free + step * np.arange(1, AT_ONCE + 1)
+        places = free + step * np.arange(1, part.at_once + 1)
         gaps = gap(places)
         sure = np.append(room, gaps[:-1]) + gaps >= step - TOUCHING
         known = len(places) if room <= CREEP or sure.all() else max(int(sure.argmin()), 1)

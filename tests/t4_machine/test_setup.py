@@ -16,7 +16,8 @@ from mnclab.workpiece.blank import Box, Revolved
 
 NAN, INF = math.nan, math.inf
 NEVER = [NAN, INF, -INF, "3", None, True, [1], {}, 1j, 10**400]
-NUMBERS = [each.name for each in fields(Tool) if each.name not in ("name", "kind")]
+WORDS_AND_BODIES = ("name", "kind", "hand", "centre_cutting", "shank", "holder")
+NUMBERS = [each.name for each in fields(Tool) if each.name not in WORDS_AND_BODIES]
 SIZES = ["radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle"]
 
 
@@ -85,7 +86,6 @@ def test_a_probe_that_cannot_be(named):
         ({"stock": Revolved(((-5.0, 0.0), (-5.0, 9.0)))}, "stock must be two corners"),
         ({"stock": Revolved(((INF, 0.0), (INF, 5.0)), "Z", (0.0, 0.0, 0.0), 0.0)}, "stock must be two corners"),
         ({"part": 5}, "part must be a part"),
-        ({"part": "cut"}, "not built yet"),
         ({"probe": 5}, "probe must be a Probe"),
         ({"limits": 5}, "limits must be a Limits"),
         ({"files": {"A": 5}}, r"files\['A'\] must be a text or a Path"),
@@ -158,4 +158,6 @@ def test_the_page_of_a_setup_is_in_words_with_units():
         "  variable Q1: 2",
     ]
     assert ">limits</td>" in given._repr_html_() and ">jerk 5 mm/s³</td>" in given._repr_html_()
-    assert "  limits: as usual\n" in repr(Setup()) and "  tools: the usual ones: end mill 10," in repr(Setup())
+    assert "  limits: as usual\n" in repr(Setup()) and "  tools: those of the control\n" in repr(Setup())
+    kept = mnclab.run("G00 X1\n", "jnc-t01").setup
+    assert "  tools: the usual ones: roughing insert 80°, finishing insert 35°," in repr(kept)

@@ -18,8 +18,9 @@ import mnclab
 from mnclab import Alarm, Limits, Setup
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs.run import run_program
+from mnclab.show.player.logs import plain
 from mnclab.show.player.packing import Packer
-from mnclab.show.player.payload import payload, plain
+from mnclab.show.player.payload import payload
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = sorted(

@@ -10,8 +10,8 @@ from mnclab import Alarm, Limits, Setup, Tool, run
 from mnclab.comparison.turning_schemes import compare, toolpath
 from mnclab.geometry.contours import Contour
 from mnclab.machining.turning import thread_schemes as threads
+from mnclab.path.inserts import insert
 from mnclab.show.plot.classes import classes
-from mnclab.show.plot.insert import insert_outline
 from mnclab.show.plot.lathe import plot_speed, silhouette, speed_strokes, speeds
 from mnclab.show.plot.path import plot_path
 from mnclab.show.plot.strokes import strokes
@@ -44,10 +44,10 @@ def test_schemes_at_one_scale_and_nothing_overlaps(found):
 
 def test_an_insert_has_the_angles_of_its_tool():
     """Edges from the tip: 95 degrees from the direction of feed, 30 from the axis; a blade is as wide as its tool."""
-    _, trail, _, lead = insert_outline(Tool(main_angle=95, auxiliary_angle=30), 2.0)
+    _, trail, _, lead = insert(Tool(main_angle=95, auxiliary_angle=30), 2.0).points
     assert math.degrees(math.atan2(lead[1], -lead[0])) == pytest.approx(95)
     assert math.degrees(math.atan2(trail[1], trail[0])) == pytest.approx(30)
-    assert np.ptp(insert_outline(Tool(width=3), 2.0)[:, 0]) == 3
+    assert np.ptp(insert(Tool(width=3), 2.0).points[:, 0]) == 3
 
 
 def test_what_the_cuts_leave_of_a_blank():
@@ -82,7 +82,7 @@ def test_an_insert_never_turns_inside_out():
         Tool(main_angle=45),
         Tool(auxiliary_angle=90),
     ):
-        _, (right, up), _, (left, high) = insert_outline(tool, 1.0)
+        _, (right, up), _, (left, high) = insert(tool, 1.0).points
         assert right * high - up * left > 0 and high > 0 and up > 0
 
 

@@ -12,8 +12,8 @@ from typing import Any
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.sweeps import CHORD_ERROR, broad, swept, under
-from mnclab.machining.turning.profiles import edges_of
 from mnclab.machining.turning.strokes import PLUNGE, RAPID, ROUGH, Plan, Stroke
+from mnclab.path.inserts import edges_of
 from mnclab.path.tool import Tool
 
 OUT = 1.0  # mm outside the blank

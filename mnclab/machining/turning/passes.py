@@ -14,9 +14,10 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.machining.turning.clearance import OUT
-from mnclab.machining.turning.profiles import SAME, angles_of, between, entry_way, exit_way, over, reachable
+from mnclab.machining.turning.profiles import SAME, between, entry_way, exit_way, over, reachable
 from mnclab.machining.turning.roughing import count_of_levels, levels
 from mnclab.machining.turning.strokes import PLUNGE, ROUGH, Pen, Plan
+from mnclab.path.inserts import angles_of
 from mnclab.path.tool import Tool
 
 LIFT, FRONT = 0.5, 2.0  # mm: retract after a stroke, in front of the face

@@ -22,6 +22,7 @@ import numpy as np
 
 from mnclab.geometry import vectors
 from mnclab.geometry.contours import Contour, Floats
+from mnclab.path.inserts import angles_of
 from mnclab.path.tool import Tool
 
 SAME = 1e-9  # mm
@@ -228,25 +229,6 @@ def _heights(table: Floats, z: Floats) -> Floats:
 # ---- what a tool can reach ----
 
 
-def angles_of(tool: Tool) -> tuple[float, float]:
-    """Main and auxiliary cutting-edge angle, rad; one that the tool table does not give restricts nothing.
-
-    It is 90 degrees, or what the other one leaves of 180. A ValueError says what is wrong with a tool.
-    """
-    main, auxiliary = tool.main_angle, tool.auxiliary_angle
-    for name, angle in (("main", main), ("auxiliary", auxiliary)):
-        if not 0 <= angle < 180:
-            raise ValueError(f"the {name} angle of a tool must be less than 180 degrees (0: not given), got {angle:g}")
-    if not 0 <= tool.width < math.inf:
-        raise ValueError(f"the width of a tool must not be negative, got {tool.width:g}")
-    main, auxiliary = main or min(90.0, 180 - auxiliary), auxiliary or min(90.0, 180 - main)
-    if main + auxiliary > 180 + 1e-9:
-        raise ValueError(
-            f"main and auxiliary angle of a tool are 180 degrees at most, the insert lies between: got {main:g} and {auxiliary:g}"
-        )
-    return math.radians(main), math.radians(auxiliary)
-
-
 def reachable(profile: Contour, tool: Tool) -> Contour:
     """The lowest way of a tool's tip over a profile: nowhere steeper than the cutting edges, no wall within its width.
 
@@ -313,10 +295,3 @@ def ways_over(profile: Contour, z: float) -> tuple[float, float]:
     rising = Contour(falling.points * (1, -1), profile.bulge, closed=False)
     last = exit_way(rising, -z) if z <= profile.points[0, 0] + SAME else 0.0
     return entry_way(falling, z) or 0.0, last
-
-
-def edges_of(tool: Tool, height: float) -> Floats:
-    """What a tool covers above its tip up to a height, (k, 2) from the tip; without angles and width it is a line."""
-    main, auxiliary = angles_of(tool)
-    lean = [0.0 if abs(math.tan(a)) > 1e12 else height / math.tan(a) for a in (main, auxiliary)]
-    return np.array([(0.0, 0.0), (tool.width, 0.0), (tool.width + lean[1], height), (-lean[0], height)])

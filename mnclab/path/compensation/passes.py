@@ -126,7 +126,7 @@ def _given_up(found: Equidistant, k: Index, first: int, last: int) -> bool:
 def _places(el: Elements, k: int) -> tuple[Array, Array]:
     """Points (m, 2) along a wall, a quarter of the radius apart if it is not too long, and normals to the tool there."""
     length = float(el.length(np.array([k]))[0])
-    m = int(np.clip(4 * length / el.R[k], 8, MOST)) + 1
+    m = int(np.clip(4 * length / el.R[k], 8, MOST)) + 1 if el.R[k] > 0 else MOST + 1
     wall = el.curves(np.full(m, k))
     p = part(wall, np.zeros(m), np.linspace(0, 1, m)).end
     return p, el.s[k] * left(_tangent(wall, p))

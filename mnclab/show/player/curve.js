@@ -51,6 +51,13 @@ class Curve {
       pen.lineWidth = 1.1;
       pen.stroke();
     }
+    pen.fillStyle = colours.alarm;  // where something collides: a wedge at the upper edge
+    for (const {row} of this.run.header.collisions) {
+      const x = this.run.begin[this.run.itemOfRow[row]] / total * w;
+      trace(pen, [[x - 4, 0], [x + 4, 0], [x, 8]]);
+      pen.fill();
+      pen.fillRect(x - 0.5, 0, 1, h);
+    }
     if (!this.moves) return;  // no scale of nothing
     pen.font = "10px system-ui, sans-serif";
     pen.textBaseline = "top";

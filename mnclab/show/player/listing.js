@@ -17,6 +17,8 @@ class Listing {
     for (const severity of ["alarm", "warning"])
       for (const alarm of run.header.alarms.filter(alarm => alarm.severity === severity))
         for (const place of alarm.places) this.alarms.has(place.join(" ")) || this.alarms.set(place.join(" "), alarm);
+    for (const {program, line, message} of run.header.collisions)
+      this.alarms.has(`${program} ${line}`) || this.alarms.set(`${program} ${line}`, {severity: "collision", message});
     choice.hidden = run.texts.length < 2;
     run.texts.forEach((_, k) => choice.add(new Option(this.name(k), k)));
     choice.addEventListener("change", () => this.turnTo(Number(choice.value)));

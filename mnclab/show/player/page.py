@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import re
+from collections.abc import Sequence
 from functools import cached_property
 from html import escape
 from importlib.resources import files
@@ -17,8 +18,13 @@ from mnclab.show.player.payload import payload
 from mnclab.text.alarm import several
 from mnclab.text.file import replaced
 from mnclab.text.given import check_number, choice
+from mnclab.workpiece.collision import Collision
+from mnclab.workpiece.cutting import Cutting
 
-SCRIPTS = ("data", "shapes", "camera", "strokes", "picture", "curve", "listing", "state", "player")
+SCRIPTS = (
+    "data", "shapes", "camera", "strokes", "swept", "heights", "carving", "relief", "shaded", "shown_part", "picture", "curve", "listing",
+    "state", "player",
+)  # fmt: skip
 THEMES = ("auto", "light", "dark")
 #: Tells the frames of a notebook whether its theme is dark (JupyterLab, VS Code), when they ask and when it changes.
 #: Where the scripts of outputs do not run, a page follows the system's choice.
@@ -52,11 +58,12 @@ class Player:
     """
 
     def __init__(
-        self, run: Any, profile: Profile, *, height: int = 640, theme: str = "auto", speed: float = 1.0
-    ) -> None:
+        self, run: Any, profile: Profile, cutting: Cutting | None = None, collisions: Sequence[Collision] = (),
+        *, height: int = 640, theme: str = "auto", speed: float = 1.0,
+    ) -> None:  # fmt: skip
         for name, number in (("speed", speed), ("height", height)):
             check_number(number, name, above=0)
-        self.run, self.profile = run, profile
+        self.run, self.profile, self.cutting, self.collisions = run, profile, cutting, collisions
         self.height, self.theme, self.speed = int(height), choice(theme, "theme", THEMES), speed
 
     @property
@@ -76,7 +83,7 @@ class Player:
             "speed": f"{self.speed:g}",
             "policy": POLICY.format(script=_digest(script), style=_digest(style)),
             "style": style,
-            "data": payload(self.run, self.profile),
+            "data": payload(self.run, self.profile, self.cutting, self.collisions),
             "script": script,
         }
         return whole(re.sub("@([a-z]+)@", lambda place: parts[place[1]], text["page.html"]))
@@ -104,9 +111,13 @@ class Player:
         return f"<Player of {self.name}: {moves}, {self.profile.time:.1f} s; save it as .html>"
 
 
-def player(run: Any, profile: Profile | None = None, **options: Any) -> Player:
+def player(
+    run: Any, profile: Profile | None = None, cutting: Cutting | None = None, collisions: Sequence[Collision] = (),
+    **options: Any,
+) -> Player:  # fmt: skip
     """The player of a run under a feed-rate profile (that of its own setup if none is given).
 
+    With a `cutting` the page cuts the blank as it plays; `collisions` are marked in the text and over time.
     `height` in pixels of the frame in a notebook, `theme` "auto", "light" or "dark", `speed` 1 for real time.
     """
-    return Player(run, profile or run.profile(), **options)
+    return Player(run, profile or run.profile(), cutting, collisions, **options)

@@ -1,13 +1,15 @@
 // The picture: grid and rulers, the path (what is done strong, what is to come pale), the tool.
-// What does not change from frame to frame is kept in two layers: the ground, and the strokes done so far.
+// What does not change from frame to frame is kept in layers: the ground, over which the part is shown (see relief.js), the
+// path ahead, and the strokes done so far.
 
 const FAR = 5;  // rapids that make the box this many times larger than that of the cuts are not fitted in
 
 const LONG = 8000;  // points of a path from which on it is drawn in hairlines
 
 class Picture {
-  constructor(canvas, run) {
+  constructor(canvas, ground, run) {
     this.canvas = canvas;
+    this.ground = ground;
     this.run = run;
     const rough = new Strokes(run.path, 0.5), size = box => box ? Math.hypot(...box[1].map((v, k) => v - box[0][k])) : 0;
     const all = rough.box(RAPIDS, CUTS, PROBINGS), cuts = rough.box(CUTS);
@@ -28,7 +30,7 @@ class Picture {
     this.room = this.box.map(corner => corner.slice());  // that is fitted in: with part of the tool
     if (!run.lathe) this.room[1][2] += this.extent / 6;
     this.camera = new Camera(run.lathe);
-    this.ground = document.createElement("canvas");
+    this.ahead = document.createElement("canvas");
     this.done = document.createElement("canvas");
     this.drawn = -1;  // the last point of the strokes in the layer of what is done
     this.stale = this.fitted = true;
@@ -37,7 +39,7 @@ class Picture {
   recolour() {
     const style = getComputedStyle(document.documentElement);
     this.colours = Object.fromEntries(["paper", "ink", "faint", "rapid", "cut", "probing", "contour", "blank", "now", "cutter", "shank",
-      "edge", "quiet"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
+      "edge", "quiet", "raw", "metal", "deep", "crash", "alarm"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
     this.stale = true;
   }
   resize() {
@@ -47,7 +49,7 @@ class Picture {
     const scale = Math.min(w / this.camera.size[0], h / this.camera.size[1]);
     this.ratio = ratio;
     this.camera.size = [w, h];
-    for (const each of [this.canvas, this.ground, this.done]) [each.width, each.height] = [w * ratio, h * ratio];
+    for (const each of [this.canvas, this.ground, this.ahead, this.done]) [each.width, each.height] = [w * ratio, h * ratio];
     if (this.fitted) this.camera.fit(this.room); else this.camera.zoom *= scale;
     this.stale = true;
   }
@@ -68,7 +70,7 @@ class Picture {
   }
   lines(pen, from, to, pale) {
     const {rapid, cut, probing} = this.colours;
-    pen.globalAlpha = pale ? 0.28 : 1;
+    pen.globalAlpha = pale ? 0.28 : this.part ? 0.55 : 1;  // the part shows through what was done
     pen.lineJoin = this.long ? "bevel" : "round";
     for (const [kind, colour, width, dashes] of [[CUTS, cut, 1.8, []], [RAPIDS, rapid, 1, this.fewRapids ? [5, 3] : []],
       [PROBINGS, probing, 1.4, [1.5, 2]]]) {
@@ -86,10 +88,11 @@ class Picture {
     const {camera, strokes} = this, [w, h] = camera.size;
     if (this.stale) {
       strokes.project(camera);
-      const pen = this.pen(this.ground);
-      pen.fillStyle = this.colours.paper;
-      pen.fillRect(0, 0, w, h);
-      this.rulers(pen);
+      const ground = this.pen(this.ground), pen = this.pen(this.ahead);
+      ground.fillStyle = this.colours.paper;
+      ground.fillRect(0, 0, w, h);
+      pen.clearRect(0, 0, w, h);
+      const words = this.rulers(ground);
       this.blank(pen);
       if (this.contour) {
         this.contour.project(camera);
@@ -98,6 +101,7 @@ class Picture {
         this.contour.stroke(pen, CUTS, 0, this.contour.n - 1);
       }
       this.lines(pen, 0, strokes.n - 1, true);
+      words(pen);
       this.drawn = -1;
       this.stale = false;
     }
@@ -110,7 +114,8 @@ class Picture {
     this.drawn = until;
     const top = this.canvas.getContext("2d");
     top.setTransform(1, 0, 0, 1, 0, 0);
-    top.drawImage(this.ground, 0, 0);
+    top.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    top.drawImage(this.ahead, 0, 0);
     top.drawImage(this.done, 0, 0);
     this.moment(this.pen(this.canvas), at);
   }
@@ -169,13 +174,13 @@ class Picture {
     });
   }
 
-  // Along the axes: a grid with numbers. Else: a bar of a round length.
+  // Along the axes: a grid with numbers. Else: a bar of a round length. Returns what writes the numbers over the rest.
   rulers(pen) {
     const {camera, colours, run} = this, [w, h] = camera.size;
     const across = camera.along(camera.right), upwards = camera.along(camera.up);
     pen.font = "11px system-ui, sans-serif";
     pen.lineWidth = 1;
-    if (!across || !upwards) return this.bar(pen);
+    if (!across || !upwards) return over => this.bar(over);
     const words = [], names = "XYZ", diameter = k => run.lathe && k === 0 ? 2 : 1;
     for (const [[axis], flat] of [[across, true], [upwards, false]]) {
       const parts = diameter(axis), step = round(58 / camera.zoom * parts) / parts;
@@ -198,12 +203,15 @@ class Picture {
       const name = (diameter(axis) > 1 ? "⌀ X" : names[axis]) + " mm";
       words.push([name, flat ? w - 6 : 5, flat ? h - 5 : 6, flat ? "right" : "left", flat ? "bottom" : "top"]);
     }
-    pen.fillStyle = colours.quiet;
-    for (const [text, x, y, align, baseline] of words) {
-      pen.textAlign = align;
-      pen.textBaseline = baseline;
-      this.label(pen, text, x, y);
-    }
+    return over => {
+      over.font = pen.font;
+      over.fillStyle = colours.quiet;
+      for (const [text, x, y, align, baseline] of words) {
+        over.textAlign = align;
+        over.textBaseline = baseline;
+        this.label(over, text, x, y);
+      }
+    };
   }
   label(pen, text, x, y) {
     pen.strokeStyle = this.colours.paper;
@@ -215,6 +223,8 @@ class Picture {
   }
   bar(pen) {
     const {camera, colours} = this, [, h] = camera.size, length = round(60 / camera.zoom), wide = length * camera.zoom;
+    pen.font = "11px system-ui, sans-serif";
+    pen.lineWidth = 1;
     pen.strokeStyle = pen.fillStyle = colours.quiet;
     pen.beginPath();
     for (const [x, y] of [[10, h - 17], [10, h - 11], [10 + wide, h - 11], [10 + wide, h - 17]]) pen.lineTo(x, y);

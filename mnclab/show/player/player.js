@@ -7,6 +7,7 @@ const KEYS = [
   ["+  −  F", "zoom, fit"], ["1 2 3 4", "views"], ["drag", "turns; with shift or two fingers it shifts"],
   ["click", "on a line or on the path goes there"], ["wheel", "zooms, once the picture has been clicked"],
 ];
+const PART_KEYS = [["P", "the part, shown or not"]];
 const LATHE_KEYS = new Map([["drag", "shifts; with shift it turns"], ["1 2 3 4", "views (three)"]]);
 
 class PlayerPage {
@@ -18,12 +19,14 @@ class PlayerPage {
     this.root = document.documentElement;
     this.dark = matchMedia("(prefers-color-scheme: dark)");
     this.theme(this.root.dataset.theme);
-    this.picture = new Picture(find("picture"), run);
+    this.picture = new Picture(find("picture"), find("ground"), run);
+    this.part = run.header.part && new ShownPart(find("part"), run, this.picture);
     this.curve = new Curve(find("curve"), run);
     this.listing = new Listing(find("listing"), run, (program, line) => this.goLine(program, line), find("program"));
     this.board = new Board(run, find);
     this.buttons();
     this.alarms();
+    this.showPart(true);
     this.pointers();
     document.addEventListener("keydown", event => this.key(event));
     this.dark.addEventListener("change", () => this.theme(this.root.dataset.theme));
@@ -141,8 +144,8 @@ class PlayerPage {
     const {run, place, step} = this, {item, t, done} = place, rowsDone = run.rowsDone(item, done);
     const row = !run.items || this.atStart ? -1 : run.itemRow[item] >= 0 ? run.itemRow[item] : run.before[item] - 1;
     const {point, speed, share} = done ? {point: run.path.vertex(rowsDone), speed: run.tool(item, t).speed, share: 1} : run.tool(item, t);
-    const angles = run.angles(row, run.items && row === run.itemRow[item] ? share : 1);
-    return {step, item: this.atStart ? -1 : item, row, rowsDone, point, speed, angles, t};
+    const own = run.items && row === run.itemRow[item], angles = run.angles(row, own ? share : 1);
+    return {step, item: this.atStart ? -1 : item, row, rowsDone, share: own && !done ? share : 0, point, speed, angles, t};
   }
   show() {  // what is written follows at once, also where the frame of the change before is still to come
     this.write();
@@ -168,6 +171,17 @@ class PlayerPage {
     const tool = run.history.has("tool") ? run.history.get("tool").value(now.step) : null;
     const side = now.row >= 0 ? run.row.side.value(now.row) : 0;
     picture.draw({row: going, tip: now.point, tool, side}, now.rowsDone);
+    if (this.part && !this.part.draw(now.rowsDone, now.share, going)) this.show();  // not there yet: go on with the next frame
+  }
+  showPart(on) {
+    if (!this.part) return;
+    this.part.show(on);
+    this.find("parts").hidden = false;
+    this.find("show-part").setAttribute("aria-pressed", on);
+    this.find("note").textContent = this.part.note;
+    this.find("note").hidden = !on || !this.part.note;
+    this.picture.stale = true;
+    this.show();
   }
   say() {
     const {run, step} = this, {point, angles} = this.now();
@@ -246,11 +260,12 @@ class PlayerPage {
     find("zoom-in").addEventListener("click", () => this.change(camera => camera.zoomAt(1.3)));
     find("zoom-out").addEventListener("click", () => this.change(camera => camera.zoomAt(1 / 1.3)));
     find("fit").addEventListener("click", () => this.change(() => this.picture.fit()));
+    find("show-part").addEventListener("click", () => this.showPart(!this.picture.part));
     find("theme").addEventListener("click", () => this.theme(this.root.dataset.shown === "dark" ? "light" : "dark"));
     find("help").addEventListener("click", () => this.help());
     find("slider").addEventListener("input", event => this.jump(() => this.atTime(event.target.value * run.time)));
     const list = document.createElement("dl");
-    for (const [key, what] of KEYS) {
+    for (const [key, what] of [...KEYS, ...this.part ? PART_KEYS : []]) {
       const [head, text] = [document.createElement("dt"), document.createElement("dd")];
       head.textContent = key;
       text.textContent = run.lathe && LATHE_KEYS.get(key) || what;
@@ -258,7 +273,8 @@ class PlayerPage {
     }
     const legend = document.createElement("p");
     for (const [name, text, dashes] of [["cut", "cut", "solid"], ["rapid", "rapid", "dashed"], ["probing", "probing", "dotted"],
-      ["contour", "programmed contour", "solid"], ["blank", "blank", "solid"], ["now", "this move", "solid"]]) {
+      ["contour", "programmed contour", "solid"], ["blank", "blank", "solid"], ["now", "this move", "solid"],
+      ...this.part ? [["crash", "rapid in material", "solid"]] : []]) {
       const word = document.createElement("span");
       word.textContent = text;
       word.style.cssText = `--colour: var(--${name}); --dashes: ${dashes}`;
@@ -277,13 +293,21 @@ class PlayerPage {
     this.find("help").setAttribute("aria-expanded", !box.hidden);
   }
   alarms() {
-    const {alarms, more} = this.run.header, first = alarms.find(alarm => alarm.severity === "alarm") || alarms[0], box = this.find("alarm");
-    if (!first) return;
+    const {alarms, more, collisions} = this.run.header, first = alarms.find(alarm => alarm.severity === "alarm") || alarms[0], box = this.find("alarm");
+    if (!first) return this.collided(collisions, box);
     box.hidden = false;
     box.className = first.severity;
     const where = first.line ? ` in line ${first.line}${first.program ? ` of ${this.listing.name(first.program)}` : ""}` : "";
     box.textContent = `${first.severity}${where}: ${first.message}${more && ` (and ${more})`}`;
     box.addEventListener("click", () => first.line && this.goLine(first.program, first.line));
+  }
+  collided(collisions, box) {  // where there is no alarm, the first collision has its place
+    if (!collisions.length) return;
+    const [{line, program, message}] = collisions, rest = collisions.length - 1;
+    box.hidden = false;
+    box.textContent = `collision in line ${line}${program ? ` of ${this.listing.name(program)}` : ""}: ${message}`
+      + (rest ? ` (and ${rest} more)` : "");
+    box.addEventListener("click", () => this.go(this.afterItem(this.run.itemOfRow[collisions[0].row])));
   }
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -298,7 +322,7 @@ class PlayerPage {
       ",": jump(() => this.moveBack()), "Home": jump(() => this.afterItem(-1)), "End": jump(() => this.afterItem(this.run.items - 1)),
       "PageDown": jump(() => this.atTime(this.place.t + 1)), "PageUp": jump(() => this.atTime(this.place.t - 1)),
       "+": () => this.find("zoom-in").click(), "=": () => this.find("zoom-in").click(), "-": () => this.find("zoom-out").click(),
-      "f": () => this.find("fit").click(), "a": turn(8, 0), "d": turn(-8, 0), "w": turn(0, 8), "s": turn(0, -8),
+      "f": () => this.find("fit").click(), "p": () => this.showPart(!this.picture.part), "a": turn(8, 0), "d": turn(-8, 0), "w": turn(0, 8), "s": turn(0, -8),
       "?": () => this.help(), "Escape": () => this.find("keys").hidden || this.help(),
     };
     for (const [k, name] of this.viewNames.entries()) acts[k + 1] = () => this.view(name);

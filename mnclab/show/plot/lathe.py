@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.sweeps import outlined, polygons, swept
-from mnclab.machining.turning.profiles import angles_of, edges_of
 from mnclab.path.cutting_speed import spindle_speed
+from mnclab.path.inserts import angles_of, edges_of
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath

@@ -20,8 +20,12 @@ TOUCH = 1e-12  # of a radius, by which a point on the rim is under the tool
 
 
 def left_by(moves: Moves, x: Array, y: Array) -> Array:
-    """The height (k, m) that each of k moves leaves at each of m points, mm; infinite where it does not reach."""
-    found = np.full((len(moves), len(x)), NONE)
+    """The height (k, m) that each of k moves leaves at each of m points, mm; infinite where it does not reach.
+
+    x and y are (m,), or (k, 1): a point for each move.
+    """
+    each = x.ndim == 2
+    found = np.full((len(moves), 1 if each else len(x)), NONE)
     travel = np.hypot(*(moves.end[:, :2] - moves.start[:, :2]).T)
     level = moves.start[:, 2] == moves.end[:, 2]
     standing = ~moves.arc & (travel <= STILL)
@@ -36,7 +40,7 @@ def left_by(moves: Moves, x: Array, y: Array) -> Array:
         if which.all():
             return sweep(moves, x, y)
         if which.any():
-            found[which] = sweep(moves[which], x, y)
+            found[which] = sweep(moves[which], *((x[which], y[which]) if each else (x, y)))
     return found
 
 

@@ -1,0 +1,167 @@
+"""The tool of a lathe in the plane of z and r, about its programmed tip: what of it cuts, and the holder behind it.
+
+The programmed tip is the imaginary sharp point: the nose touches the z and the r of the tip. The main edge leans from
+the axis by the main angle, against the feed towards the chuck; the other one by the auxiliary angle. Between them lies
+the insert, an area to the left of its contour:
+
+    main 95, auxiliary 5:      Q----.       a blade:  |    |      r
+       an insert of 80        /    /                  |    |      |
+                             L---R´                   T----'      +-- z
+                            T                         T is its left corner
+
+Boring bars cut outwards and are mirrored in r, left-hand tools in z; of a threading insert the tip is the middle of its V.
+A drill lies on both sides of its axis. Lengths in mm, angles of a tool in degrees; contours have points (z, r).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.vectors import at_angle, length_of
+from mnclab.path.tool import LATHE, Tool
+
+EDGE = 12.0  # length of an edge that the table does not give
+USUAL = (95.0, 5.0)  # degrees: an insert of 80 degrees, where a picture needs angles and the table has none
+SAME = 1e-12
+FACE = "face grooving"  # a blade across: what is Z of another one is its r
+
+
+def turns(tool: Tool) -> bool:
+    """Whether a tool has an insert; else it turns about its own axis, as a drill does."""
+    return tool.kind in LATHE or not tool.kind
+
+
+def angles_of(tool: Tool) -> tuple[float, float]:
+    """Main and auxiliary cutting-edge angle, rad; one that the tool table does not give restricts nothing.
+
+    It is 90 degrees, or what the other one leaves of 180. A ValueError says what is wrong with a tool.
+    """
+    main, auxiliary = tool.main_angle, tool.auxiliary_angle
+    for name, angle in (("main", main), ("auxiliary", auxiliary)):
+        if not 0 <= angle < 180:
+            raise ValueError(f"the {name} angle of a tool must be less than 180 degrees (0: not given), got {angle:g}")
+    if not 0 <= tool.width < math.inf:
+        raise ValueError(f"the width of a tool must not be negative, got {tool.width:g}")
+    main, auxiliary = main or min(90.0, 180 - auxiliary), auxiliary or min(90.0, 180 - main)
+    if main + auxiliary > 180 + 1e-9:
+        raise ValueError(
+            f"main and auxiliary angle of a tool are 180 degrees at most, the insert lies between: got {main:g} and {auxiliary:g}"
+        )
+    return math.radians(main), math.radians(auxiliary)
+
+
+def edges_of(tool: Tool, height: float) -> Floats:
+    """What a sharp tool covers above its tip up to a height, (k, 2) from the tip; without angles and width it is a line."""
+    main, auxiliary = angles_of(tool)
+    lean = [0.0 if abs(math.tan(a)) > 1e12 else height / math.tan(a) for a in (main, auxiliary)]
+    return np.array([(0.0, 0.0), (tool.width, 0.0), (tool.width + lean[1], height), (-lean[0], height)])
+
+
+def cutting_part(tool: Tool, height: float) -> Contour:
+    """What of a tool takes material away, prolonged away from the part up to a height above its tip: convex.
+
+    An edge is as long as `Tool.cutting_length`, else `EDGE`; beyond it the insert goes straight up. Without angles, width
+    and nose it is a line, a contour of two points.
+    """
+    if not turns(tool):
+        return _round(tool, height)
+    main, auxiliary = angles_of(tool)
+    edge = tool.cutting_length or EDGE
+    points, bulges = _nose(tool, main, auxiliary)
+    height = max(height, float(points[:, 1].max()))
+    behind = _ray(points[-1], auxiliary, 1.0, edge, height)
+    ahead = _ray(points[0], math.pi - main, -1.0, edge, height)
+    return _placed(tool, np.vstack([points, behind, ahead[::-1]]), bulges)
+
+
+def insert(tool: Tool, size: float = 0.0, reach: float = 0.0) -> Contour:
+    """The insert itself, its edges `size` long (0: as in `cutting_part`), a blade at least `reach`; a drill that long."""
+    size = size or tool.cutting_length or EDGE
+    if not turns(tool):
+        return _round(tool, max(size, reach))
+    if tool.width:
+        high = max(1.6 * size, min(1.5 * tool.width, 2.4 * size), reach)
+        return cutting_part(replace(tool, cutting_length=max(high, 1.0)), high)
+    usual = tool.auxiliary_angle or min(USUAL[1], (180 - tool.main_angle) / 2)
+    main = math.radians(tool.main_angle or min(USUAL[0], 0.9 * (180 - usual)))
+    points, bulges = _nose(tool, main, math.radians(usual))
+    lead, trail = size * at_angle(math.pi - main), size * at_angle(math.radians(usual))
+    return _placed(tool, np.vstack([points, points[-1] + trail, points[0] + lead + trail, points[0] + lead]), bulges)
+
+
+def holder(tool: Tool, size: float = 0.0, reach: float = 0.0) -> Floats:
+    """The holder behind the insert, corners (k, 2), as far as a picture of this size shows it.
+
+    Of an outside tool it stands across the axis, of a boring bar it lies along it.
+    """
+    size = size or tool.cutting_length or EDGE
+    if not turns(tool):
+        wide = tool.shank[0] if tool.shank else tool.effective_radius
+        return np.array([(0.0, -wide), (size, -wide), (size, wide), (0.0, wide)]) + (max(size, reach), 0.0)
+    if tool.width:
+        high = max(1.6 * size, min(1.5 * tool.width, 2.4 * size), reach)
+        left, right = np.array([0.0, high]), np.array([tool.width, high])
+        corners = np.array([left, right, right + (0.7 * size, 0.3 * size), right + (0.7 * size, size), left + (0.0, size)])
+    elif tool.kind == "boring":
+        deep = 2 * tool.shank[0] if tool.shank else 1.2 * size
+        corners = np.array([(0.3 * size, 0.2 * size), (4 * size, 0.2 * size), (4 * size, 0.2 * size + deep)])
+        corners = np.vstack([corners, (0.3 * size, 0.2 * size + deep)])
+    else:
+        outline = insert(replace(tool, corner=0.0, kind="turning", hand="right"), size).points
+        corners = outline.mean(axis=0) + size * np.array([(-0.25, 0.0), (0.55, 0.0), (0.55, 1.5), (-0.25, 1.5)])
+    return (corners[:, ::-1] if tool.kind == FACE else corners) * _mirror(tool)
+
+
+def _nose(tool: Tool, main: float, auxiliary: float) -> tuple[Floats, list[float]]:
+    """The lower side from the main edge to the other one: points (k, 2), and the bulges between them."""
+    nose = tool.corner if not tool.width else min(tool.corner, tool.width / 2)
+    first, last = np.array([nose, nose]), np.array([max(tool.width - nose, nose), nose])
+    if tool.kind == "thread" and not tool.width:
+        first = last = np.array([0.0, nose])
+    ends = [first + nose * at_angle(-math.pi / 2 - main), last + nose * at_angle(auxiliary - math.pi / 2)]
+    if first[0] == last[0]:
+        return (np.array(ends), [math.tan((main + auxiliary) / 4)]) if nose else (np.array(ends[:1]), [])
+    below = [first - (0.0, nose), last - (0.0, nose)]
+    if not nose:
+        return np.array(below), [0.0]
+    return np.array([ends[0], *below, ends[1]]), [math.tan(main / 4), 0.0, math.tan(auxiliary / 4)]
+
+
+def _ray(start: Floats, angle: float, side: float, edge: float, height: float) -> Floats:
+    """An edge from its beginning away from the tip: one that leans out to its side ends and goes on straight up."""
+    ahead = at_angle(angle)
+    ahead = np.where(np.abs(ahead) < SAME, 0.0, ahead)
+    way = (height - start[1]) / ahead[1]
+    if side * ahead[0] < SAME or way <= edge:
+        return np.array([start + way * ahead])
+    knee = start + edge * ahead
+    return np.array([knee, (knee[0], height)])
+
+
+def _round(tool: Tool, height: float) -> Contour:
+    """Half a section of a tool that turns about its own axis, on both sides of it: its tip, its point, straight back."""
+    radius = tool.effective_radius
+    point = radius / math.tan(math.radians(tool.angle) / 2) if 0 < tool.angle < 180 else 0.0
+    long = max(height, point + 1.0)
+    corners = [(point, -radius), (long, -radius), (long, radius), (point, radius)]
+    return Contour([*corners, (0.0, 0.0)] if point else corners)
+
+
+def _mirror(tool: Tool) -> Floats:
+    """What z and r are multiplied with, of a tool that is no right-hand one for outside."""
+    return np.array([-1.0 if tool.hand == "left" else 1.0, -1.0 if tool.kind == "boring" else 1.0])
+
+
+def _placed(tool: Tool, points: Floats, bulges: list[float]) -> Contour:
+    """A contour that begins with the nose, without points that come twice, mirrored as its tool is."""
+    bulge = np.zeros(len(points))
+    bulge[: len(bulges)] = bulges
+    some = length_of(np.roll(points, -1, axis=0) - points) > 1e-9
+    mirror, points = _mirror(tool), points[:, ::-1] if tool.kind == FACE else points
+    turned = mirror.prod() * (-1 if tool.kind == FACE else 1)
+    contour = Contour(points[some] * mirror, bulge[some] * turned)
+    return contour if turned > 0 else contour.reversed()

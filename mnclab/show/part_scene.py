@@ -1,0 +1,98 @@
+"""A part in three dimensions: the body that is left, shaded, with crisp edges; see `show.scene` for how it shows itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mnclab.path.columns import Array
+from mnclab.show import scene as scenes
+from mnclab.show.export_mesh import RAPID, STOCK
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import choice, shown
+from mnclab.workpiece.collision import Collision
+from mnclab.workpiece.workpiece import Solid, Workpiece
+
+if TYPE_CHECKING:
+    import pyvista
+
+COLOURS = ("depth", "tool", "line", "none")
+DEPTHS = "YlGnBu"  # pale above, dark below, in grey print too
+EDGE, ANGLE = "#33312b", 25.0  # degrees between two faces from which their edge is drawn
+BALL = 0.012  # radius where something collides, of the greatest side of the part
+LOOK: dict[str, Any] = {
+    "smooth_shading": True, "split_sharp_edges": True, "feature_angle": ANGLE, "ambient": 0.22, "diffuse": 0.82,
+    "specular": 0.1, "name": "part",
+}  # fmt: skip
+
+
+def scene(
+    workpiece: Workpiece,
+    colour: str = "depth",
+    *,
+    collisions: Iterable[Collision] = (),
+    axes: bool = True,
+    size: tuple[int, int] = scenes.SIZE,
+) -> pyvista.Plotter:
+    """The part as a body, seen from the front, right and above.
+
+    `colour`: "depth" (mm below the highest place; on a lathe the diameter), the "tool" or the "line" that cut a face, or
+    "none"; what nothing cut has the colour of the blank. `collisions` are red balls at their places. `size` in pixels.
+    """
+    choice(colour, "colour", COLOURS)
+    scenes.check_drawing()
+    lathe = workpiece.cutting.lathe
+    plotter = scenes.new_plotter(repr(workpiece).splitlines()[0], size)
+    solid = workpiece.solid()
+    add_part(plotter, workpiece, solid, colour)
+    add_collisions(plotter, collisions, solid.points)
+    if axes:
+        plotter.add_axes(line_width=3, color="black")
+        scenes.add_rulers(plotter, np.stack([solid.points.min(axis=0), solid.points.max(axis=0)]))
+    scenes.view_from(plotter, (0.35, 1.0, -0.6) if lathe else (-0.5, -1.0, 1.0), lathe, zoom=1.05)
+    return plotter
+
+
+def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> None:
+    """Add a body and its edges, and the scale of its colours."""
+    import pyvista
+
+    mesh = pyvista.PolyData.from_regular_faces(solid.points, solid.triangles)
+    edges = mesh.extract_feature_edges(ANGLE, boundary_edges=False, non_manifold_edges=False, manifold_edges=False)
+    plain = tuple(STOCK)
+    if colour == "none":
+        plotter.add_mesh(mesh, color=plain, **LOOK)
+    elif colour == "depth":
+        title, values = _depths(workpiece, solid.points)
+        mesh.point_data[title] = values
+        plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, scalar_bar_args=scenes.BAR | {"title": title}, **LOOK)
+    else:
+        values = getattr(workpiece.cutting.path, colour)[solid.row].astype(np.float64)
+        mesh.cell_data[colour] = np.where(solid.row >= 0, values, np.nan)
+        bar = scenes.bar_of(colour, values[solid.row >= 0])
+        plotter.add_mesh(mesh, scalars=colour, cmap=scenes.MAP, nan_color=plain, scalar_bar_args=bar, **LOOK)
+    if edges.n_cells:
+        plotter.add_mesh(edges, color=EDGE, line_width=1.3, name="edges of the part")
+
+
+def _depths(workpiece: Workpiece, points: Array) -> tuple[str, Array]:
+    """What "depth" shows, with its unit, and its values (n,)."""
+    if workpiece.cutting.lathe:
+        return "diameter, mm", 2 * np.hypot(points[:, 0], points[:, 1])
+    return "depth, mm", float(workpiece.cutting.stock.bounds[1, 2]) - points[:, 2]
+
+
+def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array) -> None:
+    """Red balls where something collides."""
+    import pyvista
+
+    try:
+        places = np.array([each.place for each in collisions], dtype=np.float64).reshape(-1, 3)
+    except (TypeError, AttributeError):
+        raise Alarm(f"collisions must be those of a run, got {shown(collisions)}", hint="run.collisions()") from None
+    if len(places):
+        ball = pyvista.Sphere(BALL * float(np.ptp(points, axis=0).max()))
+        balls = pyvista.PolyData(places).glyph(geom=ball, scale=False, orient=False)
+        plotter.add_mesh(balls, color=RAPID, name="collisions")

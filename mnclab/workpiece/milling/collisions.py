@@ -1,0 +1,160 @@
+"""What a mill meets that it must not: a body of the tool goes along a move, and material stands where it passes.
+
+Looked at are points under the body (`footprint`), and of each the exact height of the material before that move
+(`before`); no cells, so nothing is blamed on a grid. Of a large program only the moves are looked at that may collide:
+rapids below the top of the blank that do not go where the same tool has been as deep, plunges of tools that do not cut at
+their centre, cuts with a spindle that is wrong, moves so deep that a shank or a holder comes below the top; and the more
+of a kind there are, the fewer points each gets.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from mnclab.path.columns import Mask
+from mnclab.path.tool import Tool
+from mnclab.workpiece.collision import Collision, Collisions
+from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.milling.bodies import TOLERANCE, Body, above_edges, edges, holder
+from mnclab.workpiece.milling.cutters import Cutter
+from mnclab.workpiece.milling.fixtures import in_fixtures
+from mnclab.workpiece.milling.judging import Judged, Judging, Met
+from mnclab.workpiece.milling.pieces import cut_up
+
+ROUGH = 60  # points of a cut: enough to see whether it takes anything
+FALL = 0.1  # mm, by which a move may fall before it is cut up: its edges are before its shank
+POINTED = ("drill", "reamer", "countersink", "tap")  # tools that go straight down, and may
+
+
+def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
+    """What the rows of a cutting meet that they must not, one of each row and kind; see `KINDS`.
+
+    `step` mm between the points that are looked at, a four-hundredth of the longer side of the blank by default. A row
+    that only touches, within 0.01 mm, meets nothing. Rows with a tilted tool are not judged.
+    """
+    scene = Judging.of(cutting, step)
+    found: dict[tuple[int, str], Collision] = {}
+    for kind, said, met in _kinds(scene):
+        row = met.row
+        line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
+        message = f"{said}, {met.depth:.3f} mm deep at {_at(met.place)}{_hint(cutting, kind, row)}"
+        each = Collision(kind, message, line, program, row, met.place, met.depth, _file(cutting, line, program))
+        known = found.get((row, kind))
+        if known is None or each.depth > known.depth:
+            found[row, kind] = each
+    return Collisions(found.values())
+
+
+def _at(place: tuple[float, float, float]) -> str:
+    return " ".join(f"{axis}{value + 0.0:.3f}" for axis, value in zip("XYZ", place))
+
+
+def _hint(cutting: Cutting, kind: str, row: int) -> str:
+    """What a learner has forgotten, where the mistake is a known one."""
+    if kind == "plunge":
+        return " (a ramp, a helix or a hole drilled before)"
+    if kind != "rapid":
+        return ""
+    x, y, _ = (cutting.path.end[row] - cutting.path.start[row]).tolist()
+    down = x == y == 0
+    return " (a rapid ends above the material, the rest goes at feed)" if down else " (first Z above the part, then X and Y)"
+
+
+def _file(cutting: Cutting, line: int, program: int) -> str:
+    return str(cutting.name(line, program)).rpartition(":")[0]
+
+
+def _kinds(scene: Judging) -> Iterator[tuple[str, str, Met]]:
+    """Kind, sentence and place of whatever is met."""
+    for met in scene.met(_rapids(scene)):
+        yield "rapid", "rapid motion in material", met
+    for met in scene.met(_plunges(scene)):
+        yield "plunge", "straight down into material with a tool that does not cut at its centre", met
+    for met in scene.met(_still(scene), ROUGH):
+        yield "spindle", _of_spindle(scene.cutting, met.row), met
+    cut = _cut_up(scene)
+    for kind, bodies in (("shank", above_edges), ("holder", holder)):
+        for met in cut.met(_behind(cut, bodies)):
+            yield kind, f"the {met.body.name} in material", met
+    yield from in_fixtures(scene)
+
+
+def _rapids(scene: Judging) -> list[Judged]:
+    """Rapids that come below the top of the blank, except where the same tool has stood as deep."""
+    chosen = scene.rapid & scene.low_over(0.0)
+    chosen &= ~_been_there(scene, chosen & scene.standing)
+    bodies = [edges(tool) for tool in scene.cutting.tools]
+    return [Judged(int(k), bodies[scene.which[k]], int(k)) for k in np.flatnonzero(chosen)]
+
+
+def _been_there(scene: Judging, chosen: Mask) -> Mask:
+    """Which of the chosen moves, that stand in the plane, go where the same tool has been as deep before (k,)."""
+    found, low = np.zeros(len(chosen), dtype=bool), scene.moves.low
+    ends = np.stack([scene.moves.start, scene.moves.end])
+    for tool in np.unique(scene.which[chosen]):
+        mine = np.flatnonzero(scene.which == tool)
+        places = np.round(ends[:, mine, 0], 6) + 1j * np.round(ends[:, mine, 1], 6)
+        _, spot = np.unique(places, return_inverse=True)
+        spot = spot.reshape(places.shape)
+        of_interest = np.isin(spot, spot[0, chosen[mine]]).any(axis=0)
+        deepest = np.full(int(spot.max()) + 1, np.inf)
+        for k, (here, there) in zip(mine[of_interest].tolist(), spot[:, of_interest].T.tolist()):
+            found[k] = deepest[here] <= low[k]
+            deepest[here] = min(deepest[here], ends[0, k, 2])
+            deepest[there] = min(deepest[there], ends[1, k, 2])
+    return found & chosen
+
+
+def _plunges(scene: Judging) -> list[Judged]:
+    """Moves straight down at feed with a tool that is known not to cut at its centre: its axis is looked at."""
+    blunt = scene.of_tools(lambda tool: float(tool.centre_cutting is False and tool.kind not in POINTED)) > 0
+    down = scene.moves.end[:, 2] < scene.moves.start[:, 2]
+    chosen = blunt & down & scene.standing & ~scene.rapid & scene.low_over(0.0)
+    middle = Body("middle", Cutter(0.0, 0.0), TOLERANCE)
+    return [Judged(int(k), middle, int(k)) for k in np.flatnonzero(chosen)]
+
+
+def _still(scene: Judging) -> list[Judged]:
+    """Moves at feed whose spindle stands or turns against the hand of the tool."""
+    sense = np.sign(scene.cutting.path.spindle[scene.moves.row])
+    hand = scene.of_tools(lambda tool: 1.0 if tool.hand == "right" else -1.0)
+    chosen = ~scene.rapid & (sense != hand) & scene.low_over(0.0)
+    bodies = [edges(tool) for tool in scene.cutting.tools]
+    return [Judged(int(k), bodies[scene.which[k]], int(k)) for k in np.flatnonzero(chosen)]
+
+
+def _of_spindle(cutting: Cutting, row: int) -> str:
+    if cutting.path.spindle[row] == 0:
+        return "cutting with a spindle that stands still"
+    hand = cutting.tool(row).hand
+    code = "M4" if hand == "right" else "M3"
+    return f"cutting with a spindle that turns the wrong way ({code}; the tool cuts {hand}-handed)"
+
+
+def _cut_up(scene: Judging) -> Judging:
+    """The same with falling moves cut up, where a shank or a holder may come below the top of the blank."""
+    lift = scene.of_tools(lambda tool: min((body.lift for body in (*above_edges(tool), *holder(tool))), default=np.inf))
+    fall = np.abs(scene.moves.end[:, 2] - scene.moves.start[:, 2])
+    chosen = np.isfinite(lift) & ~scene.standing & (fall > FALL) & scene.low_over(np.inf, lift)
+    if not chosen.any():
+        return scene
+    return Judging(scene.cutting, cut_up(scene.moves, np.where(chosen, np.ceil(fall / FALL), 1).astype(np.int64)), scene.step)
+
+
+def _behind(scene: Judging, bodies: Callable[[Tool], list[Body]]) -> list[Judged]:
+    """Moves so deep that one of the bodies behind the edges comes below the top of the blank."""
+    found = []
+    down = scene.moves.end[:, 2] < scene.moves.start[:, 2]
+    fall = np.abs(scene.moves.end[:, 2] - scene.moves.start[:, 2])
+    for index, tool in enumerate(scene.cutting.tools):
+        mine = scene.which == index
+        for body in bodies(tool) if mine.any() else ():
+            wide = max(body.cutter.radius - tool.effective_radius, 0.0)
+            for k in np.flatnonzero(mine & ~scene.rising & scene.low_over(wide, body.lift)):
+                upright = bool(scene.standing[k])
+                hole = upright and down[k] and not scene.rapid[k] and body.inner == 0
+                before = int(scene.stay[k]) if hole else int(k)  # the pecks of a hole do not clear one another
+                found.append(Judged(int(k), body, before, 0.0 if upright else float(fall[k])))
+    return sorted(found, key=lambda each: each.move)

@@ -1,0 +1,157 @@
+"""The top of a milled part over a lattice of nodes, and where it falls off between two of them: the walls.
+
+A raster alone makes stairs of a round wall. Between two neighbouring nodes whose heights differ steeply the wall is
+found by halving with the exact sweep, and a wall point stands there, once for the height on either side of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mnclab.path.columns import Array, Index, Mask
+
+if TYPE_CHECKING:
+    from mnclab.workpiece.milling.milled import Milled
+
+STEEP = 0.5  # rise between two nodes, of their distance, from which a wall is looked for
+SUDDEN = 0.25  # of that rise: what is left of it between the last halves when it is a wall, and no steep slope
+HALVINGS = 16
+THIN = 1e-9  # mm, of material that is none
+
+
+@dataclass(frozen=True, eq=False)
+class Lattice:
+    """Nodes `x` (nx + 1,), `y` (ny + 1,) over the box of the blank; `z`, `floor` (nodes,) row by row, mm.
+
+    `edges` (e, 2) are neighbouring nodes: first all to the right, then all upwards. Of the edges with a wall (`wall` is
+    the number of it, -1 for none) `place` (w, 2) says where it stands and `sides` (w, 2) how high the material is before
+    and behind it; `through` (w,) that there is none on one side.
+    """
+
+    x: Array
+    y: Array
+    z: Array
+    floor: Array
+    edges: Index
+    wall: Index
+    place: Array
+    sides: Array
+    through: Mask
+
+    @property
+    def solid(self) -> Mask:
+        """Nodes with material (nodes,)."""
+        return np.asarray(self.z - self.floor > THIN)
+
+    @property
+    def nodes(self) -> Array:
+        """Their places (nodes, 2)."""
+        y, x = np.meshgrid(self.y, self.x, indexing="ij")
+        return np.stack([x.ravel(), y.ravel()], axis=1)
+
+
+    def cells(self) -> tuple[Index, Index]:
+        """Corners (cells, 4) and edges (cells, 4) of every cell, counter-clockwise from its lower left corner."""
+        ny, nx = len(self.y) - 1, len(self.x) - 1
+        j, i = (each.ravel() for each in np.meshgrid(np.arange(ny), np.arange(nx), indexing="ij"))
+        node, flat, up = j * (nx + 1) + i, j * nx + i, (ny + 1) * nx + j * (nx + 1) + i
+        corners = np.stack([node, node + 1, node + nx + 2, node + nx + 1], axis=1)
+        return corners, np.stack([flat, up + 1, flat + nx, up], axis=1)
+
+    def dividing(self, corners: Index, wall: Index) -> tuple[Index, Index, Index]:
+        """Of cells with the walls (k, 4) on their edges: which edges have one, which of those divide the cell (bits), and
+        the corner, 0 or 1, that stays joined to the opposite one where all four do."""
+        bits = 1 << np.arange(4)
+        walls = ((wall >= 0) * bits).sum(axis=1)
+        if not len(self.place):
+            return walls, walls, walls
+        through = (wall >= 0) & self.through[wall]
+        jump = np.where(wall >= 0, np.abs(self.sides[wall, 0] - self.sides[wall, 1]), -1.0)
+        count = (wall >= 0).sum(axis=1)
+        least = np.argsort(jump, axis=1)[:, 1]  # of three, the smallest does not divide
+        dividing = np.where(count == 1, 0, walls)
+        dividing = np.where(count == 3, walls & ~(1 << least), dividing)
+        dividing = np.where(~self.solid[corners].all(axis=1), (through * bits).sum(axis=1), dividing)
+        z = self.z[corners]
+        return walls, dividing, (np.abs(z[:, 0] - z[:, 2]) > np.abs(z[:, 1] - z[:, 3])).astype(np.int64)
+
+    def crests(self) -> tuple[Array, Array]:
+        """The walls from above: lines (k, 2, 2), mm, and how high the wall is there (k,)."""
+        corners, edges = self.cells()
+        wall = self.wall[edges]
+        some = (wall >= 0).any(axis=1)
+        wall = wall[some]
+        _, dividing, diagonal = self.dividing(corners[some], wall)
+        pairs = []
+        for a in range(4):
+            for b in range(a + 1, 4):
+                alone = dividing == (1 << a) + (1 << b)
+                corner = b if b - a == 1 else 0 if (a, b) == (0, 3) else -1  # that both edges meet at
+                cut_off = (dividing == 15) & (corner >= 0) & (corner % 2 != diagonal)
+                pairs.append(wall[alone | cut_off][:, [a, b]])
+        chosen = np.concatenate(pairs)
+        if not len(chosen):
+            return np.empty((0, 2, 2)), np.empty(0)
+        return self.place[chosen], np.abs(self.sides[chosen, 0] - self.sides[chosen, 1]).max(axis=1)
+
+
+def lattice_of(workpiece: Milled, step: float | None = None) -> Lattice:
+    """The lattice of a milled part, as fine as its map, or of about `step` mm."""
+    (x0, y0), (x1, y1) = workpiece.cutting.stock.bounds[:, :2].tolist()
+    step = workpiece.step if step is None else step
+    rows, columns = (max(int(np.ceil((high - low) / step - 1e-9)), 1) for low, high in ((y0, y1), (x0, x1)))
+    x, y = np.linspace(x0, x1, columns + 1), np.linspace(y0, y1, rows + 1)
+    py, px = (each.ravel() for each in np.meshgrid(y, x, indexing="ij"))
+    floor = workpiece.blank_at(px, py)[1]
+    z = np.asarray(workpiece.at(px, py))
+    number = np.arange(len(px)).reshape(rows + 1, columns + 1)
+    right = np.stack([number[:, :-1].ravel(), number[:, 1:].ravel()], axis=1)
+    up = np.stack([number[:-1].ravel(), number[1:].ravel()], axis=1)
+    edges = np.concatenate([right, up])
+    wall, place, sides, through = _walls(workpiece, np.stack([px, py], axis=1), z, floor, edges)
+    return Lattice(x, y, z, floor, edges, wall, place, sides, through)
+
+
+def _walls(
+    workpiece: Milled, nodes: Array, z: Array, floor: Array, edges: Index
+) -> tuple[Index, Array, Array, Mask]:
+    """Number of the wall on each edge, and of the walls their place, heights on both sides, and what is through."""
+    solid = z - floor > THIN
+    first, last = edges.T
+    long = np.abs(nodes[first] - nodes[last]).sum(axis=1)
+    through = solid[first] != solid[last]
+    some = np.flatnonzero(through | (solid[first] & solid[last] & (np.abs(z[first] - z[last]) > STEEP * long)))
+    through = through[some]
+    ends = np.stack([nodes[first[some]], nodes[last[some]]])
+    heights = np.stack([z[first[some]], z[last[some]]])
+    rise = np.abs(heights[0] - heights[1])
+    full = np.stack([solid[first[some]], solid[last[some]]])
+    for _ in range(HALVINGS):
+        middle = ends.mean(axis=0)
+        here = np.asarray(workpiece.at(*middle.T))
+        there = here - workpiece.blank_at(*middle.T)[1] > THIN
+        behind = np.where(through, there != full[0], np.abs(heights[0] - here) >= np.abs(here - heights[1]))
+        for end, moves in ((1, behind), (0, ~behind)):
+            ends[end][moves], heights[end][moves], full[end][moves] = middle[moves], here[moves], there[moves]
+    stands = through | (np.abs(heights[0] - heights[1]) > SUDDEN * rise)
+    wall = np.full(len(edges), -1, dtype=np.int64)
+    wall[some[stands]] = np.arange(int(stands.sum()))
+    return wall, ends.mean(axis=0)[stands], heights.T[stands], through[stands]
+
+
+def rows_at(workpiece: Milled, x: Array, y: Array, z: Array) -> Index:
+    """The rows (m,) that cut points last: each that of the cell around it whose height is nearest to `z`."""
+    heights, cut_by, step = workpiece.heights, workpiece.cut_by, workpiece.step
+    best, found = np.full(len(x), np.inf), np.full(len(x), -1, dtype=np.int64)
+    for dx, dy in ((0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)):
+        i = np.clip(np.round((x - workpiece.x[0]) / step + dx * 0.98), 0, heights.shape[1] - 1).astype(np.int64)
+        j = np.clip(np.round((y - workpiece.y[0]) / step + dy * 0.98), 0, heights.shape[0] - 1).astype(np.int64)
+        off = np.abs(heights[j, i] - z)
+        nearer = off < best - THIN
+        best[nearer], found[nearer] = off[nearer], cut_by[j, i][nearer]
+    return found
+
+

@@ -1,0 +1,152 @@
+"""What the tools of a lathe meet that they must not: row after row on the half section of the bar, as areas.
+
+Before each row stands what the rows before it have left. A rapid takes nothing of it; at feed the spindle turns, and the
+back of the insert takes nothing. A thread counts as cut down to its root: what runs in it later is not judged there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mnclab.geometry import shapely
+from mnclab.geometry.contours import Contour, Floats
+from mnclab.geometry.sweeps import broad, swept
+from mnclab.path.columns import Index
+from mnclab.path.kinds import Kind
+from mnclab.path.tool import Tool
+from mnclab.workpiece.collision import Collision, Collisions
+from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.turning.backs import TOLERANCE, taken_by_back
+from mnclab.workpiece.turning.bodies import behind, half_section, outline
+
+AXIS = 1e-6  # mm above the axis, where nothing is outside any more
+APART = 0.25  # mm between the points of which the deepest is sought
+SAID = {
+    "rapid": "rapid motion in material",
+    "insert": "the back of the insert takes material",
+    "spindle": "cutting while the spindle stands",
+    "chuck": "the tool in the chuck",
+    "shank": "the shank in material",
+    "holder": "the holder in material",
+}
+HOLDER = "the holder of the insert in material"
+
+
+class Met(NamedTuple):
+    """Kind, sentence, place (z, r) and depth, mm."""
+
+    kind: str
+    said: str
+    place: tuple[float, float]
+    depth: float
+
+
+def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
+    """What the rows of a cutting meet that they must not, at most one of each row and kind; see `KINDS`.
+
+    What only touches, within 0.01 mm, meets nothing. The depth of the back of an insert is how far beyond the way of the
+    nose it cuts, any other how far inside the material, or the chuck, the tool is. Areas need no `step`.
+    """
+    return Collisions(_collision(cutting, row, met) for row, met in _met(cutting))
+
+
+def _collision(cutting: Cutting, row: int, met: Met) -> Collision:
+    line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
+    z, x = met.place
+    message = f"{met.said}, {met.depth:.3f} mm deep at X{x + 0.0:.3f} Z{z + 0.0:.3f}"
+    file = str(cutting.name(line, program)).rpartition(":")[0]
+    return Collision(met.kind, message, line, program, row, (x, 0.0, z), met.depth, file)
+
+
+def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
+    path, left = cutting.path, half_section(cutting.stock)
+    chucks = [half_section(each) for each in cutting.fixtures]
+    rows = np.flatnonzero(cutting.cuts)
+    height = _height(cutting, rows, left)
+    shapes = [outline(tool, height) for tool in cutting.tools]
+    for row in rows.tolist():
+        tool, shape = cutting.tool(row), shapes[int(cutting.which[row])]
+        way = _way(cutting, row)
+        covered = swept(shape, way) if way else shapely.Polygon(shape + path.end[row][[2, 0]])
+        for chuck in chucks:
+            if met := _deepest("chuck", chuck, covered):
+                yield row, met
+        if shapely.intersects(left, covered):
+            rest = shapely.difference(left, covered)
+            yield from ((row, met) for met in _cut(cutting, row, tool, shape, way, left, covered))
+            left = _held(rest)
+        for kind, body in behind(tool, height):
+            covered = _folded(swept(body, way) if way else shapely.Polygon(body + path.end[row][[2, 0]]))
+            if met := _deepest(kind, left, covered):
+                yield row, met._replace(said=HOLDER) if kind == "insert" else met
+                left = _held(shapely.difference(left, covered))
+
+
+def _cut(
+    cutting: Cutting, row: int, tool: Tool, shape: Floats, way: Contour | None, left: Any, covered: Any
+) -> Iterator[Met]:
+    """What is wrong with a row that takes material."""
+    path = cutting.path
+    if path.kind[row] == Kind.RAPID:
+        if met := _deepest("rapid", left, covered):
+            yield met
+        return
+    if not path.spindle[row] and (met := _deepest("spindle", left, covered)):
+        yield met
+    if way and not path.synchronous[row] and (back := taken_by_back(tool, shape, way, left)):
+        yield Met("insert", SAID["insert"], back.place, back.depth)
+
+
+def _height(cutting: Cutting, rows: Index, left: Any) -> float:
+    """From a tip to above everything, mm."""
+    places = np.abs(np.concatenate([cutting.path.start[rows], cutting.path.end[rows]]))
+    low, _, high, top = left.bounds
+    return float(2 * max(places.max(initial=0.0), top, abs(low), abs(high)) + 10.0)
+
+
+def _way(cutting: Cutting, row: int) -> Contour | None:
+    """The way of a row; None where only its end counts, or where it has no length."""
+    path = cutting.path
+    start, end = path.start[row][[2, 0]], path.end[row][[2, 0]]
+    arc = path.kind[row] == Kind.ARC
+    if cutting.from_home[row] or (not arc and np.hypot(*(end - start)) < 1e-9):
+        return None
+    if not arc:
+        return Contour([start, end], closed=False)
+    return _arc(start, end, path.centre[row][[2, 0]], float(path.sweep[row] * path.axis[row, 1]))
+
+
+def _arc(start: Floats, end: Floats, centre: Floats, sweep: float) -> Contour:
+    """An arc in quarters, so that a whole circle is one too."""
+    parts = max(int(np.ceil(abs(sweep) / (np.pi / 2) - 1e-9)), 1)
+    turn, arm = sweep * np.arange(1, parts) / parts, start - centre
+    across = np.array([-arm[1], arm[0]])
+    between = centre + np.cos(turn)[:, None] * arm + np.sin(turn)[:, None] * across
+    return Contour(np.vstack([start, between, end]), [np.tan(sweep / parts / 4)] * parts + [0.0], closed=False)
+
+
+def _deepest(kind: str, body: Any, covered: Any) -> Met | None:
+    """Where an area is deepest in a body, if it is in it deeper than it may touch."""
+    met = broad(shapely.intersection(body, covered), TOLERANCE)
+    if met.is_empty:
+        return None
+    circle = shapely.get_coordinates(shapely.maximum_inscribed_circle(met))[:1]
+    points = np.vstack([shapely.get_coordinates(shapely.segmentize(met, APART)), circle])
+    surface = shapely.intersection(shapely.boundary(body), shapely.box(-1e6, AXIS, 1e6, 1e6))
+    depths = shapely.distance(shapely.points(points), surface)
+    k = int(np.argmax(depths))
+    return Met(kind, SAID.get(kind, HOLDER), (float(points[k, 0]), float(points[k, 1])), float(depths[k]))
+
+
+def _folded(area: Any) -> Any:
+    """An area with what of it lies below the axis turned up: it meets the other side of the bar."""
+    return shapely.union(area, shapely.transform(area, lambda each: each * (1.0, -1.0)))
+
+
+def _held(rest: Any) -> Any:
+    """What is still connected to the chuck: a piece that is parted off falls."""
+    pieces = [each for each in shapely.get_parts(rest) if each.geom_type == "Polygon" and each.area > 1e-9]
+    return min(pieces, key=lambda each: (each.bounds[0], -each.area)) if pieces else shapely.Polygon()
