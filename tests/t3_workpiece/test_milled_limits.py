@@ -1,0 +1,67 @@
+"""What a map of heights cannot hold is said with the lines it comes from."""
+
+import pytest
+
+from mnclab import Tool
+from mnclab.workpiece.blank import cylinder
+from tests.running import run
+from tests.t3_workpiece.test_milled_heights import MILL, part
+
+SLOT = "G0 X-10 Y20\nG1 Z-8\nG1 X70\nG0 Z50"
+HOLE = "G0 X30 Y20\nG1 Z-8\nG0 Z50"
+
+
+def test_a_plain_part_has_no_notes_and_is_exact():
+    left = part(SLOT)
+    assert left.notes == () and left.method == "exact sweep" and left.error == 1e-9
+    assert repr(left).startswith("<Milled: ") and "note" not in repr(left)
+
+
+@pytest.mark.parametrize("kind", ["tap", "thread mill"])
+def test_a_thread_is_shown_without_its_flanks(kind):
+    left = part(HOLE, Tool(radius=3, number=1, kind=kind, pitch=1))
+    (note,) = left.notes
+    assert note == f"a thread is shown without its flanks, at the radius of the {kind} (program:5, program:6, program:7)"
+    assert left.at(32.99, 20) == -8
+    assert "note: a thread" in repr(left)
+
+
+def test_a_cutter_with_a_thin_neck_may_leave_an_overhang():
+    slotter = Tool(radius=5, number=1, kind="mill", shank=(2, 3))
+    (note,) = part(SLOT, slotter).notes
+    assert note == "what overhangs an undercut is not shown: there the part is open upwards (program:7)"
+    shallow = SLOT.replace("Z-8", "Z-3")
+    assert part(shallow, slotter).notes == ()  # the neck stays above the blank
+    assert part(HOLE, slotter).notes == ()  # it takes all that is above it on its way down
+    assert part(SLOT, Tool(radius=5, number=1, kind="mill", shank=(6, 3))).notes == ()
+
+
+def test_a_pass_under_what_is_cut_already_is_no_undercut():
+    deeper = "G0 X-10 Y20\nG1 Z-3\nG1 X70\nG1 Z-6\nG1 X-10\nG0 Z50"
+    assert part(deeper, Tool(radius=5, number=1, kind="mill", shank=(2, 3))).notes == ()
+
+
+def test_the_bore_of_a_lying_tube_is_not_shown():
+    (note,) = part("G0 X0", stock=cylinder(6, 0, 40, axis="X", bore=3)).notes
+    assert note == "the bore of a lying blank is not shown"
+
+
+def test_rows_of_a_tilted_tool_are_left_out_and_told():
+    text = """0 BEGIN PGM A MM
+1 BLK FORM 0.1 Z X+0 Y+0 Z-20
+2 BLK FORM 0.2 X+60 Y+40 Z+0
+3 TOOL CALL 1 Z S1000 F500
+4 L X+10 Y+20 Z+50 R0 FMAX
+5 L Z-2 F500
+6 L X+50
+7 L Z+50 FMAX
+8 PLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY
+9 L X+10 Y+20 Z+50 R0 FMAX
+10 L Z-2 F500
+11 PLANE RESET STAY
+12 END PGM A MM
+"""
+    left = run(text, "tnc-620", tools={1: MILL}, ok=None).workpiece()
+    (note,) = left.notes
+    assert note.startswith("2 rows of a tilted tool are left out (program:")
+    assert left.at(30, 20) == -2
