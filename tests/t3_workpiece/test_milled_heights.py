@@ -6,22 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from milled import BALL, BLOCK, BULL, DRILL, MILL, part
+from running import run
 
 from mnclab import Alarm, Tool
 from mnclab.workpiece.blank import cylinder
-from tests.running import run
-
-MILL = Tool(radius=5, number=1, kind="mill")
-BALL = Tool(radius=4, corner=4, number=1, kind="mill")
-BULL = Tool(radius=5, corner=1.5, number=1, kind="mill")
-DRILL = Tool(radius=3, number=1, kind="drill", angle=118)
-BLOCK = ((0, 0, -20), (60, 40, 0))
-
-
-def part(text, tool=MILL, stock=BLOCK, **given):
-    """What is left after moves that begin 50 mm above the blank."""
-    setup = {"tools": {1: tool}, "stock": stock}
-    return run(f"G17 G90 G54\nT1\nS1000 M3 F500\nG0 Z50\n{text}", **setup).workpiece(**given)
 
 
 def test_an_uncut_blank_is_as_it_was():

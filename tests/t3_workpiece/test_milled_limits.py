@@ -1,11 +1,11 @@
 """What a map of heights cannot hold is said with the lines it comes from."""
 
 import pytest
+from milled import BLOCK, MILL, part
+from running import run
 
 from mnclab import Tool
 from mnclab.workpiece.blank import cylinder
-from tests.running import run
-from tests.t3_workpiece.test_milled_heights import MILL, part
 
 SLOT = "G0 X-10 Y20\nG1 Z-8\nG1 X70\nG0 Z50"
 HOLE = "G0 X30 Y20\nG1 Z-8\nG0 Z50"
@@ -21,7 +21,7 @@ def test_a_plain_part_has_no_notes_and_is_exact():
 def test_a_thread_is_shown_without_its_flanks(kind):
     left = part(HOLE, Tool(radius=3, number=1, kind=kind, pitch=1))
     (note,) = left.notes
-    assert note == f"a thread is shown without its flanks, at the radius of the {kind} (program:5, program:6, program:7)"
+    assert note == f"a thread is shown without its flanks, at the radius of the {kind} (program:6)"
     assert left.at(32.99, 20) == -8
     assert "note: a thread" in repr(left)
 
@@ -47,21 +47,17 @@ def test_the_bore_of_a_lying_tube_is_not_shown():
 
 
 def test_rows_of_a_tilted_tool_are_left_out_and_told():
-    text = """0 BEGIN PGM A MM
-1 BLK FORM 0.1 Z X+0 Y+0 Z-20
-2 BLK FORM 0.2 X+60 Y+40 Z+0
-3 TOOL CALL 1 Z S1000 F500
-4 L X+10 Y+20 Z+50 R0 FMAX
-5 L Z-2 F500
-6 L X+50
-7 L Z+50 FMAX
-8 PLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY
-9 L X+10 Y+20 Z+50 R0 FMAX
-10 L Z-2 F500
-11 PLANE RESET STAY
-12 END PGM A MM
+    text = """TOOL CALL 1 Z S1000 F500
+L X+10 Y+20 Z+50 R0 FMAX M3
+L Z-2 F500
+L X+50
+L Z+50 FMAX
+CYCL DEF 19.0 WORKING PLANE
+CYCL DEF 19.1 A+0 B+45 C+0 F5000 ABST50
+L X+10 Y+20 Z+50 R0 FMAX
+L Z-2 F500
 """
-    left = run(text, "tnc-620", tools={1: MILL}, ok=None).workpiece()
+    left = run(text, "tnc-620", tools={1: MILL}, stock=BLOCK).workpiece()
     (note,) = left.notes
-    assert note.startswith("2 rows of a tilted tool are left out (program:")
-    assert left.at(30, 20) == -2
+    assert note == "3 rows of a tilted tool are left out (program:6, program:8, program:9)"  # with the row that swivels
+    assert left.at(30, 20) == -2 and left.removed == pytest.approx((10 * 40 + 25 * 3.14159265) * 2, rel=1e-3)

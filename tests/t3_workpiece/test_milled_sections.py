@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from milled import BALL, DRILL, part
 
 from mnclab import Alarm, Tool
 from mnclab.workpiece.blank import cylinder
-from tests.t3_workpiece.test_milled_heights import BALL, DRILL, part
 
 SLOT = "G0 X15 Y20\nG1 Z-3\nG1 X45\nG0 Z50"
 

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from milled import BALL, BLOCK, BULL, DRILL, MILL, part
+from running import run
 
 from mnclab import Tool
 from mnclab.workpiece.blank import Box, cylinder, floor_of, top_of, volume_of
-from tests.running import run
-from tests.t3_workpiece.test_milled_heights import BALL, BLOCK, BULL, DRILL, MILL, part
 
 CLOSE = 1e-3  # of what is removed
 SMALL = Tool(radius=1.5, number=1)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.kinds import Kind
 from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.moves import STILL
@@ -25,7 +26,7 @@ def notes_of(cutting: Cutting, sweep: Sweep) -> Iterator[str]:
     cuts = cutting.cuts
     for kind in THREADS:
         numbers = [number for number, tool in enumerate(cutting.tools) if tool.kind == kind]
-        if (threads := cuts & np.isin(cutting.which, numbers)).any():
+        if (threads := cuts & (cutting.path.kind != Kind.RAPID) & np.isin(cutting.which, numbers)).any():
             yield f"a thread is shown without its flanks, at the radius of the {kind} ({_lines(cutting, threads)})"
     necks = np.array([_neck(tool.shank, tool.effective_radius) for tool in cutting.tools])[cutting.which]
     thin, under = cuts & np.isfinite(necks), np.zeros(len(cutting), dtype=bool)

@@ -42,7 +42,8 @@ def removed(sweep: Sweep, heights: Array) -> float:
     lattice = _lattice(pairs, FINE)
     for tile in raster.tiles():
         some = walls[tile].ravel()
-        x, y = within(*(each[some] for each in raster.middles(tile)), raster.step, lattice)
+        x, y = raster.middles(tile)
+        x, y = within(x[some], y[some], raster.step, lattice)
         if len(x):
             total += float((sweep.faces(x, y)[0] - sweep.left(x, y)).sum()) * raster.step**2 / lattice[0]
     return total
