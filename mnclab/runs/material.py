@@ -6,6 +6,7 @@ path and widen the contour, the mill stays as it is.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -15,10 +16,11 @@ from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.alarm import Alarm
+from mnclab.runs.cycle_tools import cycle_tools
+from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import shown, whole
 from mnclab.workpiece.blank import blank
-from mnclab.workpiece.collision import Collisions
+from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Workpiece, no_blank
@@ -38,12 +40,12 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
         raise no_blank() if stock is None else Alarm(f"stock must be two corners or a blank, got {shown(stock)}")
     body = body if stock is None else body.moved(-origin)
     tools, which, lift = tools_of_rows(run)
+    tools, which = cycle_tools(run, tools, which)
     if lift.any():
         path = lifted(path, lift)
-    travel = run.setup.limits.travel
     return Cutting(
         path, tools, which, body, *start_known(run), tilted_rows(run), tuple(_placed(run, each) for each in run.setup.fixtures),
-        travel, name=run.place_of_line,
+        name=run.place_of_line,
     )  # fmt: skip
 
 
@@ -138,15 +140,31 @@ def workpiece(
 
 
 def collisions(run: Run, stock: Any = None, step: float | None = None) -> Collisions:
-    """What a run meets that it must not."""
+    """What a run meets that it must not; the cut that would have left the travel of the machine among it."""
     cutting = cutting_of(run, stock)
     if cutting.lathe:
         from mnclab.workpiece.turning.collisions import collisions_of as of_lathe
 
-        return of_lathe(cutting, step)
-    from mnclab.workpiece.milling.collisions import collisions_of as of_mill
+        found = of_lathe(cutting, step)
+    else:
+        from mnclab.workpiece.milling.collisions import collisions_of as of_mill
 
-    return of_mill(cutting, step)
+        found = of_mill(cutting, step)
+    if run.settings["stopped_spindle"] == "accept":
+        found = Collisions(each for each in found if each.kind != "spindle" or run.toolpath.spindle[each.row])
+    return Collisions([*found, *_beyond_travel(run)])
+
+
+def _beyond_travel(run: Run) -> Iterator[Collision]:
+    """The block at which the run was stopped; its `row` is the last one before it."""
+    if run.stopped is None:
+        return
+    place, depth, alarm = run.stopped
+    x, y, z = np.subtract(place, run.toolpath.origin).tolist()
+    span = alarm.span or Span(0, 0)
+    file = run.programs[span.program].name
+    message = f"{alarm.message}, {depth:.3f} mm beyond"
+    yield Collision("travel", message, span.line, span.program, len(run.toolpath) - 1, (x, y, z), depth, file)
 
 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:

@@ -24,6 +24,7 @@ from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
+from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import material, still_spindle
@@ -56,7 +57,7 @@ class Run:
     """The result of running a program: both paths, alarms, history, and where the machine stands.
 
     `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
-    `gouge = "mark"` all of them.
+    `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates.
     """
 
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
@@ -77,6 +78,7 @@ class Run:
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
         self.frames = machine.frames
         self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
+        self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
@@ -208,6 +210,11 @@ class Run:
         """
         return material.collisions(self, stock, step)
 
+    @property
+    def known_from(self) -> int:
+        """The first row of the path whose start somebody has said: before it the tool comes from home."""
+        return material.start_known(self)[1]
+
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""
         if not isinstance(setup, Setup):
@@ -222,7 +229,8 @@ class Run:
         `colour` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
         colour of the cuts shows; `arrows=False`, `marks=False` and `stock=False` leave out arrowheads, crosses at zero
         points and poles, and the outline of the blank; `view` "XY", "XZ", "YZ" or "ZX"; `frame` "all" or "cuts"; `size`
-        in inches; `ax` axes of one's own. All of them are explained in `mnclab.show.plot.path.plot_path`.
+        in inches; `ax` axes of one's own; `part=True` draws what is left of the blank under the path. All of them are
+        explained in `mnclab.show.plot.path.plot_path`.
         """
         from mnclab.show.plot.path import plot_run
 
@@ -258,7 +266,7 @@ class Run:
         """Path, tool and blank in three dimensions (needs pyvista); shows itself as a still picture.
 
         `colour` of the cuts: "kind", "feed", "tool", "z", "line"; `row`: where the tool stands; `stock`:
-        another blank, or False. All of them are explained in `mnclab.show.scene.scene`.
+        another blank, or False; `part=True` what is left of it. All of them are explained in `mnclab.show.scene.scene`.
         """
         from mnclab.show.scene import scene
 
@@ -267,7 +275,8 @@ class Run:
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player), dxf, ngc, stl, gltf, glb, vtk.
 
-        Pictures take the options of `plot`; `true_size=True` makes an svg in true millimetres.
+        Pictures take the options of `plot`; `true_size=True` makes an svg in true millimetres. The bodies (stl, gltf, glb,
+        vtk) are those of the part; `of="path"` writes the path.
         """
         from mnclab.show.export import save
 

@@ -127,6 +127,19 @@ def cylinder(
     return Revolved(((radius, low), (radius, high)), axis, at, bore)
 
 
+def chuck(radius: float, back: float, grip: float = 20.0, jaws: float = 25.0, body: float = 60.0) -> Revolved:
+    """What holds a bar of a radius whose back end is at Z `back`: jaws around it over `grip`, mm, and the body behind.
+
+    `jaws` is how thick they are, `body` how long what is behind them is. For `Setup(fixtures=(…,))`.
+    """
+    for name, number in (("grip", grip), ("thickness of the jaws", jaws), ("length of the body", body), ("radius of the bar", radius)):
+        check_number(number, f"the {name} of a chuck (mm)", above=0)
+    check_number(back, "the place of a chuck along Z (mm)")
+    wide = radius + 1.5 * jaws
+    outside = ((wide, back - body), (wide, back), (radius + jaws, back), (radius + jaws, back + grip))
+    return Revolved(outside, bore=radius)
+
+
 def blank(given: Any) -> Blank | None:
     """What a Setup calls its stock: two corners (3,), or a blank; None for what is neither."""
     if isinstance(given, Box | Revolved):
@@ -145,6 +158,25 @@ def top_of(body: Blank, x: Array, y: Array) -> Array:
 def floor_of(body: Blank, x: Array, y: Array) -> Array:
     """How low a blank reaches at points (m,); nan beside it."""
     return _faces(body, x, y)[0]
+
+
+def volume_of(body: Blank) -> float:
+    """What lies between the lower and the upper side of a blank, mm³: the bore of a lying tube and what its profile lets in
+    from the side are filled."""
+    if isinstance(body, Box):
+        return float(np.prod(body.bounds[1] - body.bounds[0]))
+    profile, at = np.array(body.profile, dtype=np.float64), np.array(body.at, dtype=np.float64)
+    if body.axis != "Z":
+        (r0, z0), (r1, z1) = profile[:-1].T, profile[1:].T
+        return float(np.pi / 3 * np.abs((z1 - z0) * (r0 * r0 + r0 * r1 + r1 * r1)).sum())
+    rings = np.unique(np.append(profile[:, 0], [body.bore, 0.0]))
+    inner, outer = rings[:-1], rings[1:]
+    inner, outer = inner[inner >= body.bore], outer[inner >= body.bore]
+    near, far = (2 * inner + outer) / 3, (inner + 2 * outer) / 3  # the sides are straight between two rings
+    thick = [top_of(body, at[0] + rho, at[1] + 0 * rho) - floor_of(body, at[0] + rho, at[1] + 0 * rho) for rho in (near, far)]
+    rise = (thick[1] - thick[0]) / (far - near)
+    start = thick[0] - rise * near
+    return float(np.pi * (start * (outer**2 - inner**2) + rise * (outer**3 - inner**3) * 2 / 3).sum())
 
 
 def _faces(body: Blank, x: Array, y: Array) -> tuple[Array, Array]:
