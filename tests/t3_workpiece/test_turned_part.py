@@ -67,6 +67,13 @@ def test_a_groove_as_wide_as_its_blade_and_its_corners():
     assert soft.removed == pytest.approx(ring(30, 22, 3) - 2 * math.pi * corners, rel=1e-12)
 
 
+def test_a_groove_in_the_face():
+    """The corner nearer to the axis is the tip: from radius 12 to 15."""
+    part = turned(Tool(number=7, kind="face grooving", width=3), (2, 12), (-9, 12), (2, 12))
+    assert part.removed == pytest.approx(ring(15, 12, 9), rel=1e-12)
+    assert sum(loop.area for loop in part.cut("XY", -5)) == pytest.approx(math.pi * (900 - 225 + 144))
+
+
 def test_a_ball_by_a_sharp_tip():
     """Half a circle about the axis: half a ball of radius 15 at the end of the bar, by a blade without width."""
     tip = Tool(number=1, kind="turning", main_angle=90, auxiliary_angle=90)
