@@ -13,9 +13,11 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 
+from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
+from mnclab.geometry.sweeps import outlined, polygons, swept
 from mnclab.path.cutting_speed import spindle_speed
-from mnclab.path.inserts import angles_of
+from mnclab.path.inserts import angles_of, edges_of
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
@@ -26,8 +28,6 @@ from mnclab.show.plot.strategy import area
 from mnclab.show.plot.strokes import Array, Strokes
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.blank import Blank
-from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.turning import turned as part
 
 CUTS = (Kind.LINE, Kind.ARC)
 MOST = 2000  # cuts that are taken off a blank
@@ -57,7 +57,7 @@ def turned(path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], inser
     if len(path) and insert is not False:
         row = len(path) - 1 if insert is True else range(len(path))[int(insert)]
         tip, tool = (float(path.end[row, 2]), float(path.end[row, 0])), tools.get(int(path.tool[row]), Tool())
-    return Turned(blank, silhouette(path, stock, tools) if stock else None, tool, tip)
+    return Turned(blank, silhouette(path, blank, tools) if blank else None, tool, tip)
 
 
 def _blank(stock: Blank | None) -> tuple[float, float, float] | None:
@@ -76,14 +76,30 @@ def with_blank(path: Toolpath, stock: Blank | None, low: Array, high: Array) -> 
     return np.fmin(low, (0.0, low[1], left)), np.fmax(high, (radius, high[1], right))
 
 
-def silhouette(path: Toolpath, stock: Blank, tools: Mapping[int, Tool]) -> Region | None:
-    """What the rows at feed leave of a blank: its half section. None for a path of too many rows."""
-    numbers, which = np.unique(path.tool, return_inverse=True)
-    found = [tools.get(number, Tool()) for number in numbers.tolist()]
-    cutting = Cutting(path, found, which, stock, arrived=len(path))  # a rapid is not drawn as a cut
-    if cutting.cuts.sum() > MOST:
+def silhouette(path: Toolpath, blank: tuple[float, float, float], tools: Mapping[int, Tool]) -> Region | None:
+    """What the cuts leave of a blank: its half section without what the edges of the tools sweep.
+
+    The table's angles and widths count, and the radius of a drill on the axis. None for a path of too many cuts.
+    """
+    cuts = np.flatnonzero(np.isin(path.kind, CUTS) & ~path.synchronous)
+    if len(cuts) > MOST:
         return None
-    return Region(tuple(part.Turned(cutting).section))
+    left, right, radius = blank
+    whole = Contour([(left, 0.0), (right, 0.0), (right, radius), (left, radius)])
+    body = polygons(Region.of(whole))
+    for row in cuts:
+        start, end = path.start[row][[2, 0]], path.end[row][[2, 0]]
+        if np.hypot(*(end - start)) < 1e-9 and not path.sweep[row]:
+            continue
+        tool = tools.get(int(path.tool[row]), Tool())
+        bulge = float(np.tan(path.sweep[row] * path.axis[row, 1] / 4)) if path.kind[row] == Kind.ARC else 0.0
+        way = Contour([start, end], [bulge, 0.0], closed=False)
+        if max(abs(start[1]), abs(end[1])) < 1e-6 and start[0] != end[0]:  # a hole on the axis
+            edges = np.array([(0.0, -tool.radius), (0.0, tool.radius)])
+        else:
+            edges = edges_of(tool, 1.01 * (abs(radius) + abs(float(min(start[1], end[1]))) + 1.0))
+        body = body.difference(swept(edges, way))
+    return outlined(body)
 
 
 def draw_part(ax: Axes, found: Turned) -> None:
