@@ -114,6 +114,18 @@ def test_a_bore_by_drill_and_bar():
     assert inside.bore_at([-10.0, -30.0]).tolist() == [15, 10] and inside.at(-10) == 30
 
 
+def test_inside_a_bore_and_with_the_left_hand():
+    """A groove 3 wide inside, its left corner at -20; a left-hand tool that turns from the chuck to the face."""
+    tube = cylinder(30, -60, 0, bore=10)
+    part = turned(Tool(number=5, kind="boring", width=3), (-20, 9), (-20, 14), (-20, 9), stock=tube)
+    assert part.removed == pytest.approx(ring(14, 10, 3), rel=1e-12)
+    assert part.bore_at([-20.1, -18.0, -16.9]).tolist() == [10, 14, 10]
+    left = Tool(number=1, kind="turning", main_angle=90, auxiliary_angle=60, hand="left")
+    back = turned(left, (-40, 35), (-40, 25), (-10, 25), (-10, 35))
+    lean = 5 * math.tan(math.pi / 6)  # the auxiliary edge, now on the left
+    assert back.removed == pytest.approx(ring(30, 25, 30) + ring(30, 0, lean) - frustum(30, 25, lean), rel=1e-12)
+
+
 def test_facing_past_the_centre_leaves_nothing_there():
     part = turned(NOSED, (-1, 32), (-1, -2), (2, -2))
     assert part.removed == pytest.approx(ring(30, 0, 1), rel=1e-12)
@@ -130,6 +142,15 @@ def test_what_is_parted_off_falls():
     assert "fell off" in " ".join(part.notes) and part.parted[0].area == pytest.approx(27 * 30)
     rows = part.removed_by_row()
     assert rows[0] == pytest.approx(part.removed) and rows[1:].sum() == 0
+
+
+def test_what_fell_is_not_cut_any_more():
+    """The end of the bar falls; later rows sweep all of the place where it was."""
+    blade, wide = Tool(number=3, kind="grooving", width=3), Tool(number=8, kind="grooving", width=40)
+    part = Turned(cutting([blade, wide], [[(-30, 35), (-30, -0.1), (-30, 35)], [(-27, 35), (-27, -1)]]))
+    assert part.removed == pytest.approx(ring(30, 0, 3), rel=1e-12)
+    assert [loop.area for loop in part.parted] == [pytest.approx(27 * 30)]
+    assert part.removed_by_row().sum() == pytest.approx(part.removed)
 
 
 def test_every_row_takes_its_share():
