@@ -23,7 +23,7 @@ from mnclab.workpiece.milling.fixtures import in_fixtures
 from mnclab.workpiece.milling.judging import Judged, Judging, Met
 from mnclab.workpiece.milling.pieces import cut_up
 
-ROUGH = 60  # points of a cut: enough to see whether it takes anything
+ROUGH, FEW = 60, 200  # points of a cut, enough to see whether it takes anything, and of what is behind the edges
 FALL = 0.1  # mm, by which a move may fall before it is cut up: its edges are before its shank
 POINTED = ("drill", "reamer", "countersink", "tap")  # tools that go straight down, and may
 
@@ -76,7 +76,7 @@ def _kinds(scene: Judging) -> Iterator[tuple[str, str, Met]]:
         yield "spindle", _of_spindle(scene.cutting, met.row), met
     cut = _cut_up(scene)
     for kind, bodies in (("shank", above_edges), ("holder", holder)):
-        for met in cut.met(_behind(cut, bodies)):
+        for met in cut.met(_behind(cut, bodies), FEW):
             yield kind, f"the {met.body.name} in material", met
     yield from in_fixtures(scene)
 

@@ -21,7 +21,7 @@ from mnclab.workpiece.milling.moves import STILL, Moves, moves_of
 from mnclab.workpiece.milling.swept import left_by
 
 CELLS = 400  # along the longer side: so far apart are the points, by default
-MOST, FEWEST, BUDGET = 2000, 40, 2_000_000  # points of a move, and of all moves of a kind
+MOST, FEWEST, BUDGET = 1000, 40, 1_000_000  # points of a move, and of all moves of a kind
 AT_ONCE = 400_000  # points
 
 
