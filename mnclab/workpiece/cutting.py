@@ -14,7 +14,7 @@ import numpy as np
 
 from mnclab.path.columns import Index, Mask
 from mnclab.path.kinds import Kind
-from mnclab.path.tool import Tool
+from mnclab.path.tool import LATHE, Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.part import Part
@@ -90,4 +90,4 @@ class Cutting:
 
 def tool_exists(tool: Tool) -> bool:
     """Whether a tool has a body: a mill a radius, a lathe tool its kind."""
-    return tool.effective_radius > 0 or tool.kind in ("turning", "boring", "grooving", "thread")
+    return tool.effective_radius > 0 or tool.kind in LATHE
