@@ -160,6 +160,25 @@ def floor_of(body: Blank, x: Array, y: Array) -> Array:
     return _faces(body, x, y)[0]
 
 
+def volume_of(body: Blank) -> float:
+    """What lies between the lower and the upper side of a blank, mm³: the bore of a lying tube and what its profile lets in
+    from the side are filled."""
+    if isinstance(body, Box):
+        return float(np.prod(body.bounds[1] - body.bounds[0]))
+    profile, at = np.array(body.profile, dtype=np.float64), np.array(body.at, dtype=np.float64)
+    if body.axis != "Z":
+        (r0, z0), (r1, z1) = profile[:-1].T, profile[1:].T
+        return float(np.pi / 3 * np.abs((z1 - z0) * (r0 * r0 + r0 * r1 + r1 * r1)).sum())
+    rings = np.unique(np.append(profile[:, 0], [body.bore, 0.0]))
+    inner, outer = rings[:-1], rings[1:]
+    inner, outer = inner[inner >= body.bore], outer[inner >= body.bore]
+    near, far = (2 * inner + outer) / 3, (inner + 2 * outer) / 3  # the sides are straight between two rings
+    thick = [top_of(body, at[0] + rho, at[1] + 0 * rho) - floor_of(body, at[0] + rho, at[1] + 0 * rho) for rho in (near, far)]
+    rise = (thick[1] - thick[0]) / (far - near)
+    start = thick[0] - rise * near
+    return float(np.pi * (start * (outer**2 - inner**2) + rise * (outer**3 - inner**3) * 2 / 3).sum())
+
+
 def _faces(body: Blank, x: Array, y: Array) -> tuple[Array, Array]:
     low, high = body.bounds
     inside = (x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])

@@ -3,6 +3,10 @@
     cutters  what a tool is below: flat, corner, cone
     moves    the rows of a path as straight moves and arcs, each with its cutter
     swept    exact: how high each move leaves the material at points
-    raster   the map: cells, tiles, and the sweep over them
+    raster   the map: cells, tiles, and the order of moves over them
+    sweep    the height at any points
+    volumes  what was taken away, and by which row
+    sections contours of the material
+    limits   what a map of heights cannot hold, in words
     milled   what is left, as people ask for it
 """

@@ -9,17 +9,23 @@ from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
-from mnclab.text.given import check_number
-from mnclab.workpiece.blank import floor_of, top_of
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown
+from mnclab.workpiece.blank import floor_of, top_of, volume_of
 from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.milling import limits, volumes
 from mnclab.workpiece.milling.moves import CHORD, Moves, moves_of
-from mnclab.workpiece.milling.raster import Raster, in_order, lowered
+from mnclab.workpiece.milling.raster import NOISE, Raster
+from mnclab.workpiece.milling.sections import level, upright
+from mnclab.workpiece.milling.sweep import Sweep
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
-from mnclab.workpiece.workpiece import Solid, Workpiece
+from mnclab.workpiece.workpiece import Solid, Workpiece, sections
 
 CELLS = 400  # along the longer side, by default
 EXACT = 20_000  # moves that are swept exactly
+PLANES = ("XY", "XZ", "YZ")
+ALONG = 4  # samples of an upright section for each cell, before it is looked at closer
 
 
 class Milled(Workpiece):
@@ -36,8 +42,8 @@ class Milled(Workpiece):
         self.step = float(step) if step is not None else float((bounds[1] - bounds[0])[:2].max()) / CELLS
         self.raster = Raster.over(bounds, self.step)
         self.moves: Moves = moves_of(cutting)
-        self.method, self.error = "exact sweep", CHORD
-        self.notes: tuple[str, ...] = ()
+        self.sweep = Sweep(self.raster, self.moves, self.blank_at)
+        self.method, self.error = "exact sweep", CHORD if self.moves.chords else NOISE
 
     @property
     def x(self) -> Array:
@@ -48,14 +54,14 @@ class Milled(Workpiece):
         return self.raster.y
 
     @cached_property
+    def notes(self) -> tuple[str, ...]:  # type: ignore[override]
+        return tuple(limits.notes_of(self.cutting, self.sweep))
+
+    @cached_property
     def heights(self) -> Array:
         found = np.empty(self.raster.shape)
-        boxes = self.moves.boxes
         for tile in self.raster.tiles():
-            x, y = self.raster.middles(tile)
-            top, floor = self.blank_at(x, y)
-            left = np.maximum(lowered(self.moves, boxes, x, y, top), floor)
-            found[tile] = left.reshape(found[tile].shape)
+            found[tile] = self.sweep.left(*self.raster.middles(tile)).reshape(found[tile].shape)
         return found
 
     @cached_property
@@ -71,22 +77,19 @@ class Milled(Workpiece):
 
     def at(self, x: ArrayLike, y: ArrayLike) -> Array | float:
         """The height of the material at a place or at places, mm: exact, whatever the step."""
-        px, py = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
-        top, floor = self.blank_at(px.ravel(), py.ravel())
-        left = np.maximum(lowered(self.moves, self.moves.boxes, px.ravel(), py.ravel(), top), floor)
-        return left.reshape(px.shape) if px.ndim else float(left[0])
+        px, py = _places(x, y)
+        found = self.sweep.at(px.ravel(), py.ravel())
+        return found.reshape(px.shape) if px.ndim else float(found[0])
 
     @cached_property
     def cut_by(self) -> NDArray[np.int64]:
         """The row of the path that cut a cell last (ny, nx), -1 where none did."""
         found = np.full(self.raster.shape, -1, dtype=np.int64)
-        boxes = self.moves.boxes
         for tile in self.raster.tiles():
             x, y = self.raster.middles(tile)
-            top, floor = self.blank_at(x, y)
             last = np.full(len(x), -1)
-            for which, before, left in in_order(self.moves, boxes, x, y, top):
-                cut = left < np.maximum(before, floor)  # what is through already is not cut again
+            for which, before, after in self.sweep.in_order(x, y):
+                cut = before - after > NOISE
                 any_ = cut.any(axis=0)
                 last[any_] = self.moves.row[which[len(which) - 1 - cut[::-1].argmax(axis=0)]][any_]
             found[tile] = last.reshape(found[tile].shape)
@@ -94,25 +97,39 @@ class Milled(Workpiece):
 
     @property
     def volume(self) -> float:
-        return float((self.heights - self.floor).sum()) * self.step**2
+        return self.blank_volume - self.removed
 
-    @property
+    @cached_property
     def removed(self) -> float:
-        return float(self.removed_by_row().sum())
+        return volumes.removed(self.sweep, self.heights)
+
+    @cached_property
+    def _rows(self) -> Array:
+        """What each row took away (n,), on a coarser lattice than the whole, whose sum they are scaled to."""
+        rows = volumes.removed_by_row(self.sweep, len(self.cutting))
+        return rows * (self.removed / rows.sum()) if rows.any() else rows
 
     def removed_by_row(self) -> Array:
-        found = np.zeros(len(self.cutting))
-        boxes = self.moves.boxes
-        for tile in self.raster.tiles():
-            x, y = self.raster.middles(tile)
-            top, floor = self.blank_at(x, y)
-            for which, before, left in in_order(self.moves, boxes, x, y, top):
-                taken = np.maximum(np.maximum(before, floor) - np.maximum(left, floor), 0.0).sum(axis=1)
-                np.add.at(found, self.moves.row[which], taken * self.step**2)
-        return found
+        return self._rows
+
+    @cached_property
+    def blank_volume(self) -> float:
+        return volume_of(self.cutting.stock)
 
     def cut(self, plane: str, at: float = 0.0) -> list[Contour]:
-        raise NotImplementedError
+        plane = sections(PLANES, plane)
+        check_number(at, f"where the section {plane} is (mm)")
+        (x0, y0, _), (x1, y1, _) = self.cutting.stock.bounds.tolist()
+        if plane == "XY":
+            edges = (self.step * (np.arange(-1, n + 1) + 0.5) for n in reversed(self.raster.shape))
+            return level(self.sweep, at, *(low + places for low, places in zip((x0, y0), edges)))
+        if plane == "XZ":
+            return upright(lambda x: self._sides(x, np.full_like(x, at)), x0, x1, self.step / ALONG)
+        return upright(lambda y: self._sides(np.full_like(y, at), y), y0, y1, self.step / ALONG)
+
+    def _sides(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The upper and the lower side of the material at points (m,)."""
+        return self.sweep.at(x, y), self.blank_at(x, y)[1]
 
     @property
     def part(self) -> Part:
@@ -123,3 +140,14 @@ class Milled(Workpiece):
         from mnclab.workpiece.milling.solid import solid_of
 
         return solid_of(self)
+
+
+def _places(x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
+    """Places as arrays of one shape; an Alarm unless they are finite numbers."""
+    try:
+        found = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
+    except (TypeError, ValueError):
+        found = ()
+    if not found or not all(np.isfinite(each).all() for each in found):
+        raise Alarm(f"a place on a part is finite numbers x and y, mm, or arrays that go together, got {shown(x)} and {shown(y)}")
+    return found[0], found[1]

@@ -56,6 +56,11 @@ class Moves:
         )
 
     @property
+    def chords(self) -> bool:
+        """Whether some of them are chords of an arc."""
+        return len(self.row) > 1 and bool((np.diff(self.row) == 0).any())
+
+    @property
     def low(self) -> Array:
         """The lowest place of each tip (k,)."""
         return np.minimum(self.start[:, 2], self.end[:, 2])

@@ -8,16 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from mnclab.path.columns import Array, Index
+from mnclab.text.alarm import Alarm
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.swept import left_by
 
 TILE = 32  # cells of a tile's side
 AT_ONCE = 1 << 17  # points times moves that are looked at together
+NOISE = 1e-9  # mm: less than this is rounding, and nothing taken away
+CELLS = 25_000_000  # at most
 
 
 @dataclass(frozen=True)
@@ -32,18 +34,24 @@ class Raster:
     def over(cls, bounds: Array, step: float) -> Raster:
         """Cells over a box (2, 3); the last of a row or column may stand over."""
         (x0, y0), (x1, y1) = bounds[:, :2].tolist()
-        count = [max(int(np.ceil((high - low) / step - 1e-9)), 1) for low, high in ((y0, y1), (x0, x1))]
+        wanted = [max(np.ceil((high - low) / step - 1e-9), 1.0) for low, high in ((y0, y1), (x0, x1))]
+        if not wanted[0] * wanted[1] <= CELLS:
+            least = float(np.sqrt((x1 - x0) * (y1 - y0) / CELLS))
+            found = f"{step:g} mm makes {wanted[0] * wanted[1]:.3g} over {x1 - x0:g} × {y1 - y0:g} mm"
+            hint = f"step={2 * least:.2g} is possible"
+            raise Alarm(f"a workpiece has at most {CELLS:,} cells, and a step of {found}", hint=hint)
+        count = [int(number) for number in wanted]
         return cls((x0, y0), step, (count[0], count[1]))
 
     @property
     def x(self) -> Array:
         """The middles of the cells of a row (nx,)."""
-        return self.low[0] + self.step * (np.arange(self.shape[1]) + 0.5)
+        return np.asarray(self.low[0] + self.step * (np.arange(self.shape[1]) + 0.5))
 
     @property
     def y(self) -> Array:
         """The middles of the cells of a column (ny,)."""
-        return self.low[1] + self.step * (np.arange(self.shape[0]) + 0.5)
+        return np.asarray(self.low[1] + self.step * (np.arange(self.shape[0]) + 0.5))
 
     def tiles(self) -> Iterator[tuple[slice, slice]]:
         """Rows and columns of every tile."""
@@ -51,22 +59,15 @@ class Raster:
             for i in range(0, self.shape[1], TILE):
                 yield slice(j, min(j + TILE, self.shape[0])), slice(i, min(i + TILE, self.shape[1]))
 
+    @property
+    def tile(self) -> float:
+        """The side of a tile, mm."""
+        return self.step * TILE
+
     def middles(self, tile: tuple[slice, slice]) -> tuple[Array, Array]:
         """x and y of the cells of a tile (m,), row by row."""
         y, x = np.meshgrid(self.y[tile[0]], self.x[tile[1]], indexing="ij")
         return x.ravel(), y.ravel()
-
-
-class Spots(NamedTuple):
-    """Points (m,) that lie close together, with the share of area that each stands for, mm²."""
-
-    x: Array
-    y: Array
-    area: Array
-
-    @property
-    def box(self) -> tuple[float, float, float, float]:
-        return float(self.x.min()), float(self.y.min()), float(self.x.max()), float(self.y.max())
 
 
 def near(moves: Moves, boxes: Array, x: Array, y: Array, below: float) -> Index:
@@ -84,14 +85,18 @@ def near(moves: Moves, boxes: Array, x: Array, y: Array, below: float) -> Index:
     return found[np.isfinite(middle[:, 0])]
 
 
+def chunks(found: Index, points: int) -> Iterator[Index]:
+    """Moves, so many of them at a time as may be looked at together at a number of points."""
+    many = max(AT_ONCE // max(points, 1), 1)
+    return (found[first : first + many] for first in range(0, len(found), many))
+
+
 def lowered(moves: Moves, boxes: Array, x: Array, y: Array, top: Array) -> Array:
     """The heights (m,) that all moves leave together at points whose material reaches up to `top` (m,)."""
     heights = top.copy()
     found = near(moves, boxes, x, y, float(top.max()))
     found = found[np.argsort(moves.low[found], kind="stable")]
-    many = max(AT_ONCE // max(len(x), 1), 1)
-    for first in range(0, len(found), many):
-        chunk = found[first : first + many]
+    for chunk in chunks(found, len(x)):
         chunk = chunk[moves.low[chunk] < heights.max()]
         if not len(chunk):
             break
@@ -106,9 +111,7 @@ def in_order(moves: Moves, boxes: Array, x: Array, y: Array, top: Array) -> Iter
     """
     heights = top.copy()
     found = near(moves, boxes, x, y, float(top.max()))
-    many = max(AT_ONCE // max(len(x), 1), 1)
-    for first in range(0, len(found), many):
-        chunk = found[first : first + many]
+    for chunk in chunks(found, len(x)):
         left = left_by(moves[chunk], x, y)
         upto = np.minimum.accumulate(np.concatenate([heights[None], left]), axis=0)
         yield chunk, upto[:-1], left

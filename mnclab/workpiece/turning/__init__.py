@@ -1,1 +1,1 @@
-"""The turned part, and what the tools of a lathe meet, on the half section: coordinates (z, r), mm."""
+"""What a lathe leaves: the silhouettes of its tools taken away from the half section of the bar."""

@@ -1,0 +1,63 @@
+"""What a map of heights cannot hold of a milled part, in sentences for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mnclab.path.columns import Index, Mask
+from mnclab.workpiece.blank import Revolved
+from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.milling.moves import STILL
+from mnclab.workpiece.milling.raster import NOISE
+from mnclab.workpiece.milling.sweep import Sweep
+
+SHOWN = 3  # lines that a note names
+THREADS = ("tap", "thread mill")
+
+
+def notes_of(cutting: Cutting, sweep: Sweep) -> Iterator[str]:
+    """What is left out, and what looks other than it is."""
+    if cutting.tilted is not None and (out := cutting.cuts & cutting.tilted).any():
+        yield f"{int(out.sum())} rows of a tilted tool are left out ({_lines(cutting, out)})"
+    cuts = cutting.cuts
+    for kind in THREADS:
+        numbers = [number for number, tool in enumerate(cutting.tools) if tool.kind == kind]
+        if (threads := cuts & np.isin(cutting.which, numbers)).any():
+            yield f"a thread is shown without its flanks, at the radius of the {kind} ({_lines(cutting, threads)})"
+    under = np.zeros(len(cutting), dtype=bool)
+    under[undercuts(cutting, sweep)] = True
+    if under.any():
+        yield f"what overhangs an undercut is not shown: there the part is open upwards ({_lines(cutting, under)})"
+    if isinstance(cutting.stock, Revolved) and cutting.stock.axis != "Z" and cutting.stock.bore > 0:
+        yield "the bore of a lying blank is not shown"
+
+
+def undercuts(cutting: Cutting, sweep: Sweep) -> Index:
+    """Rows that take a tool, which is thinner behind its edges, sideways under material that reaches above these."""
+    necks = np.array([_neck(tool.shank, tool.effective_radius) for tool in cutting.tools])
+    if not np.isfinite(necks[cutting.which]).any():
+        return np.zeros(0, dtype=np.int64)
+    moves, rows = sweep.moves, []
+    neck = necks[cutting.which[moves.row]]
+    sideways = (np.hypot(*(moves.end - moves.start)[:, :2].T) > STILL) | moves.arc
+    for tile in sweep.raster.tiles():
+        x, y = sweep.raster.middles(tile)
+        for which, before, after in sweep.in_order(x, y):
+            over = (before > after + neck[which, None] + NOISE).any(axis=1) & sideways[which]
+            rows.append(moves.row[which[over]])
+    return np.unique(np.concatenate(rows))
+
+
+def _neck(shank: tuple[float, float] | None, radius: float) -> float:
+    """How far above the tip a tool becomes thinner, mm; infinite where it does not."""
+    return shank[1] if shank is not None and shank[0] < radius - NOISE else np.inf
+
+
+def _lines(cutting: Cutting, rows: Mask) -> str:
+    """The first lines of some rows."""
+    path = cutting.path
+    found = list(dict.fromkeys(zip(path.line[rows].tolist(), path.program[rows].tolist())))
+    more = ", …" if len(found) > SHOWN else ""
+    return ", ".join(cutting.name(*each) for each in found[:SHOWN]) + more

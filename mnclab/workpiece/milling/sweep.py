@@ -1,0 +1,59 @@
+"""Moves over the raster of a blank: the height of the material at any points, exact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from mnclab.path.columns import Array, Index
+from mnclab.workpiece.milling.moves import Moves
+from mnclab.workpiece.milling.raster import Raster, in_order, lowered, near
+
+Faces = Callable[[Array, Array], tuple[Array, Array]]  # upper and lower side of the blank at points (m,)
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """`faces` are the upper and lower side of the blank, which are equal where there is none."""
+
+    raster: Raster
+    moves: Moves
+    faces: Faces
+
+    @cached_property
+    def boxes(self) -> Array:
+        return self.moves.boxes
+
+    def left(self, x: Array, y: Array) -> Array:
+        """The heights (m,) at points that lie close together."""
+        top, floor = self.faces(x, y)
+        return np.maximum(lowered(self.moves, self.boxes, x, y, top), floor)
+
+    def at(self, x: Array, y: Array) -> Array:
+        """The heights (m,) at points anywhere."""
+        found = np.empty(len(x))
+        for some in grouped(x, y, self.raster.tile):
+            found[some] = self.left(x[some], y[some])
+        return found
+
+    def in_order(self, x: Array, y: Array) -> Iterator[tuple[Index, Array, Array]]:
+        """For some moves after the other, at points close together: which (k,), the heights before each and after (k, m)."""
+        top, floor = self.faces(x, y)
+        for which, before, left in in_order(self.moves, self.boxes, x, y, top):
+            before = np.maximum(before, floor)  # what is through already is not cut again
+            yield which, before, np.minimum(before, np.maximum(left, floor))
+
+    def about(self, x: Array, y: Array) -> Sweep:
+        """With those moves alone that may reach a place between some points."""
+        return replace(self, moves=self.moves[near(self.moves, self.boxes, x, y, np.inf)])
+
+
+def grouped(x: Array, y: Array, side: float) -> Iterator[Index]:
+    """Points that lie in one square of a side, square by square."""
+    column, row = np.floor(x / side), np.floor(y / side)
+    order = np.lexsort((column, row))
+    ends = np.flatnonzero((np.diff(column[order]) != 0) | (np.diff(row[order]) != 0)) + 1
+    yield from (some for some in np.split(order, ends) if len(some))

@@ -1,0 +1,143 @@
+"""What was taken away, in mm³: cells where a wall stands weigh by the share of them that is covered.
+
+A wall is where the rim of a tool has been, or the rim of the blank. A cell that one of them may cross is seen at the points
+of a lattice within it, whose places along x are evenly spaced, and along y too; every other cell is seen at its middle. The
+heights are exact at all of these points.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.workpiece.milling.cutters import edge_height
+from mnclab.workpiece.milling.moves import Moves
+from mnclab.workpiece.milling.raster import NOISE, chunks, near
+from mnclab.workpiece.milling.sweep import Sweep
+from mnclab.workpiece.milling.swept import left_by
+
+FINE, ROUGH = (89, 55), (21, 13)  # points of a lattice and its turn: neighbours in Fibonacci's series
+HALF = 0.75  # of a cell, a little more than its corners are away from its middle
+STEEP = 3.0  # times what the slope of a move explains: a wall
+
+
+def removed(sweep: Sweep, heights: Array) -> float:
+    """What all moves took away together, mm³; `heights` (ny, nx) are what they leave at the middles."""
+    rims, step, total = Rims(sweep), sweep.raster.step, 0.0
+    for tile in sweep.raster.tiles():
+        x, y = sweep.raster.middles(tile)
+        walls = blank_ends(sweep, x, y) | rims.standing(x, y, _highest(heights, tile))
+        taken = sweep.faces(x, y)[0] - heights[tile].ravel()
+        total += float(taken[~walls].sum()) * step**2
+        if walls.any():
+            x, y = within(x[walls], y[walls], step, FINE)
+            total += float((sweep.faces(x, y)[0] - sweep.left(x, y)).sum()) * step**2 / FINE[0]
+    return total
+
+
+def removed_by_row(sweep: Sweep, rows: int) -> Array:
+    """What each of so many rows took away (rows,), mm³, on a coarser lattice."""
+    rims, step, found = Rims(sweep), sweep.raster.step, np.zeros(rows)
+    for tile in sweep.raster.tiles():
+        x, y = sweep.raster.middles(tile)
+        walls = blank_ends(sweep, x, y) | rims.passing(x, y)
+        for points, count in (((x[~walls], y[~walls]), 1), (within(x[walls], y[walls], step, ROUGH), ROUGH[0])):
+            if len(points[0]):
+                for which, before, after in sweep.in_order(*points):
+                    taken = before - after
+                    volumes = np.where(taken > NOISE, taken, 0.0).sum(axis=1) * step**2 / count
+                    np.add.at(found, sweep.moves.row[which], volumes)
+    return found
+
+
+def blank_ends(sweep: Sweep, x: Array, y: Array) -> Mask:
+    """Cells (m,) that lie partly beside the blank."""
+    half = sweep.raster.step * (0.5 - 1e-9)
+    corners = ((0.0, 0.0), (half, half), (half, -half), (-half, half), (-half, -half))
+    inside = [np.greater(*sweep.faces(x + dx, y + dy)) for dx, dy in corners]
+    return np.asarray(np.any(inside, axis=0) & ~np.all(inside, axis=0))
+
+
+@dataclass(frozen=True, eq=False)
+class Rims:
+    """Where the rims of the tools cross cells."""
+
+    sweep: Sweep
+
+    def standing(self, x: Array, y: Array, material: Array) -> Mask:
+        """Cells (m,) where a rim has been lower than the material about them."""
+        found = np.zeros(len(x), dtype=bool)
+        for which in chunks(near(self.wide, self.boxes, x, y, float(material.max())), len(x)):
+            crosses, height = self._crossing(which, x, y)
+            found |= (crosses & (height < material - NOISE)).any(axis=0)
+        return found
+
+    def passing(self, x: Array, y: Array) -> Mask:
+        """Cells (m,) where a rim has been lower than the material at its time."""
+        found, heights = np.zeros(len(x), dtype=bool), self.sweep.faces(x, y)[0]
+        for which in chunks(near(self.wide, self.boxes, x, y, float(heights.max())), len(x)):
+            crosses, height = self._crossing(which, x, y)
+            left = left_by(self.sweep.moves[which], x, y)
+            upto = np.minimum.accumulate(np.concatenate([heights[None], left]), axis=0)
+            found |= (crosses & (height < upto[:-1] - NOISE)).any(axis=0)
+            heights = upto[-1]
+        return found
+
+    def _crossing(self, which: Index, x: Array, y: Array) -> tuple[Mask, Array]:
+        """Whether the rim of each move may cross each cell (k, m), and how high it is there."""
+        height, inner = left_by(self.wide[which], x, y), left_by(self.narrow[which], x, y)
+        inner[self.sweep.moves.radius[which] <= self.half] = np.inf  # tools that are no wider than a cell
+        return np.isfinite(height) & (inner > height + self.slack[which, None]), height
+
+    @property
+    def half(self) -> float:
+        return HALF * self.sweep.raster.step
+
+    @cached_property
+    def wide(self) -> Moves:
+        """Discs that are a little larger than the rims."""
+        return self._discs(self.sweep.moves.radius + self.half)
+
+    @cached_property
+    def boxes(self) -> Array:
+        return self.wide.boxes
+
+    @cached_property
+    def narrow(self) -> Moves:
+        return self._discs(np.maximum(self.sweep.moves.radius - self.half, 0.0))
+
+    def _discs(self, radius: Array) -> Moves:
+        """The moves of flat discs that stand as high as the rims of the tools."""
+        moves, none = self.sweep.moves, np.zeros_like(radius)
+        rim = edge_height(moves.radius, moves.flat, moves.corner, moves.slope)
+        return moves.with_cutter(np.stack([radius, radius, none, none], axis=1), rim)
+
+    @cached_property
+    def slack(self) -> Array:
+        """By how much both discs may differ in height because the moves go up or down (k,)."""
+        moves = self.sweep.moves
+        spoke, way = moves.start[:, :2] - moves.centre, (moves.end - moves.start)[:, :2]
+        length = np.where(moves.arc, np.hypot(*spoke.T) * np.abs(moves.sweep), np.hypot(*way.T))
+        rise = np.abs(moves.end[:, 2] - moves.start[:, 2])
+        slope = np.divide(rise, length, out=np.zeros_like(length), where=length > NOISE)
+        return np.asarray(NOISE + STEEP * self.half * slope)
+
+
+def within(x: Array, y: Array, step: float, lattice: tuple[int, int]) -> tuple[Array, Array]:
+    """The points (m n,) of a lattice of n in each of m cells about their middles."""
+    count, turn = lattice
+    along = np.arange(count)
+    across = (along * turn) % count
+    px, py = (step * ((place + 0.5) / count - 0.5) for place in (along, across))
+    return (x[:, None] + px).ravel(), (y[:, None] + py).ravel()
+
+
+def _highest(heights: Array, tile: tuple[slice, slice]) -> Array:
+    """The highest material in each cell of a tile and beside it (m,)."""
+    rows, columns = (
+        np.clip(np.arange(*each.indices(n)) + [[-1], [0], [1]], 0, n - 1) for each, n in zip(tile, heights.shape)
+    )
+    return np.asarray(heights[rows].max(axis=0)[:, columns].max(axis=1).ravel())
