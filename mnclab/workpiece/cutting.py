@@ -32,7 +32,8 @@ class Cutting:
 
     `tools[which[row]]` is the tool of a row. From row `arrived` on the tool's height is known at the end of a row, from
     `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `tilted` rows
-    are made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line stands ("FILE:LINE").
+    are made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line
+    stands ("FILE:LINE").
     """
 
     path: Toolpath
@@ -43,7 +44,6 @@ class Cutting:
     known: int = 0
     tilted: Mask | None = None
     fixtures: Sequence[Blank | Part] = ()
-    travel: Any = None
     name: Any = field(default=_lines)
 
     def __len__(self) -> int:

@@ -65,9 +65,9 @@ def test_contours_that_only_rise_and_recesses_no_steeper_than_the_insert(seed):
     angle = chance.uniform(20, 50)
     deep = two(chance, 0.5, 2)
     slope = round(deep / tan(radians(angle)), 3)
-    back = -70
-    lines = [*rough, "G00 X60 Z20 T2", f"G00 X{points[0][0]} Z2", *(f"G01 X{x} Z{z}" for x, z in points), "G01 X32", f"G00 Z{back}",
-             f"G01 X30 Z{back}", f"X{30 - deep} Z{back - slope}", f"Z{back - slope - 6}", "X40", "G00 Z30"]  # fmt: skip
+    contour = [f"G01 X{x} Z{z}" for x, z in points]
+    recess = ["G01 X30", f"X{30 - deep} Z{-70 - slope}", f"Z{-76 - slope}", "X40", "G00 Z30"]
+    lines = [*rough, "G00 X60 Z20 T2", f"G00 X{points[0][0]} Z2", *contour, "G01 X32", "G00 Z-70", *recess]
     none(HEAD + "\n".join(lines) + "\n", stock=cylinder(radius, -110, 0), fixtures=(chuck(radius, -110, 15),))
 
 

@@ -80,7 +80,7 @@ def left_by_lean(tool: Tool, way: Contour, taken: Any) -> Any:
         wedge = [(0.0, 0.0), (long, 0.0), (long, long * math.tan(auxiliary)), (0.0, tool.corner)]
     else:
         return shapely.Polygon()
-    return shapely.Polygon((np.array(wedge) + end) * mirror)
+    return shapely.convex_hull(shapely.MultiPoint((np.array(wedge) + end) * mirror))
 
 
 class _Taken(NamedTuple):

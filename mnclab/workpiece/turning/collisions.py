@@ -26,6 +26,7 @@ from mnclab.workpiece.turning.backs import TOLERANCE, left_by_lean, taken_by_bac
 from mnclab.workpiece.turning.bodies import behind, half_section, outline
 
 AXIS = 1e-6  # mm above the axis, where nothing is outside any more
+AREA = 1e-9  # mm², less is rounding
 APART = 0.25  # mm between the points of which the deepest is sought
 SAID = {
     "rapid": "rapid motion in material",
@@ -82,7 +83,8 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
             found = list(_cut(cutting, row, tool, shape, way, left, spared, covered))
             yield from ((row, met) for met in found)
             if way and not found and path.kind[row] == Kind.LINE:
-                spared = shapely.union(spared, left_by_lean(tool, way, shapely.intersection(left, covered)))
+                wedge = left_by_lean(tool, way, shapely.intersection(left, covered))
+                spared = shapely.union(spared, wedge) if wedge.area > AREA else spared
             left = _held(rest)
         for kind, body in behind(tool, height):
             covered = _folded(swept(body, way) if way else shapely.Polygon(body + path.end[row][[2, 0]]))
@@ -154,5 +156,5 @@ def _folded(area: Any) -> Any:
 
 def _held(rest: Any) -> Any:
     """What is still connected to the chuck: a piece that is parted off falls."""
-    pieces = [each for each in shapely.get_parts(rest) if each.geom_type == "Polygon" and each.area > 1e-9]
+    pieces = [each for each in shapely.get_parts(rest) if each.geom_type == "Polygon" and each.area > AREA]
     return min(pieces, key=lambda each: (each.bounds[0], -each.area)) if pieces else shapely.Polygon()
