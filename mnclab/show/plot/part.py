@@ -27,6 +27,7 @@ from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
     from mnclab.workpiece.milling.milled import Milled
+    from mnclab.workpiece.turning.turned import Turned
 
 COLOURS = ("depth", "tool", "line")
 #: Pale above and dark below, in grey print too; what nothing cut is paler still.
@@ -60,7 +61,9 @@ def plot_part(
     if workpiece.cutting.lathe:
         from mnclab.show.plot.turned import plot_turned
 
-        return plot_turned(workpiece, ax, marks, size)
+        if section:
+            raise Alarm("the picture of a turned part is its section through the axis; it has no other")
+        return plot_turned(cast("Turned", workpiece), ax, marks, MARK, colour, size)
     part = cast("Milled", workpiece)
     seen, cuts = relief(part), sections_of(part, section, at)
     image, names, scale = _coloured(part, seen, colour)
@@ -75,7 +78,7 @@ def plot_part(
     handles.append(Line2D([], [], **BLANK))
     handles += [Line2D([], [], **MARK)] if len(marks) else []
     labels = [str(each.get_label()) for each in handles]
-    foot = Foot("\n".join([f"{part.method}, within {part.error:.3g} mm; {part.removed:.3f} mm³ removed", *part.notes]))
+    foot = Foot("\n".join([f"{part.method}, within {number(part.error)} mm; {part.removed:.3f} mm³ removed", *part.notes]))
     picture, axes = arrange(views, low, high, labels, foot, _in_words(part), size, scale is not None)
     _draw(axes[0], part, seen, image, marks)
     for one, each in zip(axes[1:], cuts):
