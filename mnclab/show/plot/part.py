@@ -17,6 +17,7 @@ from matplotlib.patches import Patch
 from mnclab.path.columns import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number
+from mnclab.show.plot.part_words import in_words, told
 from mnclab.show.plot.picture import SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend
 from mnclab.show.plot.relief import Relief, relief
 from mnclab.show.plot.sections import draw_section, mark_section, sections_of
@@ -78,8 +79,7 @@ def plot_part(
     handles.append(Line2D([], [], **BLANK))
     handles += [Line2D([], [], **MARK)] if len(marks) else []
     labels = [str(each.get_label()) for each in handles]
-    foot = Foot("\n".join([f"{part.method}, within {number(part.error)} mm; {part.removed:.3f} mm³ removed", *part.notes]))
-    picture, axes = arrange(views, low, high, labels, foot, _in_words(part), size, scale is not None)
+    picture, axes = arrange(views, low, high, labels, Foot(told(part)), in_words(part), size, scale is not None)
     _draw(axes[0], part, seen, image, marks)
     for one, each in zip(axes[1:], cuts):
         draw_section(one, part, each)
@@ -158,7 +158,3 @@ def _scale(picture: Picture, title: str, low: float, high: float, shades: Any) -
     ax.xaxis.set_major_formatter(lambda value, _: number(value))
     ax.set_ylabel(title, fontsize=SMALL, rotation=0, ha="right", va="center", labelpad=5)
     ax.spines[:].set_linewidth(0.5)
-
-
-def _in_words(part: Workpiece) -> str:
-    return f"the part: {part.volume:.3f} mm³ left, {part.removed:.3f} mm³ removed"

@@ -1,6 +1,6 @@
 """A turned part as a drawing has it: above the centre line hatched in section, below it from outside, in its chuck.
 
-Z goes to the right, the numbers beside the picture are diameters. The insert stands where the last row leaves it.
+Z goes to the right, the numbers beside the picture are diameters. The insert stands where the last cut leaves it.
 """
 
 from __future__ import annotations
@@ -16,12 +16,15 @@ from matplotlib.patches import Patch, PathPatch, Polygon
 
 from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
+from mnclab.path.tool import Tool
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number, ramp
 from mnclab.show.plot.insert import CARBIDE, insert_patches
+from mnclab.show.plot.part_words import in_words, told
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Foot, arrange, dress, write_legend
 from mnclab.show.plot.sections import CHORD, FACE, HALO, HATCH, outline_of
 from mnclab.workpiece.blank import Box, Revolved
+from mnclab.workpiece.cutting import CUTS
 from mnclab.workpiece.turning.turned import Turned, half_section
 
 CHUCK: dict[str, Any] = {"facecolor": "#c9ccd1", "edgecolor": colours.INK, "linewidth": 0.9}
@@ -44,24 +47,18 @@ def plot_turned(
     for each in chucks:
         (z0, _), (z1, r1) = each.bounds
         low, high = np.fmin(low, (-r1, 0, z0)), np.fmax(high, (r1, 0, z1))
-    if len(part.cutting):
-        tip = part.cutting.path.end[-1] - (part.axis, 0.0, 0.0)
-        room = 2.5 * INSERT * max(span, 2 * radius)
-        near = (tip > low - (radius, 1, span)).all() and (tip < high + (radius, 1, span)).all()
-        high = np.fmax(high, tip + (room, 0, room)) if near else high
-    else:
-        tip, near = np.zeros(3), False
+    tip, tool = _last_cut(part)
+    if tip is not None:
+        low, high = np.fmin(low, tip), np.fmax(high, tip + 2.5 * INSERT * max(span, 2 * radius) * np.array([1.0, 0.0, 1.0]))
     names = [] if colour == "depth" else _colours(part, colour)
     handles: list[Any] = [
         Line2D([], [], **_BLANK), Patch(**CHUCK, label="chuck"), *([Patch(facecolor=CARBIDE, edgecolor=colours.INK,
-        linewidth=0.9, label="insert")] if near else []), *(Line2D([], [], color=shade, linewidth=2.2, label=name)
+        linewidth=0.9, label="insert")] if tip is not None else []), *(Line2D([], [], color=shade, linewidth=2.2, label=name)
         for name, shade, _ in names), *([Line2D([], [], **mark)] if len(marks) else []),
     ]  # fmt: skip
     if ax is None:
         labels = [str(each.get_label()) for each in handles]
-        told = f"{part.method}, within {number(part.error)} mm; {part.removed:.3f} mm³ removed"
-        words = f"the turned part: {part.volume:.3f} mm³ left, {part.removed:.3f} mm³ removed"
-        picture, (own,) = arrange([VIEW], low, high, [*labels], Foot("\n".join([told, *part.notes])), words, size)
+        picture, (own,) = arrange([VIEW], low, high, labels, Foot(told(part)), in_words(part), size)
         write_legend(picture, handles)
     else:
         own = ax
@@ -70,8 +67,8 @@ def plot_turned(
     _draw(own, part, chucks)
     for _, shade, lines in names:
         own.add_collection(LineCollection(lines, colors=shade, linewidths=2.2, capstyle="butt", zorder=2.6))
-    if near:
-        for patch in insert_patches(part.cutting.tool(-1), (float(tip[2]), float(tip[0])), INSERT * max(span, 2 * radius)):
+    if tip is not None:
+        for patch in insert_patches(tool, (float(tip[2]), float(tip[0])), INSERT * max(span, 2 * radius)):
             own.add_patch(patch)
     if len(marks):
         own.add_line(Line2D(marks[:, 2], marks[:, 0] - part.axis, **mark))
@@ -81,6 +78,15 @@ def plot_turned(
 
 
 _BLANK = {**colours.BLANK.style(), "linestyle": (0, (6, 2)), "linewidth": 0.9}
+
+
+def _last_cut(part: Turned) -> tuple[Array | None, Tool]:
+    """Where the tip stands after the last cut (3,), from the axis on, and its tool."""
+    cutting = part.cutting
+    rows = np.flatnonzero(cutting.cuts & np.isin(cutting.path.kind, CUTS))
+    if not len(rows):
+        return None, Tool()
+    return cutting.path.end[rows[-1]] - (part.axis, 0.0, 0.0), cutting.tool(int(rows[-1]))
 
 
 def draw_half(ax: Axes, part: Turned) -> None:
