@@ -70,3 +70,13 @@ class Logs:
 
     def extend(self, name: str, steps: NDArray[np.integer[Any]], values: Values) -> None:
         self.by_name.setdefault(name, Log()).extend(steps, values)
+
+    def changed(self, name: str, last: int) -> list[tuple[int, Any]]:
+        """The steps up to `last` at which a name changed, and its value from there on."""
+        log = self.by_name.get(name)
+        return [(int(step), value) for step, value in zip(*log.close(last))] if log else []
+
+    def value(self, name: str, step: int) -> Any:
+        """What a name was after a step; None if it had no value yet."""
+        changes = self.changed(name, step)
+        return changes[-1][1] if changes else None

@@ -26,9 +26,11 @@ from mnclab.text.alarm import Alarms, Span
 
 if TYPE_CHECKING:
     from mnclab.machine.control import Control
+    from mnclab.machine.cut_so_far import CutSoFar
     from mnclab.machine.cycle import Definition
     from mnclab.machine.waiting import Pending
     from mnclab.path.compensation import Gouge
+    from mnclab.path.travel import Stopped
 
 Place = tuple[float, float, float]
 PATTERN, HOLES, REPEAT = "points of a pattern", "blocks of a run of holes", "passes of a repeat"
@@ -115,9 +117,11 @@ class State:
     recorder: Recorder = part(lambda m: Recorder(m.tip), outlives=True, compared=())
     programmed_pieces: list[Toolpath] = part(lambda m: [], outlives=True)
     settled: list[Toolpath] = part(lambda m: [], outlives=True)
+    cut_so_far: CutSoFar | None = part(None, outlives=True, compared=())  # the part that a probe touches, if that is it
     altered: bool = part(False)  # whether a pass changed anything
     cut: int | None = part(None)  # the step of a fault found in a pass: nothing from there on counts
     gouges: list[Gouge] = part(lambda m: [])  # where the tool does not fit
+    stopped: Stopped | None = part(None)  # where an axis would have left its travel
     # fmt: on
 
     control: Control

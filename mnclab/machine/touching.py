@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from mnclab.machine.cut_so_far import CUT, part_before
 from mnclab.text.program import Word
 from mnclab.workpiece.part import contact
 
@@ -31,15 +32,16 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if m.side:
         m.alarm("a probe cannot move under radius compensation", word)
     if m.setup.part is None:
-        m.alarm("there is no part to touch", word, hint="give one: Setup(part=…)")
+        m.alarm("there is no part to touch", word, hint='give one: Setup(part=…); "cut" is what the program has cut')
     m.settle()
+    part = part_before(m, word) if m.setup.part == CUT else m.setup.part
     m.variables.state_read = m.step
     start, goal = np.array(m.tip), np.array(m.to_machine(target))
     reach = float(np.linalg.norm(goal - start))
     if reach == 0:
         m.alarm("a touch needs a direction", word)
     direction, up = (goal - start) / reach, np.array([0.0, 0.0, ball])
-    travel = contact(m.setup.part, start + up, direction, ball, reach)
+    travel = contact(part, start + up, direction, ball, reach)
     if travel is None and miss == "alarm":
         m.alarm(f"touch point inaccessible: no contact within {reach:g} mm", word)
     end = start + direction * (reach if travel is None else travel)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.machine.control import Control
+from mnclab.machine.cutting_rows import start_known, stock_of
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
 from mnclab.machine.settling import paths, shifted, stop_at_travel
@@ -24,6 +25,7 @@ from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
+from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
 from mnclab.runs import material, still_spindle
@@ -36,8 +38,9 @@ from mnclab.text.columns import fixed
 from mnclab.text.given import shown, whole
 from mnclab.text.program import Program
 from mnclab.text.tables import html_table
-from mnclab.workpiece.blank import Blank, Box, Revolved, blank
+from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.collision import Collisions
+from mnclab.workpiece.removal import Removal
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
@@ -56,7 +59,7 @@ class Run:
     """The result of running a program: both paths, alarms, history, and where the machine stands.
 
     `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
-    `gouge = "mark"` all of them.
+    `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates.
     """
 
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
@@ -77,6 +80,7 @@ class Run:
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
         self.frames = machine.frames
         self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
+        self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
@@ -128,13 +132,7 @@ class Run:
     @property
     def stock(self) -> Blank | None:
         """The blank in the coordinates of the toolpath: that of the setup, else the last one that the program gives."""
-        if self.setup.stock is not None:
-            found = blank(self.setup.stock)
-            return found and found.moved(-self.toolpath.origin)
-        given = [value for _, value in self.history.changed("stock")]
-        if not given or isinstance(given[-1], Revolved):
-            return given[-1] if given else None
-        return None if given[-1].maximum is None else Box(given[-1].minimum, given[-1].maximum)
+        return stock_of(self.setup.stock, self.history.changed("stock"), np.array(self.toolpath.origin))
 
     def _executions(self, line: int, program: int) -> NDArray[np.intp]:
         """The steps that executed the block of a line."""
@@ -211,7 +209,11 @@ class Run:
     @property
     def known_from(self) -> int:
         """The first row of the path whose start somebody has said: before it the tool comes from home."""
-        return material.start_known(self)[1]
+        return start_known(self.toolpath, self.setup.start)[1]
+
+    def removal(self, limits: Limits | str | None = None, *, step: float | None = None) -> Removal:
+        """How much material goes by row, line and tool, and how fast; `limits` as in `profile`, `step` as in `workpiece`."""
+        return Removal(self.workpiece(step=step), self.profile(limits))
 
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""

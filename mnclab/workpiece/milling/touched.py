@@ -22,9 +22,9 @@ FAR = 8.0  # mm, beyond which a distance is no longer looked for, and only bound
 BEHIND = 1e-6  # mm, how far behind a surface material must stand
 AT_ONCE = 8  # places that a probe looks at in one go: each of them may have to look round
 RAYS, ALONG = 64, 41  # around a point, and places of each
-ZOOMS, WINDOW = 14, 9  # how often a place on a ray is narrowed down, and among how many
-ROUGH = 5  # … as often before the rays are compared
-TURNS = 11  # how often the direction is narrowed down
+ZOOMS, WINDOW = 10, 17  # how often a place on a ray is narrowed down, and among how many
+ROUGH = 3  # … as often before the rays are compared
+TURNS = 7  # how often the direction is narrowed down
 NARROWINGS = 60  # of the place on a slope where a tool stands deepest about a point
 
 
@@ -75,8 +75,8 @@ class Touched:
         np.minimum.at(sure, at[stands], size[stands])
         search = np.flatnonzero(free & (sure > found + 1e-12))
         found[free] = sure[free]
-        for index in search:
-            found[index] = min(sure[index], self._looking_round(moves, points[index], sure[index]))
+        if len(search):
+            found[search] = self._looking_round(moves, points[search], sure[search])
         return found
 
     def _material(self, moves: Moves, points: Array) -> Mask:
@@ -94,37 +94,38 @@ class Touched:
         stands = found > floor
         return np.where(stands, floor, np.inf), np.where(stands, found, -np.inf)
 
-    def _looking_round(self, moves: Moves, point: Array, reach: float) -> float:
-        """The distance of the nearest material of a point; `reach` where there is none within it."""
-
-        def off(angle: Array, out: Array) -> Array:
-            x, y = point[0] + out * np.cos(angle), point[1] + out * np.sin(angle)
-            floor, top = self._columns(moves, x.ravel(), y.ravel())
-            away = np.maximum(np.maximum(point[2] - top, floor - point[2]), 0.0).reshape(x.shape)
-            return np.hypot(out, away)
+    def _looking_round(self, moves: Moves, points: Array, reach: Array) -> Array:
+        """The distances of points (m, 3) from the nearest material; `reach` (m,) where there is none within it."""
+        every = np.arange(len(points))
 
         def along(angle: Array, zooms: int) -> Array:
-            """The least distance on rays (a,)."""
-            out = np.linspace(0.0, reach, ALONG) + np.zeros((len(angle), 1))
-            step, rows = reach / (ALONG - 1), np.arange(len(angle))
+            """The least distances on rays (m, a)."""
+            out = np.linspace(0.0, 1.0, ALONG) * np.broadcast_to(reach[:, None, None], (*angle.shape, 1))
+            step = reach[:, None, None] / (ALONG - 1)
             for zoom in range(zooms + 1):
-                here = off(angle[:, None], out)
-                best = here.argmin(axis=1)
+                here = self._off(moves, points, angle, out)
                 if zoom < zooms:
-                    middle = out[rows, best][:, None]
+                    middle = np.take_along_axis(out, here.argmin(axis=2)[..., None], axis=2)
                     out = np.maximum(middle + step * np.linspace(-1.0, 1.0, WINDOW), 0.0)
-                    step /= (WINDOW - 1) / 2
-            return here[rows, best]
+                    step = step / ((WINDOW - 1) / 2)
+            return np.asarray(here.min(axis=2))
 
         angle, step = np.linspace(0.0, 2 * np.pi, RAYS, endpoint=False), 2 * np.pi / RAYS
-        best = angle[along(angle, ROUGH).argmin()]
-        least = reach
+        best, least = angle[along(angle + np.zeros((len(points), 1)), ROUGH).argmin(axis=1)], reach
         for _ in range(TURNS):
-            angle = best + step * np.linspace(-1.0, 1.0, WINDOW)
+            angle = best[:, None] + step * np.linspace(-1.0, 1.0, WINDOW)
             here = along(angle, ZOOMS)
-            best, least = angle[here.argmin()], min(least, float(here.min()))
+            best, least = angle[every, here.argmin(axis=1)], np.minimum(least, here.min(axis=1))
             step /= (WINDOW - 1) / 2
         return least
+
+    def _off(self, moves: Moves, points: Array, angle: Array, out: Array) -> Array:
+        """How far the material is (m, a, r) that stands at some places `out` (m, a, r) on rays (m, a) from points."""
+        x = points[:, :1, None] + out * np.cos(angle)[..., None]
+        y = points[:, 1:2, None] + out * np.sin(angle)[..., None]
+        floor, top = (each.reshape(out.shape) for each in self._columns(moves, x.ravel(), y.ravel()))
+        height = points[:, 2:, None]
+        return np.hypot(out, np.maximum(np.maximum(height - top, floor - height), 0.0))
 
 
 def depths(moves: Moves, points: Array) -> tuple[Array, Array]:

@@ -1,0 +1,97 @@
+"""What rows of a path cut with, and from where: the same for a run that is over and for a machine that is still running.
+
+A row is cut by the tool as the table has it at that row, not as the program corrects it: DL and DR of a call lift the
+path and widen the contour, the mill stays as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.machine.magazine import Magazine
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.kinds import Kind
+from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath
+from mnclab.workpiece.blank import Blank, Box, Revolved, blank
+
+TILT = "frame tilt"  # the frame of a tilted working plane: the tool stands along its Z
+
+Steps = NDArray[np.integer[Any]]  # the step of each row (n,)
+Changes = Sequence[tuple[int, Any]]  # the steps at which something changed, and its value from there on
+Lookup = Callable[[str, int], Any]  # the value of a name of the history after a step
+
+
+def tools_of_rows(
+    step: Steps, changes: Changes, magazine: Magazine | None, value: Lookup
+) -> tuple[list[Tool], Index, Array]:
+    """The tools, which of them rows of some steps have (n,), and how much higher than the path its tip really is (n,), mm.
+
+    `changes` are those of the tool in the spindle, `magazine` the tools before the program wrote into their table.
+    """
+    tools, lifts = [Tool()], [0.0]
+    at = []
+    for when, held in changes:
+        written = value(f"tools {held.number}", when)
+        found = written if isinstance(written, Tool) else (magazine or {}).get(held.number, held)
+        true = found if found.number else replace(found, number=held.number)
+        at.append(when)
+        tools.append(true)
+        lifts.append(held.dl - true.dl if held.length == true.length else 0.0)
+    which = np.searchsorted(np.array(at, dtype=np.int64), step, "right") if at else np.zeros(len(step), dtype=np.int64)
+    return tools, which, np.array(lifts)[which]
+
+
+def lifted(path: Toolpath, lift: Array) -> Toolpath:
+    """A path whose rows stand higher."""
+    if not lift.any():
+        return path
+    up = np.zeros((len(path), 3))
+    up[:, 2] = lift
+    columns = {name: getattr(path, name) for name in path.all_but_ends()}
+    return path.replace(**columns, start=path.start + up, end=path.end + up)
+
+
+def tilted_rows(step: Steps, changes: Changes) -> Mask | None:
+    """Rows of some steps that are made with a tilted tool (n,); `changes` are those of the frame `TILT`."""
+    if not any(frame is not None for _, frame in changes):
+        return None
+    at, on = zip(*((when, frame is not None) for when, frame in changes), strict=True)
+    return np.asarray(np.array([False, *on])[np.searchsorted(np.array(at), step, "right")])
+
+
+def start_known(path: Toolpath, start: tuple[float, float, float]) -> tuple[int, int]:
+    """From which row on the tool's height is known at the end of a row, and from which on every row's start is.
+
+    A setup that says where the spindle starts says all of it. Else the tool comes from home: its height is known when Z (on
+    a lathe X and Z) has moved, the whole place when every axis has, or when something was moved at feed.
+    """
+    if any(start):
+        return 0, 0
+    rows = np.flatnonzero(path.is_motion)
+    axes = [0, 2] if path.lathe else [0, 1, 2]
+    moved = np.logical_or.accumulate(path.start[rows] != path.end[rows], axis=0)[:, axes]
+    high = moved.all(axis=1) if path.lathe else moved[:, -1]
+    known = moved.all(axis=1) | (path.kind[rows] != Kind.RAPID)
+    n = len(path)
+    return (int(rows[high.argmax()]) if high.any() else n), (int(rows[known.argmax()]) + 1 if known.any() else n)
+
+
+def stock_of(given: Any, changes: Changes, origin: Array) -> Blank | None:
+    """The blank in the coordinates of a path that counts from `origin`: that of the setup, else the last of the program.
+
+    `changes` are those of the blank that the program gives.
+    """
+    if given is not None:
+        found = blank(given)
+        return found and found.moved(-origin)
+    last = changes[-1][1] if len(changes) else None
+    if last is None or isinstance(last, Revolved):
+        return last
+    return None if last.maximum is None else Box(last.minimum, last.maximum)
+

@@ -1,0 +1,56 @@
+"""Removal over time as a picture: the feed, and under it how much material is taken away a minute."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from mnclab.show.plot import colours
+from mnclab.show.plot.picture import SMALL, Picture, calm
+from mnclab.show.plot.profile import plot_profile
+
+SIZE = (7.0, 4.6)  # inches
+SHADE = 0.28  # of the area under the rate
+
+
+def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
+    """Feed (mm/min) and removal rate (mm³/min, the mean of each row) over time (s); the largest is marked with its line.
+
+    `size`: width and height in inches.
+    """
+    most = removal.largest
+    said = f"removal: {removal.volume:.1f} mm³ in {removal.profile.time:.4g} s"
+    picture = Picture(size, f"{said}, at most {most.rate:.0f} mm³/min in line {removal.place(most)}" if most else said)
+    width, height = size
+    grid = picture.add_gridspec(
+        2, 1, left=0.85 / width, right=1 - 0.15 / width, bottom=0.5 / height, top=1 - 0.12 / height, hspace=0.12
+    )
+    feed = picture.add_subplot(grid[0, 0])
+    rate = picture.add_subplot(grid[1, 0], sharex=feed)
+    plot_profile(removal.profile, feed, limits=False)
+    begin, end = removal.profile.starts[:-1][: len(removal.rate)], removal.profile.starts[1:][: len(removal.rate)]
+    t, height_of = np.stack([begin, end], axis=1).ravel(), np.repeat(removal.rate, 2)
+    rate.fill_between(t, height_of, color=colours.REACHED.colour, alpha=SHADE, linewidth=0)
+    rate.plot(t, height_of, color=colours.REACHED.colour, linewidth=1.2)
+    top = 1.25 * float(removal.rate.max(initial=0.0)) or 1.0
+    rate.set_ylim(0, top)
+    if most:
+        middle = (begin[most.row] + end[most.row]) / 2
+        rate.plot([middle], [most.rate], **colours.SLOW_CORNER.style())
+        late = middle > removal.profile.time / 2
+        rate.annotate(
+            f"line {removal.place(most)}: {most.rate:.0f} mm³/min", (middle, most.rate), (-6 if late else 6, 5),
+            textcoords="offset points", fontsize=SMALL, ha="right" if late else "left", color=colours.INK,
+        )  # fmt: skip
+    for axes, title in ((feed, "feed, mm/min"), (rate, "removal, mm³/min")):
+        axes.set_ylabel(title, fontsize=SMALL)
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+        calm(axes)
+    feed.set_xlabel("")
+    feed.tick_params(labelbottom=False)
+    rate.set_xlabel("time, s", fontsize=SMALL + 1)
+    picture.align_ylabels([feed, rate])
+    return picture

@@ -1,0 +1,132 @@
+"""Removal over time: how much material each row of a path takes away, and how fast."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from mnclab.path.columns import Array
+from mnclab.path.kinds import Kind
+from mnclab.path.profile import Profile
+from mnclab.path.tool import Tool
+from mnclab.text.given import choice
+from mnclab.text.records import written
+from mnclab.text.tables import html_table
+from mnclab.workpiece.workpiece import Workpiece
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+KEYS = ("line", "tool")
+CUTS = (Kind.LINE, Kind.ARC)
+HEAD = ("tool", "removed", "time in material", "mean rate", "largest rate", "in line")
+
+
+class Fastest(NamedTuple):
+    """The row that takes most away in its time: `rate` mm³/min, `line` of program number `program`, `row` of the path."""
+
+    rate: float
+    line: int
+    program: int
+    row: int
+
+    def __repr__(self) -> str:
+        return written(self)
+
+
+class Removal:
+    """What a workpiece lost while a profile went on; both belong to the same path of n rows.
+
+    `volumes` (n,) mm³ and `seconds` (n,) are those of each row, `rate` (n,) mm³/min its mean rate: 0 where it cuts
+    nothing. A row that begins in the air has a lower mean than where it cuts.
+    """
+
+    def __init__(self, workpiece: Workpiece, profile: Profile) -> None:
+        self.workpiece, self.profile = workpiece, profile
+        self.volumes, self.seconds = workpiece.removed_by_row(), profile.seconds[: len(workpiece.cutting)]
+
+    @cached_property
+    def rate(self) -> Array:
+        found = np.zeros(len(self.volumes))
+        cuts = (self.volumes > 0) & (self.seconds > 0)
+        return np.divide(60 * self.volumes, self.seconds, out=found, where=cuts)
+
+    @property
+    def volume(self) -> float:
+        """All that was taken away, mm³."""
+        return float(self.volumes.sum())
+
+    @property
+    def time(self) -> float:
+        """Seconds of the rows that take something away."""
+        return float(self.seconds[self.volumes > 0].sum())
+
+    @property
+    def mean(self) -> float:
+        """mm³/min while something is taken away."""
+        return 60 * self.volume / self.time if self.time else 0.0
+
+    @property
+    def largest(self) -> Fastest | None:
+        """The row at feed with the largest rate; None if none cuts."""
+        return self._fastest(np.isin(self.workpiece.cutting.path.kind, CUTS))
+
+    def by(self, what: str = "line") -> dict[Any, float]:
+        """mm³ by "tool", or by "line": of a program that was called a pair (program, line), as `Profile.time_by` has it."""
+        choice(what, "what a removal sums over", KEYS)
+        path = self.workpiece.cutting.path
+        own, line = path.program.tolist(), path.line.tolist()
+        keys = path.tool.tolist() if what == "tool" else [at if not of else (of, at) for of, at in zip(own, line)]
+        found: dict[Any, float] = {}
+        for row in np.flatnonzero(self.volumes):
+            found[keys[row]] = found.get(keys[row], 0.0) + float(self.volumes[row])
+        return found
+
+    def _fastest(self, rows: Any) -> Fastest | None:
+        rates = np.where(rows, self.rate, 0.0)
+        if not rates.any():
+            return None
+        row, path = int(rates.argmax()), self.workpiece.cutting.path
+        return Fastest(float(rates[row]), int(path.line[row]), int(path.program[row]), row)
+
+    def _tool(self, number: int) -> str:
+        cutting = self.workpiece.cutting
+        found: Tool | None = next((tool for tool in cutting.tools if tool.number == number), None)
+        return f"T{number} {found.name if found else ''}".rstrip()
+
+    def rows(self) -> list[tuple[str, ...]]:
+        """A row of texts for each tool that took something away, and for all of them: as `HEAD` has it."""
+        path = self.workpiece.cutting.path
+        numbers = list(self.by("tool"))
+        groups = [(self._tool(number), path.tool == number) for number in numbers]
+        groups += [("all", path.tool >= 0)] if len(numbers) != 1 else []
+        told = []
+        for name, rows in groups:
+            volume = float(self.volumes[rows].sum())
+            seconds = float(self.seconds[rows & (self.volumes > 0)].sum())
+            most = self._fastest(rows & np.isin(path.kind, CUTS))
+            told.append((
+                name, f"{volume:.3f} mm³", f"{seconds:.2f} s", f"{60 * volume / seconds if seconds else 0.0:.1f} mm³/min",
+                f"{most.rate:.1f} mm³/min" if most else "", self.place(most) if most else "",
+            ))  # fmt: skip
+        return told
+
+    def place(self, fastest: Fastest) -> str:
+        """Where the largest rate is: the line, with its program where that was called."""
+        return str(fastest.line) if not fastest.program else f"{fastest.program}:{fastest.line}"
+
+    def plot(self, **options: Any) -> Figure:
+        """The feed over time and the removal rate under it; see `show.plot.removal.plot_removal`."""
+        from mnclab.show.plot.removal import plot_removal
+
+        return plot_removal(self, **options)
+
+    def __repr__(self) -> str:
+        most = self.largest
+        head = f"{self.volume:.3f} mm³ removed in {self.time:.2f} s, {self.mean:.1f} mm³/min"
+        return f"<Removal: {head}{f', at most {most.rate:.1f} in line {self.place(most)}' if most else ''}>"
+
+    def _repr_html_(self) -> str:
+        return html_table(HEAD, self.rows(), numbers=range(1, 6))

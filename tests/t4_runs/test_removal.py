@@ -1,0 +1,95 @@
+"""Removal over time: volumes of slots over the times of their moves, by tool and line."""
+
+import numpy as np
+import pytest
+
+import mnclab
+from mnclab import Limits, Setup, Tool
+from mnclab.text.alarm import Alarm
+
+TOOLS = {1: Tool(radius=8, name="end mill 16", kind="mill"), 2: Tool(radius=5, name="end mill 10", kind="mill")}
+SLOTS = """T1 M6
+S1000 M3
+G43 G0 X-10 Y12 Z5
+G0 Z-4
+G1 X70 F300
+G0 Z5
+T2 M6
+G43 G0 X-10 Y32 Z5
+G0 Z-2
+G1 X70 F600
+G0 Z50
+"""
+WIDE, NARROW = 60 * 16 * 4, 60 * 10 * 2  # mm³
+EXACT = 1e-2  # of a volume, by cells
+FAST = Limits(rapid=1e6, acceleration=1e9)  # a cut takes its length over its feed
+
+
+@pytest.fixture(scope="module")
+def slots():
+    return mnclab.run(SLOTS, "g43", Setup(tools=TOOLS, stock=((0, 0, -20), (60, 40, 0))))
+
+
+def test_volumes_by_line_and_tool(slots):
+    removal = slots.removal(FAST)
+    assert removal.by("line") == pytest.approx({5: WIDE, 10: NARROW}, rel=EXACT)
+    assert removal.by("tool") == pytest.approx({1: WIDE, 2: NARROW}, rel=EXACT)
+    assert sum(removal.by("tool").values()) == pytest.approx(removal.volume)
+    assert removal.volume == pytest.approx(slots.workpiece().removed)
+
+
+def test_the_rate_is_the_volume_over_the_time_of_its_move(slots):
+    """80 mm at 300 are 16 s, at 600 they are 8 s."""
+    removal = slots.removal(FAST)
+    assert removal.time == pytest.approx(24, rel=1e-3)
+    assert removal.mean == pytest.approx((WIDE + NARROW) / 24 * 60, rel=EXACT)
+    assert removal.largest.rate == pytest.approx(WIDE / 16 * 60, rel=EXACT)
+    assert (removal.largest.line, removal.largest.program) == (5, 0)
+    assert slots.toolpath.line[removal.largest.row] == 5
+    cuts = np.isin(slots.toolpath.line, (5, 10)) & slots.toolpath.is_motion
+    assert np.flatnonzero(removal.rate).tolist() == np.flatnonzero(cuts).tolist()
+
+
+def test_a_slower_machine_takes_away_less_a_minute(slots):
+    slow = slots.removal(Limits(rapid=1000, acceleration=10))
+    assert slow.volume == slots.removal(FAST).volume and slow.mean < slots.removal(FAST).mean
+
+
+def test_a_called_program_has_its_own_lines():
+    called = mnclab.run(
+        "BEGIN PGM A MM\nBLK FORM 0.1 Z X+0 Y+0 Z-20\nBLK FORM 0.2 X+60 Y+40 Z+0\nTOOL CALL 1 Z S1000\n"
+        "L X-10 Y+12 Z+5 R0 FMAX M3\nCALL PGM B\nL Z+50 R0 FMAX\nEND PGM A MM\n",
+        "tnc-620",
+        Setup(tools=TOOLS, files={"B.H": "BEGIN PGM B MM\nL Z-4 R0 FMAX\nL X+70 R0 F300\nEND PGM B MM\n"}),
+    )
+    assert called.ok, called.alarms
+    removal = called.removal(FAST)
+    assert removal.by("line") == pytest.approx({(1, 3): WIDE}, rel=EXACT)
+    assert "line 1:3" in repr(removal)
+
+
+def test_the_table_has_a_row_for_each_tool_and_one_for_all(slots):
+    rows = slots.removal(FAST).rows()
+    assert [row[0] for row in rows] == ["T1 end mill 16", "T2 end mill 10", "all"]
+    assert [row[2] for row in rows] == ["16.00 s", "8.00 s", "24.00 s"]
+    assert [row[-1] for row in rows] == ["5", "10", "5"]
+
+
+def test_a_program_that_cuts_nothing():
+    removal = mnclab.run("G0 X10 Y10 Z5\n", "g43", Setup(stock=((0, 0, -20), (60, 40, 0)))).removal()
+    assert (removal.volume, removal.time, removal.mean, removal.largest) == (0, 0, 0, None)
+    assert removal.plot().axes
+
+
+def test_what_it_cannot_sum_over(slots):
+    with pytest.raises(Alarm, match="what a removal sums over"):
+        slots.removal().by("colour")
+
+
+def test_the_picture_has_the_rates(slots):
+    removal = slots.removal(FAST)
+    feed, rate = removal.plot().axes
+    line = rate.lines[0].get_xydata()
+    assert line[:, 1].max() == removal.largest.rate
+    assert "line 5: " in rate.texts[0].get_text()
+    assert feed.get_xlim() == rate.get_xlim()
