@@ -190,7 +190,7 @@ def test_a_body_is_that_of_the_part_unless_the_path_is_named(run, tmp_path):
     with pytest.raises(Alarm, match="no blank, and so no part") as caught:
         run.save(tmp_path / "a.stl")
     assert 'of="path"' in str(caught.value)
-    for options, sentence in (({"of": "tool"}, "of must be one of part, path"), ({"view": "XY"}, "know the option of, got view")):
+    for options, sentence in (({"of": "tool"}, "of must be part or path"), ({"view": "XY"}, "know the option of, got view")):
         with pytest.raises(Alarm, match=sentence):
             run.save(tmp_path / "a.stl", **options)
     assert list(tmp_path.iterdir()) == []

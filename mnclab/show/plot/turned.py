@@ -22,12 +22,13 @@ from mnclab.show.plot.classes import number, ramp
 from mnclab.show.plot.insert import CARBIDE, insert_patches
 from mnclab.show.plot.part_words import in_words, told
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Foot, arrange, dress, write_legend
-from mnclab.show.plot.sections import CHORD, FACE, HALO, HATCH, outline_of
+from mnclab.show.plot.sections import CARD, CHORD, FACE, HATCH, outline_of
 from mnclab.workpiece.blank import Box, Revolved
 from mnclab.workpiece.cutting import CUTS
 from mnclab.workpiece.turning.turned import Turned, half_section
 
 CHUCK: dict[str, Any] = {"facecolor": "#c9ccd1", "edgecolor": colours.INK, "linewidth": 0.9}
+OUTSIDE = "#e9e5d8"
 JAW = (0.3, 0.55)  # length and height of a jaw that nobody gave, in radii of the bar
 INSERT = 0.09  # edges of the insert, of the greatest side of the picture
 BEYOND = 0.04  # of the length: how far the centre line goes on
@@ -110,7 +111,7 @@ def _draw(ax: Axes, part: Turned, chucks: list[Contour]) -> None:
     for chuck in chucks:
         ring = chuck.points_within(CHORD)
         for side in (1, -1):
-            ax.add_patch(Polygon(ring * (1, side), **CHUCK, zorder=2.0))
+            ax.add_patch(Polygon(ring * (1, side), **CHUCK, zorder=2.0, label="chuck"))
     stub = part.low - JAW[0] * part.radius  # the bar in the chuck
     ax.add_patch(Polygon(
         [(stub, -part.radius), (part.low, -part.radius), (part.low, part.radius), (stub, part.radius)],
@@ -138,7 +139,7 @@ def _outside(ax: Axes, part: Turned) -> None:
     around = around[1:-1]
     outer = np.asarray(part.at(around))
     profile = np.concatenate([[(around[0], 0.0)], np.stack([around, -outer], axis=1), [(around[-1], 0.0)]])
-    ax.add_patch(Polygon(profile, facecolor="#e9e5d8", edgecolor=colours.INK, linewidth=1.1, zorder=1.5, label="_outside"))
+    ax.add_patch(Polygon(profile, facecolor=OUTSIDE, edgecolor=colours.INK, linewidth=1.1, zorder=1.5, label="_outside"))
     edges, span = [], part.high - part.low
     for loop in part.section:
         ends = loop.points
@@ -152,7 +153,7 @@ def _outside(ax: Axes, part: Turned) -> None:
             middle = (z0 + z1) / 2
             if abs(float(part.at(middle)) - r0) < 1e-6:
                 text = f"⌀{number(round(2 * r0, 3))}"
-                ax.annotate(text, (middle, -r0 / 2), ha="center", va="center", fontsize=SMALL, path_effects=HALO, zorder=3.0)
+                ax.annotate(text, (middle, -r0 / 2), ha="center", va="center", fontsize=SMALL, bbox=CARD | {"facecolor": OUTSIDE}, zorder=3.0)
     ax.add_collection(LineCollection(edges, colors=colours.INK, linewidths=0.6, zorder=1.7))
 
 
