@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Hashable
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from mnclab.workpiece.workpiece import Workpiece, no_blank
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
+Made = TypeVar("Made")
+KEPT = 6  # parts and lists of collisions that a run keeps
 JUDGED = 3000  # rows up to which a player asks for collisions
 
 
@@ -50,14 +53,21 @@ def workpiece(
     run: Run, line: int | None = None, pass_: int = 1, row: int | None = None, step: float | None = None, stock: Any = None
 ) -> Workpiece:
     """What is left after a run, a pass of a line, or a row."""
-    cutting = cutting_of(run, stock)
+    last = None
     if row is not None:
-        row = whole(row, "the row")
-        if not -len(cutting) <= row < len(cutting):
-            raise Alarm(f"row must be 0 … {len(cutting) - 1}, got {row}")
-        cutting = cutting.until(range(len(cutting))[row])
+        last, n = whole(row, "the row"), len(run.toolpath)
+        if not -n <= last < n:
+            raise Alarm(f"row must be 0 … {n - 1}, got {row}")
+        last %= n
     elif line is not None:
-        cutting = cutting.until(run.at(line, pass_).rows.stop - 1)
+        last = run.at(line, pass_).rows.stop - 1
+    return _kept(run, ("workpiece", last, step), stock, lambda: _workpiece(run, last, step, stock))
+
+
+def _workpiece(run: Run, last: int | None, step: float | None, stock: Any) -> Workpiece:
+    cutting = cutting_of(run, stock)
+    if last is not None:
+        cutting = cutting.until(last)
     if cutting.lathe:
         from mnclab.workpiece.turning.turned import Turned
 
@@ -69,6 +79,10 @@ def workpiece(
 
 def collisions(run: Run, stock: Any = None, step: float | None = None) -> Collisions:
     """What a run meets that it must not."""
+    return _kept(run, ("collisions", step), stock, lambda: _collisions(run, stock, step))
+
+
+def _collisions(run: Run, stock: Any, step: float | None) -> Collisions:
     cutting = cutting_of(run, stock)
     if cutting.lathe:
         from mnclab.workpiece.turning.collisions import collisions_of as of_lathe
@@ -77,6 +91,17 @@ def collisions(run: Run, stock: Any = None, step: float | None = None) -> Collis
     from mnclab.workpiece.milling.collisions import collisions_of as of_mill
 
     return of_mill(cutting, step)
+
+
+def _kept(run: Run, key: Hashable, stock: Any, make: Callable[[], Made]) -> Made:
+    """What a run was asked for, made once as long as it is one of the last few; of another blank every time."""
+    if stock is not None:
+        return make()
+    found: Made = run.made.pop(key) if key in run.made else make()
+    run.made[key] = found
+    if len(run.made) > KEPT:
+        del run.made[next(iter(run.made))]
+    return found
 
 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:

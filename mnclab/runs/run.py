@@ -27,7 +27,7 @@ from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
-from mnclab.runs import material, still_spindle
+from mnclab.runs import material, outcome, still_spindle
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
 from mnclab.runs.moment import Moment
@@ -80,6 +80,7 @@ class Run:
         self.frames = machine.frames
         self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
         self.settings = dict(machine.settings)
+        self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
         """Values as the history has them after the last step that counts."""
@@ -314,7 +315,7 @@ class Run:
         table = html_table(("blocks", "moves", "cutting", "rapid", "time at feed"), [cells], numbers=range(len(cells)))
         title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
         verdict = "" if self.alarms else "<p>no alarms</p>"
-        return f"<div>{title}{table}{verdict}{card_html(self.alarms)}</div>"
+        return f"<div>{title}{table}{verdict}{card_html(self.alarms)}{outcome.card(self)}</div>"
 
 
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:
