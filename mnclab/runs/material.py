@@ -8,17 +8,20 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import shown, whole
 from mnclab.workpiece.blank import blank
 from mnclab.workpiece.collision import Collisions
 from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.outcome import Outcome
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Workpiece, no_blank
 
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
+CARD, REPORT = 1000, 20_000  # moves, beyond which a card and a report do not work out what became of the blank
+CELLS = 80  # along the longer side of the blank, for a card
 Made = TypeVar("Made")
 KEPT = 6  # parts and lists of collisions that a run keeps
 JUDGED = 3000  # rows up to which a player asks for collisions
@@ -102,6 +105,30 @@ def _kept(run: Run, key: Hashable, stock: Any, make: Callable[[], Made]) -> Made
     if len(run.made) > KEPT:
         del run.made[next(iter(run.made))]
     return found
+
+
+def outcome(run: Run, most: int, cells: int | None = None) -> Outcome | None:
+    """What became of the blank of a run; None without one.
+
+    Of a path of more than `most` moves only why it was not worked out. `cells` along the longer side of the blank.
+    """
+    if run.stock is None:
+        return None
+    moves = int(run.toolpath.is_motion.sum())
+    if moves > most:
+        return Outcome(None, None, f"not worked out for {several(moves, 'move')}: see run.workpiece(), run.collisions()")
+    sides = run.stock.bounds[1] - run.stock.bounds[0]
+    step = float(sides[:2].max()) / cells if cells and not run.toolpath.lathe else None
+    try:
+        return Outcome(run.removal(step=step), run.collisions())
+    except Alarm as alarm:
+        return Outcome(None, None, f"not worked out: {alarm.message}")
+
+
+def card(run: Run) -> str:
+    """The lines of the card of a run about its part; nothing without a blank."""
+    found = outcome(run, CARD, CELLS)
+    return found.html() if found else ""
 
 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:
