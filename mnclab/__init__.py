@@ -68,7 +68,7 @@ part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts co
 })  # fmt: skip
 
 blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…)", {
-    "mnclab.workpiece.blank": "Box, Revolved, cylinder",
+    "mnclab.workpiece.blank": "Box, Revolved, chuck, cylinder",
 })  # fmt: skip
 
 area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawing or a path", {

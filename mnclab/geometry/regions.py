@@ -143,7 +143,7 @@ class _Drawing:
     def __post_init__(self) -> None:
         for contour in self.contours:
             self.curves.extend(contour.curves)
-        label = iter(_labels(self.curves).tolist())
+        label = iter(labels(self.curves).tolist())
         elements = [list(zip(c.starts, c.ends, c.sweeps, label)) for c in self.contours]
         arcs_on: dict[int, list[Floats]] = {}
         for start, end, sweep, tag in chain(*elements):
@@ -174,29 +174,38 @@ class _Drawing:
         """The loops of a shapely result, with lines and arcs found again."""
         starts = np.vstack([np.zeros((0, 2)), *self.rings])
         ends = np.vstack([np.zeros((0, 2)), *(np.roll(ring, -1, axis=0) for ring in self.rings)])
-        tags = np.concatenate([np.zeros(0, dtype=int), *self.tags])
-        tree = shapely.STRtree(shapely.linestrings(np.stack([starts, ends], axis=1)))
-        loops: list[Contour] = []
-        for polygon in _polygons(result):
-            for ring, sense in [(polygon.exterior, 1.0), *((ring, -1.0) for ring in polygon.interiors)]:
-                corners = shapely.get_coordinates(ring)[:-1]
-                after = np.roll(corners, -1, axis=0)
-                middles, way = shapely.points((corners + after) / 2), after - corners
-                piece, source = tree.query(middles, predicate="dwithin", distance=10 * GRID)
-                skew = np.abs(cross(way[piece], unit_of(ends - starts)[source]))
-                order = np.lexsort((source, skew, piece))
-                piece, chosen = np.unique(piece[order], return_index=True)
-                tag = np.full(len(corners), -1)
-                tag[piece] = tags[source[order][chosen]]
-                loop = _found_again(corners, tag, self.curves)
-                if loop is not None:
-                    loops.append(loop if loop.area * sense > 0 else loop.reversed())
-                elif sense > 0:
-                    break  # a sliver, and so are its holes
-        return tuple(loops)
+        return traced(result, starts, ends, np.concatenate([np.zeros(0, dtype=int), *self.tags]), self.curves)
 
 
-def _found_again(ring: Floats, tag: NDArray[np.intp], curves: list[Curve]) -> Contour | None:
+def traced(
+    result: Any, starts: Floats, ends: Floats, tags: NDArray[np.intp], curves: Sequence[Curve]
+) -> tuple[Contour, ...]:
+    """The loops of a shapely area, with lines and arcs found again.
+
+    It was made of straight pieces from `starts` to `ends` (k, 2), each on one of the curves, which its tag names.
+    """
+    tree = shapely.STRtree(shapely.linestrings(np.stack([starts, ends], axis=1)))
+    loops: list[Contour] = []
+    for polygon in _polygons(result):
+        for ring, sense in [(polygon.exterior, 1.0), *((ring, -1.0) for ring in polygon.interiors)]:
+            corners = shapely.get_coordinates(ring)[:-1]
+            after = np.roll(corners, -1, axis=0)
+            middles, way = shapely.points((corners + after) / 2), after - corners
+            piece, source = tree.query(middles, predicate="dwithin", distance=10 * GRID)
+            skew = np.abs(cross(way[piece], unit_of(ends - starts)[source]))
+            order = np.lexsort((source, skew, piece))
+            piece, chosen = np.unique(piece[order], return_index=True)
+            tag = np.full(len(corners), -1)
+            tag[piece] = tags[source[order][chosen]]
+            loop = _found_again(corners, tag, curves)
+            if loop is not None:
+                loops.append(loop if loop.area * sense > 0 else loop.reversed())
+            elif sense > 0:
+                break  # a sliver, and so are its holes
+    return tuple(loops)
+
+
+def _found_again(ring: Floats, tag: NDArray[np.intp], curves: Sequence[Curve]) -> Contour | None:
     """A ring `(m, 2)` of straight pieces with tags `(m,)` as lines and arcs; None for a sliver."""
     raw = Contour(ring)
     if abs(raw.area) < SAME * 10 * raw.length:
@@ -230,7 +239,7 @@ def _found_again(ring: Floats, tag: NDArray[np.intp], curves: list[Curve]) -> Co
     return exact_loop if plausible else raw
 
 
-def _runs(raw: Contour, tag: NDArray[np.intp], curves: list[Curve]) -> Iterator[tuple[int, int, int]]:
+def _runs(raw: Contour, tag: NDArray[np.intp], curves: Sequence[Curve]) -> Iterator[tuple[int, int, int]]:
     """Runs of pieces on one curve: (curve, first point, last point), the last one counted on past the end."""
     kept = np.flatnonzero((raw.lengths > 10 * SAME) & (tag >= 0))
     if not len(kept):
@@ -272,7 +281,7 @@ def _bands(loop: Contour, width: float) -> Iterator[Contour]:
             yield Contour([start, last[i - 1], first[i]], [0.0, np.tan(turns[i] / 4), 0.0])
 
 
-def _labels(curves: list[Curve]) -> NDArray[np.intp]:
+def labels(curves: Sequence[Curve]) -> NDArray[np.intp]:
     """For each curve the first one that is the same circle; a line is its own."""
     label = np.arange(len(curves))
     bent = np.array([i for i, curve in enumerate(curves) if np.isfinite(curve.radius)], dtype=int)
@@ -321,7 +330,7 @@ def _cuts(loop: Contour, start: Floats, way: Floats) -> Floats:
     return cuts[np.isfinite(cuts)]
 
 
-def _same(curves: list[Curve], i: int, k: int) -> bool:
+def _same(curves: Sequence[Curve], i: int, k: int) -> bool:
     """Whether two tags mean one curve: equal ones, or two lines in line."""
     a, b = curves[i], curves[k]
     if i == k or np.isfinite(a.radius) or np.isfinite(b.radius):

@@ -139,7 +139,8 @@ class Control:
     beside the common state of a machine, a dataclass. `preassigned` are variables that the control keeps itself; names
     that begin with `local_variables` belong to one program. `modern` writes a program in the notation of today, where the
     control's own is another. `trial` writes a short program around a cycle and its words (address and value), for its
-    form; None where it cannot. `magazine` are the tools of a setup that was given none.
+    form; None where it cannot. `magazine` are the tools of a setup that was given none; of a
+    control without tool words `cycle_tools` says which of them cut, by the code of a cycle (`mnclab.runs.cycle_tools`).
     """
 
     name: str
@@ -181,6 +182,7 @@ class Control:
     trial: Callable[[type[Cycle], list[tuple[str, Any]]], str | None] | None = None
     modern: Callable[[Program], Notation] | None = None
     magazine: Magazine = field(default_factory=lambda: MILLS)
+    cycle_tools: Mapping[str, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "settings", with_every(self.settings))

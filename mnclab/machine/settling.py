@@ -14,7 +14,7 @@ from mnclab.path import compensation, corners, feed_rules, leads, rapids
 from mnclab.path.fault import PathFault
 from mnclab.path.recorder import join
 from mnclab.path.toolpath import Toolpath, concatenate
-from mnclab.path.travel import first_beyond
+from mnclab.path.travel import first_beyond, stopped_at
 from mnclab.text.alarm import WARNING, Alarm
 
 if TYPE_CHECKING:
@@ -66,7 +66,9 @@ def stop_at_travel(m: Machine) -> None:
     place = f"{axis}{found.position:.3f} in machine coordinates, and goes from {low:g} to {high:g}"
     hint = "Limits(travel=…) says how far the axes go, and counts the spindle reference, not the tip of the tool"
     message = f"{axis} leaves the travel of the machine: the spindle would be at {place}"
-    raise Alarm(message, m.flow.span_of_step(m.cut), hint=hint)
+    alarm = Alarm(message, m.flow.span_of_step(m.cut), hint=hint)
+    m.stopped = stopped_at(path, found, travel, alarm)
+    raise alarm
 
 
 def _passes(m: Machine, piece: Toolpath, unfinished: bool, report: compensation.Report | None = None) -> Toolpath:

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from mnclab.machine.cycle import Definition
     from mnclab.machine.waiting import Pending
     from mnclab.path.compensation import Gouge
+    from mnclab.path.travel import Stopped
 
 Place = tuple[float, float, float]
 PATTERN, HOLES, REPEAT = "points of a pattern", "blocks of a run of holes", "passes of a repeat"
@@ -120,6 +121,7 @@ class State:
     altered: bool = part(False)  # whether a pass changed anything
     cut: int | None = part(None)  # the step of a fault found in a pass: nothing from there on counts
     gouges: list[Gouge] = part(lambda m: [])  # where the tool does not fit
+    stopped: Stopped | None = part(None)  # where an axis would have left its travel
     # fmt: on
 
     control: Control

@@ -27,6 +27,7 @@ from mnclab.path.tool import LATHE, Tool
 EDGE = 12.0  # length of an edge that the table does not give
 USUAL = (95.0, 5.0)  # degrees: an insert of 80 degrees, where a picture needs angles and the table has none
 SAME = 1e-12
+FACE = "face grooving"  # a blade across: what is Z of another one is its r
 
 
 def turns(tool: Tool) -> bool:
@@ -112,7 +113,7 @@ def holder(tool: Tool, size: float = 0.0, reach: float = 0.0) -> Floats:
     else:
         outline = insert(replace(tool, corner=0.0, kind="turning", hand="right"), size).points
         corners = outline.mean(axis=0) + size * np.array([(-0.25, 0.0), (0.55, 0.0), (0.55, 1.5), (-0.25, 1.5)])
-    return corners * _mirror(tool)
+    return (corners[:, ::-1] if tool.kind == FACE else corners) * _mirror(tool)
 
 
 def _nose(tool: Tool, main: float, auxiliary: float) -> tuple[Floats, list[float]]:
@@ -160,6 +161,7 @@ def _placed(tool: Tool, points: Floats, bulges: list[float]) -> Contour:
     bulge = np.zeros(len(points))
     bulge[: len(bulges)] = bulges
     some = length_of(np.roll(points, -1, axis=0) - points) > 1e-9
-    mirror = _mirror(tool)
-    contour = Contour(points[some] * mirror, bulge[some] * mirror.prod())
-    return contour if mirror.prod() > 0 else contour.reversed()
+    mirror, points = _mirror(tool), points[:, ::-1] if tool.kind == FACE else points
+    turned = mirror.prod() * (-1 if tool.kind == FACE else 1)
+    contour = Contour(points[some] * mirror, bulge[some] * turned)
+    return contour if turned > 0 else contour.reversed()

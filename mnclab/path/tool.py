@@ -14,9 +14,9 @@ TEXTS = ("name", "kind", "hand")
 HANDS = ("right", "left")
 KINDS = (
     "", "mill", "face mill", "thread mill", "chamfer", "drill", "reamer", "countersink", "tap", "probe",
-    "turning", "boring", "grooving", "thread",
+    "turning", "boring", "grooving", "face grooving", "thread",
 )  # fmt: skip
-LATHE = ("turning", "boring", "grooving", "thread")  # their corner is the nose, whatever the radius
+LATHE = ("turning", "boring", "grooving", "face grooving", "thread")  # their corner is the nose, whatever the radius
 BODIES = ("centre_cutting", "shank", "holder")  # no plain numbers
 SIZES = ("radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle")  # never negative
 
@@ -28,7 +28,8 @@ class Tool:
     `angle` is the point angle, `plunge_angle` the steepest plunge, `dl` and `dr` are deltas added to length and
     radius, `corner` is the corner radius, `cutting_length` the length of the edges, `pitch` that of a tap.
     Of a lathe tool `main_angle` and `auxiliary_angle` lie between the cutting edges and the axis (0: not given),
-    `width` is that of a grooving tool, whose tip is its left corner, and `corner` the nose radius. The programmed tip
+    `width` is that of a grooving tool, whose tip is its left corner (of one for faces the corner nearer to the axis), and
+    `corner` the nose radius. The programmed tip
     of a lathe tool is the imaginary sharp point.
 
     Collisions are judged by `centre_cutting` (None: whether it may plunge is not judged), `hand` ("right" turns with

@@ -18,6 +18,7 @@ import numpy as np
 from mnclab.path.columns import Array
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
+from mnclab.text.alarm import Alarm
 
 NOISE = 1e-6  # mm
 
@@ -28,6 +29,24 @@ class Beyond(NamedTuple):
     row: int
     axis: int
     position: float
+
+
+class Stopped(NamedTuple):
+    """Where a machine stopped before it left its travel: `place` (3,) of the tip that it was led to, `depth` mm beyond."""
+
+    place: tuple[float, float, float]
+    depth: float
+    alarm: Alarm
+
+
+def stopped_at(path: Toolpath, found: Beyond, travel: Array, alarm: Alarm) -> Stopped:
+    """The farthest place of a row that leaves the travel, in the coordinates of the path."""
+    short, over = travel[found.axis, 0] - found.position, found.position - travel[found.axis, 1]
+    low, high = extents(path[found.row : found.row + 1])
+    place = path.end[found.row].copy()
+    place[found.axis] = (low if short > over else high)[0, found.axis]
+    x, y, z = place.tolist()
+    return Stopped((x, y, z), float(max(short, over)), alarm)
 
 
 def first_beyond(path: Toolpath, start: Array, travel: Array) -> Beyond | None:

@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
-from mnclab.text.alarm import Alarm, several
+from mnclab.runs.cycle_tools import cycle_tools
+from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import shown, whole
 from mnclab.workpiece.blank import blank
-from mnclab.workpiece.collision import Collisions
+from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.outcome import Outcome
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Workpiece, no_blank
 
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
-CARD, REPORT = 1000, 20_000  # moves, beyond which a card and a report do not work out what became of the blank
-CELLS = 80  # along the longer side of the blank, for a card
 Made = TypeVar("Made")
 KEPT = 6  # parts and lists of collisions that a run keeps
 JUDGED = 3000  # rows up to which a player asks for collisions
@@ -36,10 +34,10 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     body = body if stock is None else body.moved(-origin)
     changed = run.history.changed
     tools, which, lift = tools_of_rows(path.step, changed("tool"), run.setup.tools, run.history.value)
+    tools, which = cycle_tools(run, tools, which)
     known, tilted = start_known(path, run.setup.start), tilted_rows(path.step, changed(TILT))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
-    travel = run.setup.limits.travel
-    return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, travel, name=run.place_of_line)
+    return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, name=run.place_of_line)
 
 
 def _placed(run: Run, fixture: Any) -> Any:
@@ -81,7 +79,7 @@ def _workpiece(run: Run, last: int | None, step: float | None, stock: Any) -> Wo
 
 
 def collisions(run: Run, stock: Any = None, step: float | None = None) -> Collisions:
-    """What a run meets that it must not."""
+    """What a run meets that it must not; the cut that would have left the travel of the machine among it."""
     return _kept(run, ("collisions", step), stock, lambda: _collisions(run, stock, step))
 
 
@@ -90,10 +88,26 @@ def _collisions(run: Run, stock: Any, step: float | None) -> Collisions:
     if cutting.lathe:
         from mnclab.workpiece.turning.collisions import collisions_of as of_lathe
 
-        return of_lathe(cutting, step)
-    from mnclab.workpiece.milling.collisions import collisions_of as of_mill
+        found = of_lathe(cutting, step)
+    else:
+        from mnclab.workpiece.milling.collisions import collisions_of as of_mill
 
-    return of_mill(cutting, step)
+        found = of_mill(cutting, step)
+    if run.settings["stopped_spindle"] == "accept":
+        found = Collisions(each for each in found if each.kind != "spindle" or run.toolpath.spindle[each.row])
+    return Collisions([*found, *_beyond_travel(run)])
+
+
+def _beyond_travel(run: Run) -> Iterator[Collision]:
+    """The block at which the run was stopped; its `row` is the last one before it."""
+    if run.stopped is None:
+        return
+    place, depth, alarm = run.stopped
+    x, y, z = np.subtract(place, run.toolpath.origin).tolist()
+    span = alarm.span or Span(0, 0)
+    file = run.programs[span.program].name
+    message = f"{alarm.message}, {depth:.3f} mm beyond"
+    yield Collision("travel", message, span.line, span.program, len(run.toolpath) - 1, (x, y, z), depth, file)
 
 
 def _kept(run: Run, key: Hashable, stock: Any, make: Callable[[], Made]) -> Made:
@@ -105,30 +119,6 @@ def _kept(run: Run, key: Hashable, stock: Any, make: Callable[[], Made]) -> Made
     if len(run.made) > KEPT:
         del run.made[next(iter(run.made))]
     return found
-
-
-def outcome(run: Run, most: int, cells: int | None = None) -> Outcome | None:
-    """What became of the blank of a run; None without one.
-
-    Of a path of more than `most` moves only why it was not worked out. `cells` along the longer side of the blank.
-    """
-    if run.stock is None:
-        return None
-    moves = int(run.toolpath.is_motion.sum())
-    if moves > most:
-        return Outcome(None, None, f"not worked out for {several(moves, 'move')}: see run.workpiece(), run.collisions()")
-    sides = run.stock.bounds[1] - run.stock.bounds[0]
-    step = float(sides[:2].max()) / cells if cells and not run.toolpath.lathe else None
-    try:
-        return Outcome(run.removal(step=step), run.collisions())
-    except Alarm as alarm:
-        return Outcome(None, None, f"not worked out: {alarm.message}")
-
-
-def card(run: Run) -> str:
-    """The lines of the card of a run about its part; nothing without a blank."""
-    found = outcome(run, CARD, CELLS)
-    return found.html() if found else ""
 
 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.machine.control import Control
-from mnclab.machine.cutting_rows import stock_of
+from mnclab.machine.cutting_rows import start_known, stock_of
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
 from mnclab.machine.settling import paths, shifted, stop_at_travel
@@ -25,9 +25,10 @@ from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
+from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
-from mnclab.runs import material, still_spindle
+from mnclab.runs import material, outcome, still_spindle
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
 from mnclab.runs.moment import Moment
@@ -59,7 +60,7 @@ class Run:
     """The result of running a program: both paths, alarms, history, and where the machine stands.
 
     `gouges` are the places where a compensated tool does not fit: the one that was refused, or with the setting
-    `gouge = "mark"` all of them.
+    `gouge = "mark"` all of them. `stopped` is where an axis would have left its travel, machine coordinates.
     """
 
     def __init__(self, program: Program, setup: Setup, control: Control, machine: Machine, alarms: list[Alarm]) -> None:
@@ -80,6 +81,7 @@ class Run:
         self.tables: Tables = machine.tables if machine.cut is None else self._tables_of_history()
         self.frames = machine.frames
         self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
+        self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
         self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
 
@@ -206,6 +208,11 @@ class Run:
         """
         return material.collisions(self, stock, step)
 
+    @property
+    def known_from(self) -> int:
+        """The first row of the path whose start somebody has said: before it the tool comes from home."""
+        return start_known(self.toolpath, self.setup.start)[1]
+
     def removal(self, limits: Limits | str | None = None, *, step: float | None = None) -> Removal:
         """How much material goes by row, line and tool, and how fast; `limits` as in `profile`, `step` as in `workpiece`."""
         return Removal(self.workpiece(step=step), self.profile(limits))
@@ -213,7 +220,7 @@ class Run:
     def outcome(self) -> Outcome | None:
         """What became of the blank, for a report: removal and collisions, or why they were not worked out; None without
         one."""
-        return material.outcome(self, material.REPORT)
+        return outcome.outcome(self, outcome.REPORT)
 
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""
@@ -229,7 +236,8 @@ class Run:
         `colour` "kind", "feed" (mm/min), "speed" (of the spindle, rev/min), "tool", "line" or "z" (mm) says what the
         colour of the cuts shows; `arrows=False`, `marks=False` and `stock=False` leave out arrowheads, crosses at zero
         points and poles, and the outline of the blank; `view` "XY", "XZ", "YZ" or "ZX"; `frame` "all" or "cuts"; `size`
-        in inches; `ax` axes of one's own. All of them are explained in `mnclab.show.plot.path.plot_path`.
+        in inches; `ax` axes of one's own; `part=True` draws what is left of the blank under the path. All of them are
+        explained in `mnclab.show.plot.path.plot_path`.
         """
         from mnclab.show.plot.path import plot_run
 
@@ -265,7 +273,7 @@ class Run:
         """Path, tool and blank in three dimensions (needs pyvista); shows itself as a still picture.
 
         `colour` of the cuts: "kind", "feed", "tool", "z", "line"; `row`: where the tool stands; `stock`:
-        another blank, or False. All of them are explained in `mnclab.show.scene.scene`.
+        another blank, or False; `part=True` what is left of it. All of them are explained in `mnclab.show.scene.scene`.
         """
         from mnclab.show.scene import scene
 
@@ -274,7 +282,8 @@ class Run:
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write one file; the suffix says what: svg, pdf, png, csv, json, html (the player), dxf, ngc, stl, gltf, glb, vtk.
 
-        Pictures take the options of `plot`; `true_size=True` makes an svg in true millimetres.
+        Pictures take the options of `plot`; `true_size=True` makes an svg in true millimetres. The bodies (stl, gltf, glb,
+        vtk) are those of the part; `of="path"` writes the path.
         """
         from mnclab.show.export import save
 
@@ -321,7 +330,7 @@ class Run:
         table = html_table(("blocks", "moves", "cutting", "rapid", "time at feed"), [cells], numbers=range(len(cells)))
         title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
         verdict = "" if self.alarms else "<p>no alarms</p>"
-        return f"<div>{title}{table}{verdict}{card_html(self.alarms)}{material.card(self)}</div>"
+        return f"<div>{title}{table}{verdict}{card_html(self.alarms)}{outcome.card(self)}</div>"
 
 
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:

@@ -1,5 +1,5 @@
 """A run as a file: pictures (svg, pdf, png), the table of moves (csv), everything for other programs (json), drawings
-(dxf), plain blocks (ngc), bodies and lines in space (stl, gltf, glb, vtk).
+(dxf), plain blocks (ngc), the part as a body or the path as bodies and lines in space (stl, gltf, glb, vtk).
 
 The suffix says what is written, and exactly one file is. The same run gives the same bytes; text is UTF-8 with plain
 line ends on every system. A new kind of file is a function here and a line in `WRITERS`.
@@ -20,14 +20,14 @@ from numpy.typing import NDArray
 from mnclab.path.columns import COLUMNS
 from mnclab.path.kinds import Kind
 from mnclab.path.toolpath import Toolpath
+from mnclab.show import export_mesh, export_part
 from mnclab.show.export_dxf import write_dxf
 from mnclab.show.export_gcode import write_gcode
-from mnclab.show.export_mesh import write_gltf, write_stl, write_vtk
 from mnclab.show.export_svg import write_true_size
 from mnclab.show.given_away import named
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
-from mnclab.text.given import shown
+from mnclab.text.given import choice, shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,7 +36,8 @@ if TYPE_CHECKING:
 def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = None, **options: Any) -> Path:
     """Write a run to one file and return its path; an Alarm when nothing of this suffix can be written.
 
-    Figures take the options of `Run.plot`; an svg also `true_size=True`, a drawing in true millimetres.
+    Figures take the options of `Run.plot`; an svg also `true_size=True`, a drawing in true millimetres. Bodies (stl, gltf,
+    glb, vtk) are those of the part, with `of="path"` those of the path.
     `picture` draws another figure of the run than the views of its path.
     """
     if not isinstance(path, str | Path):
@@ -51,11 +52,25 @@ def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = Non
         if suffix not in FIGURES:
             raise Alarm(f"a picture cannot be written as {suffix}", hint=f"known: {', '.join(FIGURES)}")
         writer, options = write_figure, {"picture": picture, **options}
-    if options and len(signature(writer).parameters) == 2:
+    if suffix in BODIES:
+        writer, options = _body(run, suffix, **options)
+    elif options and len(signature(writer).parameters) == 2:
         raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
     with replaced(path) as beside:
         writer(run, beside, **options)
     return path
+
+
+def _body(run: Any, suffix: str, of: str = "part", **more: Any) -> tuple[Callable[..., None], dict[str, Any]]:
+    """What writes a body of the part or of the path; an Alarm where there is no part."""
+    if more:
+        raise Alarm(f"{suffix} files know the option of, got {', '.join(more)}")
+    of_part, of_path = BODIES[suffix]
+    if choice(of, "of", OF) == "path":
+        return of_path, {}
+    if run.stock is None:
+        raise Alarm("there is no blank, and so no part to write", hint='of="path" writes the path')
+    return (lambda run, path: of_part(run.workpiece(), path)), {}
 
 
 def write_figure(run: Any, path: Path, picture: Callable[..., Figure] | None = None, **options: Any) -> None:
@@ -129,6 +144,13 @@ def _plain(column: NDArray[Any]) -> list[Any]:
 
 
 FIGURES = (".svg", ".pdf", ".png")
+OF = ("part", "path")
+BODIES: dict[str, tuple[Callable[..., None], Callable[..., None]]] = {
+    ".stl": (export_part.write_stl, export_mesh.write_stl),
+    ".gltf": (export_part.write_gltf, export_mesh.write_gltf),
+    ".glb": (export_part.write_gltf, export_mesh.write_gltf),
+    ".vtk": (export_part.write_vtk, export_mesh.write_vtk),
+}
 WRITERS: dict[str, Callable[..., None]] = {
     ".svg": write_svg,
     ".pdf": write_figure,
@@ -138,8 +160,5 @@ WRITERS: dict[str, Callable[..., None]] = {
     ".html": lambda run, path: run.player().write(path),
     ".dxf": write_dxf,
     ".ngc": write_gcode,
-    ".stl": write_stl,
-    ".gltf": write_gltf,
-    ".glb": write_gltf,
-    ".vtk": write_vtk,
+    **{suffix: of_path for suffix, (_, of_path) in BODIES.items()},
 }

@@ -1,4 +1,6 @@
-"""A run as bodies and lines for 3D programs: STL, glTF and VTK, written without any of them.
+"""The path of a run as bodies and lines for 3D programs: STL, glTF and VTK, written without any of them.
+
+`export_part` writes the part in the same formats.
 
 - STL holds the cuts as thin tubes and the tool where it ends, to lay over a part in another program. STL knows
   triangles alone: no colour, no rapids, no unit (the numbers are millimetres).
@@ -37,21 +39,26 @@ def write_stl(run: Any, path: Path) -> None:
     toolpath = run.toolpath
     bodies = [tubes(toolpath, TUBE * size_of(toolpath), CHORD), *filter(None, [tool_of(run)])]
     facets = np.concatenate([body.points[body.triangles] for body in bodies])
+    path.write_bytes(stl_of(facets, "mnclab tool path, millimetres"))
+
+
+def stl_of(facets: NDArray[np.float64], title: str) -> bytes:
+    """Triangles (m, 3, 3) as a binary STL."""
     table = np.zeros(len(facets), dtype=[("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("more", "<u2")])
     normal = np.cross(facets[:, 1] - facets[:, 0], facets[:, 2] - facets[:, 0])
     length = np.linalg.norm(normal, axis=1, keepdims=True)
     table["normal"], table["corner"] = normal / np.where(length > 0, length, 1.0), facets
-    path.write_bytes(b"mnclab tool path, millimetres".ljust(80) + struct.pack("<I", len(table)) + table.tobytes())
+    return title.encode().ljust(80) + struct.pack("<I", len(table)) + table.tobytes()
 
 
 Parts = list[dict[str, Any]]
 
 
 class Gltf:
-    """The parts of a glTF document: a buffer, and what points into it."""
+    """The parts of a glTF document: a buffer, and what points into it; `name` is that of the whole."""
 
-    def __init__(self) -> None:
-        self.buffer = bytearray()
+    def __init__(self, name: str) -> None:
+        self.name, self.buffer = name, bytearray()
         self.views, self.accessors, self.materials, self.meshes = Parts(), Parts(), Parts(), Parts()
 
     def array(self, values: NDArray[Any], kind: str, target: int) -> int:
@@ -88,7 +95,7 @@ class Gltf:
         """The JSON part, with the buffer beside it or in it as `uri`."""
         count = len(self.meshes)
         nodes: Parts = [{"name": mesh["name"], "mesh": k} for k, mesh in enumerate(self.meshes)]
-        root: dict[str, Any] = {"name": "tool path", "matrix": TO_GLTF}
+        root: dict[str, Any] = {"name": self.name, "matrix": TO_GLTF}
         parts: dict[str, Any] = {"asset": {"version": "2.0", "generator": "mnclab"}, "scene": 0}
         nodes.append(root | ({"children": [*range(count)]} if count else {}))
         parts |= {"scenes": [{"nodes": [count]}], "nodes": nodes}
@@ -98,10 +105,25 @@ class Gltf:
             parts |= {"bufferViews": self.views, "buffers": [buffer]}
         return json.dumps(parts, separators=(",", ":")).encode()
 
+    def write(self, path: Path) -> None:
+        """Write the document as text with its buffer in it, or as one binary piece where the suffix is .glb."""
+        data = bytes(self.buffer)
+        if path.suffix.lower() != ".glb":
+            uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+            path.write_bytes(self.document(uri) + b"\n")
+            return
+        text = self.document(None)
+        text += b" " * (-len(text) % 4)
+        data += bytes(-len(data) % 4)
+        chunks = struct.pack("<I4s", len(text), b"JSON") + text
+        if data:
+            chunks += struct.pack("<I4s", len(data), b"BIN\0") + data
+        path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+
 
 def write_gltf(run: Any, path: Path) -> None:
     """Write lines, tool and blank as glTF; the suffix .glb makes the binary form."""
-    gltf = Gltf()
+    gltf = Gltf("tool path")
     pieces, row = strokes(run.toolpath, CHORD)
     for name, (colour, kinds) in CLASSES.items():
         gltf.lines(name, pieces[np.isin(run.toolpath.kind[row], kinds)], colour)
@@ -109,18 +131,7 @@ def write_gltf(run: Any, path: Path) -> None:
         gltf.body("tool", tool, TOOL)
     if stock := stock_of(run):
         gltf.body("blank", stock, STOCK, 0.3)
-    data = bytes(gltf.buffer)
-    if path.suffix.lower() != ".glb":
-        uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
-        path.write_bytes(gltf.document(uri) + b"\n")
-        return
-    text = gltf.document(None)
-    text += b" " * (-len(text) % 4)
-    data += bytes(-len(data) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text
-    if data:
-        chunks += struct.pack("<I4s", len(data), b"BIN\0") + data
-    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+    gltf.write(path)
 
 
 def write_vtk(run: Any, path: Path) -> None:

@@ -78,13 +78,13 @@ def scene(
     if stock is not True and stock is not False and given is None:
         raise Alarm(f"stock must be True, False, two corners (3,) or a body of workpiece.blank, got {shown(stock)}")
     blank = solids.body_of(given) if given else None
-    body = blank.points if blank else None
+    corners = blank.points if blank else None
     if part:
         from mnclab.show.part_scene import add_part
 
         left = run.workpiece(row=row) if len(path) else run.workpiece()
         solid = left.solid()
-        body = solid.points
+        corners = solid.points
         add_part(plotter, left, solid, "none")
     elif blank:
         plotter.add_mesh(_surface(blank), color=STOCK, opacity=0.25, name="blank")
@@ -93,7 +93,7 @@ def scene(
     if axes:
         plotter.add_axes(line_width=3, color="black")
         if len(path):
-            add_rulers(plotter, path.bounds if body is None else np.concatenate([path.bounds, body]))
+            add_rulers(plotter, path.bounds if corners is None else np.concatenate([path.bounds, corners]))
     view_from(plotter, (0.0, 1.0, 0.0) if path.lathe else (-0.5, -1.0, 0.7), path.lathe)
     return plotter
 

@@ -127,6 +127,19 @@ def cylinder(
     return Revolved(((radius, low), (radius, high)), axis, at, bore)
 
 
+def chuck(radius: float, back: float, grip: float = 20.0, jaws: float = 25.0, body: float = 60.0) -> Revolved:
+    """What holds a bar of a radius whose back end is at Z `back`: jaws around it over `grip`, mm, and the body behind.
+
+    `jaws` is how thick they are, `body` how long what is behind them is. For `Setup(fixtures=(…,))`.
+    """
+    for name, number in (("grip", grip), ("thickness of the jaws", jaws), ("length of the body", body), ("radius of the bar", radius)):
+        check_number(number, f"the {name} of a chuck (mm)", above=0)
+    check_number(back, "the place of a chuck along Z (mm)")
+    wide = radius + 1.5 * jaws
+    outside = ((wide, back - body), (wide, back), (radius + jaws, back), (radius + jaws, back + grip))
+    return Revolved(outside, bore=radius)
+
+
 def blank(given: Any) -> Blank | None:
     """What a Setup calls its stock: two corners (3,), or a blank; None for what is neither."""
     if isinstance(given, Box | Revolved):

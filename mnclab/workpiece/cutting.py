@@ -14,7 +14,7 @@ import numpy as np
 
 from mnclab.path.columns import Index, Mask
 from mnclab.path.kinds import Kind
-from mnclab.path.tool import Tool
+from mnclab.path.tool import LATHE, Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.part import Part
@@ -32,7 +32,8 @@ class Cutting:
 
     `tools[which[row]]` is the tool of a row. From row `arrived` on the tool's height is known at the end of a row, from
     `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `tilted` rows
-    are made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line stands ("FILE:LINE").
+    are made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line
+    stands ("FILE:LINE").
     """
 
     path: Toolpath
@@ -43,7 +44,6 @@ class Cutting:
     known: int = 0
     tilted: Mask | None = None
     fixtures: Sequence[Blank | Part] = ()
-    travel: Any = None
     name: Any = field(default=_lines)
 
     def __len__(self) -> int:
@@ -83,4 +83,4 @@ class Cutting:
 
 def tool_exists(tool: Tool) -> bool:
     """Whether a tool has a body: a mill a radius, a lathe tool its kind."""
-    return tool.effective_radius > 0 or tool.kind in ("turning", "boring", "grooving", "thread")
+    return tool.effective_radius > 0 or tool.kind in LATHE

@@ -46,6 +46,12 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
     return "\n".join(["S800", "M3", "F20", "X4000 ~ *", "Z200 ~", " *\n".join(frames), ""])
 
 
+#: The source has no tool words: the operator put the tool of a cycle in.
+CYCLE_TOOLS = {
+    "": 1, "G70": 2, "G71": 2, "G77": 1, "G78": 1, "inside G70": 5, "inside G77": 5, "G72": 6, "G73": 6, "G74": 7, "G75": 3,
+    "G31": 4,
+}  # fmt: skip
+
 CYCLES = stock_removal.CYCLES | grooving.CYCLES | drilling.CYCLES | threads.CYCLES
 
 CONTROL = Control(
@@ -69,6 +75,7 @@ CONTROL = Control(
     one_command=True,
     lathe=True,
     magazine=LATHES,
+    cycle_tools=CYCLE_TOOLS,
     to_turn="write S before the move, and M3 or M4 where M5 was written",
     modern=lambda program: notation.modern(program, CYCLES),
     trial=trial_program,

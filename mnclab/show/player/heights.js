@@ -57,11 +57,25 @@ class Heights {
     this.touched.add(k);
     return this.tiles[k];
   }
-  fresh(k) {
-    return this.touched.has(k);
-  }
-  seen() {
+  // The tiles that are not what was sent of them, and their neighbours, whose slopes change with them; `sent` is brought up
+  // to date. A tile that was cut since stands there under the same name.
+  changed(sent) {
+    const {across} = this.grid, found = new Set();
+    this.tiles.forEach((tile, k) => {
+      if (sent[k] === tile && !this.touched.has(k)) return;
+      sent[k] = tile;
+      for (const up of [-across, 0, across])
+        for (const side of [-1, 0, 1]) if (this.tiles[k + up + side]) found.add(k + up + side);
+    });
     this.touched.clear();
+    return found;
+  }
+  // How steeply the heights rise along X and Y, over three by three cells: so round walls of square cells look round.
+  slope(i, j) {
+    const {grid} = this, [w, e] = [Math.max(i - 1, 0), Math.min(i + 1, grid.nx - 1)], [s, n] = [Math.max(j - 1, 0), Math.min(j + 1, grid.ny - 1)];
+    const height = (x, y) => this.tiles[(y >> 5) * grid.across + (x >> 5)].h[(y & 31) * TILE + (x & 31)];
+    const sw = height(w, s), se = height(e, s), nw = height(w, n), ne = height(e, n), wide = 8 * grid.step;
+    return [(se + 2 * height(e, j) + ne - sw - 2 * height(w, j) - nw) / wide, (nw + 2 * height(i, n) + ne - sw - 2 * height(i, s) - se) / wide];
   }
   at(i, j) {
     const {grid} = this, tile = this.tiles[(j / TILE | 0) * grid.across + (i / TILE | 0)], at = j % TILE * TILE + i % TILE;

@@ -30,18 +30,12 @@ class Shaded {
   }
   paint(map, row, colours) {
     const {grid, data} = this, {nx} = grid, all = colours !== this.colours || row !== this.row, tones = this.tones(colours);
-    const stale = new Set();
-    map.tiles.forEach((tile, k) => {
-      if (!all && this.sent[k] === tile && !map.fresh(k)) return;
-      this.sent[k] = tile;
-      for (const near of [k, k + 1, k + grid.across]) if (near < map.tiles.length) stale.add(near);  // whose light falls over it
-    });
-    for (const k of stale) {
+    if (all) this.sent = [];
+    for (const k of map.changed(this.sent)) {
       const i0 = k % grid.across * TILE, j0 = (k / grid.across | 0) * TILE;
       for (let j = j0; j < Math.min(j0 + TILE, grid.ny); j++)
         for (let i = i0; i < Math.min(i0 + TILE, nx); i++) this.pixel(map, i, j, row, tones, data.data, (j * nx + i) * 4);
     }
-    map.seen();
     [this.colours, this.row] = [colours, row];
     this.image.getContext("2d").putImageData(data, 0, 0);
   }
@@ -50,13 +44,11 @@ class Shaded {
   }
   pixel(map, i, j, row, tones, data, at) {
     const {grid, depths: [low, high]} = this, {height, by} = map.at(i, j), floor = grid.floor[j * grid.nx + i];
-    const west = i ? map.at(i - 1, j).height : height, south = j ? map.at(i, j - 1).height : height;
-    const dx = (height - west) / grid.step, dy = (height - south) / grid.step;
-    const light = Math.max(0, (0.45 * dx - 0.6 * dy + 0.9) / Math.hypot(dx, dy, 1) / 1.17);
+    const [dx, dy] = map.slope(i, j), light = 0.5 + 0.5 * (0.45 * dx - 0.6 * dy + 0.9) / Math.hypot(dx, dy, 1) / 1.17;
     const depth = Math.sqrt(Math.min(Math.max((high - height) / Math.max(high - low, 1e-6), 0), 1));
     const tone = by < 0 ? tones.crash : by === 0 ? tones.raw : tones.metal.map((v, k) => v + depth * (tones.deep[k] - v));
     const mixed = by > 0 && by === row + 1 ? tone.map((v, k) => 0.45 * v + 0.55 * tones.now[k]) : tone;
-    mixed.forEach((v, k) => { data[at + k] = 255 * v * (0.42 + 0.66 * light); });
+    mixed.forEach((v, k) => { data[at + k] = 255 * v * (0.42 + 0.62 * light * light); });
     data[at + 3] = height > floor ? 255 : 0;
   }
 }

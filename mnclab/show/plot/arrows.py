@@ -19,6 +19,7 @@ MOST = 16  # arrows in one view
 LONG, APART, CLEAR = 0.1, 0.4, 0.06  # of the view's greatest side: a move with an arrow, way between two, distance
 HEAD = Path([(0.55, 0.0), (-0.45, 0.4), (-0.2, 0.0), (-0.45, -0.4), (0.55, 0.0)], closed=True)
 SIZE = 8.0  # points
+ARRIVAL = 0.07  # of the view's greatest side: the way that is drawn from home
 
 
 def draw(ax: Axes, view: View, drawn: Strokes, found: Classes, low: Array, high: Array) -> Array:
@@ -66,3 +67,13 @@ def places(
     keep = np.unique(np.linspace(0, len(found) - 1, min(MOST, len(found))).round().astype(int))
     at, angle, look = ([found[k][column] for k in keep] for column in range(3))
     return np.array(at).reshape(-1, 2), np.array(angle), look
+
+
+def draw_arrival(ax: Axes, view: View, place: Array, size: float) -> None:
+    """A short way to a place (3,) from home: from above, on a lathe from the right too; from above it is not seen."""
+    if 2 not in (view.right, view.up):
+        return
+    end = place[[view.right, view.up]]
+    home = end + ARRIVAL * size * np.array([1.0 if view.diameter else 0.0, 1.0])
+    look = {"arrowstyle": "-|>", "color": colours.RAPID.colour, "linewidth": 1.2, "linestyle": (0, (3, 1.5)), "shrinkB": 4}
+    ax.annotate("", tuple(end), tuple(home), arrowprops=look, zorder=3.3, annotation_clip=False)

@@ -60,6 +60,7 @@ STOP = Mark("stop", "#8a5a00", "D", 6, False, 3.4)
 DATUM = Mark("datum", INK, "+", 12, True, 3.6)
 POLE = Mark("pole", "#8a5a00", "+", 8, True, 3.5)
 START = Mark("start", INK, "o", 9, False, 4.0)
+HOME = Mark("from home", INK, "o", 6, False, 4.0)
 END = Mark("end", INK, "s", 4, True, 4.1)
 ALARM = Mark("alarm", "#b3261e", "x", 9, True, 4.2)
 

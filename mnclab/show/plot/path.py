@@ -27,9 +27,11 @@ from mnclab.show.plot.lathe import Turned, draw_insert, draw_part, speed_strokes
 from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
+from mnclab.show.plot.under import draw_under
 from mnclab.text.alarm import ALARM, Alarm, several
 from mnclab.text.given import choice
 from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.workpiece import Workpiece
 
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
 UNSCALED = (colours.PROGRAMMED, colours.RAPID, colours.PROBING)  # look the same whatever the colour shows
@@ -50,6 +52,8 @@ class Drawing(NamedTuple):
     arrows: bool
     stock: Blank | None
     turned: Turned | None
+    part: Workpiece | None
+    home: bool
 
 
 def plot_path(
@@ -68,6 +72,8 @@ def plot_path(
     stock: Blank | None = None,
     tools: Mapping[int, Tool] = MappingProxyType({}),
     insert: bool | int = True,
+    part: Workpiece | None = None,
+    home: bool = False,
 ) -> Figure:
     """Views of a path: rapids dashed red, cuts solid; start and end marked. Returns the figure, which Jupyter shows.
 
@@ -89,6 +95,8 @@ def plot_path(
     - `stock`: a blank in the coordinates of the path: its outline, thin; on a lathe with what the cuts leave of it.
     - `tools`, `insert`: on a lathe the tool table, and after which row the insert is drawn: True for the last one,
       False for none.
+    - `part`: what is left of the blank, drawn under the path.
+    - `home`: the path begins where the tool arrives from home.
     """
     stop = next((alarm for alarm in alarms if alarm.severity == ALARM), None)
     drawn = strokes(path)
@@ -113,8 +121,8 @@ def plot_path(
     plunges = {each: _plunges(path, each) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
     lathe = turned(path, stock, tools, insert) if path.lathe and views == [VIEWS["ZX"]] else None
-    found_marks, outline = _marks(path, stop is not None), None if lathe else stock
-    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, lathe)
+    found_marks, outline = _marks(path, stop is not None, home), None if lathe else stock
+    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, lathe, part, home)
     if ax is not None:
         _draw(ax, views[0], drawing)
         dress(ax, views[0])
@@ -150,11 +158,13 @@ def plot_path(
 
 
 def plot_run(
-    run: Any, ax: Axes | None = None, view: str = "auto", *, marks: bool = True, stock: bool = True, **options: Any
-) -> Figure:
+    run: Any, ax: Axes | None = None, view: str = "auto",
+    *, marks: bool = True, stock: bool = True, part: bool = False, **options: Any,
+) -> Figure:  # fmt: skip
     """Views of the path of a run, with its programmed contour, blank, zero points, poles and the place of its alarm.
 
-    The options are those of `plot_path`; `stock=False` leaves out the blank of the setup or the program.
+    The options are those of `plot_path`; `stock=False` leaves out the blank of the setup or the program, `part=True`
+    draws what the run leaves of it. Beside a blank the first approach comes from home, unless the setup says from where.
     """
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
     given["stock"] = run.stock if stock else None
@@ -162,16 +172,31 @@ def plot_run(
         given["tools"] = run.tables.tools
     if marks:
         given["places"] = places_of(run)
-    return plot_path(run.toolpath, ax, view, **{**given, **options}, marks=marks)
+    if part:
+        given["part"] = run.workpiece()
+    path = run.toolpath
+    first = _arrival(path, run.known_from) if run.stock else 0
+    if first:
+        path, given["home"] = path[first:], True
+        if isinstance(insert := options.get("insert"), int) and not isinstance(insert, bool) and insert >= 0:
+            options["insert"] = max(insert - first, 0)
+    return plot_path(path, ax, view, **{**given, **options}, marks=marks)
+
+
+def _arrival(path: Toolpath, known: int) -> int:
+    """The row with which a picture begins whose rows before `known` come from home."""
+    first = known - 1 if known and path.kind[known - 1] != Kind.RAPID else known
+    return first if first < len(path) else 0
 
 
 # --- what is drawn ---------------------------------------------------------------------------------------------------
 
 
-def _marks(path: Toolpath, stopped: bool) -> list[tuple[Mark, Array]]:
+def _marks(path: Toolpath, stopped: bool, home: bool) -> list[tuple[Mark, Array]]:
     """Marks and where they stand (m, 3)."""
     found = [(mark, path.end[path.kind == kind]) for kind, mark in MARKS.items()]
-    found += [(colours.START, path.start[:1]), (colours.ALARM if stopped else colours.END, path.end[-1:])]
+    found += [(colours.HOME if home else colours.START, path.start[:1])]
+    found += [(colours.ALARM if stopped else colours.END, path.end[-1:])]
     return [(mark, places) for mark, places in found if len(places)]
 
 
@@ -230,7 +255,9 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
     artists += crosses(drawing.places, view)
     for artist in artists:
         ax.add_line(artist)
-    if drawing.turned is not None:
+    if drawing.part is not None:
+        draw_under(ax, view, drawing.part)
+    elif drawing.turned is not None:
         draw_part(ax, drawing.turned)
     if view.diameter:
         ax.axhline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre line"})
@@ -240,6 +267,8 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
 def _write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> None:
     """Add what depends on the scale: arrowheads and names."""
     occupied = [xyz[:, [view.right, view.up]] for _, xyz in drawing.marks]
+    if drawing.home:
+        heads.draw_arrival(ax, view, drawing.strokes.xyz[0], float((high - low).max()))
     if drawing.turned is not None:
         draw_insert(ax, drawing.turned, INSERT * float((high - low).max()))
     if drawing.arrows:

@@ -29,7 +29,7 @@ from mnclab.text.alarm import Alarm
 SIZE = (7.0, 6.0)  # the greatest width and height, unless something else is said
 LEAST = (4.6, 2.4)
 SMALL = 8.0  # points: ticks, legend, alarm
-GAP, BELOW, RIGHT, ROW, SCALE = 0.14, 0.52, 0.18, 0.22, 0.34
+GAP, BELOW, RIGHT, ROW, LINE, SCALE = 0.14, 0.52, 0.18, 0.22, 0.15, 0.34
 
 
 class View(NamedTuple):
@@ -45,7 +45,7 @@ class View(NamedTuple):
 
 
 class Foot(NamedTuple):
-    """One line of text below the views."""
+    """Text below the views, line by line."""
 
     text: str
     colour: str = colours.INK
@@ -55,15 +55,20 @@ class Foot(NamedTuple):
         """The alarm that stopped a program."""
         return cls(f"line {alarm.span.line}: {alarm.message}" if alarm.span else alarm.message, colours.ALARM.colour)
 
+    @property
+    def lines(self) -> list[str]:
+        return self.text.split("\n")
+
     def write(self, picture: Picture) -> None:
-        """Write the line, cut where the picture ends."""
-        width, sentence = picture.get_figwidth(), self.text
-        place = 0.1 / width, 0.07 / picture.get_figheight()
-        line = picture.text(*place, sentence, fontsize=SMALL, color=self.colour, va="bottom", parse_math=False)
+        """Write the lines, each cut where the picture ends."""
+        width, height = picture.get_size_inches().tolist()
         room = (width - 0.2) * picture.dpi
-        while len(sentence) > 1 and (taken := line.get_window_extent().width) > room:
-            sentence = sentence[: min(len(sentence) - 1, int(len(sentence) * room / taken))]
-            line.set_text(sentence.rstrip() + "…")
+        for above, sentence in enumerate(reversed(self.lines)):
+            place = 0.1 / width, (0.07 + LINE * above) / height
+            line = picture.text(*place, sentence, fontsize=SMALL, color=self.colour, va="bottom", parse_math=False)
+            while len(sentence) > 1 and (taken := line.get_window_extent().width) > room:
+                sentence = sentence[: min(len(sentence) - 1, int(len(sentence) * room / taken))]
+                line.set_text(sentence.rstrip() + "…")
 
 
 VIEWS = {"XY": View(0, 1), "XZ": View(0, 2), "YZ": View(1, 2), "ZX": View(2, 0, diameter=True)}
@@ -126,7 +131,7 @@ def arrange(
     digits = max(len(f"{value:.{_decimals(side)}f}") for value, side in zip((*low, *high), (*span, *span)))
     left = 0.42 + 0.068 * digits
     rights, ups = [float(span[v.right]) for v in views], [float(span[v.up]) for v in views]
-    bottom, (most_wide, most_high) = BELOW + (ROW if foot else 0), size
+    bottom, (most_wide, most_high) = BELOW + (ROW + LINE * (len(foot.lines) - 1) if foot else 0), size
 
     def top(width: float) -> float:
         return 0.12 + (SCALE if scale_above else 0.0) + ROW * math.ceil(len(names) / columns(names, width))

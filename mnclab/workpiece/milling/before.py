@@ -11,7 +11,7 @@ from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.raster import AT_ONCE, near
 from mnclab.workpiece.milling.swept import left_by
 
-TILES = 40  # along the longer side
+TILED, TILES = 200, 64  # points of a tile, about; tiles along the longer side, at most
 
 
 class Points(NamedTuple):
@@ -45,10 +45,10 @@ def _tiles(x: Array, y: Array, which: Index) -> list[Index]:
     """Points that lie close together."""
     if not len(which):
         return []
-    corner = np.array([x[which].min(), y[which].min()])
-    side = max(float(np.ptp(x[which])), float(np.ptp(y[which]))) / TILES + 1e-9
+    corner, many = np.array([x[which].min(), y[which].min()]), min(int((len(which) / TILED) ** 0.5) + 1, TILES)
+    side = max(float(np.ptp(x[which])), float(np.ptp(y[which]))) / many + 1e-9
     i, j = ((np.stack([x[which], y[which]], axis=1) - corner) / side).astype(np.int64).T
-    key = j * (TILES + 1) + i
+    key = j * (many + 1) + i
     order = np.argsort(key, kind="stable")
     return np.split(which[order], np.flatnonzero(np.diff(key[order])) + 1)
 

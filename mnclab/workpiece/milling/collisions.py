@@ -37,9 +37,9 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
     scene = Judging.of(cutting, step)
     found: dict[tuple[int, str], Collision] = {}
     for kind, said, met in _kinds(scene):
-        row = int(scene.moves.row[met.judged.move])
+        row = met.row
         line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
-        message = f"{said}, {met.depth:.3f} mm deep at {_at(met.place)}"
+        message = f"{said}, {met.depth:.3f} mm deep at {_at(met.place)}{_hint(cutting, kind, row)}"
         each = Collision(kind, message, line, program, row, met.place, met.depth, _file(cutting, line, program))
         known = found.get((row, kind))
         if known is None or each.depth > known.depth:
@@ -49,6 +49,17 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
 
 def _at(place: tuple[float, float, float]) -> str:
     return " ".join(f"{axis}{value + 0.0:.3f}" for axis, value in zip("XYZ", place))
+
+
+def _hint(cutting: Cutting, kind: str, row: int) -> str:
+    """What a learner has forgotten, where the mistake is a known one."""
+    if kind == "plunge":
+        return " (a ramp, a helix or a hole drilled before)"
+    if kind != "rapid":
+        return ""
+    x, y, _ = (cutting.path.end[row] - cutting.path.start[row]).tolist()
+    down = x == y == 0
+    return " (a rapid ends above the material, the rest goes at feed)" if down else " (first Z above the part, then X and Y)"
 
 
 def _file(cutting: Cutting, line: int, program: int) -> str:
@@ -62,11 +73,11 @@ def _kinds(scene: Judging) -> Iterator[tuple[str, str, Met]]:
     for met in scene.met(_plunges(scene)):
         yield "plunge", "straight down into material with a tool that does not cut at its centre", met
     for met in scene.met(_still(scene), ROUGH):
-        yield "spindle", _of_spindle(scene, met.judged.move), met
+        yield "spindle", _of_spindle(scene.cutting, met.row), met
     cut = _cut_up(scene)
     for kind, bodies in (("shank", above_edges), ("holder", holder)):
         for met in cut.met(_behind(cut, bodies)):
-            yield kind, f"the {met.judged.body.name} in material", met
+            yield kind, f"the {met.body.name} in material", met
     yield from in_fixtures(scene)
 
 
@@ -114,11 +125,10 @@ def _still(scene: Judging) -> list[Judged]:
     return [Judged(int(k), bodies[scene.which[k]], int(k)) for k in np.flatnonzero(chosen)]
 
 
-def _of_spindle(scene: Judging, move: int) -> str:
-    row = int(scene.moves.row[move])
-    if scene.cutting.path.spindle[row] == 0:
+def _of_spindle(cutting: Cutting, row: int) -> str:
+    if cutting.path.spindle[row] == 0:
         return "cutting with a spindle that stands still"
-    hand = scene.cutting.tool(row).hand
+    hand = cutting.tool(row).hand
     code = "M4" if hand == "right" else "M3"
     return f"cutting with a spindle that turns the wrong way ({code}; the tool cuts {hand}-handed)"
 
@@ -142,7 +152,7 @@ def _behind(scene: Judging, bodies: Callable[[Tool], list[Body]]) -> list[Judged
         mine = scene.which == index
         for body in bodies(tool) if mine.any() else ():
             wide = max(body.cutter.radius - tool.effective_radius, 0.0)
-            for k in np.flatnonzero(mine & scene.low_over(wide, body.lift)):
+            for k in np.flatnonzero(mine & ~scene.rising & scene.low_over(wide, body.lift)):
                 upright = bool(scene.standing[k])
                 hole = upright and down[k] and not scene.rapid[k] and body.inner == 0
                 before = int(scene.stay[k]) if hole else int(k)  # the pecks of a hole do not clear one another

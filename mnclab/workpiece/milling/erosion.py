@@ -100,7 +100,7 @@ class _Cells(NamedTuple):
 
     def lower(self, cells: Index, tried: NDArray[np.int32]) -> None:
         """Some cells (k,), each to what a move that is tried there leaves."""
-        left = left_by(self.moves[tried], self.x[cells, None], self.y[cells, None])[:, 0]
+        left = left_by(self.moves[tried.astype(np.int64)], self.x[cells, None], self.y[cells, None])[:, 0]
         cut = left < self.heights[cells]
         self.heights[cells[cut]], self.move[cells[cut]] = left[cut], tried[cut]
 

@@ -10,7 +10,7 @@ from mnclab.path.columns import Array
 from mnclab.workpiece.blank import Blank, top_of
 from mnclab.workpiece.milling.bodies import TOLERANCE, Body, bodies_of
 from mnclab.workpiece.milling.footprint import under
-from mnclab.workpiece.milling.judging import MOST, Judged, Judging, Met
+from mnclab.workpiece.milling.judging import MOST, Judging, Met
 from mnclab.workpiece.milling.swept import left_by
 from mnclab.workpiece.part import Part
 
@@ -26,7 +26,7 @@ def in_fixtures(scene: Judging) -> Iterator[tuple[str, str, Met]]:
         if not len(held[0]):
             continue
         for index, tool in enumerate(scene.cutting.tools):
-            mine = scene.which == index
+            mine = (scene.which == index) & ~scene.rising
             for body in bodies_of(tool) if mine.any() else ():
                 for met in _met(scene, fixture, held, np.asarray(mine), body):
                     yield "fixture", f"the {body.name} in a fixture", met
@@ -52,7 +52,7 @@ def _met(
         deepest = int(np.round(deep, 6).argmax())
         if deep[deepest] > 0:
             place = float(px[deepest]), float(py[deepest]), float(low[deepest]) - TOLERANCE
-            yield Met(Judged(k, body, k), place, float(deep[deepest]) + TOLERANCE)
+            yield Met(int(scene.moves.row[k]), body, place, float(deep[deepest]) + TOLERANCE)
 
 
 def _points(scene: Judging, fixture: Blank | Part) -> tuple[Array, Array, Array]:

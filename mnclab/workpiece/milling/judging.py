@@ -35,9 +35,10 @@ class Judged(NamedTuple):
 
 
 class Met(NamedTuple):
-    """The deepest place where a body of a tool met something on a move."""
+    """The deepest place where a body of a tool met something on a move of a row."""
 
-    judged: Judged
+    row: int
+    body: Body
     place: tuple[float, float, float]
     depth: float
 
@@ -78,6 +79,11 @@ class Judging:
         """Moves that do not go on in the plane."""
         way = self.moves.end[:, :2] - self.moves.start[:, :2]
         return np.asarray(~self.moves.arc & (np.hypot(way[:, 0], way[:, 1]) <= STILL))
+
+    @cached_property
+    def rising(self) -> Mask:
+        """Moves straight up: what a tool meets there, it met where it came from."""
+        return np.asarray(self.standing & (self.moves.end[:, 2] > self.moves.start[:, 2]))
 
     @cached_property
     def stay(self) -> Index:
@@ -134,4 +140,5 @@ class Judging:
             if deep[k] > 0:
                 each = judged[int(at.owner[k])]
                 slack = TOLERANCE + each.fall
-                yield Met(each, (float(at.x[k]), float(at.y[k]), float(at.low[k]) - slack), float(deep[k]) + slack)
+                row = int(self.moves.row[each.move])
+                yield Met(row, each.body, (float(at.x[k]), float(at.y[k]), float(at.low[k]) - slack), float(deep[k]) + slack)

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 STEEP = 0.5  # rise between two nodes, of their distance, from which a wall is looked for
 SUDDEN = 0.25  # of that rise: what is left of it between the last halves when it is a wall, and no steep slope
 HALVINGS = 16
-TOGETHER = 48  # nodes of the side of a square whose points are looked at together
 THIN = 1e-9  # mm, of material that is none
 
 
@@ -107,26 +106,13 @@ def lattice_of(workpiece: Milled, step: float | None = None) -> Lattice:
     x, y = np.linspace(x0, x1, columns + 1), np.linspace(y0, y1, rows + 1)
     py, px = (each.ravel() for each in np.meshgrid(y, x, indexing="ij"))
     floor = workpiece.blank_at(px, py)[1]
-    z = heights_at(workpiece, px, py)
+    z = np.asarray(workpiece.at(px, py))
     number = np.arange(len(px)).reshape(rows + 1, columns + 1)
     right = np.stack([number[:, :-1].ravel(), number[:, 1:].ravel()], axis=1)
     up = np.stack([number[:-1].ravel(), number[1:].ravel()], axis=1)
     edges = np.concatenate([right, up])
     wall, place, sides, through = _walls(workpiece, np.stack([px, py], axis=1), z, floor, edges)
     return Lattice(x, y, z, floor, edges, wall, place, sides, through)
-
-
-def heights_at(workpiece: Milled, x: Array, y: Array) -> Array:
-    """The exact heights (m,) at many points, those that lie close together in one go."""
-    low, size = workpiece.cutting.stock.bounds[0], TOGETHER * workpiece.step
-    square = np.floor((np.stack([x, y]) - low[:2, None]) / size).astype(np.int64)
-    key = square[0] + square[1] * (int(square[0].max(initial=0)) + 1)
-    order = np.argsort(key, kind="stable")
-    found = np.empty(len(x))
-    for some in np.split(order, np.flatnonzero(np.diff(key[order])) + 1):
-        if len(some):
-            found[some] = workpiece.at(x[some], y[some])
-    return found
 
 
 def _walls(
@@ -145,7 +131,7 @@ def _walls(
     full = np.stack([solid[first[some]], solid[last[some]]])
     for _ in range(HALVINGS):
         middle = ends.mean(axis=0)
-        here = heights_at(workpiece, *middle.T)
+        here = np.asarray(workpiece.at(*middle.T))
         there = here - workpiece.blank_at(*middle.T)[1] > THIN
         behind = np.where(through, there != full[0], np.abs(heights[0] - here) >= np.abs(here - heights[1]))
         for end, moves in ((1, behind), (0, ~behind)):

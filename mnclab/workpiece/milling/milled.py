@@ -14,6 +14,8 @@ from mnclab.text.given import check_number, shown
 from mnclab.workpiece.blank import floor_of, top_of, volume_of
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling import limits, volumes
+from mnclab.workpiece.milling.erosion import ERROR
+from mnclab.workpiece.milling.many import ManyMoves
 from mnclab.workpiece.milling.moves import CHORD, Moves, moves_of
 from mnclab.workpiece.milling.raster import NOISE, Raster
 from mnclab.workpiece.milling.sections import level, upright
@@ -43,7 +45,10 @@ class Milled(Workpiece):
         self.raster = Raster.over(bounds, self.step)
         self.moves: Moves = moves_of(cutting)
         self.sweep = Sweep(self.raster, self.moves, self.blank_at)
+        self.many = ManyMoves(self.sweep) if len(self.moves) > EXACT else None
         self.method, self.error = "exact sweep", CHORD if self.moves.chords else NOISE
+        if self.many:
+            self.method, self.error = "erosion of the height raster", ERROR * self.step
 
     @property
     def x(self) -> Array:
@@ -59,6 +64,8 @@ class Milled(Workpiece):
 
     @cached_property
     def heights(self) -> Array:
+        if self.many:
+            return self.many.heights
         found = np.empty(self.raster.shape)
         for tile in self.raster.tiles():
             found[tile] = self.sweep.left(*self.raster.middles(tile)).reshape(found[tile].shape)
@@ -73,7 +80,7 @@ class Milled(Workpiece):
         """Upper and lower side of the blank at points (m,); beside it both are its lowest place."""
         low = float(self.cutting.stock.bounds[0, 2])
         top, floor = top_of(self.cutting.stock, x, y), floor_of(self.cutting.stock, x, y)
-        return np.nan_to_num(top, nan=low), np.nan_to_num(floor, nan=low)
+        return np.where(np.isnan(top), low, top), np.where(np.isnan(floor), low, floor)
 
     def at(self, x: ArrayLike, y: ArrayLike) -> Array | float:
         """The height of the material at a place or at places, mm: exact, whatever the step."""
@@ -84,6 +91,9 @@ class Milled(Workpiece):
     @cached_property
     def cut_by(self) -> NDArray[np.int64]:
         """The row of the path that cut a cell last (ny, nx), -1 where none did."""
+        if self.many:
+            move = self.many.in_order[0]
+            return np.where(move < 0, -1, self.moves.row[move])
         found = np.full(self.raster.shape, -1, dtype=np.int64)
         for tile in self.raster.tiles():
             x, y = self.raster.middles(tile)
@@ -101,11 +111,13 @@ class Milled(Workpiece):
 
     @cached_property
     def removed(self) -> float:
-        return volumes.removed(self.sweep, self.heights)
+        return self.many.removed if self.many else volumes.removed(self.sweep, self.heights)
 
     @cached_property
     def _rows(self) -> Array:
         """What each row took away (n,), on a coarser lattice than the whole, whose sum they are scaled to."""
+        if self.many:
+            return np.bincount(self.moves.row, self.many.in_order[1], len(self.cutting))
         rows = volumes.removed_by_row(self.sweep, len(self.cutting))
         return rows * (self.removed / rows.sum()) if rows.any() else rows
 

@@ -44,7 +44,9 @@ class Moves:
         return len(self.row)
 
     def __getitem__(self, which: Index | Mask | slice) -> Moves:
-        return Moves(**{name: column[which] for name, column in vars(self).items()})
+        taken = isinstance(which, np.ndarray) and which.dtype != bool  # of rows of three numbers much faster
+        columns = vars(self).items()
+        return Moves(**{name: column.take(which, 0) if taken and column.ndim > 1 else column[which] for name, column in columns})
 
     def with_cutter(self, cutters: Array, lift: Array | float = 0.0) -> Moves:
         """The same moves of other cutters (k, 4), as `Cutter` has its fields, `lift` mm (k,) above the tip."""

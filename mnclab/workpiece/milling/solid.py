@@ -37,7 +37,7 @@ def solid_of(workpiece: Milled) -> Solid:
     for side, node in ((0, first), (1, last)):
         empty = found.through & ~solid[node]
         beside[empty, side] = foot[empty]
-    row_of = rows_at(workpiece, *found.nodes.T, found.z)
+    row_of = rows_at(workpiece, found.nodes[:, 0], found.nodes[:, 1], found.z)
     faces = [_top(found, beside, row_of), _bottom(found, foot, below), _rim(found, beside, foot, below)]
     triangles, row = (np.concatenate(column) for column in zip(*faces))
     points = _points(found)
@@ -88,7 +88,7 @@ def _top(found: Lattice, beside: Index, row_of: Index) -> Faces:
     wall = found.wall[edges]
     plain = (wall < 0).all(axis=1)
     solid = found.solid[corners]
-    triangles, row = _sheet(found, found.z, corners, plain & solid.all(axis=1), row_of)
+    triangles, row = _sheet(found, found.z, corners, np.asarray(plain & solid.all(axis=1)), row_of)
     some = ~plain
     cases = found.dividing(corners[some], wall[some])
     cut, one, other = _divided(corners[some], _sides(wall[some], beside), *cases)
@@ -104,7 +104,7 @@ def _bottom(found: Lattice, foot: Index, below: int) -> Faces:
     wall = found.wall[edges]
     some = ((wall >= 0) & found.through[wall]).any(axis=1) if len(foot) else np.zeros(len(wall), dtype=bool)
     full = found.solid[corners].all(axis=1)
-    triangles, _ = _sheet(found, found.floor, corners, ~some & full, np.full(len(found.z), -1))
+    triangles, _ = _sheet(found, found.floor, corners, np.asarray(~some & full), np.full(len(found.z), -1))
     _, dividing, diagonal = found.dividing(corners[some], wall[some])
     sides = np.repeat(foot[wall[some]][:, :, None], 2, axis=2) - below if len(foot) else np.empty((0, 4, 2), int)
     cut, one, other = _divided(corners[some], sides, dividing, dividing, diagonal)

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from mnclab.path.columns import Array, Mask
+from mnclab.path.columns import Array
 from mnclab.workpiece.milling.cutters import edge_height
+from mnclab.workpiece.milling.helix import FULL_TURN, helix
 from mnclab.workpiece.milling.moves import STILL, Moves
 
-FULL_TURN = 2 * np.pi
 NONE = np.inf  # where a move does not reach
 HALVINGS = 26  # of the place of the least height under a round corner: 1e-8 of it, and the height to its square
-SAMPLES = 33  # along a turn of a helix, before its least height is narrowed down
 TOUCH = 1e-12  # of a radius, by which a point on the rim is under the tool
 
 
@@ -35,7 +34,7 @@ def left_by(moves: Moves, x: Array, y: Array) -> Array:
         (~moves.arc & ~standing & level, _level),
         (~moves.arc & ~standing & ~level, _sloping),
         (moves.arc & level, _level_arc),
-        (moves.arc & ~level, _helix),
+        (moves.arc & ~level, helix),
     )
     for which, sweep in classes:
         if which.all():
@@ -124,79 +123,15 @@ def _under_corner(low: Array, high: Array, beside2: Array, slope: Array, flat: A
     return (low + high) / 2
 
 
-def _polar(moves: Moves, x: Array, y: Array) -> tuple[Array, Array, Array]:
-    """Distances from the centres (k, m), how far round from the start (0 to a turn) in the sense of travel, path radius."""
-    cx, cy = moves.centre[:, :1], moves.centre[:, 1:]
-    px, py = x - cx, y - cy
-    spoke = moves.start[:, :2] - moves.centre
-    first = np.arctan2(spoke[:, 1], spoke[:, 0])[:, None]
-    turned = (np.arctan2(py, px) - first) * np.sign(moves.sweep)[:, None]
-    return np.hypot(px, py), np.mod(turned, FULL_TURN), np.hypot(spoke[:, 0], spoke[:, 1])[:, None]
-
-
 def _level_arc(moves: Moves, x: Array, y: Array) -> Array:
-    out, turned, round_ = _polar(moves, x, y)
-    on = turned <= np.abs(moves.sweep)[:, None]
-    rho2 = (out - round_) ** 2
+    """An arc at one height: a point in its sector is as far from it as from its circle, another one as from an end."""
+    px, py = x - moves.centre[:, :1], y - moves.centre[:, 1:]
+    (sx, sy), (ex, ey) = ((ends[:, :2] - moves.centre).T[:, :, None] for ends in (moves.start, moves.end))
+    sense, swept = np.sign(moves.sweep)[:, None], np.abs(moves.sweep)[:, None]
+    after, before = (sx * py - sy * px) * sense >= 0, (px * ey - py * ex) * sense >= 0
+    on = np.where(swept > np.pi, after | before, after & before) | (swept >= FULL_TURN)
+    rho2 = (np.sqrt(px * px + py * py) - np.sqrt(sx * sx + sy * sy)) ** 2
     if not on.all():
-        ends = (
-            (x - ends[:, :1]) ** 2 + (y - ends[:, 1:2]) ** 2 for ends in (moves.start, moves.end)
-        )
+        ends = (px - sx) ** 2 + (py - sy) ** 2, (px - ex) ** 2 + (py - ey) ** 2
         rho2 = np.where(on, rho2, np.minimum(*ends))
     return _raised(moves, moves.start[:, 2:], rho2)
-
-
-def _helix(moves: Moves, x: Array, y: Array) -> Array:
-    """An arc that goes up or down; it is looked at in the sense in which it goes down."""
-    down = moves.end[:, 2:] < moves.start[:, 2:]
-    start, end = np.where(down, moves.start, moves.end), np.where(down, moves.end, moves.start)
-    moves = Moves(**{**vars(moves), "start": start, "end": end, "sweep": np.where(down[:, 0], 1, -1) * moves.sweep})
-    out, turned, round_ = _polar(moves, x, y)
-    whole = np.abs(moves.sweep)[:, None]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        cosine = (out * out + round_ * round_ - moves.radius[:, None] ** 2) / (2 * out * round_)
-    cosine = np.where(out * round_ > 0, cosine, np.where(np.maximum(out, round_) <= moves.radius[:, None], -2.0, 2.0))
-    half = np.arccos(np.clip(cosine, -1.0, 1.0))  # the tool is over a point while it is this near in angle
-    reached = cosine <= 1
-    best = np.full(out.shape, NONE)
-    last = np.floor((whole - turned + half) / FULL_TURN)  # the last turn on which it comes over the point
-    for turn in (last, last - 1):
-        low = np.maximum(turned + FULL_TURN * turn - half, 0.0)
-        high = np.minimum(turned + FULL_TURN * turn + half, whole)
-        over = reached & (low <= high)
-        place = _lowest_of_turn(moves, low, high, out, turned, round_, whole)
-        best = np.minimum(best, np.where(over, _on_helix(moves, place, out, turned, round_, whole, over), NONE))
-    return best
-
-
-def _on_helix(
-    moves: Moves, place: Array, out: Array, turned: Array, round_: Array, whole: Array, over: Mask | None = None
-) -> Array:
-    """Heights under a tool at angles `place` along helices; `over` says that the tool does reach the points."""
-    z = moves.start[:, 2:] + (moves.end[:, 2:] - moves.start[:, 2:]) * place / whole
-    rho2 = np.maximum(out * out + round_ * round_ - 2 * out * round_ * np.cos(place - turned), 0.0)
-    if over is not None:
-        rho2 = np.minimum(rho2, moves.radius[:, None] ** 2)
-    return _raised(moves, z, rho2)
-
-
-def _lowest_of_turn(
-    moves: Moves, low: Array, high: Array, out: Array, turned: Array, round_: Array, whole: Array
-) -> Array:
-    """Where on a turn from `low` to `high` (rad along the helix) a point is left lowest: the end, for a flat tool."""
-    found, bent = high.copy(), moves.flat < moves.radius
-    if not bent.any():
-        return found
-    some, low, high = moves[bent], low[bent], np.maximum(low, high)[bent]
-    rest = out[bent], turned[bent], round_[bent], whole[bent]
-    share = np.linspace(0.0, 1.0, SAMPLES)
-    heights = np.stack([_on_helix(some, low + (high - low) * part, *rest, over=np.ones(1, bool)) for part in share])
-    nearest = heights.argmin(axis=0)
-    left = low + (high - low) * share[np.maximum(nearest - 1, 0)]
-    right = low + (high - low) * share[np.minimum(nearest + 1, SAMPLES - 1)]
-    for _ in range(2 * HALVINGS):
-        third = (right - left) / 3
-        one, other = (_on_helix(some, at, *rest, over=np.ones(1, bool)) for at in (left + third, right - third))
-        left, right = np.where(one > other, left + third, left), np.where(one > other, right, right - third)
-    found[bent] = (left + right) / 2
-    return found

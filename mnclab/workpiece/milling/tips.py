@@ -47,6 +47,19 @@ def tips_of(raster: Raster, moves: Moves, which: Index, margin: int) -> Tips:
     return Tips(margin, low, move)
 
 
+def engaged(raster: Raster, moves: Moves, material: Array, margin: int) -> Array:
+    """The way of each move (k,) times the depth of its tip in `material` (ny, nx), mm²; up to `margin` cells beside it too."""
+    found, step = np.zeros(len(moves)), raster.step
+    for chunk, own, x, y, z in _pieces(moves, np.arange(len(moves)), step):
+        i, j = np.floor((x - raster.low[0]) / step), np.floor((y - raster.low[1]) / step)
+        on_i, on_j = (np.clip(at, 0, n - 1).astype(np.int64) for at, n in ((i, raster.shape[1]), (j, raster.shape[0])))
+        near = np.maximum(np.abs(i - on_i), np.abs(j - on_j)) <= margin
+        depth = np.where(near, np.maximum(material[on_j, on_i] - z, 0.0), 0.0)
+        length = np.hypot(_flat(moves[chunk]), moves.end[chunk, 2] - moves.start[chunk, 2])
+        found[chunk] = np.bincount(own, depth, len(chunk)) * length / np.bincount(own, minlength=len(chunk))
+    return found
+
+
 def _pieces(moves: Moves, which: Index, step: float) -> Iterator[tuple[Index, Index, Array, Array, Array]]:
     """Some moves, which of them each piece belongs to (k,), x, y and z of its middle (k,)."""
     for many in range(0, len(which), AT_ONCE):
@@ -66,14 +79,18 @@ def _pieces(moves: Moves, which: Index, step: float) -> Iterator[tuple[Index, In
 
 def _count(moves: Moves, which: Index, step: float) -> Index:
     """Into how many pieces each move is cut (k,); one that stands in the plane is one."""
-    way = moves.end[which] - moves.start[which]
+    flat, rise = _flat(moves[which]), moves.end[which, 2] - moves.start[which, 2]
+    return np.maximum(np.ceil(np.where(flat > STILL, np.hypot(flat, rise), 0.0) / step * PIECES), 1).astype(np.int64)
+
+
+def _flat(moves: Moves) -> Array:
+    """How far each move goes in the plane (k,), mm."""
+    way = moves.end - moves.start
     flat = np.hypot(way[:, 0], way[:, 1])
-    arc = moves.arc[which]
-    if arc.any():
-        spoke = moves.start[which[arc], :2] - moves.centre[which[arc]]
-        flat[arc] = np.hypot(spoke[:, 0], spoke[:, 1]) * np.abs(moves.sweep[which[arc]])
-    length = np.where(flat > STILL, np.hypot(flat, way[:, 2]), 0.0)
-    return np.maximum(np.ceil(length / step * PIECES), 1).astype(np.int64)
+    if moves.arc.any():
+        spoke = moves.start[moves.arc, :2] - moves.centre[moves.arc]
+        flat[moves.arc] = np.hypot(spoke[:, 0], spoke[:, 1]) * np.abs(moves.sweep[moves.arc])
+    return flat
 
 
 def _places(moves: Moves, own: Index, share: Array) -> tuple[Array, Array, Array]:

@@ -23,7 +23,7 @@ import numpy as np
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.sweeps import CHORD_ERROR, broad
-from mnclab.path.inserts import angles_of
+from mnclab.path.inserts import FACE, angles_of
 from mnclab.path.tool import Tool
 from mnclab.workpiece.turning.bodies import mirror_of
 
@@ -42,7 +42,7 @@ class Back(NamedTuple):
 def taken_by_back(tool: Tool, shape: Floats, way: Contour, left: Any) -> Back | None:
     """What the back of an insert takes of an area `left` along a way; `shape` (k, 2) is the tool about its tip."""
     mirror = mirror_of(tool)
-    if tool.kind == "thread" or (not tool.width and not tool.auxiliary_angle):
+    if tool.kind in ("thread", FACE) or not (tool.width or tool.auxiliary_angle):
         return None
     places, corners = way.points_within(CHORD_ERROR) * mirror, shape * mirror
     here = shapely.transform(left, lambda each: each * mirror)
@@ -81,8 +81,8 @@ def _auxiliary(tool: Tool, start: Floats, ahead: Floats, taken: Any) -> list[_Ta
     across *= math.copysign(1.0, across @ edge)
     nose = start + tool.corner + tool.corner * outwards
     line = nose + TOLERANCE * across
-    beyond = shapely.Polygon([line - FAR * ahead, line + FAR * ahead, line + FAR * (ahead + across), line + FAR * (across - ahead)])
-    area = broad(shapely.intersection(taken, beyond), TOLERANCE)
+    corners = [line - FAR * ahead, line + FAR * ahead, line + FAR * (across + ahead), line + FAR * (across - ahead)]
+    area = broad(shapely.intersection(taken, shapely.Polygon(corners)), TOLERANCE)
     if area.is_empty:
         return []
     points = shapely.get_coordinates(area)

@@ -79,8 +79,10 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
             yield from ((row, met) for met in _cut(cutting, row, tool, shape, way, left, covered))
             left = _held(rest)
         for kind, body in behind(tool, height):
-            if met := _deepest(kind, left, _folded(swept(body, way) if way else shapely.Polygon(body + path.end[row][[2, 0]]))):
+            covered = _folded(swept(body, way) if way else shapely.Polygon(body + path.end[row][[2, 0]]))
+            if met := _deepest(kind, left, covered):
                 yield row, met._replace(said=HOLDER) if kind == "insert" else met
+                left = _held(shapely.difference(left, covered))
 
 
 def _cut(

@@ -1,0 +1,161 @@
+"""What is left of a blank: a milled part from above in light and shadow, with sections; of a turned one the half section."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import LinearSegmentedColormap, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from mnclab.path.columns import Array
+from mnclab.show.plot import colours
+from mnclab.show.plot.classes import number
+from mnclab.show.plot.picture import SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend
+from mnclab.show.plot.relief import Relief, relief
+from mnclab.show.plot.sections import draw_section, mark_section, sections_of
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import choice, shown
+from mnclab.workpiece.collision import Collision
+from mnclab.workpiece.workpiece import Workpiece
+
+if TYPE_CHECKING:
+    from mnclab.workpiece.milling.milled import Milled
+
+COLOURS = ("depth", "tool", "line")
+#: Pale above and dark below, in grey print too; what nothing cut is paler still.
+DEPTHS = LinearSegmentedColormap.from_list("depths", ["#f3efe2", "#cfe0cf", "#86bcc4", "#4a86b4", "#2c4f8c", "#1d2a5c"])
+UNCUT = "#f3efe2"
+FEW = 8  # tools or lines that a legend names one by one
+EDGES = ((0.0, "#55524a", 0.35), (0.02, colours.INK, 0.75))  # from which part of the depth on, colour, width in points
+
+
+def plot_part(
+    workpiece: Workpiece,
+    ax: Axes | None = None,
+    *,
+    colour: str = "depth",
+    section: str | Sequence[str] = (),
+    at: float | Sequence[float] | None = None,
+    collisions: Iterable[Collision] = (),
+    size: tuple[float, float] = SIZE,
+) -> Figure:
+    """The part of a mill from above, lit from the upper left; of a lathe its half section.
+
+    - `ax`: draw into these axes of one's own, without sections, legend and scale.
+    - `colour` of a milled part: "depth" (mm below the top of the blank), the "tool" or the "line" that cut a place last.
+    - `section`: planes "XZ", "YZ" or "XY", one or several, each at its place `at` (mm; default the middle of the
+      blank): drawn hatched under the part, and where they lie in it.
+    - `collisions`: those of a run, red crosses.
+    - `size`: the greatest width and height in inches.
+    """
+    choice(colour, "colour", COLOURS)
+    marks = _places(collisions)
+    if workpiece.cutting.lathe:
+        from mnclab.show.plot.turned import plot_turned
+
+        return plot_turned(workpiece, ax, marks, size)
+    part = cast("Milled", workpiece)
+    seen, cuts = relief(part), sections_of(part, section, at)
+    image, names, scale = _coloured(part, seen, colour)
+    low, high = part.cutting.stock.bounds
+    if ax is not None:
+        _draw(ax, part, seen, image, marks)
+        dress(ax, VIEWS["XY"])
+        ax.autoscale_view()
+        return cast(Figure, ax.get_figure(root=True))
+    views = [VIEWS["XY"], *(each.view for each in cuts)]
+    handles: list[Any] = [Patch(facecolor=shade, edgecolor=colours.INK, linewidth=0.5, label=name) for name, shade in names]
+    handles.append(Line2D([], [], **BLANK))
+    handles += [Line2D([], [], **MARK)] if len(marks) else []
+    labels = [str(each.get_label()) for each in handles]
+    foot = Foot("\n".join([f"{part.method}, within {part.error:.3g} mm; {part.removed:.3f} mm³ removed", *part.notes]))
+    picture, axes = arrange(views, low, high, labels, foot, _in_words(part), size, scale is not None)
+    _draw(axes[0], part, seen, image, marks)
+    for one, each in zip(axes[1:], cuts):
+        draw_section(one, part, each)
+        mark_section(axes[0], each, low, high)
+    if scale:
+        _scale(picture, *scale)
+    write_legend(picture, handles, SCALE if scale else 0.0)
+    return picture
+
+
+BLANK = {**colours.BLANK.style(), "linestyle": (0, (6, 2)), "linewidth": 0.9}
+MARK = colours.Mark("collision", "#c62828", "x", 9, True, 4.2).style()
+
+
+def _places(collisions: Iterable[Collision]) -> Array:
+    """Where something collides (n, 3)."""
+    try:
+        return np.array([each.place for each in collisions], dtype=np.float64).reshape(-1, 3)
+    except (TypeError, AttributeError):
+        raise Alarm(f"collisions must be those of a run, got {shown(collisions)}", hint="run.collisions()") from None
+
+
+def _draw(ax: Axes, part: Milled, seen: Relief, image: Array, marks: Array) -> None:
+    draw_relief(ax, seen, image)
+    for outline in part.cutting.stock.outline(0, 1):
+        ax.add_line(Line2D(outline[:, 0], outline[:, 1], **BLANK))
+    if len(marks):
+        ax.add_line(Line2D(marks[:, 0], marks[:, 1], **MARK))
+
+
+def draw_relief(ax: Axes, seen: Relief, image: Array, order: float = 0.8) -> None:
+    """Pixels, and the edges of walls as lines over them."""
+    ax.imshow(image, extent=seen.box, origin="lower", interpolation="antialiased", zorder=order, aspect="auto")
+    lines, high = seen.lattice.crests()
+    whole = max(float(np.ptp(seen.z)), 1e-9)
+    for (least, shade, width), most in zip(EDGES, (EDGES[1][0], np.inf)):
+        some = lines[(high >= least * whole) & (high < most * whole)]
+        ax.add_collection(LineCollection(list(some), colors=shade, linewidths=width, capstyle="round", zorder=order + 0.1))
+
+
+def _coloured(part: Milled, seen: Relief, colour: str) -> tuple[Array, list[tuple[str, Any]], Any]:
+    """The image (ny, nx, 4), the colours that a legend names, and a scale: title, ends and map, where there are many."""
+    names: list[tuple[str, Any]] = []
+    scale = None
+    if colour == "depth":
+        top = float(part.cutting.stock.bounds[1, 2])
+        depth = np.where(seen.solid, top - seen.z, 0.0)
+        deepest = max(float(depth.max()), 1e-9)
+        shades, scale = DEPTHS(depth / deepest)[..., :3], ("depth, mm", 0.0, deepest, DEPTHS)
+    else:
+        row = seen.rows(part)
+        values = getattr(part.cutting.path, colour)[row]
+        known, index = np.unique(values[row >= 0], return_inverse=True)
+        lively = LinearSegmentedColormap.from_list("lively", colormaps["viridis"](np.linspace(0.25, 0.98, 32)))
+        shades = np.broadcast_to(np.array(to_rgb(UNCUT)), (*row.shape, 3)).copy()
+        share = index / max(len(known) - 1, 1)
+        if len(known) > FEW:
+            share = (known[index] - known[0]) / (known[-1] - known[0])
+            scale = (colour, float(known[0]), float(known[-1]), lively)
+        else:
+            spread = np.arange(len(known)) / max(len(known) - 1, 1)
+            names = [(f"{colour} {value}", lively(each)) for value, each in zip(known.tolist(), spread)]
+        shades[row >= 0] = lively(share)[:, :3]
+    image = np.clip(shades * seen.light[..., None], 0.0, 1.0)
+    return np.concatenate([image, seen.solid[..., None]], axis=2), names, scale
+
+
+def _scale(picture: Picture, title: str, low: float, high: float, shades: Any) -> None:
+    """A bar of colours above the views, with numbers."""
+    width, height = picture.get_size_inches().tolist()
+    long, thick = min(3.4, width - 1.9), 0.1
+    ax = picture.add_axes((1.0 / width, 1 - (0.07 + thick) / height, long / width, thick / height))
+    ax.imshow(np.linspace(0, 1, 256)[None], cmap=shades, extent=(low, high, 0, 1), aspect="auto")
+    ax.set_yticks([])
+    ax.tick_params(labelsize=SMALL, length=2, pad=1)
+    ax.xaxis.set_major_formatter(lambda value, _: number(value))
+    ax.set_ylabel(title, fontsize=SMALL, rotation=0, ha="right", va="center", labelpad=5)
+    ax.spines[:].set_linewidth(0.5)
+
+
+def _in_words(part: Workpiece) -> str:
+    return f"the part: {part.volume:.3f} mm³ left, {part.removed:.3f} mm³ removed"

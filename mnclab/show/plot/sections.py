@@ -1,0 +1,114 @@
+"""Sections through a part as drawings have them: hatched, named by a letter at both ends of the line of the cut."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from string import ascii_uppercase
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from matplotlib.patheffects import withStroke
+
+from mnclab.geometry.contours import Contour
+from mnclab.path.columns import Array
+from mnclab.show.plot import colours
+from mnclab.show.plot.picture import SMALL, VIEWS, View
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, choice, shown
+from mnclab.workpiece.workpiece import Workpiece
+
+ACROSS = {"XY": 2, "XZ": 1, "YZ": 0}  # the coordinate that a plane fixes
+CHORD = 0.02  # mm
+FACE: dict[str, Any] = {"facecolor": "#f3efe2", "edgecolor": colours.INK, "linewidth": 1.1}
+HATCH: dict[str, Any] = {"facecolor": "none", "edgecolor": "#55524a", "linewidth": 0.0, "hatch": "////"}
+CUT: dict[str, Any] = {"color": colours.INK, "linewidth": 0.8, "linestyle": (0, (10, 3, 1.5, 3))}
+HALO = [withStroke(linewidth=2.2, foreground=colours.PAPER)]
+OUT, ARROW = 0.035, 0.05  # of the part's greatest side: how far the line of a cut goes beyond it, arrows
+
+
+class Section(NamedTuple):
+    """A plane, where it lies (mm), its letter, and what it cuts."""
+
+    plane: str
+    at: float
+    letter: str
+    contours: list[Contour]
+
+    @property
+    def view(self) -> View:
+        return VIEWS[self.plane]
+
+    @property
+    def title(self) -> str:
+        value = f"{self.at:.6g}".replace("-", "\N{MINUS SIGN}")
+        return f"{self.letter}\N{EN DASH}{self.letter}   {'XYZ'[ACROSS[self.plane]]} = {value} mm"
+
+
+def sections_of(workpiece: Workpiece, planes: str | Sequence[str], at: float | Sequence[float] | None) -> list[Section]:
+    """The sections that are asked for: a plane or several, each with its place, or all in the middle of the blank."""
+    several = [planes] if isinstance(planes, str) else planes
+    if not isinstance(several, Sequence):
+        raise Alarm(f"section must be a plane or several of {', '.join(ACROSS)}, got {shown(planes)}")
+    for plane in several:
+        choice(plane, "section", ACROSS)
+    middle = workpiece.cutting.stock.bounds.mean(axis=0)
+    places = [float(middle[ACROSS[plane]]) for plane in several] if at is None else at
+    places = list(places) if isinstance(places, Sequence | np.ndarray) else [places] * len(several)
+    for place in places:
+        check_number(place, "where a section is (mm)")
+    if len(places) != len(several):
+        raise Alarm(f"each section needs a place, got {len(places)} for {len(several)}", hint='section=["XZ", "YZ"], at=[10, 30]')
+    return [
+        Section(plane, float(place), letter, workpiece.cut(plane, float(place)))
+        for plane, place, letter in zip(several, places, ascii_uppercase)
+    ]
+
+
+def draw_section(ax: Axes, workpiece: Workpiece, section: Section) -> None:
+    """The material that a plane cuts, hatched, and the blank around it."""
+    view = section.view
+    if section.contours:
+        shape = outline_of(section.contours)
+        ax.add_patch(PathPatch(shape, **FACE, zorder=1.5))
+        hatch = PathPatch(shape, **HATCH, zorder=1.6)
+        hatch.set_hatch_linewidth(0.6)
+        ax.add_patch(hatch)
+    for line in workpiece.cutting.stock.outline(view.right, view.up):
+        ax.add_line(Line2D(line[:, 0], line[:, 1], **{**colours.BLANK.style(), "linestyle": (0, (6, 2))}))
+    ax.annotate(
+        section.title, (0.5, 0.965), xycoords="axes fraction", ha="center", va="top", fontsize=SMALL + 1, path_effects=HALO,
+        zorder=5,
+    )  # fmt: skip
+
+
+def outline_of(contours: Sequence[Contour]) -> Path:
+    """Closed contours as one shape with its holes."""
+    rings = [each.points_within(CHORD) for each in contours]
+    rings = [ring if (ring[0] == ring[-1]).all() else np.concatenate([ring, ring[:1]]) for ring in rings]
+    codes = [np.r_[Path.MOVETO, np.full(len(ring) - 2, Path.LINETO), Path.CLOSEPOLY] for ring in rings]
+    return Path(np.concatenate(rings), np.concatenate(codes).astype(np.uint8))
+
+
+def mark_section(ax: Axes, section: Section, low: Array, high: Array) -> None:
+    """The line of a cut in the view from above, its arrows where one looks, its letter at both ends."""
+    fixed = ACROSS[section.plane]
+    if fixed == 2:
+        return
+    size = float((high - low)[:2].max())
+    along, looks = 1 - fixed, size * ARROW * (1 if fixed == 1 else -1)
+    ends = np.full((2, 2), section.at)
+    ends[:, along] = low[along] - OUT * size, high[along] + OUT * size
+    ax.add_line(Line2D(ends[:, 0], ends[:, 1], **CUT, zorder=3.0, path_effects=HALO))
+    for end in ends:
+        tail = end.copy()
+        tail[fixed] -= looks
+        arrow = {"arrowstyle": "-|>", "color": colours.INK, "linewidth": 1.2, "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0}
+        ax.annotate("", tuple(end), tuple(tail), arrowprops=arrow, zorder=3.1)
+        ax.annotate(
+            section.letter, tuple(tail), (0, -6 if fixed == 1 else 0), textcoords="offset points", fontsize=SMALL + 1,
+            ha="center" if fixed == 1 else "left", va="center", weight="bold", path_effects=HALO, zorder=3.2,
+        )  # fmt: skip

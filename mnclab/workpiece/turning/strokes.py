@@ -1,0 +1,194 @@
+"""The rows of a lathe's path as contours (z, r) that take material away: each convex or a ribbon, each of one row.
+
+Outside and inside tools, drills on the axis, threads: a threading insert leaves its profile wherever the spindle comes
+round, a tap the profile of its thread. What is cut below the axis is cut on the other side of it as well.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.vectors import length_of
+from mnclab.path.inserts import angles_of, cutting_part, turns
+from mnclab.path.kinds import Kind
+from mnclab.path.tool import Tool
+from mnclab.text.alarm import Alarm
+from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.turning.sweeping import Edge, Point, along_arc, along_line, edges, placed
+
+ON_AXIS = 1e-6  # mm: a tool without a kind that moves there is a drill
+OUTSIDE = 1.0  # mm: how far a tool reaches out of the blank
+MOST_TEETH = 20_000  # of one row
+FLANK, CREST = 5 / 8, 1 / 8  # of the sharp depth and of the pitch: an ISO thread of 60 degrees
+
+
+class Strokes(NamedTuple):
+    """Contours and the row (n,) of each, in the order of the rows; `notes` say what is left out."""
+
+    contours: list[Contour]
+    rows: list[int]
+    notes: tuple[str, ...]
+
+
+@dataclass
+class _Room:
+    """Where the blank is: from `low` to `high` along z, up to `radius`; `long` and `deep` is what reaches out of it."""
+
+    low: float
+    high: float
+    radius: float
+    long: float
+    deep: float
+
+    def meets(self, contour: Contour) -> bool:
+        (z0, r0), (z1, r1) = box_of(contour)
+        near = r0 < 0 < r1 or min(abs(r0), abs(r1)) < self.radius
+        return bool(near and z1 > self.low and z0 < self.high)
+
+
+def box_of(contour: Contour) -> list[list[float]]:
+    """Corners of a box in which a contour lies; arcs may leave some room in it."""
+    points, rise = contour.points, 0.0
+    if contour.bulge.any():
+        rise = float((np.abs(contour.bulge) * length_of(contour.ends - points)).max()) / 2
+    return [(points.min(axis=0) - rise).tolist(), (points.max(axis=0) + rise).tolist()]
+
+
+def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: float) -> Strokes:
+    """The strokes of a path in a blank from `low` to `high` and of a radius; the spindle turns about x = `axis`, mm."""
+    path, rows = cutting.path, np.flatnonzero(cutting.cuts)
+    start, end = path.start[rows][:, [2, 0]] - (0, axis), path.end[rows][:, [2, 0]] - (0, axis)
+    notes: list[str] = []
+    aside = (path.start[rows, 1] != path.end[rows, 1]) | ((path.kind[rows] == Kind.ARC) & (np.abs(path.axis[rows, 1]) < 0.5))
+    if aside.any():
+        notes.append(f"{aside.sum()} rows leave the plane of Z and X: they are not in the section")
+    _check_angles(cutting)
+    least = float(min(np.min(start[:, 1], initial=0.0), np.min(end[:, 1], initial=0.0)))
+    back = float(min(np.min(start[:, 0], initial=low), np.min(end[:, 0], initial=low)))
+    room = _Room(low, high, radius, high - back + OUTSIDE, radius - least + OUTSIDE)
+    body_of = _Bodies(room)
+    contours: list[Contour] = []
+    owners: list[int] = []
+    for k, row in enumerate(rows.tolist()):
+        if aside[k]:
+            continue
+        a, b = (float(start[k, 0]), float(start[k, 1])), (float(end[k, 0]), float(end[k, 1]))
+        for contour in _of_row(cutting, row, a, b, axis, body_of):
+            if room.meets(contour):
+                mirrored = box_of(contour)[0][1] < 0 and contour.bounds[0, 1] < 0
+                found = [contour, Contour(contour.points * (1, -1), -contour.bulge).reversed()] if mirrored else [contour]
+                contours += found
+                owners += [row] * len(found)
+    if any(cutting.path.synchronous[row] for row in owners):
+        notes.append("a thread is the profile of its insert in rings a pitch apart")
+    return Strokes(contours, owners, tuple(notes))
+
+
+def _check_angles(cutting: Cutting) -> None:
+    for tool in cutting.tools:
+        try:
+            angles_of(tool)
+        except ValueError as error:
+            raise Alarm(f"T{tool.number} of the tool table: {error}") from None
+
+
+class _Bodies:
+    """The cutting part of every tool, worked out once; that of a boring bar ends at the axis."""
+
+    def __init__(self, room: _Room) -> None:
+        self.room = room
+        self._known: dict[tuple[int, float], list[Edge]] = {}
+
+    def __call__(self, tool: Tool, start: Point, end: Point) -> list[Edge]:
+        height = self.room.deep if turns(tool) else self.room.long
+        if tool.kind == "boring":
+            height = max(min(start[1], end[1]), 0.0)
+        key = id(tool), height
+        if key not in self._known:
+            self._known[key] = edges(cutting_part(tool, height))
+        return self._known[key]
+
+
+def _of_row(cutting: Cutting, row: int, start: Point, end: Point, axis: float, body_of: _Bodies) -> Iterator[Contour]:
+    path, tool = cutting.path, cutting.tool(row)
+    if not tool.kind and tool.radius and max(abs(start[1]), abs(end[1])) < ON_AXIS and start[0] != end[0]:
+        tool = replace(tool, kind="drill")
+    if cutting.from_home[row]:
+        start = end
+    if path.synchronous[row] and start != end:
+        yield from _thread(tool, start, end, pitch_of(cutting, row), body_of)
+        return
+    body = body_of(tool, start, end)
+    sweep = float(path.sweep[row] * path.axis[row, 1]) if path.kind[row] == Kind.ARC else 0.0
+    if sweep and not cutting.from_home[row]:
+        centre = _centre(start, end, sweep) or (float(path.centre[row, 2]), float(path.centre[row, 0]) - axis)
+        yield from along_arc(body, start, end, sweep, centre)
+        return
+    found = along_line(body, start, end)
+    if found is not None:
+        yield found
+
+
+def _centre(start: Point, end: Point, sweep: float) -> Point | None:
+    """The centre of an arc by its ends, so that it goes through both; None for a full circle."""
+    dz, dr = end[0] - start[0], end[1] - start[1]
+    if math.hypot(dz, dr) < 1e-6:
+        return None
+    share = 0.5 / math.tan(sweep / 2)
+    return (start[0] + end[0]) / 2 - share * dr, (start[1] + end[1]) / 2 + share * dz
+
+
+def pitch_of(cutting: Cutting, row: int) -> float:
+    """How far a row with a locked spindle goes in a turn, mm; 0 where nobody knows."""
+    path = cutting.path
+    if math.isfinite(path.per_rev[row]):
+        return float(path.per_rev[row])
+    speed = abs(float(path.spindle[row]))
+    return float(path.feed[row]) / speed if speed and math.isfinite(path.feed[row]) else 0.0
+
+
+def _thread(tool: Tool, start: Point, end: Point, pitch: float, body_of: _Bodies) -> Iterator[Contour]:
+    """The profile of the insert in every turn from the start on, that of a tap on its way in."""
+    length = math.hypot(end[0] - start[0], end[1] - start[1])
+    tap = not turns(tool)
+    if tap and end[0] > start[0]:
+        return  # out of the hole again, in the same thread
+    body = body_of(tool, start, end)
+    if tap and pitch:
+        core = replace(tool, radius=max(tool.effective_radius - depth_of(pitch), 0.0), dr=0.0)
+        if core.radius:
+            body = edges(cutting_part(core, body_of.room.long))
+    if tap or not pitch:
+        found = along_line(body, start, end)
+        if found is not None:
+            yield found
+    if not pitch or length / pitch > MOST_TEETH:
+        return
+    shares = pitch * np.arange(math.floor(length / pitch + 1e-9) + 1) / length
+    for share in shares.tolist():
+        place = start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
+        if tap:
+            yield _tooth(tool.effective_radius, pitch, place)
+        else:
+            found = placed(body, place)
+            if found is not None:
+                yield found
+
+
+def depth_of(pitch: float) -> float:
+    """The depth of an internal ISO thread, mm: 5/8 of the sharp one."""
+    return FLANK * pitch * math.sqrt(3) / 2
+
+
+def _tooth(radius: float, pitch: float, place: Point) -> Contour:
+    """The groove that a tap cuts in one turn: flanks of 30 degrees from its radius down to the core."""
+    crest = CREST * pitch / 2
+    foot = crest + depth_of(pitch) * math.tan(math.pi / 6)
+    core = radius - depth_of(pitch)
+    return Contour(np.array([(-foot, core), (foot, core), (crest, radius), (-crest, radius)]) + place)

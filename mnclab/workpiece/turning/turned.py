@@ -1,0 +1,145 @@
+"""What the tools of a lathe leave of a bar: its half section, exact in lines and arcs."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+from mnclab.path.columns import Array
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number
+from mnclab.workpiece.blank import Box, Revolved
+from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.part import Part
+from mnclab.workpiece.turning import revolved
+from mnclab.workpiece.turning.section import Drawing, held, left_of, taken
+from mnclab.workpiece.turning.strokes import Strokes, strokes_of
+from mnclab.workpiece.turning.sweeping import CHORD_ERROR
+from mnclab.workpiece.workpiece import Solid, Workpiece, sections
+
+PLANES = ("ZX", "XZ", "ZY", "YZ", "XY")
+
+
+class Turned(Workpiece):
+    """`section`: closed contours (z, r), mm, from the axis of the spindle outwards; outer ones counter-clockwise, holes
+    clockwise. `parted` are the pieces that fell off: the bar hangs in a chuck where its z is lowest.
+    """
+
+    def __init__(self, cutting: Cutting, step: float | None = None) -> None:
+        if step is not None:
+            check_number(step, "the step of a workpiece (mm)", above=0)
+        self.cutting = cutting
+        self.blank, self.axis, told = half_section(cutting.stock)
+        (self.low, _), (self.high, self.radius) = self.blank.bounds.tolist()
+        self.method, self.error = "exact sweep of the half section", CHORD_ERROR
+        self._told = told
+
+    @cached_property
+    def _strokes(self) -> Strokes:
+        return strokes_of(self.cutting, self.low, self.high, self.radius, self.axis)
+
+    @cached_property
+    def _drawing(self) -> Drawing:
+        strokes = self._strokes
+        return Drawing([self.blank, *strokes.contours], np.array([-1, *strokes.rows], dtype=np.int64))
+
+    @cached_property
+    def _pieces(self) -> tuple[Any, list[Any]]:
+        return held(left_of(self._drawing), self.low)
+
+    @cached_property
+    def section(self) -> list[Contour]:
+        return list(self._drawing.traced(self._pieces[0])) if self._strokes.contours else [self.blank]
+
+    @cached_property
+    def rows(self) -> list[NDArray[np.int64]]:
+        """For each contour of the section the row of the path that cut its elements, -1 where the blank is untouched."""
+        return [self._drawing.rows_of(contour) for contour in self.section]
+
+    @cached_property
+    def _taken(self) -> tuple[Array, list[Any]]:
+        return taken(self._drawing, len(self.cutting), self.low)
+
+    @cached_property
+    def parted(self) -> list[Contour]:
+        return [loop for area in self._taken[1] for loop in self._drawing.traced(area)] if self._pieces[1] else []
+
+    @property
+    def notes(self) -> tuple[str, ...]:  # type: ignore[override]
+        fell = (f"{len(self.parted)} pieces fell off",) if self.parted else ()
+        return (*self._told, *self._strokes.notes, *fell)
+
+    @property
+    def volume(self) -> float:
+        return revolved.volume(self.section)
+
+    @property
+    def removed(self) -> float:
+        """What was cut, mm³; what fell off is not."""
+        return revolved.volume([self.blank]) - self.volume - revolved.volume(self.parted)
+
+    def removed_by_row(self) -> Array:
+        """What each row of the path took away (n,), mm³; arcs are chords of the section, and the sum is exact."""
+        shares = self._taken[0]
+        total = float(shares.sum())
+        return shares * (self.removed / total) if total else shares
+
+    def at(self, z: ArrayLike) -> Array | float:
+        """The outer radius over a z or over many, mm; 0 where nothing is left, at a shoulder that on its left."""
+        return self._radius(z, -1)
+
+    def bore_at(self, z: ArrayLike) -> Array | float:
+        """The radius of the hole over a z or over many, mm; 0 where there is none."""
+        return self._radius(z, 0)
+
+    def _radius(self, z: ArrayLike, which: int) -> Array | float:
+        places = np.asarray(z, dtype=np.float64)
+        found = np.array([r[which] if len(r) else 0.0 for r in revolved.radii_at(self.section, places.ravel())])
+        return found.reshape(places.shape) if places.ndim else float(found[0])
+
+    def cut(self, plane: str, at: float = 0.0) -> list[Contour]:
+        """A section: along the axis ("ZX", "ZY" with z first, "XZ", "YZ" with it last) both halves; "XY" rings over a z."""
+        sections(PLANES, plane)
+        check_number(at, "the place of a section (mm)")
+        if plane == "XY":
+            radii = revolved.radii_at(self.section, np.array([float(at)]))[0]
+            rings = [Contour.circle((self.axis, 0.0), r, clockwise=k % 2 == 0) for k, r in enumerate(radii) if r > 0]
+            return rings[::-1]
+        if at != 0:
+            raise Alarm(f"a section along the axis of a turned part goes through the axis, at 0, got {at:g}")
+        other = [Contour(loop.points * (1, -1), -loop.bulge).reversed() for loop in self.section]
+        whole = Region(tuple(self.section)).union(Region(tuple(other)))
+        frame = np.array([[1.0, 0, 0], [0, 1, self.axis if "X" in plane else 0.0], [0, 0, 1]])
+        swap = np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, 1]])
+        if plane[0] == "Z":
+            return [loop.transformed(frame) for loop in whole.loops]
+        return [loop.transformed(swap @ frame).reversed() for loop in whole.loops]
+
+    @property
+    def part(self) -> Part:
+        return revolved.part(self.section, self.axis)
+
+    def solid(self) -> Solid:
+        return revolved.solid(self.section, self.rows, self.axis)
+
+
+def half_section(stock: Any) -> tuple[Contour, float, tuple[str, ...]]:
+    """The contour (z, r) of a lathe's blank, where its axis stands in x, mm, and what is to be said of it."""
+    if isinstance(stock, Box):
+        (x0, _, z0), (x1, _, z1) = stock.bounds.tolist()
+        radius = max(abs(x0), abs(x1))
+        told = (f"the box counts as a bar of radius {radius:g}",)
+        return Contour([(z0, 0.0), (z1, 0.0), (z1, radius), (z0, radius)]), 0.0, told
+    if not isinstance(stock, Revolved) or stock.axis != "Z":
+        raise Alarm("the blank of a lathe is a body about Z: cylinder(radius, low, high)", hint=f"it was {stock!r}")
+    z = stock.at[2]
+    outer = [(place + z, radius) for radius, place in stock.profile]
+    points = np.array([*outer, (outer[-1][0], stock.bore), (outer[0][0], stock.bore)])
+    some = np.hypot(*(np.roll(points, -1, axis=0) - points).T) > 0
+    contour = Contour(points[some])
+    return contour if contour.area > 0 else contour.reversed(), float(stock.at[0]), ()

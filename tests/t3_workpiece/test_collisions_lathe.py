@@ -1,0 +1,185 @@
+"""What the tools of a lathe must not meet, put into programs on purpose: found at its line, in its place, as deep as it is."""
+
+from math import radians, sin, tan
+
+import pytest
+
+import mnclab
+from mnclab import Alarm, Limits, Setup, Tool
+from mnclab.workpiece.blank import chuck, cylinder
+
+BAR = cylinder(20, -60, 0)
+HEAD = "M3 S500 G97 G94 F100 T{}\nG00 X40 Z20\n"  # lines 1 and 2 of every program
+SHARP = {"main_angle": 93, "kind": "turning"}
+
+
+def met(text, tool=1, head=HEAD, control="jnc-t01", stock=BAR, **given):
+    """The collisions of a program with lines parted by |; the tool is one of the magazine, or a Tool."""
+    if isinstance(tool, Tool):
+        given["tools"], tool = {1: tool}, 1
+    setup = Setup(stock=stock, start=(60, 0, 40), **given)
+    program = mnclab.run(head.format(tool) + text.replace("|", "\n") + "\n", control, setup)
+    assert [each for each in program.alarms if "spindle" not in each.message] == []
+    return program.collisions()
+
+
+def only(found, kind, line, depth, x=None, z=None):
+    (each,) = found
+    assert (each.kind, each.line, each.program) == (kind, line, 0)
+    assert each.depth == pytest.approx(depth, abs=2e-3)
+    for value, expected in ((each.place[0], x), (each.place[2], z)):
+        assert expected is None or value == pytest.approx(expected, abs=2e-3)
+    assert each.place[1] == 0 and f"{each.depth:.3f} mm" in each.message and str(each).startswith(f"program:{line}: ")
+    return each
+
+
+# --- rapids ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("depth", [0.02, 0.5, 3, 8])
+@pytest.mark.parametrize("tool", [1, 2, 3])
+def test_a_rapid_along_the_bar_under_its_surface(tool, depth):
+    only(met(f"G00 X{20 - depth} Z2|Z-30|X40", tool), "rapid", 4, depth, x=20 - depth)
+
+
+@pytest.mark.parametrize("depth", [0.02, 1, 4])
+def test_a_rapid_down_into_the_bar(depth):
+    only(met(f"G00 X25 Z-20|X{20 - depth}|X40", 3), "rapid", 4, depth, x=20 - depth)
+
+
+@pytest.mark.parametrize("depth", [0.1, 2, 5])
+def test_a_rapid_of_a_drill_into_the_full_bar(depth):
+    only(met(f"G00 X0 Z2|Z-{depth}|Z10", 6), "rapid", 4, depth, x=0, z=-depth)
+
+
+@pytest.mark.parametrize("depth", [0.05, 1, 3])
+def test_a_rapid_of_a_boring_bar_into_the_wall_of_a_bore(depth):
+    tube = cylinder(20, -60, 0, bore=10)
+    only(met(f"G00 X{10 + depth} Z2|Z-30|X9|Z10", 5, stock=tube), "rapid", 4, depth, x=10 + depth)
+
+
+def test_a_rapid_through_a_collar_is_as_deep_as_the_middle_of_it():
+    turned = "G00 X14 Z2|G01 Z-20|G00 X24|Z-28|G01 X14|Z-40|G00 X24 Z-25|"
+    found = met("G00 X16 Z2|G01 Z-20|X22|G00 X16 Z2|Z-19.999|X40", 2)
+    assert not found and turned
+    (each,) = met("G00 X25 Z-30|G01 X15|G00 X16|Z-19.5|X40", 3)
+    assert (each.kind, each.line) == ("rapid", 6) and each.depth == pytest.approx(4, abs=2e-3)
+
+
+# --- the back of the insert ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("auxiliary", [20, 30, 52])
+@pytest.mark.parametrize("steeper", [4, 12, 30])
+@pytest.mark.parametrize("deep", [1, 3])
+def test_a_flank_steeper_than_the_auxiliary_edge(auxiliary, steeper, deep):
+    """From the foot of the flank the edge goes up by its own angle and leaves the bar beyond the programmed line."""
+    angle = radians(auxiliary + steeper)
+    foot = -20 - deep / tan(angle)
+    edge = deep / sin(radians(auxiliary))
+    tool = Tool(auxiliary_angle=auxiliary, **SHARP)
+    found = met(f"G00 X20 Z-20|G01 X{20 - deep} Z{foot:.6f}|Z-40|X40", tool)
+    off = edge * sin(radians(steeper))
+    only(found, "insert", 4, off, x=20)
+
+
+@pytest.mark.parametrize(("auxiliary", "deep"), [(20, 2), (30, 1), (52, 4)])
+def test_a_plunge_beside_a_collar(auxiliary, deep):
+    tool = Tool(auxiliary_angle=auxiliary, **SHARP)
+    only(met(f"G00 X25 Z-30|G01 X{20 - deep}|X40", tool), "insert", 4, deep / tan(radians(auxiliary)), x=20)
+
+
+@pytest.mark.parametrize("deep", [3.5, 5, 7])
+def test_a_blade_that_turns_deeper_than_it_is_wide(deep):
+    found = met(f"G00 X25 Z-30|G01 X{20 - deep}|Z-40|G00 X40", 3)
+    assert [(each.kind, each.line) for each in found] == [("insert", 5)] and found[0].depth == pytest.approx(deep, abs=2e-3)
+
+
+def test_turning_away_from_the_chuck_with_the_back():
+    found = met("G00 X25 Z-30|G01 X17|T1 G01 Z-10|G00 X40", 3)
+    assert ("insert", 5) in {(each.kind, each.line) for each in found}
+
+
+def test_the_same_flank_is_free_where_the_insert_follows():
+    for auxiliary in (31, 40, 60):
+        assert not met("G00 X20 Z-20|G01 X18 Z-23.46410162|Z-40|X40", Tool(auxiliary_angle=auxiliary, **SHARP))
+
+
+def test_facing_is_the_work_of_the_auxiliary_edge():
+    for tool in (1, 2):
+        assert not met("G00 X22 Z-1|G01 X-1|G00 Z2|X22|Z-2|G01 X-1|G00 Z10", tool)
+
+
+# --- the chuck -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("deep", [0.02, 0.5, 2, 5, 9])
+@pytest.mark.parametrize("way", ["G01 Z{z}|G00 X60", "G00 Z{z}|X60", "G01 X17.5 Z{z}|G00 X60"])
+def test_a_tool_goes_on_into_the_jaws(deep, way):
+    held = chuck(20, -60, grip=20)  # the jaws end at Z-40
+    before = "G00 X18 Z2|G01 Z-30|" if way.startswith("G00") else "G00 X18 Z2|"
+    found = met(before + way.format(z=-40 - deep), 1, fixtures=(held,))
+    hit = [each for each in found if each.kind == "chuck"]
+    assert hit[0].line == 4 + ("G01 Z-30" in before) and hit[0].depth == pytest.approx(deep, abs=0.02)
+    assert hit[0].place[2] == pytest.approx(-40 - deep, abs=2e-3)
+
+
+def test_a_tool_before_the_jaws_meets_nothing():
+    assert not met("G00 X18 Z2|G01 Z-40|X22|G00 X60", 1, fixtures=(chuck(20, -60, grip=20),))
+
+
+def test_a_chuck_says_what_it_needs():
+    held = chuck(20, -60)
+    assert held.bore == 20 and held.bounds[:, 2].tolist() == [-120, -40]
+    for wrong in ((0, 0), (20, "9"), (20, 0, -1), (20, 0, 10, 0)):
+        with pytest.raises(Alarm, match="of a chuck"):
+            chuck(*wrong)
+    with pytest.raises(Alarm, match="on a lathe a blank and its chuck are boxes or bodies about Z"):
+        met("G00 X18 Z2", fixtures=(cylinder(5, 0, 9, axis="X"),))
+
+
+# --- shanks, holders, the spindle ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", ["shank", "holder"])
+@pytest.mark.parametrize("deep", [0.05, 1, 2, 3, 4, 5, 6.5])
+def test_a_drill_that_goes_deeper_than_it_is_long(kind, deep):
+    body = (12, 30)
+    tool = Tool(5, angle=118, kind="drill", **{kind: body if kind == "shank" else (body,)})
+    only(met(f"G00 X0 Z2|G01 Z-{30 + deep}|G00 Z10", tool), kind, 4, deep, z=-deep)
+
+
+@pytest.mark.parametrize("deep", [0.5, 2, 4])
+def test_the_bar_of_a_boring_tool_is_too_thick_for_its_bore(deep):
+    """It lies 2.4 mm below the tip: from a tip at 11 the bar comes as far down as 8.6 less its diameter."""
+    thick = (8.6 + 11 + deep) / 2
+    tool = Tool(corner=0.4, main_angle=95, auxiliary_angle=30, kind="boring", shank=(thick, 5))
+    found = met("G00 X11 Z20|G01 Z-25|G00 X9 Z-24|Z10", tool, stock=cylinder(20, -60, 0, bore=10))
+    assert ("insert", 4) in {(each.kind, each.line) for each in found}
+    assert next(each for each in found if each.line == 4).depth == pytest.approx(deep, abs=0.02)
+
+
+@pytest.mark.parametrize("deep", [0.02, 1, 3])
+@pytest.mark.parametrize("control", ["M5", "M5|G04 F1"])
+@pytest.mark.parametrize("cut", ["G01 Z-20", "G01 X{x} Z-20", "G03 X{x} Z-20 R40"])
+def test_a_cut_while_the_spindle_stands(deep, control, cut):
+    """The tool goes down into the bar as far as it says, from the face to Z-20."""
+    line = 4 + control.count("|") + 1
+    found = met(f"G00 X{20 - deep} Z2|{control}|{cut.format(x=20 - deep)}|G00 X40", 2)
+    assert [(each.kind, each.line) for each in found if each.kind == "spindle"] == [("spindle", line)]
+
+
+def test_an_unknown_start_is_not_blamed_and_a_known_one_is():
+    text = "M3 S500 T1\nG00 X18 Z-10\nG00 X40\n"
+    assert [each.line for each in mnclab.run(text, "jnc-t01", Setup(stock=BAR)).collisions()] == [2]  # arrives in it
+    text = "M3 S500 T1\nG00 X18 Z2\nG94 F100\nG01 Z-10\nX40\n"
+    assert not mnclab.run(text, "jnc-t01", Setup(stock=BAR)).collisions()
+    assert mnclab.run(text, "jnc-t01", Setup(stock=BAR, start=(0, 0, -5))).collisions()
+
+
+def test_travel_is_judged_on_the_radius():
+    limits = Limits(travel=((0, 30), (-1, 1), (-50, 50)))
+    setup = Setup(stock=BAR, start=(25, 0, 20), limits=limits)
+    for depth in range(1, 17):
+        found = mnclab.run(f"M3 S500 T1\nG00 X18 Z2\nG00 X{30 + depth}\n", "jnc-t01", setup).collisions()
+        assert [(each.kind, each.line) for each in found] == [("travel", 3)] and found[0].depth == pytest.approx(depth)
