@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
 from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
-from mnclab.text.given import shown, whole
+from mnclab.text.given import check_number, shown, whole
 from mnclab.workpiece.blank import blank
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
@@ -110,8 +110,13 @@ def _beyond_travel(run: Run) -> Iterator[Collision]:
     yield Collision("travel", message, span.line, span.program, len(run.toolpath) - 1, (x, y, z), depth, file)
 
 
-def _kept(run: Run, key: Hashable, stock: Any, make: Callable[[], Made]) -> Made:
-    """What a run was asked for, made once as long as it is one of the last few; of another blank every time."""
+def _kept(run: Run, key: tuple[Any, ...], stock: Any, make: Callable[[], Made]) -> Made:
+    """What a run was asked for, made once as long as it is one of the last few; of another blank every time.
+
+    The last of a key is the step.
+    """
+    if key[-1] is not None:
+        check_number(key[-1], "the step of a workpiece (mm)", above=0)
     if stock is not None:
         return make()
     found: Made = run.made.pop(key) if key in run.made else make()

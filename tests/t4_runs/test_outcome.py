@@ -56,3 +56,10 @@ def test_the_parts_of_a_run_are_kept():
 @pytest.mark.parametrize("value, text", [(0.1234, "0.123 mm³"), (999.4, "999 mm³"), (1234.5, "1.23 cm³"), (45678, "45.7 cm³")])
 def test_volumes_have_three_figures(value, text):
     assert volume(value) == text
+
+
+@pytest.mark.parametrize("step", [0, -1, [1], "1"])
+def test_a_step_that_is_none(step):
+    for ask in (run(SLOT, stock=BLANK).workpiece, run(SLOT, stock=BLANK).collisions):
+        with pytest.raises(mnclab.Alarm, match="the step of a workpiece"):
+            ask(step=step)
