@@ -79,7 +79,7 @@ def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: f
     contours: list[Contour] = []
     owners: list[int] = []
     for k, row in enumerate(rows.tolist()):
-        if aside[k]:
+        if aside[k] or out_of_thread(path, row):
             continue
         a, b = (float(start[k, 0]), float(start[k, 1])), (float(end[k, 0]), float(end[k, 1]))
         for contour in _of_row(cutting, row, a, b, axis, (pitch[row], turns[row]), body_of):
@@ -91,6 +91,13 @@ def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: f
     if any(cutting.path.synchronous[row] for row in owners):
         notes.append("a thread is the profile of its insert in rings a pitch apart")
     return Strokes(contours, owners, tuple(notes))
+
+
+def out_of_thread(path: Toolpath, row: int) -> bool:
+    """Whether a rapid straight across lifts the insert out of the groove that the row before it has cut: it cuts nothing."""
+    if not row or path.kind[row] != Kind.RAPID or not path.synchronous[row - 1]:
+        return False
+    return bool(path.kind[row - 1] in CUTS and path.start[row, 2] == path.end[row, 2])
 
 
 def _check_angles(cutting: Cutting) -> None:
