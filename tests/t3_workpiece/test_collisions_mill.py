@@ -91,6 +91,18 @@ def test_the_first_approach_comes_from_home():
     only(met("G0 X50 Y30|G0 Z-3|G1 X80 F100|G0 Z50", TOOLS["mill"]), "rapid", 4, 3)
 
 
+@pytest.mark.parametrize("before", ["G0 X-30 Y0 Z5", "G0 Y0|G0 X-30|G0 Z5", "G0 Z5|G0 X-30 Y0"])
+def test_an_axis_that_is_named_is_where_the_program_says(before):
+    """Y0 is where the machine starts, so that nothing moves; the way of the next rapid counts all the same."""
+    found = met(f"{before}|G0 Z-3|G0 X150|G0 Z50", TOOLS["mill"])
+    only(found, "rapid", 5 + before.count("|"), 3)
+
+
+def test_no_deeper_than_the_blank_is_thick():
+    each = only(met("G0 X50 Y30 Z5|G0 Z-300|G0 Z50", TOOLS["mill"]), "rapid", 4, 20)
+    assert each.place[2] == -20
+
+
 # --- plunges ---------------------------------------------------------------------------------------------------------
 
 BLUNT = Tool(5, centre_cutting=False, kind="mill")
