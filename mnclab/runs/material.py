@@ -165,4 +165,4 @@ def played(run: Run) -> tuple[Cutting | None, Collisions]:
     """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
     if run.stock is None:
         return None, Collisions()
-    return cutting_of(run), Collisions()
+    return cutting_of(run), collisions(run) if len(run.toolpath) <= JUDGED else Collisions()
