@@ -67,7 +67,10 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
     elif colour == "depth":
         title, values = _depths(workpiece, solid.points)
         mesh.point_data[title] = values
-        plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, scalar_bar_args=scenes.BAR | {"title": title}, **LOOK)
+        cut = values[solid.triangles[solid.row >= 0]]
+        limits = (0.0, float(cut.max() if cut.size and cut.max() > 0 else values.max()))
+        bar = scenes.BAR | {"title": title, "fmt": "%.3g"}
+        plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, scalar_bar_args=bar, **LOOK)
     else:
         values = getattr(workpiece.cutting.path, colour)[solid.row].astype(np.float64)
         mesh.cell_data[colour] = np.where(solid.row >= 0, values, np.nan)

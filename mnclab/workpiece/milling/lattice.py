@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 STEEP = 0.5  # rise between two nodes, of their distance, from which a wall is looked for
 SUDDEN = 0.25  # of that rise: what is left of it between the last halves when it is a wall, and no steep slope
-HALVINGS = 16
+HALVINGS = 14
 THIN = 1e-9  # mm, of material that is none
 
 
