@@ -8,7 +8,7 @@ The map of the house, floor by floor (a folder imports only from those above its
     text        what a programmer wrote: Alarm, Program, words, expressions
     geometry    frames, arcs, contours, offsets, regions: numbers, no CNC word
     path        what the tool does: Toolpath in columns, passes over it (corners, compensation), and the feed profile
-    workpiece   what the tool meets: the blank, the part that a probe touches
+    workpiece   what the tool meets, and what is left: blank, milled and turned part, removal, collisions
     machining   how metal is cut, whatever the control: holes, milling, turning, as steps
     comparison  two paths, or strategies, side by side
     machine     what stands before a program runs: Machine, Setup, what a Control and a Cycle declare
@@ -37,6 +37,9 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.nearest import nearest as _nearest
 from mnclab.text.opening import Shelf
 from mnclab.text.program import Program
+from mnclab.workpiece.collision import Collision
+from mnclab.workpiece.removal import Removal
+from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.comparison.diff import diff as diff
@@ -67,7 +70,7 @@ part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts co
     "mnclab.workpiece.part": "Part, ball, box, contact, cylinder, plane",
 })  # fmt: skip
 
-blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…)", {
+blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…), and what holds it, for Setup(fixtures=…)", {
     "mnclab.workpiece.blank": "Box, Revolved, chuck, cylinder",
 })  # fmt: skip
 
@@ -104,6 +107,7 @@ schemes = Shelf("mnclab.schemes", "ways to turn, groove and thread; mnclab.compa
 __all__ = [
     "RULE_NAMES",
     "Alarm",
+    "Collision",
     "Datum",
     "Help",
     "Kind",
@@ -111,10 +115,12 @@ __all__ = [
     "Probe",
     "Profile",
     "Program",
+    "Removal",
     "Run",
     "Setup",
     "Tool",
     "Toolpath",
+    "Workpiece",
     "area",
     "blank",
     "compare",

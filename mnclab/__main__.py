@@ -1,4 +1,4 @@
-"""mnclab from a shell: check, run, plot, report, time, help, lab; `python -m mnclab` is the same as `mnclab`.
+"""mnclab from a shell: check, run, plot, part, report, time, help, lab; `python -m mnclab` is the same as `mnclab`.
 
 Exit status: 0 clean, 1 alarms, 2 a command line that makes no sense, 130 stopped by Ctrl-C. Alarms go to stderr, one
 line each, in the form that editors understand: `FILE:LINE:COLUMN: alarm: message (hint)`.
@@ -24,6 +24,7 @@ from mnclab.machine.setup_file import FORMAT, load
 from mnclab.show import times
 from mnclab.show.export import BODIES, save
 from mnclab.text.alarm import ALARM, Alarm
+from mnclab.workpiece.collision import Collision
 
 Result = TypeVar("Result")
 CLEAN, ALARMS, USAGE, INTERRUPTED = 0, 1, 2, 130
@@ -32,6 +33,8 @@ FIRST_LESSON = "00_first_path.ipynb"
 SUFFIXES = (
     "svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; ngc (plain blocks); stl, gltf, glb, vtk"
 )
+
+PARTS = "stl, gltf, glb, vtk (the body); svg, pdf, png (pictures); csv (heights, or the section of a lathe)"
 
 EPILOG = f"""\
 exit status: 0 clean, 1 alarms (or an unreadable file), 2 a wrong command line, 130 Ctrl-C
@@ -119,6 +122,8 @@ def parser() -> argparse.ArgumentParser:
 
     sub = command("check", check, "run programs and report their alarms", "files", nargs="+")
     options(sub, "a list of files with their alarms on stdout instead")
+    says = "find the collisions with the blank too (of the setup, or of the program); status 1 if there is one"
+    sub.add_argument("--material", action="store_true", help=says)
     sub = command("run", run, "run a program and print its moves, one a line")
     options(sub, "summary, alarms and columns of the path on stdout instead")
     kinds = "a picture, a page to play it, a file for other programs"
@@ -128,6 +133,10 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--compensation", action="store_true", help=says)
     sub.add_argument("--rules", type=words, metavar="G160,G161", help="with --compensation: a picture for each rule")
     sub.add_argument("--radii", type=numbers, metavar="2,5", help="with --compensation: a picture for each radius, mm")
+    options(sub)
+    sub = command("part", part, "run a program and save what it leaves of the blank (of the setup, or of the program)")
+    output(sub, f"the suffix says what: {PARTS}")
+    sub.add_argument("--line", type=int, metavar="N", help="as it is after line N (default: at the end)")
     options(sub)
     sub = command("report", report, "run a program and write a report: figures, tools, times, picture, alarms, listing")
     output(sub, "an .html or a .pdf file")
@@ -186,18 +195,32 @@ def check(chosen: argparse.Namespace) -> int:
     status, report = CLEAN, []
     setup = None if chosen.setup is None else sensible(load, chosen.setup)
     for file in chosen.files:
+        alarms: tuple[Alarm, ...] = ()
+        collisions: tuple[Collision, ...] = ()
         try:
-            alarms = mnclab.run(program(file), chosen.control, setup).alarms
-        except Alarm as unreadable:
-            alarms = (unreadable,)
-        if any(alarm.severity == ALARM for alarm in alarms):
+            result = mnclab.run(program(file), chosen.control, setup)
+            alarms = result.alarms
+            collisions = with_blank(result).collisions() if chosen.material else ()
+        except Alarm as fault:  # no program, or no blank
+            alarms = (*alarms, fault)
+        if collisions or any(alarm.severity == ALARM for alarm in alarms):
             status = ALARMS
-        report.append({"file": file, "alarms": [describe(alarm, file) for alarm in alarms]})
+        said: dict[str, Any] = {"file": file, "alarms": [describe(alarm, file) for alarm in alarms]}
+        report.append(said | ({"collisions": [each.as_dict() for each in collisions]} if chosen.material else {}))
         for alarm in () if chosen.json else alarms:
             say(alarm, file)
+        for collision in () if chosen.json else collisions:
+            print(collision, file=sys.stderr)
     if chosen.json:
         print(json.dumps(report, indent=1))
     return status
+
+
+def with_blank(result: mnclab.Run) -> mnclab.Run:
+    """The same run; an Alarm if there is no blank to cut."""
+    if result.stock is None:
+        raise Alarm("there is no blank to cut", hint="give one: a [stock] in the file of --setup (mnclab --help shows one)")
+    return result
 
 
 def run(chosen: argparse.Namespace) -> int:
@@ -221,6 +244,14 @@ def plot(chosen: argparse.Namespace) -> int:
     else:
         of_path = {"of": "path"} if Path(chosen.output).suffix.lower() in BODIES else {}
         sensible(partial(result.save, **of_path), chosen.output)
+    return verdict(result)
+
+
+def part(chosen: argparse.Namespace) -> int:
+    """Save what a program leaves of its blank."""
+    result = with_blank(obey(chosen))
+    left = result.workpiece() if chosen.line is None else sensible(result.workpiece, chosen.line)
+    sensible(left.save, chosen.output)
     return verdict(result)
 
 

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
 from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
-from mnclab.text.given import shown, whole
+from mnclab.text.given import check_number, shown, whole
 from mnclab.workpiece.blank import blank
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
@@ -20,6 +20,8 @@ from mnclab.workpiece.workpiece import Workpiece, no_blank
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
 
+Made = TypeVar("Made")
+KEPT = 6  # parts and lists of collisions that a run keeps
 JUDGED = 3000  # rows up to which a player asks for collisions
 
 
@@ -52,14 +54,21 @@ def workpiece(
     run: Run, line: int | None = None, pass_: int = 1, row: int | None = None, step: float | None = None, stock: Any = None
 ) -> Workpiece:
     """What is left after a run, a pass of a line, or a row."""
-    cutting = cutting_of(run, stock)
+    last = None
     if row is not None:
-        row = whole(row, "the row")
-        if not -len(cutting) <= row < len(cutting):
-            raise Alarm(f"row must be 0 … {len(cutting) - 1}, got {row}")
-        cutting = cutting.until(range(len(cutting))[row])
+        last, n = whole(row, "the row"), len(run.toolpath)
+        if not -n <= last < n:
+            raise Alarm(f"row must be 0 … {n - 1}, got {row}")
+        last %= n
     elif line is not None:
-        cutting = cutting.until(run.at(line, pass_).rows.stop - 1)
+        last = run.at(line, pass_).rows.stop - 1
+    return _kept(run, ("workpiece", last, step), stock, lambda: _workpiece(run, last, step, stock))
+
+
+def _workpiece(run: Run, last: int | None, step: float | None, stock: Any) -> Workpiece:
+    cutting = cutting_of(run, stock)
+    if last is not None:
+        cutting = cutting.until(last)
     if cutting.lathe:
         from mnclab.workpiece.turning.turned import Turned
 
@@ -71,6 +80,10 @@ def workpiece(
 
 def collisions(run: Run, stock: Any = None, step: float | None = None) -> Collisions:
     """What a run meets that it must not; the cut that would have left the travel of the machine among it."""
+    return _kept(run, ("collisions", step), stock, lambda: _collisions(run, stock, step))
+
+
+def _collisions(run: Run, stock: Any, step: float | None) -> Collisions:
     cutting = cutting_of(run, stock)
     if cutting.lathe:
         from mnclab.workpiece.turning.collisions import collisions_of as of_lathe
@@ -95,6 +108,22 @@ def _beyond_travel(run: Run) -> Iterator[Collision]:
     file = run.programs[span.program].name
     message = f"{alarm.message}, {depth:.3f} mm beyond"
     yield Collision("travel", message, span.line, span.program, len(run.toolpath) - 1, (x, y, z), depth, file)
+
+
+def _kept(run: Run, key: tuple[Any, ...], stock: Any, make: Callable[[], Made]) -> Made:
+    """What a run was asked for, made once as long as it is one of the last few; of another blank every time.
+
+    The last of a key is the step.
+    """
+    if key[-1] is not None:
+        check_number(key[-1], "the step of a workpiece (mm)", above=0)
+    if stock is not None:
+        return make()
+    found: Made = run.made.pop(key) if key in run.made else make()
+    run.made[key] = found
+    if len(run.made) > KEPT:
+        del run.made[next(iter(run.made))]
+    return found
 
 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:

@@ -28,7 +28,7 @@ from mnclab.path.profile import Profile
 from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
-from mnclab.runs import material, still_spindle
+from mnclab.runs import material, outcome, still_spindle
 from mnclab.runs.explanation import Explanation
 from mnclab.runs.history import History
 from mnclab.runs.moment import Moment
@@ -40,6 +40,7 @@ from mnclab.text.program import Program
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.collision import Collisions
+from mnclab.workpiece.outcome import Outcome
 from mnclab.workpiece.removal import Removal
 from mnclab.workpiece.workpiece import Workpiece
 
@@ -82,6 +83,7 @@ class Run:
         self.gouges: tuple[Gouge, ...] = tuple(shifted(machine))
         self.stopped: Stopped | None = machine.stopped
         self.settings = dict(machine.settings)
+        self.made: dict[Any, Any] = {}  # the last parts and collisions that were asked for
 
     def _as_of_end(self, prefix: str, values: dict[str, Any]) -> dict[str, Any]:
         """Values as the history has them after the last step that counts."""
@@ -215,6 +217,11 @@ class Run:
         """How much material goes by row, line and tool, and how fast; `limits` as in `profile`, `step` as in `workpiece`."""
         return Removal(self.workpiece(step=step), self.profile(limits))
 
+    def outcome(self) -> Outcome | None:
+        """What became of the blank, for a report: removal and collisions, or why they were not worked out; None without
+        one."""
+        return outcome.outcome(self, outcome.REPORT)
+
     def again(self, setup: Setup) -> Run:
         """The same program on the same control, with another setup."""
         if not isinstance(setup, Setup):
@@ -323,7 +330,7 @@ class Run:
         table = html_table(("blocks", "moves", "cutting", "rapid", "time at feed"), [cells], numbers=range(len(cells)))
         title = f"<strong>{escape(s['program'])}</strong> on {escape(s['control'])}"
         verdict = "" if self.alarms else "<p>no alarms</p>"
-        return f"<div>{title}{table}{verdict}{card_html(self.alarms)}</div>"
+        return f"<div>{title}{table}{verdict}{card_html(self.alarms)}{outcome.card(self)}</div>"
 
 
 def run_program(program: Program, control: Control, setup: Setup | None = None, *, strict: bool = False) -> Run:

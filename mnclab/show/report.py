@@ -5,7 +5,7 @@ The HTML file stands alone: its style sheet (`report.css`) and its picture are i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -21,6 +21,9 @@ from mnclab.text.alarm import ALARM, Alarm, card_html
 from mnclab.text.file import replaced
 from mnclab.text.given import shown
 from mnclab.text.tables import html_table
+from mnclab.workpiece.collision import Collisions
+from mnclab.workpiece.outcome import collisions_html
+from mnclab.workpiece.removal import HEAD
 
 Table = list[tuple[str, ...]]
 Listing = list[tuple[int, str, str]]
@@ -43,6 +46,9 @@ class Report:
     listing: Listing
     """Number and text of each line, and the severity of what stands in it: "alarm", "warning" or nothing."""
     tool_head: tuple[str, ...] = TOOL_HEAD
+    removal: Table = field(default_factory=list)
+    """What each tool took away, as `workpiece.removal.HEAD` has it; nothing without a blank."""
+    collisions: Collisions = Collisions()
     called: tuple[tuple[str, Listing], ...] = ()
     """Name and listing of the programs that were called."""
 
@@ -67,13 +73,20 @@ def report(run: Any, title: str | None = None) -> Report:
     if run.stock:
         size = np.diff(run.stock.bounds, axis=0)[0]
         facts.append(("blank", " x ".join(figure(length, 3) for length in size) + " mm"))
+    became = run.outcome()
+    facts += became.facts() if became else []
+    removal = became.removal.rows() if became and became.removal else []
+    collisions = became.collisions if became else None
     by_tool, table = profile.time_by("tool"), run.tables.tools
     tools = [_tool(number, table.get(number, Tool()), by_tool.get(number, 0.0)) for number in _used(run)]
     causes = sorted(profile.time_by("cause").items(), key=lambda item: -item[1])
     times: Table = [(str(name), clock(s), f"{100 * s / profile.time:.1f} %") for name, s in causes if s > 0]
     (_, main), *called = ((program.title, _numbered(run, index)) for index, program in enumerate(run.programs))
     texts = title or run.program.title, run.control.title
-    return Report(*texts, facts, tools, times, tuple(map(named, run.alarms)), main, called=tuple(called))
+    alarms = tuple(map(named, run.alarms))
+    return Report(
+        *texts, facts, tools, times, alarms, main, removal=removal, collisions=collisions or Collisions(), called=tuple(called)
+    )  # fmt: skip
 
 
 def _numbered(run: Any, index: int) -> Listing:
@@ -128,6 +141,10 @@ def html(found: Report, picture: Any) -> str:
         f"<h2>Time</h2>{html_table((), found.times, numbers=(1, 2)) if found.times else '<p>none</p>'}",
         f"<h2>Alarms</h2>{alarms}",
     ]
+    if found.removal:
+        collided = collisions_html(found.collisions) or "<p>none</p>"
+        parts[-1:-1] = [f"<h2>Removal</h2>{html_table(HEAD, found.removal, numbers=range(1, 6))}"]
+        parts.append(f"<h2>Collisions</h2>{collided}")
     parts += [f'<h2>{escape(name)}</h2><pre class="listing">{_listing(lines)}</pre>' for name, lines in found.programs]
     policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
     head = f'<meta charset="utf-8">{policy}<title>{escape(found.title)}</title><style>{style}</style>'

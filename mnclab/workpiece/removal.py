@@ -102,14 +102,14 @@ class Removal:
         numbers = list(self.by("tool"))
         groups = [(self._tool(number), path.tool == number) for number in numbers]
         groups += [("all", path.tool >= 0)] if len(numbers) != 1 else []
-        told = []
+        told: list[tuple[str, ...]] = []
         for name, rows in groups:
-            volume = float(self.volumes[rows].sum())
+            taken = float(self.volumes[rows].sum())
             seconds = float(self.seconds[rows & (self.volumes > 0)].sum())
             most = self._fastest(rows & np.isin(path.kind, CUTS))
             told.append((
-                name, f"{volume:.3f} mm³", f"{seconds:.2f} s", f"{60 * volume / seconds if seconds else 0.0:.1f} mm³/min",
-                f"{most.rate:.1f} mm³/min" if most else "", self.place(most) if most else "",
+                name, volume(taken), f"{seconds:.2f} s", f"{volume(60 * taken / seconds if seconds else 0.0)}/min",
+                f"{volume(most.rate)}/min" if most else "", self.place(most) if most else "",
             ))  # fmt: skip
         return told
 
@@ -125,8 +125,13 @@ class Removal:
 
     def __repr__(self) -> str:
         most = self.largest
-        head = f"{self.volume:.3f} mm³ removed in {self.time:.2f} s, {self.mean:.1f} mm³/min"
-        return f"<Removal: {head}{f', at most {most.rate:.1f} in line {self.place(most)}' if most else ''}>"
+        head = f"{volume(self.volume)} removed in {self.time:.2f} s, {volume(self.mean)}/min"
+        return f"<Removal: {head}{f', at most {volume(most.rate)}/min in line {self.place(most)}' if most else ''}>"
 
     def _repr_html_(self) -> str:
         return html_table(HEAD, self.rows(), numbers=range(1, 6))
+
+
+def volume(value: float) -> str:
+    """mm³ as people say it: three figures, in cm³ from one on."""
+    return f"{value / 1000:.3g} cm³" if value >= 1000 else f"{value:.3g} mm³"

@@ -21,7 +21,7 @@ G1 X70 F600
 G0 Z50
 """
 WIDE, NARROW = 60 * 16 * 4, 60 * 10 * 2  # mm³
-EXACT = 1e-2  # of a volume, by cells
+EXACT = 1e-3  # of a volume
 FAST = Limits(rapid=1e6, acceleration=1e9)  # a cut takes its length over its feed
 
 

@@ -121,3 +121,29 @@ def test_other_files_are_refused(run, tmp_path):
         run.report(tmp_path / "a.doc")
     with pytest.raises(Alarm, match="cannot be written"):
         run.report(tmp_path / "none" / "a.html")
+
+
+CUT = "T1 M6\nS1000 M3\nG43 G0 X-10 Y20 Z5\nG0 Z-4\nG0 X-5\nG1 X70 F300\nG0 X30\nG0 Z50\n"
+CRASHES = CUT.replace("G0 X-5", "G0 X10")
+
+
+@pytest.mark.parametrize("text, collided", [(CUT, False), (CRASHES, True)])
+def test_removal_and_collisions_stand_in_it(tmp_path, text, collided):
+    """A slot of 60 x 10 x 4 mm."""
+    run = mnclab.run(text, "g43", mnclab.Setup(stock=((0, 0, -20), (60, 40, 0))))
+    found = report(run)
+    assert dict(found.facts)["removed"] == "2.4 cm³"
+    assert dict(found.facts)["collisions"] == ("1" if collided else "none")
+    assert [row[:2] for row in found.removal] == [("T1 end mill 10", "2.4 cm³")]
+    page = run.report(tmp_path / "a.html").read_text("utf-8")
+    assert page.count("rapid motion in material") == collided
+    assert ("<h2>Collisions</h2><p>none</p>" in page) is not collided
+    lines = [line for line, _ in pages.front(found)]
+    told = lines[lines.index("Collisions") + 1 :]
+    assert told[0].startswith("program:5: collision: rapid motion" if collided else "none")
+
+
+def test_without_a_blank_a_report_is_as_it_was(run, tmp_path):
+    found = report(run)
+    assert not found.removal and not {"removed", "collisions"} & dict(found.facts).keys()
+    assert "Collisions" not in run.report(tmp_path / "a.html").read_text("utf-8")

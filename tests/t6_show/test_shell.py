@@ -271,3 +271,61 @@ def test_a_radius_that_cannot_be_is_one_sentence(folder, capsys):
         err = capsys.readouterr().err
         assert err.startswith("mnclab: alarm: ") and "radius" in err and radius in err and err.count("\n") == 1
     assert not (folder / "a.svg").exists()
+
+
+SLOT = "T1 M6\nS1000 M3\nG43 G0 X-10 Y20 Z5\nG0 Z-4\nG1 X70 F300\nG0 Z50\n"
+CRASH = SLOT.replace("G1 X70 F300", "G0 X70")
+
+
+@pytest.fixture
+def material(folder):
+    """The same folder with a slot, one that is cut at rapid, and a blank for both."""
+    (folder / "slot.g43").write_text(SLOT)
+    (folder / "crash.g43").write_text(CRASH)
+    (folder / "blank.toml").write_text("[stock]\nlow = [0, 0, -20]\nhigh = [60, 40, 0]\n")
+    return folder
+
+
+def test_check_of_material_names_collisions_on_stderr(material, capsys):
+    assert mnclab("check", "--material", "--setup", "blank.toml", "slot.g43") == 0
+    assert capsys.readouterr() == ("", "")
+    assert mnclab("check", "--material", "--setup", "blank.toml", "slot.g43", "crash.g43") == 1
+    out, err = capsys.readouterr()
+    assert out == "" and err.count("\n") == 1
+    assert err.startswith("crash.g43:5: collision: rapid motion in material, 4.000 mm deep")
+
+
+def test_check_without_material_does_not_look(material, capsys):
+    assert mnclab("check", "--setup", "blank.toml", "crash.g43") == 0
+    assert capsys.readouterr() == ("", "")
+
+
+def test_check_of_material_as_json(material, capsys):
+    assert mnclab("check", "--material", "--json", "--setup", "blank.toml", "slot.g43", "crash.g43") == 1
+    good, crash = json.loads(capsys.readouterr().out)
+    assert good == {"file": "slot.g43", "alarms": [], "collisions": []}
+    (collision,) = crash["collisions"]
+    assert (collision["kind"], collision["line"], collision["file"]) == ("rapid", 5, "crash.g43")
+
+
+@pytest.mark.parametrize("command", [("check", "--material", "slot.g43"), ("part", "slot.g43", "-o", "a.stl")])
+def test_without_a_blank_there_is_nothing_to_check(material, capsys, command):
+    assert mnclab(*command) == 1
+    told = "slot.g43: alarm: there is no blank to cut (give one: a [stock] in the file of --setup (mnclab --help shows one))\n"
+    assert capsys.readouterr() == ("", told)
+    assert not (material / "a.stl").exists()
+
+
+@pytest.mark.parametrize("name, begins", [("a.stl", b""), ("a.png", b"\x89PNG"), ("a.csv", b"")])
+def test_part_saves_what_is_left(material, name, begins):
+    assert mnclab("part", "slot.g43", "--setup", "blank.toml", "-o", name) == 0
+    saved = (material / name).read_bytes()
+    assert saved.startswith(begins) and len(saved) > 500
+    assert mnclab("part", "slot.g43", "--setup", "blank.toml", "-o", f"early-{name}", "--line", "4") == 0
+    assert (material / f"early-{name}").read_bytes() != saved
+
+
+@pytest.mark.parametrize("wrong", [("-o", "a.xyz"), ("-o", "a.stl", "--line", "99")])
+def test_a_part_that_cannot_be_saved_is_a_wrong_command_line(material, capsys, wrong):
+    assert mnclab("part", "slot.g43", "--setup", "blank.toml", *wrong) == 2
+    assert capsys.readouterr().err.startswith("mnclab: alarm: ")

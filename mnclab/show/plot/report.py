@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from mnclab.show.given_away import whole
 from mnclab.show.plot import colours
 from mnclab.text.alarm import ALARM, WARNING, first_of
+from mnclab.workpiece.removal import HEAD
 
 A4 = (8.27, 11.69)  # inches
 LEFT, TOP, LINE = 0.8, 0.8, 0.165  # inches: margins, and the height of a line
@@ -44,7 +45,9 @@ def front(found: Any) -> Iterator[tuple[str, bool]]:
     """What stands before the picture."""
     yield from [(found.title, True), (found.subtitle, False), ("", False)]
     yield from table(found.facts)
-    for name, rows in (("Tools", [found.tool_head, *found.tools] if found.tools else []), ("Time", found.times)):
+    tables = [("Tools", [found.tool_head, *found.tools] if found.tools else []), ("Time", found.times)]
+    tables += [("Removal", [HEAD, *found.removal])] if found.removal else []
+    for name, rows in tables:
         yield from [("", False), (name, True)]
         yield from table(rows) if rows else [("none", False)]
     yield from [("", False), ("Alarms", True)]
@@ -54,6 +57,12 @@ def front(found: Any) -> Iterator[tuple[str, bool]]:
             yield from ((part, False) for part in textwrap.wrap(line, WIDTH, drop_whitespace=False) or [""])
     if not found.alarms:
         yield "none", False
+    if found.removal:
+        yield from [("", False), ("Collisions", True)]
+        for each in found.collisions:
+            yield from ((part, False) for part in textwrap.wrap(str(each), WIDTH))
+        if not found.collisions:
+            yield "none", False
 
 
 def table(rows: list[tuple[str, ...]]) -> Iterator[tuple[str, bool]]:
