@@ -14,6 +14,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -21,7 +22,7 @@ import mnclab
 from mnclab.machine.machine_file import load as load_machine
 from mnclab.machine.setup_file import FORMAT, load
 from mnclab.show import times
-from mnclab.show.export import save
+from mnclab.show.export import BODIES, save
 from mnclab.text.alarm import ALARM, Alarm
 from mnclab.workpiece.collision import Collision
 
@@ -241,7 +242,8 @@ def plot(chosen: argparse.Namespace) -> int:
         options = {"rules": chosen.rules, "radii": chosen.radii}
         sensible(save, result, chosen.output, lambda run: run.plot_compensation(**options))
     else:
-        sensible(result.save, chosen.output)
+        of_path = {"of": "path"} if Path(chosen.output).suffix.lower() in BODIES else {}
+        sensible(partial(result.save, **of_path), chosen.output)
     return verdict(result)
 
 

@@ -31,14 +31,15 @@ MILLS: Magazine = MappingProxyType({
     6: Tool(radius=2, number=6, name="probe 4", kind="probe"),
 })  # fmt: skip
 
-#: Of a lathe: a tip is the imaginary sharp point, the corner the radius of the nose.
+#: Of a lathe: a tip is the imaginary sharp point, the corner the radius of the nose. Main edges stand square to the axis:
+#: the walls that a cycle runs along at rapid are cut then.
 LATHES: Magazine = MappingProxyType({
     0: Tool(number=0, name="none"),
     1: Tool(number=1, name="roughing insert 80°", corner=0.8, main_angle=90, auxiliary_angle=10, kind="turning"),
-    2: Tool(number=2, name="finishing insert 35°", corner=0.4, main_angle=93, auxiliary_angle=52, kind="turning"),
+    2: Tool(number=2, name="finishing insert 35°", corner=0.4, main_angle=90, auxiliary_angle=55, kind="turning"),
     3: Tool(number=3, name="grooving blade 3", width=3, kind="grooving"),
     4: Tool(number=4, name="threading insert 60°", main_angle=60, auxiliary_angle=60, cutting_length=2, kind="thread"),
-    5: Tool(number=5, name="boring bar", corner=0.4, main_angle=95, auxiliary_angle=30, kind="boring"),
+    5: Tool(number=5, name="boring bar", corner=0.4, main_angle=90, auxiliary_angle=30, kind="boring"),
     6: Tool(number=6, name="drill 10", radius=5, angle=118, kind="drill"),
     7: Tool(number=7, name="face grooving blade 3", width=3, kind="face grooving"),
 })  # fmt: skip

@@ -24,6 +24,7 @@ from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
     from mnclab.workpiece.milling.milled import Milled
+    from mnclab.workpiece.turning.turned import Turned
 
 
 def save(workpiece: Workpiece, path: str | Path, **options: Any) -> Path:
@@ -44,11 +45,13 @@ def save(workpiece: Workpiece, path: str | Path, **options: Any) -> Path:
 
 
 def write_stl(workpiece: Workpiece, path: Path) -> None:
+    """The part as a binary STL, which knows no unit: the numbers are millimetres."""
     solid = workpiece.solid()
     path.write_bytes(stl_of(solid.points[solid.triangles], "mnclab part, millimetres"))
 
 
 def write_gltf(workpiece: Workpiece, path: Path) -> None:
+    """The part as glTF; the suffix .glb makes the binary form."""
     solid = workpiece.solid()
     gltf = Gltf("part")
     gltf.body("part", Body(solid.points, solid.triangles), STOCK)
@@ -71,6 +74,7 @@ def write_vtk(workpiece: Workpiece, path: Path) -> None:
 
 
 def write_figure(workpiece: Workpiece, path: Path, **options: Any) -> None:
+    """The picture of `Workpiece.plot`."""
     from mnclab.show.plot.part import plot_part
     from mnclab.show.plot.picture import write
 
@@ -78,11 +82,12 @@ def write_figure(workpiece: Workpiece, path: Path, **options: Any) -> None:
 
 
 def write_csv(workpiece: Workpiece, path: Path) -> None:
+    """Heights of a milled part as a table, corners of the half section of a turned one."""
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         if workpiece.cutting.lathe:
             writer.writerow(["contour", "z", "radius", "bulge"])
-            for number, contour in enumerate(workpiece.cut("ZX")):
+            for number, contour in enumerate(cast("Turned", workpiece).section):
                 corners = zip(*contour.points.T.tolist(), contour.bulge.tolist())
                 writer.writerows((number, *corner) for corner in corners)
             return

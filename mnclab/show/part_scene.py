@@ -51,7 +51,7 @@ def scene(
     if axes:
         plotter.add_axes(line_width=3, color="black")
         scenes.add_rulers(plotter, np.stack([solid.points.min(axis=0), solid.points.max(axis=0)]))
-    scenes.view_from(plotter, (0.35, 1.0, -0.6) if lathe else (-0.5, -1.0, 1.0), lathe, zoom=1.05)
+    scenes.view_from(plotter, (0.35, 1.0, 0.6) if lathe else (-0.5, -1.0, 1.0), lathe, zoom=1.05)
     return plotter
 
 

@@ -61,13 +61,20 @@ class Cutting:
     def cuts(self) -> Mask:
         """Rows that may take material away (n,): moves at feed and rapids, of a tool that is none to measure with.
 
-        A rapid takes nothing away before the height of the tool is known.
+        A rapid takes nothing away before the height of the tool is known, and nothing does while a cycle holds the spindle.
         """
         path = self.path
         moves = np.isin(path.kind, (*CUTS, Kind.RAPID))
-        moves &= (path.kind != Kind.RAPID) | (np.arange(len(path)) >= self.arrived)
+        moves &= ((path.kind != Kind.RAPID) | (np.arange(len(path)) >= self.arrived)) & ~self.held
         bodies = np.array([tool.kind != "probe" and tool_exists(tool) for tool in self.tools], dtype=bool)
         return np.asarray(moves & bodies[self.which] if len(bodies) else moves & False)
+
+    @cached_property
+    def held(self) -> Mask:
+        """Rows (n,) of a mill whose spindle a cycle has stopped: the one edge of a boring tool is led clear of the wall."""
+        path = self.path
+        stopped = (path.kind == Kind.SPINDLE) & (path.label > 0)  # labels are those of cycles
+        return np.asarray((path.spindle == 0) & np.isin(path.step, path.step[stopped]) & (not path.lathe))
 
     @cached_property
     def from_home(self) -> Mask:

@@ -59,9 +59,7 @@ def test_a_rapid_of_a_boring_bar_into_the_wall_of_a_bore(depth):
 
 
 def test_a_rapid_through_a_collar_is_as_deep_as_the_middle_of_it():
-    turned = "G00 X14 Z2|G01 Z-20|G00 X24|Z-28|G01 X14|Z-40|G00 X24 Z-25|"
-    found = met("G00 X16 Z2|G01 Z-20|X22|G00 X16 Z2|Z-19.999|X40", 2)
-    assert not found and turned
+    """Between the cut of the blade, 3 mm wide, and the face the collar is 10.5 mm; along X16 it is 4 mm deep."""
     (each,) = met("G00 X25 Z-30|G01 X15|G00 X16|Z-19.5|X40", 3)
     assert (each.kind, each.line) == ("rapid", 6) and each.depth == pytest.approx(4, abs=2e-3)
 

@@ -134,7 +134,7 @@ def test_options_that_a_file_does_not_know_are_an_alarm(run, tmp_path):
 
 def test_vtk_has_every_move_with_its_columns(run, tmp_path):
     pyvista = pytest.importorskip("pyvista")
-    mesh = pyvista.read(run.save(tmp_path / "a.vtk"))
+    mesh = pyvista.read(run.save(tmp_path / "a.vtk", of="path"))
     path = run.toolpath.motion
     assert mesh.n_lines == mesh.n_cells == len(path)
     for k, row in enumerate(path):
@@ -146,7 +146,7 @@ def test_vtk_has_every_move_with_its_columns(run, tmp_path):
 
 def test_stl_is_closed_and_where_the_cuts_are(run, tmp_path):
     pyvista = pytest.importorskip("pyvista")
-    data = run.save(tmp_path / "a.stl").read_bytes()
+    data = run.save(tmp_path / "a.stl", of="path").read_bytes()
     (count,) = struct.unpack_from("<I", data, 80)
     assert len(data) == 84 + 50 * count
     mesh = pyvista.read(tmp_path / "a.stl").clean()
@@ -160,7 +160,7 @@ def test_stl_is_closed_and_where_the_cuts_are(run, tmp_path):
 
 @pytest.mark.parametrize("suffix", ["gltf", "glb"])
 def test_gltf_has_lines_of_each_kind_and_the_tool(run, tmp_path, suffix):
-    file = run.save(tmp_path / f"a.{suffix}")
+    file = run.save(tmp_path / f"a.{suffix}", of="path")
     data = file.read_bytes()
     if suffix == "glb":
         magic, version, length = struct.unpack_from("<4sII", data)
@@ -180,8 +180,20 @@ def test_gltf_has_lines_of_each_kind_and_the_tool(run, tmp_path, suffix):
 
 def test_empty_paths_make_whole_files(tmp_path):
     run = mnclab.run("G90\n", "mnc")
-    for suffix in ("dxf", "ngc", "gltf", "glb", "vtk", "stl"):
+    for suffix in ("dxf", "ngc"):
         assert run.save(tmp_path / f"a.{suffix}").stat().st_size > 0
+    for suffix in ("gltf", "glb", "vtk", "stl"):
+        assert run.save(tmp_path / f"a.{suffix}", of="path").stat().st_size > 0
+
+
+def test_a_body_is_that_of_the_part_unless_the_path_is_named(run, tmp_path):
+    with pytest.raises(Alarm, match="no blank, and so no part") as caught:
+        run.save(tmp_path / "a.stl")
+    assert 'of="path"' in str(caught.value)
+    for options, sentence in (({"of": "tool"}, "of must be part or path"), ({"view": "XY"}, "know the option of, got view")):
+        with pytest.raises(Alarm, match=sentence):
+            run.save(tmp_path / "a.stl", **options)
+    assert list(tmp_path.iterdir()) == []
 
 
 # --- solids: volumes in closed form ----------------------------------------------------------------------------------

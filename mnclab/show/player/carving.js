@@ -3,6 +3,7 @@
 
 const NO_CUT = 0, CUT = 1, ARRIVAL = 2;  // what a row does to the part (see part.py)
 const WORK = 400_000;  // cells looked at between two key frames: some milliseconds of work
+const CHORD = 0.002;  // mm that the chord of an arc may lie off it
 const HELD = 6_000;  // tiles that all key frames may hold together, each 8 KiB
 
 class Carving {
@@ -117,7 +118,7 @@ class Carving {
       const turn = path.sweep[k] * Math.sign(upright), first = Math.atan2(a[1] - c[1], a[0] - c[0]) + from * turn;
       return [cutter => arcPiece(cutter, c, one, first, (to - from) * turn, a[2] + lift)];
     }
-    const radius = path.radius(row), bend = 2 * Math.acos(Math.max(0, 1 - this.grid.step / 20 / Math.max(radius, this.grid.step)));
+    const radius = path.radius(row), bend = 2 * Math.acos(Math.max(0, 1 - CHORD / Math.max(radius, CHORD)));
     const count = Math.max(1, Math.ceil(Math.abs(path.sweep[k]) * (to - from) / bend)), places = [];
     for (let i = 0; i <= count; i++) places.push(point(from + (to - from) * i / count));
     return places.slice(1).map((end, i) => cutter => straightPiece(cutter, places[i], end));

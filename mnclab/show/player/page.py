@@ -22,7 +22,7 @@ from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
 
 SCRIPTS = (
-    "data", "shapes", "camera", "strokes", "swept", "heights", "carving", "relief", "shaded", "shown_part", "picture", "curve", "listing",
+    "data", "shapes", "camera", "strokes", "swept", "heights", "carving", "relief", "shaded", "section", "shown_part", "picture", "curve", "listing",
     "state", "player",
 )  # fmt: skip
 THEMES = ("auto", "light", "dark")

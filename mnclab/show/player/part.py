@@ -25,10 +25,8 @@ PARTS = 1e4  # of a millimetre, of the blank's heights
 NOTHING, CUTS, ARRIVES = range(3)
 
 
-def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any] | None:
+def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
     """The part of a mill; `path` is the one that the page plays, which may stand lower than what is cut."""
-    if cutting.lathe:
-        return None
     bounds = cutting.stock.bounds
     raster = Raster.over(bounds, float((bounds[1] - bounds[0])[:2].max()) / CELLS)
     y, x = (each.ravel() for each in np.meshgrid(raster.y, raster.x, indexing="ij"))

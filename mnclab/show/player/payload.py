@@ -21,6 +21,7 @@ from mnclab.show.given_away import named
 from mnclab.show.player.logs import changes, columns, log, parted, parts_of
 from mnclab.show.player.packing import Packer
 from mnclab.show.player.part import part
+from mnclab.show.player.section import section
 from mnclab.text.alarm import Alarm, amounts, several
 from mnclab.text.program import Program
 from mnclab.workpiece.collision import Collision
@@ -79,7 +80,8 @@ def payload(run: Any, profile: Profile, cutting: Cutting | None = None, collisio
         "stock": [np.round(edge, 4).tolist() for edge in run.stock.edges()] if run.stock else [],
         "history": {name: changes(pack, *_parted(run, name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
-        "part": part(pack, cutting, path) if cutting else None,
+        "part": part(pack, cutting, path) if cutting and not path.lathe else None,
+        "section": section(pack, cutting) if cutting and path.lathe else None,
         "collisions": [
             {"line": each.line, "program": each.program, "row": each.row, "kind": each.kind, "message": each.message}
             for each in collisions

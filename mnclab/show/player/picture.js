@@ -39,7 +39,7 @@ class Picture {
   recolour() {
     const style = getComputedStyle(document.documentElement);
     this.colours = Object.fromEntries(["paper", "ink", "faint", "rapid", "cut", "probing", "contour", "blank", "now", "cutter", "shank",
-      "edge", "quiet", "raw", "metal", "deep", "crash", "alarm"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
+      "edge", "quiet", "raw", "metal", "deep", "crash", "alarm", "chuck"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
     this.stale = true;
   }
   resize() {
@@ -129,14 +129,15 @@ class Picture {
     pen.stroke();
   }
 
-  moment(pen, {row, tip, tool, side}) {
+  moment(pen, {row, tip, tool, side, at}) {
     const {camera, colours, strokes, run} = this, project = point => camera.project(point);
     if (row >= 0 && run.path.isMotion(row)) {
       pen.strokeStyle = colours.now;
       pen.lineWidth = 2.6;
       for (const kind of [RAPIDS, CUTS, PROBINGS]) strokes.stroke(pen, kind, strokes.after[row], strokes.after[row + 1]);
     }
-    if (run.lathe) drawInsert(pen, tool || {}, tip, side, project, colours, this.extent);
+    if (run.lathe && this.part) this.part.insert(pen, row < 0 ? at : row, tip);
+    else if (run.lathe) drawInsert(pen, tool || {}, tip, side, project, colours, this.extent);
     else if (tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, project, colours, this.extent);
     const [x, y] = project(tip);
     pen.beginPath();

@@ -20,7 +20,8 @@ class PlayerPage {
     this.dark = matchMedia("(prefers-color-scheme: dark)");
     this.theme(this.root.dataset.theme);
     this.picture = new Picture(find("picture"), find("ground"), run);
-    this.part = run.header.part && new ShownPart(find("part"), run, this.picture);
+    const {part, section} = run.header;
+    this.part = part ? new ShownPart(find("part"), run, this.picture) : section && new ShownSection(find("part"), run, this.picture);
     this.curve = new Curve(find("curve"), run);
     this.listing = new Listing(find("listing"), run, (program, line) => this.goLine(program, line), find("program"));
     this.board = new Board(run, find);
@@ -170,7 +171,7 @@ class PlayerPage {
     const {run, picture} = this, now = this.now(), going = now.item >= 0 && run.itemRow[now.item] === now.row ? now.row : -1;
     const tool = run.history.has("tool") ? run.history.get("tool").value(now.step) : null;
     const side = now.row >= 0 ? run.row.side.value(now.row) : 0;
-    picture.draw({row: going, tip: now.point, tool, side}, now.rowsDone);
+    picture.draw({row: going, tip: now.point, tool, side, at: Math.max(now.row, 0)}, now.rowsDone);
     if (this.part && !this.part.draw(now.rowsDone, now.share, going)) this.show();  // not there yet: go on with the next frame
   }
   showPart(on) {

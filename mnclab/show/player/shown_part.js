@@ -15,7 +15,7 @@ class ShownPart {
     this.scout();
   }
   show(on) {
-    this.picture.part = on;
+    this.picture.part = on ? this : null;
     this.canvas.hidden = !on;
   }
   // True once the part is cut to there.

@@ -1,4 +1,4 @@
-"""What only figures of a lathe show: blank and finished part, the insert, threads with their lead, the spindle speed.
+"""What only figures of a lathe show: the blank, the insert, threads with their lead, the spindle speed.
 
 Views have Z to the right and X up; positions are those of the path: X a radius, mm.
 """
@@ -13,37 +13,31 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 
-from mnclab.geometry.contours import Contour
-from mnclab.geometry.regions import Region
-from mnclab.geometry.sweeps import outlined, polygons, swept
 from mnclab.path.cutting_speed import spindle_speed
-from mnclab.path.inserts import angles_of, edges_of
+from mnclab.path.inserts import angles_of
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.show.plot import colours
 from mnclab.show.plot.insert import insert_patches
 from mnclab.show.plot.picture import SMALL, Picture
-from mnclab.show.plot.strategy import area
 from mnclab.show.plot.strokes import Array, Strokes
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.blank import Blank
 
 CUTS = (Kind.LINE, Kind.ARC)
-MOST = 2000  # cuts that are taken off a blank
 PARTS = 24  # of a row along which the speed changes
 
 
-class Turned(NamedTuple):
-    """A blank (z from, z to, radius), what the cuts leave of it, the tool and where its tip stands (z, r)."""
+class Lathe(NamedTuple):
+    """A blank (z from, z to, radius), the tool and where its tip stands (z, r)."""
 
     blank: tuple[float, float, float] | None
-    part: Region | None
     tool: Tool
     tip: tuple[float, float] | None
 
 
-def turned(path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], insert: bool | int) -> Turned:
+def lathe(path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], insert: bool | int) -> Lathe:
     """What is drawn beside the path; `stock` stands in the coordinates of the path, the insert stands after a row.
 
     An Alarm names a tool of the path whose angles or width cannot be.
@@ -57,7 +51,7 @@ def turned(path: Toolpath, stock: Blank | None, tools: Mapping[int, Tool], inser
     if len(path) and insert is not False:
         row = len(path) - 1 if insert is True else range(len(path))[int(insert)]
         tip, tool = (float(path.end[row, 2]), float(path.end[row, 0])), tools.get(int(path.tool[row]), Tool())
-    return Turned(blank, silhouette(path, blank, tools) if blank else None, tool, tip)
+    return Lathe(blank, tool, tip)
 
 
 def _blank(stock: Blank | None) -> tuple[float, float, float] | None:
@@ -76,44 +70,16 @@ def with_blank(path: Toolpath, stock: Blank | None, low: Array, high: Array) -> 
     return np.fmin(low, (0.0, low[1], left)), np.fmax(high, (radius, high[1], right))
 
 
-def silhouette(path: Toolpath, blank: tuple[float, float, float], tools: Mapping[int, Tool]) -> Region | None:
-    """What the cuts leave of a blank: its half section without what the edges of the tools sweep.
-
-    The table's angles and widths count, and the radius of a drill on the axis. None for a path of too many cuts.
-    """
-    cuts = np.flatnonzero(np.isin(path.kind, CUTS) & ~path.synchronous)
-    if len(cuts) > MOST:
-        return None
-    left, right, radius = blank
-    whole = Contour([(left, 0.0), (right, 0.0), (right, radius), (left, radius)])
-    body = polygons(Region.of(whole))
-    for row in cuts:
-        start, end = path.start[row][[2, 0]], path.end[row][[2, 0]]
-        if np.hypot(*(end - start)) < 1e-9 and not path.sweep[row]:
-            continue
-        tool = tools.get(int(path.tool[row]), Tool())
-        bulge = float(np.tan(path.sweep[row] * path.axis[row, 1] / 4)) if path.kind[row] == Kind.ARC else 0.0
-        way = Contour([start, end], [bulge, 0.0], closed=False)
-        if max(abs(start[1]), abs(end[1])) < 1e-6 and start[0] != end[0]:  # a hole on the axis
-            edges = np.array([(0.0, -tool.radius), (0.0, tool.radius)])
-        else:
-            edges = edges_of(tool, 1.01 * (abs(radius) + abs(float(min(start[1], end[1]))) + 1.0))
-        body = body.difference(swept(edges, way))
-    return outlined(body)
-
-
-def draw_part(ax: Axes, found: Turned) -> None:
-    """Blank and finished part below everything else, on both sides of the centre line where the view shows them."""
+def draw_blank(ax: Axes, found: Lathe) -> None:
+    """The blank below everything else, from the centre line on."""
     if found.blank is None:
         return
     left, right, radius = found.blank
     corners = [(left, 0), (left, radius), (right, radius), (right, 0)]
     ax.add_patch(Polygon(corners, facecolor="#f4f1e8", edgecolor="#b8b09a", linewidth=0.8, zorder=0.6, label="blank"))
-    if found.part is not None:
-        area(ax, found.part, facecolor="#d9d5c8", edgecolor="#7d7664", linewidth=0.9, zorder=0.8, label="part")
 
 
-def draw_insert(ax: Axes, found: Turned, size: float) -> None:
+def draw_insert(ax: Axes, found: Lathe, size: float) -> None:
     """The insert with its tip where it stands; `size` mm is the length of its edges."""
     for patch in insert_patches(found.tool, found.tip, size) if found.tip else ():
         ax.add_patch(patch)

@@ -17,6 +17,7 @@ from matplotlib.patches import Patch
 from mnclab.path.columns import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number
+from mnclab.show.plot.part_words import in_words, told
 from mnclab.show.plot.picture import SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend
 from mnclab.show.plot.relief import Relief, relief
 from mnclab.show.plot.sections import draw_section, mark_section, sections_of
@@ -27,6 +28,7 @@ from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
     from mnclab.workpiece.milling.milled import Milled
+    from mnclab.workpiece.turning.turned import Turned
 
 COLOURS = ("depth", "tool", "line")
 #: Pale above and dark below, in grey print too; what nothing cut is paler still.
@@ -60,7 +62,9 @@ def plot_part(
     if workpiece.cutting.lathe:
         from mnclab.show.plot.turned import plot_turned
 
-        return plot_turned(workpiece, ax, marks, size)
+        if section:
+            raise Alarm("the picture of a turned part is its section through the axis; it has no other")
+        return plot_turned(cast("Turned", workpiece), ax, marks, MARK, colour, size)
     part = cast("Milled", workpiece)
     seen, cuts = relief(part), sections_of(part, section, at)
     image, names, scale = _coloured(part, seen, colour)
@@ -75,8 +79,7 @@ def plot_part(
     handles.append(Line2D([], [], **BLANK))
     handles += [Line2D([], [], **MARK)] if len(marks) else []
     labels = [str(each.get_label()) for each in handles]
-    foot = Foot("\n".join([f"{part.method}, within {part.error:.3g} mm; {part.removed:.3f} mm³ removed", *part.notes]))
-    picture, axes = arrange(views, low, high, labels, foot, _in_words(part), size, scale is not None)
+    picture, axes = arrange(views, low, high, labels, Foot(told(part)), in_words(part), size, scale is not None)
     _draw(axes[0], part, seen, image, marks)
     for one, each in zip(axes[1:], cuts):
         draw_section(one, part, each)
@@ -155,7 +158,3 @@ def _scale(picture: Picture, title: str, low: float, high: float, shades: Any) -
     ax.xaxis.set_major_formatter(lambda value, _: number(value))
     ax.set_ylabel(title, fontsize=SMALL, rotation=0, ha="right", va="center", labelpad=5)
     ax.spines[:].set_linewidth(0.5)
-
-
-def _in_words(part: Workpiece) -> str:
-    return f"the part: {part.volume:.3f} mm³ left, {part.removed:.3f} mm³ removed"

@@ -23,7 +23,7 @@ from mnclab.show.plot.classes import Classes, classes
 from mnclab.show.plot.classes import lines as lines_of
 from mnclab.show.plot.colours import Line, Mark
 from mnclab.show.plot.datums import Place, crosses, near, places_of, write_names
-from mnclab.show.plot.lathe import Turned, draw_insert, draw_part, speed_strokes, turned, with_blank
+from mnclab.show.plot.lathe import Lathe, draw_blank, draw_insert, lathe, speed_strokes, with_blank
 from mnclab.show.plot.picture import SCALE, SIZE, VIEWS, Foot, View, arrange, dress, roomy, write_legend
 from mnclab.show.plot.scale import write_scale
 from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
@@ -36,6 +36,7 @@ from mnclab.workpiece.workpiece import Workpiece
 MARKS = {Kind.DWELL: colours.DWELL, Kind.TOOL: colours.TOOL, Kind.STOP: colours.STOP}
 UNSCALED = (colours.PROGRAMMED, colours.RAPID, colours.PROBING)  # look the same whatever the colour shows
 INSERT = 0.09  # edges of an insert, of the greatest side of the picture
+MOST = 2000  # rows of a lathe's path whose part is shown unasked
 FAR = 5  # a box of all moves this many times that of the cuts is not shown whole
 
 
@@ -51,7 +52,7 @@ class Drawing(NamedTuple):
     plunge: Mark
     arrows: bool
     stock: Blank | None
-    turned: Turned | None
+    lathe: Lathe | None
     part: Workpiece | None
     home: bool
 
@@ -92,7 +93,7 @@ def plot_path(
     - `programmed`: the contour before compensation, drawn thin and grey where it differs.
     - `alarms`: the first that stopped the program is marked where the tool stands and named below.
     - `places`: the crosses (see `show.plot.datums.places_of`).
-    - `stock`: a blank in the coordinates of the path: its outline, thin; on a lathe with what the cuts leave of it.
+    - `stock`: a blank in the coordinates of the path: its outline, thin.
     - `tools`, `insert`: on a lathe the tool table, and after which row the insert is drawn: True for the last one,
       False for none.
     - `part`: what is left of the blank, drawn under the path.
@@ -112,7 +113,7 @@ def plot_path(
         low, high = np.fmin(low, place.xyz), np.fmax(high, place.xyz)
     low, high = with_blank(path, stock, low, high)
     if path.lathe and len(path) and insert is not False and not beyond:
-        room = 1.6 * INSERT * float((high - low).max())
+        room = 2.8 * INSERT * float((high - low).max())
         high = np.fmax(high, path.end[-1] + (room, 0.0, room))
     views = _views(view, path, low, high, single=ax is not None)
     if stock is not None and not path.lathe and frame != "cuts":
@@ -120,9 +121,9 @@ def plot_path(
     plunge = colours.PLUNGE if colour == "kind" else colours.PLUNGE._replace(colour=colours.INK)
     plunges = {each: _plunges(path, each) for each in views}
     arrows = arrows and int(path.is_motion.sum()) <= heads.MANY
-    lathe = turned(path, stock, tools, insert) if path.lathe and views == [VIEWS["ZX"]] else None
-    found_marks, outline = _marks(path, stop is not None, home), None if lathe else stock
-    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, lathe, part, home)
+    beside = lathe(path, stock, tools, insert) if path.lathe and views == [VIEWS["ZX"]] else None
+    found_marks, outline = _marks(path, stop is not None, home), None if beside else stock
+    drawing = Drawing(drawn, found, lines, found_marks, shown, plunges, plunge, arrows, outline, beside, part, home)
     if ax is not None:
         _draw(ax, views[0], drawing)
         dress(ax, views[0])
@@ -164,7 +165,8 @@ def plot_run(
     """Views of the path of a run, with its programmed contour, blank, zero points, poles and the place of its alarm.
 
     The options are those of `plot_path`; `stock=False` leaves out the blank of the setup or the program, `part=True`
-    draws what the run leaves of it. Beside a blank the first approach comes from home, unless the setup says from where.
+    draws what the run leaves of it, as a lathe's picture does unless its path is long. Beside a blank the first approach
+    comes from home, unless the setup says from where.
     """
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
     given["stock"] = run.stock if stock else None
@@ -172,7 +174,7 @@ def plot_run(
         given["tools"] = run.tables.tools
     if marks:
         given["places"] = places_of(run)
-    if part:
+    if part or (run.toolpath.lathe and stock and run.stock and len(run.toolpath) <= MOST):
         given["part"] = run.workpiece()
     path = run.toolpath
     first = _arrival(path, run.known_from) if run.stock else 0
@@ -257,8 +259,8 @@ def _draw(ax: Axes, view: View, drawing: Drawing) -> list[Line2D]:
         ax.add_line(artist)
     if drawing.part is not None:
         draw_under(ax, view, drawing.part)
-    elif drawing.turned is not None:
-        draw_part(ax, drawing.turned)
+    elif drawing.lathe is not None:
+        draw_blank(ax, drawing.lathe)
     if view.diameter:
         ax.axhline(0.0, **{**colours.CENTRE_LINE.style(), "label": "_centre line"})
     return artists
@@ -269,8 +271,8 @@ def _write(ax: Axes, view: View, drawing: Drawing, low: Array, high: Array) -> N
     occupied = [xyz[:, [view.right, view.up]] for _, xyz in drawing.marks]
     if drawing.home:
         heads.draw_arrival(ax, view, drawing.strokes.xyz[0], float((high - low).max()))
-    if drawing.turned is not None:
-        draw_insert(ax, drawing.turned, INSERT * float((high - low).max()))
+    if drawing.lathe is not None:
+        draw_insert(ax, drawing.lathe, INSERT * float((high - low).max()))
     if drawing.arrows:
         occupied.append(heads.draw(ax, view, drawing.strokes, drawing.classes, low, high))
     if drawing.places:

@@ -26,7 +26,8 @@ CHORD = 0.02  # mm
 FACE: dict[str, Any] = {"facecolor": "#f3efe2", "edgecolor": colours.INK, "linewidth": 1.1}
 HATCH: dict[str, Any] = {"facecolor": "none", "edgecolor": "#55524a", "linewidth": 0.0, "hatch": "////"}
 CUT: dict[str, Any] = {"color": colours.INK, "linewidth": 0.8, "linestyle": (0, (10, 3, 1.5, 3))}
-HALO = [withStroke(linewidth=2.2, foreground=colours.PAPER)]
+HALO = [withStroke(linewidth=1.8, foreground=colours.PAPER)]
+CARD: dict[str, Any] = {"boxstyle": "round,pad=0.12", "facecolor": colours.PAPER, "edgecolor": "none"}  # behind a text
 OUT, ARROW = 0.035, 0.05  # of the part's greatest side: how far the line of a cut goes beyond it, arrows
 
 
@@ -80,8 +81,7 @@ def draw_section(ax: Axes, workpiece: Workpiece, section: Section) -> None:
     for line in workpiece.cutting.stock.outline(view.right, view.up):
         ax.add_line(Line2D(line[:, 0], line[:, 1], **{**colours.BLANK.style(), "linestyle": (0, (6, 2))}))
     ax.annotate(
-        section.title, (0.5, 0.965), xycoords="axes fraction", ha="center", va="top", fontsize=SMALL + 1, path_effects=HALO,
-        zorder=5,
+        section.title, (0.5, 0.965), xycoords="axes fraction", ha="center", va="top", fontsize=SMALL + 1, bbox=CARD, zorder=5,
     )  # fmt: skip
 
 
@@ -110,5 +110,5 @@ def mark_section(ax: Axes, section: Section, low: Array, high: Array) -> None:
         ax.annotate("", tuple(end), tuple(tail), arrowprops=arrow, zorder=3.1)
         ax.annotate(
             section.letter, tuple(tail), (0, -6 if fixed == 1 else 0), textcoords="offset points", fontsize=SMALL + 1,
-            ha="center" if fixed == 1 else "left", va="center", weight="bold", path_effects=HALO, zorder=3.2,
+            ha="center" if fixed == 1 else "left", va="center", weight="bold", bbox=CARD, zorder=3.2,
         )  # fmt: skip

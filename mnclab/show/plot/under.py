@@ -14,6 +14,7 @@ from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
     from mnclab.workpiece.milling.milled import Milled
+    from mnclab.workpiece.turning.turned import Turned
 
 FACE, EDGE = "#d9d5c8", "#7d7664"
 PALE = 0.62  # of white in what lies under a path
@@ -24,7 +25,7 @@ def draw_under(ax: Axes, view: View, workpiece: Workpiece) -> None:
     if view.diameter:
         from mnclab.show.plot.turned import draw_half
 
-        draw_half(ax, workpiece)
+        draw_half(ax, cast("Turned", workpiece))
         return
     part = cast("Milled", workpiece)
     if 2 in (view.right, view.up):

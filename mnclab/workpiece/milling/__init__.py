@@ -8,5 +8,9 @@
     volumes  what was taken away, and by which row
     sections contours of the material
     limits   what a map of heights cannot hold, in words
+    many     of very many moves: the map, what was taken away, and by which row
+    erosion  their map: for each cell the tip that cuts deepest, and what its move leaves
+    tips     where the tips of a cutter went, cell by cell
+    search   which of all tips about a cell leaves the least height
     milled   what is left, as people ask for it
 """

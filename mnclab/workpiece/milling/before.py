@@ -11,6 +11,7 @@ from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.raster import AT_ONCE, near
 from mnclab.workpiece.milling.swept import left_by
 
+FIRST = 16  # moves that are looked at together; then twice as many, and so on
 TILED, TILES = 200, 64  # points of a tile, about; tiles along the longer side, at most
 
 
@@ -54,15 +55,20 @@ def _tiles(x: Array, y: Array, which: Index) -> list[Index]:
 
 
 def _still_met(moves: Moves, boxes: Array, at: Points, height: Array, some: Index) -> Index:
-    """Those of some points where material is left; their `height` is lowered to it."""
+    """Those of some points where material is left; their `height` is lowered to it.
+
+    First come the moves that are deep enough to clear a point, the latest before the others.
+    """
     found = near(moves, boxes, at.x[some], at.y[some], float(height[some].max()))
     found = found[found < at.before[some].max()][::-1]
-    done = 0
-    while done < len(found) and len(some):
-        chunk = found[done : done + max(AT_ONCE // len(some), 1)]
-        left = left_by(moves[chunk], at.x[some], at.y[some])
-        left[chunk[:, None] >= at.before[some]] = np.inf
-        height[some] = np.minimum(height[some], left.min(axis=0))
-        some = some[height[some] > at.low[some]]
-        done += len(chunk)
+    deep = moves.low[found] <= at.low[some].max()
+    for queue in (found[deep], found[~deep]):
+        done, many = 0, FIRST
+        while done < len(queue) and len(some):
+            chunk = queue[done : done + min(many, max(AT_ONCE // len(some), 1))]
+            left = left_by(moves[chunk], at.x[some], at.y[some])
+            left[chunk[:, None] >= at.before[some]] = np.inf
+            height[some] = np.minimum(height[some], left.min(axis=0))
+            some = some[height[some] > at.low[some]]
+            done, many = done + len(chunk), 2 * many
     return some

@@ -3,8 +3,8 @@
 Looked at are points under the body (`footprint`), and of each the exact height of the material before that move
 (`before`); no cells, so nothing is blamed on a grid. Of a large program only the moves are looked at that may collide:
 rapids below the top of the blank that do not go where the same tool has been as deep, plunges of tools that do not cut at
-their centre, cuts with a spindle that is wrong, moves so deep that a shank or a holder comes below the top; and the more
-of a kind there are, the fewer points each gets.
+their centre, cuts with a spindle that is wrong, moves so deep that a shank or a holder comes below the top. The more of a
+kind there are, the fewer points each gets, and of more than 20,000 of a kind only every second, third, … is looked at.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from mnclab.workpiece.milling.fixtures import in_fixtures
 from mnclab.workpiece.milling.judging import Judged, Judging, Met
 from mnclab.workpiece.milling.pieces import cut_up
 
-ROUGH = 60  # points of a cut: enough to see whether it takes anything
+ROUGH, FEW = 60, 200  # points of a cut, enough to see whether it takes anything, and of what is behind the edges
 FALL = 0.1  # mm, by which a move may fall before it is cut up: its edges are before its shank
 POINTED = ("drill", "reamer", "countersink", "tap")  # tools that go straight down, and may
 
@@ -76,7 +76,7 @@ def _kinds(scene: Judging) -> Iterator[tuple[str, str, Met]]:
         yield "spindle", _of_spindle(scene.cutting, met.row), met
     cut = _cut_up(scene)
     for kind, bodies in (("shank", above_edges), ("holder", holder)):
-        for met in cut.met(_behind(cut, bodies)):
+        for met in cut.met(_behind(cut, bodies), FEW):
             yield kind, f"the {met.body.name} in material", met
     yield from in_fixtures(scene)
 

@@ -22,7 +22,7 @@ from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.raster import Raster
 from mnclab.workpiece.milling.search import SNAP, Footprint, Search
 from mnclab.workpiece.milling.swept import left_by
-from mnclab.workpiece.milling.tips import PIECES, Tips, tips_of
+from mnclab.workpiece.milling.tips import AT_ONCE, PIECES, Tips, tips_of
 
 ERROR = 2 * SNAP + 0.5 / PIECES  # cells: a tip in its cell, the found one in its cell, the place between two tips
 ROWS, COLUMNS = 32, 512  # cells of a tile
@@ -52,18 +52,23 @@ def eroded(raster: Raster, moves: Moves, top: Array) -> Eroded:
 
 def reaching(raster: Raster, moves: Moves, below: float) -> Index:
     """The moves that may reach the raster below a height."""
-    (x0, y0), (ny, nx), boxes = raster.low, raster.shape, moves.boxes
-    x1, y1 = x0 + nx * raster.step, y0 + ny * raster.step
-    near = (boxes[:, 0] <= x1) & (boxes[:, 1] <= y1) & (boxes[:, 2] >= x0) & (boxes[:, 3] >= y0)
-    return np.flatnonzero(near & (moves.low < below))
+    (x0, y0), (ny, nx) = raster.low, raster.shape
+    x1, y1, found = x0 + nx * raster.step, y0 + ny * raster.step, []
+    for first in range(0, len(moves), AT_ONCE):
+        some = moves[first : first + AT_ONCE]
+        boxes = some.boxes
+        near = (boxes[:, 0] <= x1) & (boxes[:, 1] <= y1) & (boxes[:, 2] >= x0) & (boxes[:, 3] >= y0)
+        found.append(first + np.flatnonzero(near & (some.low < below)))
+    return np.concatenate([np.zeros(0, dtype=np.int64), *found])
 
 
 def _by_cutter(moves: Moves, which: Index) -> list[tuple[Cutter, Index]]:
     """Some moves by the shape of their cutters."""
-    columns = [column[which] for column in (moves.radius, moves.flat, moves.corner, moves.slope)]
-    if len(which) and all((column == column[0]).all() for column in columns):
-        return [(Cutter(*(float(column[0]) for column in columns)), which)]
-    shapes, shape = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
+    columns = moves.radius, moves.flat, moves.corner, moves.slope
+    if len(which) and all((column[which] == column[which[0]]).all() for column in columns):
+        return [(Cutter(*(float(column[which[0]]) for column in columns)), which)]
+    table = np.stack([column[which] for column in columns], axis=1)
+    shapes, shape = np.unique(table, axis=0, return_inverse=True)
     return [(Cutter(*each), which[shape.reshape(-1) == k]) for k, each in enumerate(shapes.tolist())]
 
 

@@ -1,7 +1,7 @@
 """Points under a body that goes along a move: where a collision is looked for.
 
-They lie on lines along the move, the outer ones on the rim of the body, and on rings about both ends; so that nothing
-wider than the distance between them is missed, and nothing at all that the rim or the axis goes over.
+They lie on lines along the move, the outer ones on the rim of the body, on the rim where it begins and on rings where it
+ends; so that nothing wider than the distance between them is missed, and nothing at all that the rim or the axis goes over.
 """
 
 from __future__ import annotations
@@ -26,14 +26,15 @@ def under(move: Moves, radius: float, bounds: Array, step: float, most: int) -> 
     first, last = _over(move, radius, bounds)
     way = float(_length(move)) * (last - first)
     apart = max(step, ((way * 2 * radius + 3 * radius * radius) / most) ** 0.5)
-    ends = [_disc(tips(move, np.array([share])), radius, apart) for share in dict.fromkeys((first, last))]
+    there = _disc(tips(move, np.array([last])), radius, int(np.clip(np.ceil(radius / apart), 2, RINGS)))
     if way <= STILL:
-        return ends[0][:, 0], ends[0][:, 1]
+        return there[:, 0], there[:, 1]
+    here = _disc(tips(move, np.array([first])), radius, 1)
     share = np.linspace(first, last, min(int(way / apart) + 2, STATIONS))
     lanes = np.linspace(-radius, radius, max(2 * int(np.ceil(radius / apart)), LANES) + 1)
     lanes = lanes[np.argsort(np.abs(lanes), kind="stable")]  # of places that are as deep the axis is named
     between = tips(move, share)[:, None, :2] + lanes[:, None] * _aside(move, share)[:, None]
-    found = np.concatenate([ends[0], between.reshape(-1, 2), *ends[1:]])
+    found = np.concatenate([here, between.reshape(-1, 2), there])
     return found[:, 0], found[:, 1]
 
 
@@ -78,11 +79,10 @@ def _over(move: Moves, radius: float, bounds: Array) -> tuple[float, float]:
     return (first, last) if first < last else (min(max(first, 0.0), 1.0),) * 2
 
 
-def _disc(place: Array, radius: float, apart: float) -> Array:
+def _disc(place: Array, radius: float, rings: int) -> Array:
     """The axis, and rings up to the rim (n, 2)."""
-    rings = int(np.clip(np.ceil(radius / apart), 2, RINGS))
     points = [place[:, :2]]
     for k in range(1, rings + 1):
-        angle = np.linspace(0, 2 * np.pi, max(16, 6 * k), endpoint=False)
+        angle = np.linspace(0, 2 * np.pi, max(16 if k == rings else 0, 6 * k), endpoint=False)
         points.append(place[:, :2] + radius * k / rings * np.stack([np.cos(angle), np.sin(angle)], axis=1))
     return np.concatenate(points)

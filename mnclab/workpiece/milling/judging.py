@@ -21,8 +21,9 @@ from mnclab.workpiece.milling.moves import STILL, Moves, moves_of
 from mnclab.workpiece.milling.swept import left_by
 
 CELLS = 400  # along the longer side: so far apart are the points, by default
-MOST, FEWEST, BUDGET = 2000, 40, 2_000_000  # points of a move, and of all moves of a kind
+MOST, FEWEST, BUDGET = 1000, 40, 1_000_000  # points of a move, and of all moves of a kind
 AT_ONCE = 400_000  # points
+MANY = 20_000  # moves of a kind
 
 
 class Judged(NamedTuple):
@@ -107,7 +108,8 @@ class Judging:
         return np.array([value(tool) for tool in self.cutting.tools], dtype=np.float64)[self.which]
 
     def met(self, judged: Sequence[Judged], most: int = MOST) -> Iterator[Met]:
-        """Which of some bodies are in the material, and where deepest."""
+        """Which of some bodies are in the material, and where deepest; of more than `MANY` every second, third, …"""
+        judged = judged[:: len(judged) // MANY + 1]
         most = int(np.clip(BUDGET // max(len(judged), 1), min(FEWEST, most), most))
         batch: list[Points] = []
         total = first = 0

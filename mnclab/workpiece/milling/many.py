@@ -32,11 +32,16 @@ class ManyMoves:
     @cached_property
     def heights(self) -> Array:
         """The material at the middles of the cells; beside the blank its lowest place."""
+        top, floor = self._faces()
+        return np.maximum(eroded(self.sweep.raster, self.sweep.moves, top).heights, floor)
+
+    def _faces(self) -> tuple[Array, Array]:
+        """Upper and lower side of the blank (ny, nx) at the middles of the cells."""
         top, floor = (np.empty(self.sweep.raster.shape) for _ in range(2))
         for strip in self._strips():
             for whole, side in zip((top, floor), self.sweep.faces(*self.sweep.raster.middles(strip))):
                 whole[strip] = side.reshape(whole[strip].shape)
-        return np.maximum(eroded(self.sweep.raster, self.sweep.moves, top).heights, floor)
+        return top, floor
 
     def _strips(self) -> Iterator[tuple[slice, slice]]:
         ny, nx = self.sweep.raster.shape
@@ -87,6 +92,7 @@ class ManyMoves:
                 shares = engaged(sweep.raster, moves, heights, margin)
                 taken[lot] = volume * (shares / shares.sum() if shares.any() else 1 / len(lot))
             heights = left
+        last[np.equal(*self._faces())] = -1
         total = taken.sum()
         return last, taken * (self.removed / total if total else 1.0)
 

@@ -117,7 +117,9 @@ class Milled(Workpiece):
     def _rows(self) -> Array:
         """What each row took away (n,), on a coarser lattice than the whole, whose sum they are scaled to."""
         if self.many:
-            return np.bincount(self.moves.row, self.many.in_order[1], len(self.cutting))
+            found = np.zeros(len(self.cutting))
+            np.add.at(found, self.moves.row, self.many.in_order[1])
+            return found
         rows = volumes.removed_by_row(self.sweep, len(self.cutting))
         return rows * (self.removed / rows.sum()) if rows.any() else rows
 

@@ -89,13 +89,16 @@ def moves_of(cutting: Cutting, rows: Mask | None = None) -> Moves:
     cutters = np.array([cutter_of(tool) for tool in cutting.tools], dtype=np.float64).reshape(-1, len(Cutter._fields))
     index = np.flatnonzero(chosen)
     arc = path.kind[index] == Kind.ARC
-    bent = arc & ~_about_z(path, index)
-    pieces = [_plain(path, index[~bent])]
-    pieces += [_chords(path, int(row)) for row in index[bent]]
-    row, start, end = (np.concatenate(column) for column in zip(*pieces, strict=True))
-    order = np.argsort(row, kind="stable")
-    row, start, end = row[order], start[order], end[order]
-    start = np.where(cutting.from_home[row][:, None], end, start)
+    bent = arc.copy()
+    bent[arc] = ~_about_z(path, index[arc])
+    row, start, end = _plain(path, index[~bent])
+    if bent.any():
+        pieces = [(row, start, end), *(_chords(path, int(row)) for row in index[bent])]
+        row, start, end = (np.concatenate(column) for column in zip(*pieces, strict=True))
+        order = np.argsort(row, kind="stable")
+        row, start, end = row[order], start[order], end[order]
+    unknown = cutting.from_home[row]
+    start[unknown] = end[unknown]
     known = np.zeros(len(path), dtype=bool)
     known[index[arc & ~bent]] = True
     known &= ~cutting.from_home

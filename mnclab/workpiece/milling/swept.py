@@ -79,28 +79,35 @@ def _level(moves: Moves, x: Array, y: Array) -> Array:
 def _sloping(moves: Moves, x: Array, y: Array) -> Array:
     """A straight move that goes up or down: where the tool stood that cut deepest at a point."""
     ahead, beside2, length = _along(moves, x, y)
-    slope = (moves.end[:, 2:] - moves.start[:, 2:]) / length
-    behind = _lowest(moves, beside2, np.abs(slope))  # how far the tool was past, or before, the point
+    radius = moves.radius[:, None]
+    over = np.nonzero((beside2 <= radius * radius * (1 + TOUCH)) & (np.abs(ahead - length / 2) <= length / 2 + radius))
+    found = np.full(ahead.shape, NONE)
+    ahead, beside2, length = ahead[over], beside2[over], length[over[0], 0]
+    some = moves[over[0]]
+    slope = (some.end[:, 2] - some.start[:, 2]) / length
+    behind = _lowest(some, beside2, np.abs(slope))  # how far the tool was past, or before, the point
     place = np.clip(ahead - np.sign(slope) * behind, 0.0, length)
     rho2 = beside2 + (ahead - place) ** 2
-    return _raised(moves, moves.start[:, 2:] + slope * place, rho2)
+    reached = rho2 <= some.radius**2 * (1 + TOUCH)
+    edge = edge_height(np.sqrt(rho2), some.flat, some.corner, some.slope)
+    found[over] = np.where(reached, some.start[:, 2] + slope * place + edge, NONE)
+    return found
 
 
 def _lowest(moves: Moves, beside2: Array, slope: Array) -> Array:
-    """How far along its move from a point the cutter is that leaves it lowest (k, m), were the move without ends."""
-    radius, flat = moves.radius[:, None], moves.flat[:, None]
+    """How far along its move from a point (p,) the cutter is that leaves it lowest, were the move without ends."""
+    radius, flat, corner, cone = moves.radius, moves.flat, moves.corner, moves.slope
     rim = np.sqrt(np.maximum(radius * radius - beside2, 0.0))
     inner = np.sqrt(np.maximum(flat * flat - beside2, 0.0))
-    corner, cone = moves.corner[:, None], moves.slope[:, None]
-    found = np.where(moves.flat[:, None] >= radius, rim, inner)
-    ball = (moves.corner > 0) & (moves.flat == 0)
+    found = np.where(flat >= radius, rim, inner)
+    ball = (corner > 0) & (flat == 0)
     if ball.any():
         free = np.sqrt(np.maximum(corner[ball] ** 2 - beside2[ball], 0.0))
         found[ball] = free * slope[ball] / np.sqrt(1 + slope[ball] ** 2)
-    bull = (moves.corner > 0) & (moves.flat > 0)
+    bull = (corner > 0) & (flat > 0)
     if bull.any():
         found[bull] = _under_corner(inner[bull], rim[bull], beside2[bull], slope[bull], flat[bull], corner[bull])
-    pointed = moves.slope > 0
+    pointed = cone > 0
     if pointed.any():
         rise, m = cone[pointed], slope[pointed]
         steep = m >= rise

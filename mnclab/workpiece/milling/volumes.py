@@ -19,38 +19,53 @@ from mnclab.workpiece.milling.raster import NOISE, chunks, near
 from mnclab.workpiece.milling.sweep import Sweep
 from mnclab.workpiece.milling.swept import left_by
 
-FINE, ROUGH = (89, 55), (21, 13)  # points of a lattice and its turn: neighbours in Fibonacci's series
+LATTICES = ((89, 55), (55, 34), (34, 21), (21, 13), (13, 8), (8, 5), (5, 3), (1, 1))  # points of each, and its turn
+ROUGH = 3  # the first of those that are fine enough for a row
+EFFORT = 100_000_000  # points times moves, by which the lattice is chosen
+MANY = 5_000  # moves, beyond which what each of them took is told from the middles of the cells alone
 HALF = 0.75  # of a cell, a little more than its corners are away from its middle
 STEEP = 3.0  # times what the slope of a move explains: a wall
+LOW = 0.002  # of how deep its foot lies in the blank: a lower wall is not looked at
 
 
 def removed(sweep: Sweep, heights: Array) -> float:
     """What all moves took away together, mm³; `heights` (ny, nx) are what they leave at the middles."""
-    rims, step, total = Rims(sweep), sweep.raster.step, 0.0
-    for tile in sweep.raster.tiles():
-        x, y = sweep.raster.middles(tile)
-        walls = blank_ends(sweep, x, y) | rims.standing(x, y, _highest(heights, tile))
-        taken = sweep.faces(x, y)[0] - heights[tile].ravel()
-        total += float(taken[~walls].sum()) * step**2
-        if walls.any():
-            x, y = within(x[walls], y[walls], step, FINE)
-            total += float((sweep.faces(x, y)[0] - sweep.left(x, y)).sum()) * step**2 / FINE[0]
+    rims, raster, total = Rims(sweep), sweep.raster, 0.0
+    walls, pairs = np.zeros(raster.shape, dtype=bool), 0
+    for tile in raster.tiles():
+        x, y = raster.middles(tile)
+        crossed, moves = rims.standing(x, y, _highest(heights, tile))
+        crossed |= blank_ends(sweep, x, y)
+        walls[tile] = crossed.reshape(walls[tile].shape)
+        pairs += int(crossed.sum()) * moves
+        total += float((sweep.faces(x, y)[0] - heights[tile].ravel())[~crossed].sum()) * raster.step**2
+    lattice = _lattice(pairs)
+    for tile in raster.tiles():
+        x, y = within(*raster.middles(tile), walls[tile].ravel(), raster.step, lattice)
+        if len(x):
+            total += float((sweep.faces(x, y)[0] - sweep.left(x, y)).sum()) * raster.step**2 / lattice[0]
     return total
 
 
 def removed_by_row(sweep: Sweep, rows: int) -> Array:
     """What each of so many rows took away (rows,), mm³, on a coarser lattice."""
-    rims, step, found = Rims(sweep), sweep.raster.step, np.zeros(rows)
-    for tile in sweep.raster.tiles():
-        x, y = sweep.raster.middles(tile)
-        walls = blank_ends(sweep, x, y) | rims.passing(x, y)
-        for points, count in (((x[~walls], y[~walls]), 1), (within(x[walls], y[walls], step, ROUGH), ROUGH[0])):
+    rims, raster, found = Rims(sweep), sweep.raster, np.zeros(rows)
+    for tile in raster.tiles():
+        x, y = raster.middles(tile)
+        crossed, moves = rims.passing(x, y) if len(sweep.moves) <= MANY else (np.zeros(len(x), dtype=bool), 0)
+        lattice = _lattice(int(crossed.sum()) * moves * (raster.shape[0] * raster.shape[1] // len(x)), ROUGH)
+        for points, count in (((x[~crossed], y[~crossed]), 1), (within(x, y, crossed, raster.step, lattice), lattice[0])):
             if len(points[0]):
                 for which, before, after in sweep.in_order(*points):
                     taken = before - after
-                    volumes = np.where(taken > NOISE, taken, 0.0).sum(axis=1) * step**2 / count
+                    volumes = np.where(taken > NOISE, taken, 0.0).sum(axis=1) * raster.step**2 / count
                     np.add.at(found, sweep.moves.row[which], volumes)
     return found
+
+
+def _lattice(pairs: int, first: int = 0) -> tuple[int, int]:
+    """The finest lattice that so many cells times moves allow."""
+    return next((each for each in LATTICES[first:] if each[0] * pairs <= EFFORT), LATTICES[-1])
 
 
 def blank_ends(sweep: Sweep, x: Array, y: Array) -> Mask:
@@ -67,24 +82,26 @@ class Rims:
 
     sweep: Sweep
 
-    def standing(self, x: Array, y: Array, material: Array) -> Mask:
-        """Cells (m,) where a rim has been lower than the material about them."""
-        found = np.zeros(len(x), dtype=bool)
-        for which in chunks(near(self.wide, self.boxes, x, y, float(material.max())), len(x)):
+    def standing(self, x: Array, y: Array, material: Array) -> tuple[Mask, int]:
+        """Cells (m,) where a rim has been lower than the material about them; how many moves come near."""
+        found, top = np.zeros(len(x), dtype=bool), self.sweep.faces(x, y)[0]
+        moves = near(self.wide, self.boxes, x, y, float(material.max()))
+        for which in chunks(moves, len(x)):
             crosses, height = self._crossing(which, x, y)
-            found |= (crosses & (height < material - NOISE)).any(axis=0)
-        return found
+            found |= (crosses & _stands(material, height, top)).any(axis=0)
+        return found, len(moves)
 
-    def passing(self, x: Array, y: Array) -> Mask:
-        """Cells (m,) where a rim has been lower than the material at its time."""
-        found, heights = np.zeros(len(x), dtype=bool), self.sweep.faces(x, y)[0]
-        for which in chunks(near(self.wide, self.boxes, x, y, float(heights.max())), len(x)):
+    def passing(self, x: Array, y: Array) -> tuple[Mask, int]:
+        """Cells (m,) where a rim has been lower than the material at its time; how many moves come near."""
+        found, top = np.zeros(len(x), dtype=bool), self.sweep.faces(x, y)[0]
+        moves, heights = near(self.wide, self.boxes, x, y, float(top.max())), top
+        for which in chunks(moves, len(x)):
             crosses, height = self._crossing(which, x, y)
             left = left_by(self.sweep.moves[which], x, y)
             upto = np.minimum.accumulate(np.concatenate([heights[None], left]), axis=0)
-            found |= (crosses & (height < upto[:-1] - NOISE)).any(axis=0)
+            found |= (crosses & _stands(upto[:-1], height, top)).any(axis=0)
             heights = upto[-1]
-        return found
+        return found, len(moves)
 
     def _crossing(self, which: Index, x: Array, y: Array) -> tuple[Mask, Array]:
         """Whether the rim of each move may cross each cell (k, m), and how high it is there."""
@@ -126,13 +143,18 @@ class Rims:
         return np.asarray(NOISE + STEEP * self.half * slope)
 
 
-def within(x: Array, y: Array, step: float, lattice: tuple[int, int]) -> tuple[Array, Array]:
-    """The points (m n,) of a lattice of n in each of m cells about their middles."""
+def within(x: Array, y: Array, some: Mask, step: float, lattice: tuple[int, int]) -> tuple[Array, Array]:
+    """The points of a lattice in some of the cells about middles (m,)."""
     count, turn = lattice
     along = np.arange(count)
-    across = (along * turn) % count
-    px, py = (step * ((place + 0.5) / count - 0.5) for place in (along, across))
-    return (x[:, None] + px).ravel(), (y[:, None] + py).ravel()
+    px, py = (step * ((place + 0.5) / count - 0.5) for place in (along, (along * turn) % count))
+    return (x[some, None] + px).ravel(), (y[some, None] + py).ravel()
+
+
+def _stands(material: Array, foot: Array, top: Array) -> Mask:
+    """Whether material stands high enough over the foot of a wall."""
+    with np.errstate(invalid="ignore"):  # no foot: infinitely high
+        return np.asarray(material - foot > np.maximum(LOW * (top - foot), NOISE))
 
 
 def _highest(heights: Array, tile: tuple[slice, slice]) -> Array:

@@ -5,4 +5,7 @@
     section    the blank without them, lines and arcs found again, row by row as well
     revolved   a half section turned about its axis: volume, radii, distance, surface
     turned     what is left, as people ask for it
+
+What they meet that they must not: `collisions`, row by row, with `bodies` (bars, chucks, what is behind an insert) and
+`backs` (what the back of an insert takes away).
 """

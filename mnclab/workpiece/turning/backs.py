@@ -64,6 +64,25 @@ def taken_by_back(tool: Tool, shape: Floats, way: Contour, left: Any) -> Back | 
     return Back((float(z), float(r)), worst.depth)
 
 
+def left_by_lean(tool: Tool, way: Contour, taken: Any) -> Any:
+    """What nose and lean of an edge leave on the wall where a straight cut ends that took an area: a wedge, or nothing."""
+    if tool.width or tool.kind not in ("turning", "boring") or taken.is_empty:
+        return shapely.Polygon()
+    mirror, (main, auxiliary) = mirror_of(tool), angles_of(tool)
+    start, end = way.points * mirror
+    right, top = (shapely.get_coordinates(taken) * mirror).max(axis=0)
+    along, down = end - start
+    if along < 0 and -along >= abs(down) and main > math.pi / 2 - 1e-9:
+        high = max(top - end[1], 0.0)
+        wedge = [(0.0, 0.0), (tool.corner, 0.0), (-high / math.tan(main), high), (0.0, high)]
+    elif down < 0 and -down >= abs(along) and tool.auxiliary_angle and auxiliary < math.pi / 2:
+        long = max(right - end[0], 0.0)
+        wedge = [(0.0, 0.0), (long, 0.0), (long, long * math.tan(auxiliary)), (0.0, tool.corner)]
+    else:
+        return shapely.Polygon()
+    return shapely.convex_hull(shapely.MultiPoint((np.array(wedge) + end) * mirror))
+
+
 class _Taken(NamedTuple):
     area: Any
     depth: float

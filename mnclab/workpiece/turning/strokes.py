@@ -15,7 +15,7 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.vectors import length_of
-from mnclab.path.inserts import angles_of, cutting_part, turns
+from mnclab.path.inserts import FACE, angles_of, cutting_part, turns
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
@@ -106,7 +106,7 @@ class _Bodies:
         self._known: dict[tuple[int, float], list[Edge]] = {}
 
     def __call__(self, tool: Tool, start: Point, end: Point) -> list[Edge]:
-        height = self.room.deep if turns(tool) else self.room.long
+        height = self.room.deep if turns(tool) and tool.kind != FACE else self.room.long
         if tool.kind == "boring":
             height = max(min(start[1], end[1]), 0.0)
         key = id(tool), height

@@ -67,7 +67,7 @@ class Turned(Workpiece):
 
     @cached_property
     def parted(self) -> list[Contour]:
-        return [loop for area in self._taken[1] for loop in self._drawing.traced(area)] if self._pieces[1] else []
+        return [loop for area in self._taken[1] for loop in self._drawing.traced(area)]
 
     @property
     def notes(self) -> tuple[str, ...]:  # type: ignore[override]

@@ -1,0 +1,75 @@
+"""What the page needs to turn the part while it plays: the bar, what each row takes away in the plane of z and r, the inserts.
+
+The areas are those of the kernel, as lines within `OFF` mm; the page only takes them away one after the other. Between two
+rows it moves the convex cutting part of the tool itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mnclab.path.inserts import cutting_part, holder, insert, turns
+from mnclab.path.tool import Tool
+from mnclab.show.player.logs import columns, log, parted
+from mnclab.show.player.packing import Packer
+from mnclab.workpiece.blank import Revolved
+from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.turning.strokes import strokes_of
+from mnclab.workpiece.turning.turned import half_section
+
+OFF = 0.01  # mm
+PARTS = 1e3  # of a millimetre
+MOST = 200_000  # corners of all areas; the page of more would be too large
+
+Array = NDArray[np.float64]
+
+
+def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
+    """The section of a lathe's part; corners are (z, r), mm."""
+    bar, axis, notes = half_section(cutting.stock)
+    (low, _), (high, radius) = bar.bounds.tolist()
+    strokes = strokes_of(cutting, low, high, radius, axis)
+    areas = [contour.points_within(OFF) for contour in strokes.contours]
+    told = [*notes, *strokes.notes]
+    count = np.array([len(area) for area in areas], dtype=np.int64)
+    kept = int(np.searchsorted(np.cumsum(count), MOST, "right"))
+    if kept < len(areas):
+        told.append(f"the section is shown up to row {strokes.rows[kept]} only")
+    corners = np.concatenate(areas[:kept]) if kept else np.empty((0, 2))
+    reach = high - low + radius
+    return {
+        "bar": _corners(bar.points_within(OFF)),
+        "axis": axis,
+        "parts": PARTS,
+        "rows": pack.add(strokes.rows[:kept]),
+        "count": pack.add(count[:kept]),
+        "corners": columns(pack, parted(corners, PARTS)),
+        "which": log(pack, cutting.which),
+        "cuts": log(pack, cutting.cuts & ~cutting.from_home),
+        "tools": [_tool(tool, reach, radius) for tool in cutting.tools],
+        "chuck": [_corners(half_section(each)[0].points) for each in cutting.fixtures if _turns(each)],
+        "note": "; ".join(told),
+    }
+
+
+def _turns(body: Any) -> bool:
+    return isinstance(body, Revolved) and body.axis == "Z"
+
+
+def _tool(tool: Tool, reach: float, radius: float) -> dict[str, Any]:
+    """What of a tool cuts, its insert and its holder, about its tip."""
+    size = radius / 3 if not tool.cutting_length else 0.0
+    return {
+        "blade": _corners(cutting_part(tool, reach).points_within(OFF)),
+        "insert": _corners(insert(tool, size).points_within(OFF)),
+        "holder": _corners(holder(tool, size)),
+        "turns": turns(tool),
+    }
+
+
+def _corners(points: Array | Sequence[Any]) -> list[list[float]]:
+    return [[float(z), float(r)] for z, r in np.round(np.asarray(points, dtype=np.float64), 4)]

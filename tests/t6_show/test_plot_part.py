@@ -1,0 +1,155 @@
+"""Pictures of a part: heights as colours, sections, edges, the way from home; half sections of a lathe."""
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+
+import mnclab
+from mnclab import Alarm, Setup, Tool
+from mnclab.show.plot.relief import relief
+from mnclab.workpiece.blank import cylinder
+from mnclab.workpiece.collision import Collision
+
+TEXT = (
+    "G17 G90 G54\nT1 M6 S2000 M3\nG0 X15 Y20 Z5\nG1 Z-6 F300\nG3 I8 J0\nG0 Z5\n"  # an annulus about 23 20
+    "T2 M6\nG0 X50 Y10\nG1 Z-30 F300\nG0 Z20\n"
+)
+TOOLS = {1: Tool(radius=4, kind="mill"), 2: Tool(radius=3, kind="drill", angle=118)}
+STOCK = ((0, 0, -20), (60, 40, 0))
+TURN = "M3\nT1\nS800 G97 G95 F0.25\nG00 X15 Z2\nG01 Z-20\nX25\nG00 X40 Z20\nM5\n"
+
+
+@pytest.fixture(scope="module")
+def run():
+    return mnclab.run(TEXT, "g43", Setup(tools=TOOLS, stock=STOCK, start=(0, 0, 50)))
+
+
+@pytest.fixture(scope="module")
+def turned():
+    return mnclab.run(TURN, "jnc-t01", Setup(stock=cylinder(20, -50, 0), start=(60, 0, 50)))
+
+
+def texts(figure):
+    return {text.get_text() for text in figure.findobj(lambda each: hasattr(each, "get_text"))}
+
+
+def test_pixels_have_the_heights_of_the_part(run):
+    seen = relief(run.workpiece())
+    x, y = np.meshgrid(seen.x, seen.y)
+    out = np.hypot(x - 23, y - 20)
+    floor, top = (out > 4.01) & (out < 11.99), (out < 3.99) | ((out > 12.01) & (np.hypot(x - 50, y - 10) > 3.01))
+    assert np.abs(seen.z[floor] + 6).max() < 1e-9 and np.abs(seen.z[top]).max() < 1e-9
+    hole = np.hypot(x - 50, y - 10)
+    assert not seen.solid[hole < 2.99].any() and seen.solid[hole > 3.01].all()
+    assert seen.light[floor].min() < 0.85 < seen.light[floor].max() <= 1.1  # a shadow beside the wall
+
+
+def test_walls_are_lines_at_their_true_places(run):
+    lines, high = relief(run.workpiece()).lattice.crests()
+    ends = lines.reshape(-1, 2)
+    off = np.stack([np.abs(np.hypot(*(ends - (23, 20)).T) - radius) for radius in (4, 12)])
+    off = np.minimum(off.min(axis=0), np.abs(np.hypot(*(ends - (50, 10)).T) - 3))
+    assert off.max() < 1e-4
+    length = np.hypot(*(lines[:, 1] - lines[:, 0]).T).sum()
+    assert length == pytest.approx(2 * np.pi * (4 + 12 + 3), rel=1e-3)
+    assert set(np.round(high, 6).tolist()) == {6.0, 20.0}
+
+
+def test_a_scale_says_how_deep_colours_are(run):
+    figure = run.workpiece().plot()
+    assert isinstance(figure, Figure) and {"depth, mm", "blank", "X, mm", "Y, mm"} <= texts(figure)
+    assert any("mm³ removed" in each for each in texts(figure))
+    names = texts(run.workpiece().plot(colour="tool"))
+    assert {"tool 1"} <= names and "depth, mm" not in names
+    assert "line 5" in texts(run.workpiece().plot(colour="line"))
+
+
+def test_sections_stand_below_with_their_letters(run):
+    part = run.workpiece()
+    figure = part.plot(section=["XZ", "XZ"], at=[20, 10])
+    assert len(figure.axes) == 4  # from above, two sections, the scale
+    assert {"A\N{EN DASH}A   Y = 20 mm", "B\N{EN DASH}B   Y = 10 mm", "A", "B"} <= texts(figure)
+    (hatched,) = [patch for patch in figure.axes[1].patches if patch.get_hatch()]
+    assert hatched.get_path().vertices[:, 1].min() == -20
+    (shape, *_) = figure.axes[2].patches
+    x = shape.get_path().vertices[:, 0]
+    assert {47.0, 53.0} <= set(np.round(x, 3).tolist())  # the hole of the drill goes through
+    middle = part.plot(section="YZ")
+    assert "A\N{EN DASH}A   X = 30 mm" in texts(middle)
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"colour": "red"}, "colour must be depth, tool or line"),
+        ({"section": "XA"}, "section must be XY, XZ or YZ"),
+        ({"section": 3}, "section must be a plane or several"),
+        ({"section": ["XZ", "YZ"], "at": [1.0]}, "each section needs a place, got 1 for 2"),
+        ({"section": "XZ", "at": "here"}, "where a section is"),
+        ({"collisions": [3]}, "collisions must be those of a run"),
+    ],
+)
+def test_a_wrong_option_is_an_alarm(run, options, sentence):
+    with pytest.raises(Alarm, match=sentence):
+        run.workpiece().plot(**options)
+
+
+def test_collisions_are_marked(run):
+    found = Collision("rapid", "rapid motion in material", 3, 0, 2, (30.0, 20.0, -1.0), 1.0)
+    figure = run.workpiece().plot(collisions=[found])
+    (mark,) = [line for line in figure.axes[0].lines if line.get_label() == "collision"]
+    assert mark.get_xydata().tolist() == [[30, 20]]
+
+
+def test_axes_of_ones_own(run, turned):
+    for part in (run.workpiece(step=1.0), turned.workpiece()):
+        ax = Figure().add_subplot()
+        assert part.plot(ax=ax) is ax.figure and len(ax.figure.axes) == 1
+
+
+def test_the_part_lies_under_the_path(run):
+    above, side = run.plot(part=True).axes
+    assert len(above.images) == 1 and any(isinstance(each, LineCollection) for each in above.collections)
+    assert "_part" in {str(patch.get_label()) for patch in side.patches}
+
+
+def test_a_first_approach_comes_from_home(run):
+    """Beside a blank, from an unknown start: no rapid from the zero point, no mark on it; from a known start both."""
+    home = mnclab.run(TEXT, "g43", Setup(tools=TOOLS, stock=STOCK))
+    assert home.known_from == 3 and run.known_from == 0
+    above, side = home.plot().axes
+    assert "from home" in texts(home.plot()) and "start" not in texts(home.plot())
+    (mark,) = [line for line in above.lines if line.get_label() == "from home"]
+    assert mark.get_xydata().tolist() == [[15, 20]]
+    assert _first(above, "rapid") == [15, 20] and len(side.texts) == len(above.texts) + 1  # the arrow from above
+    assert _first(run.plot().axes[0], "rapid") == [0, 0] and "start" in texts(run.plot())
+    without = mnclab.run(TEXT, "g43", Setup(tools=TOOLS))
+    assert "start" in texts(without.plot())
+
+
+def _first(ax: Axes, name: str) -> list[float]:
+    (line,) = [each for each in ax.lines if each.get_label() == name]
+    return [float(each) for each in line.get_xydata()[0]]
+
+
+def test_a_half_section_has_diameters_chuck_and_insert(turned):
+    figure = turned.workpiece().plot()
+    assert {"⌀30", "⌀40", "chuck", "insert", "blank"} <= texts(figure)
+    (ax,) = figure.axes
+    assert [ax.yaxis.get_major_formatter()(value, None) for value in (15, -20)] == ["30", "40"]
+    (hatched,) = [patch for patch in ax.patches if patch.get_hatch()]
+    assert hatched.get_path().vertices[:, 1].min() == 0  # hatched above the centre line alone
+    assert "line 5" in texts(turned.workpiece().plot(colour="line"))
+    with pytest.raises(Alarm, match="section through the axis"):
+        turned.workpiece().plot(section="XZ")
+
+
+def test_a_chuck_of_the_setup_is_drawn_where_it_stands(turned):
+    done = mnclab.run(
+        TURN, "jnc-t01", Setup(stock=cylinder(20, -50, 0), start=(60, 0, 50), fixtures=(cylinder(45, -60, -35, bore=20),))
+    )
+    (ax,) = done.workpiece().plot().axes
+    chucks = [p.get_xy() for p in ax.patches if str(p.get_label()) == "chuck"]
+    assert len(chucks) == 2 and chucks[0].max(axis=0).tolist() == [-35, 45]
