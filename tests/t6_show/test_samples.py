@@ -2,11 +2,9 @@
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import mnclab
-from mnclab import Kind
 
 PROGRAMS = sorted(path for path in Path(__file__).parents[2].glob("data/programs/*/*") if path.is_file())
 
@@ -23,17 +21,3 @@ def test_a_sample_runs_clean(path):
 def test_a_sample_names_its_origin_in_its_first_line(path):
     first = path.read_text("utf-8").splitlines()[0]
     assert first.rstrip().endswith("Made for this project.") or "Source:" in first
-
-
-MILLED = [path for path in PROGRAMS if path.parent.name in ("mnc", "g43", "tnc-620")]
-
-
-@pytest.mark.parametrize("path", MILLED, ids=lambda path: "/".join(path.parts[-2:]))
-def test_a_sample_does_not_collide(path):
-    """In its own blank; a program that has none, in one around all that it cuts, whose top is Z0."""
-    run, stock = mnclab.run(path), None
-    cuts = run.toolpath[np.isin(run.toolpath.kind, (Kind.LINE, Kind.ARC))]
-    if run.stock is None and len(cuts):
-        low, high = cuts.bounds
-        stock = (*(low[:2] - 10), min(low[2], 0) - 5), (*(high[:2] + 10), 0)
-    assert not len(cuts) or run.collisions(stock) == ()
