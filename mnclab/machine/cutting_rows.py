@@ -20,6 +20,7 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
+UPRIGHT = 1 - 1e-12  # the cosine between the axes of a tool and of the machine from which on it is not tilted
 TILT = "frame tilt"  # the frame of a tilted working plane: the tool stands along its Z
 
 Steps = NDArray[np.integer[Any]]  # the step of each row (n,)
@@ -59,9 +60,10 @@ def lifted(path: Toolpath, lift: Array) -> Toolpath:
 
 def tilted_rows(step: Steps, changes: Changes) -> Mask | None:
     """Rows of some steps that are made with a tilted tool (n,); `changes` are those of the frame `TILT`."""
-    if not any(frame is not None for _, frame in changes):
+    turned = [(when, frame is not None and not np.asarray(frame)[2, 2] > UPRIGHT) for when, frame in changes]
+    if not any(on for _, on in turned):
         return None
-    at, on = zip(*((when, frame is not None) for when, frame in changes), strict=True)
+    at, on = zip(*turned, strict=True)
     return np.asarray(np.array([False, *on])[np.searchsorted(np.array(at), step, "right")])
 
 
