@@ -119,7 +119,7 @@ def holder(tool: Tool, size: float = 0.0, reach: float = 0.0) -> Floats:
     else:
         outline = insert(replace(tool, corner=0.0, kind="turning", hand="right"), size).points
         corners = outline.mean(axis=0) + size * np.array([(-0.25, 0.0), (0.55, 0.0), (0.55, 1.5), (-0.25, 1.5)])
-    return (corners[:, ::-1] if tool.kind == FACE else corners) * _mirror(tool)
+    return (corners[:, ::-1] if tool.kind == FACE else corners) * mirror_of(tool)
 
 
 def _nose(tool: Tool, main: float, auxiliary: float) -> tuple[Floats, list[float]]:
@@ -157,8 +157,8 @@ def _round(tool: Tool, height: float) -> Contour:
     return Contour([*corners, (0.0, 0.0)] if point else corners)
 
 
-def _mirror(tool: Tool) -> Floats:
-    """What z and r are multiplied with, of a tool that is no right-hand one for outside."""
+def mirror_of(tool: Tool) -> Floats:
+    """What z and r are multiplied with so that a tool becomes a right-hand one for outside, and back (2,)."""
     return np.array([-1.0 if tool.hand == "left" else 1.0, -1.0 if tool.kind == "boring" else 1.0])
 
 
@@ -167,7 +167,7 @@ def _placed(tool: Tool, points: Floats, bulges: list[float]) -> Contour:
     bulge = np.zeros(len(points))
     bulge[: len(bulges)] = bulges
     some = length_of(np.roll(points, -1, axis=0) - points) > 1e-9
-    mirror, points = _mirror(tool), points[:, ::-1] if tool.kind == FACE else points
+    mirror, points = mirror_of(tool), points[:, ::-1] if tool.kind == FACE else points
     turned = mirror.prod() * (-1 if tool.kind == FACE else 1)
     contour = Contour(points[some] * mirror, bulge[some] * turned)
     return contour if turned > 0 else contour.reversed()

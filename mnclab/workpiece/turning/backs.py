@@ -23,9 +23,8 @@ import numpy as np
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Floats
 from mnclab.geometry.sweeps import broad
-from mnclab.path.inserts import FACE, angles_of
+from mnclab.path.inserts import FACE, angles_of, mirror_of
 from mnclab.path.tool import Tool
-from mnclab.workpiece.turning.bodies import mirror_of
 
 ALONG = math.radians(15)  # between feed and edge: below, the edge rubs
 FAR = 1e5  # mm

@@ -23,7 +23,7 @@ from mnclab.path.tool import Tool
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.turning.backs import TOLERANCE, left_by_lean, taken_by_back
-from mnclab.workpiece.turning.bodies import behind, half_section, outline
+from mnclab.workpiece.turning.bodies import area_of, behind, outline
 
 AXIS = 1e-6  # mm above the axis, where nothing is outside any more
 AREA = 1e-9  # mm², less is rounding
@@ -66,8 +66,8 @@ def _collision(cutting: Cutting, row: int, met: Met) -> Collision:
 
 
 def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
-    path, left, spared = cutting.path, half_section(cutting.stock), shapely.Polygon()
-    chucks = [half_section(each) for each in cutting.fixtures]
+    path, left, spared = cutting.path, area_of(cutting.stock), shapely.Polygon()
+    chucks = [area_of(each) for each in cutting.fixtures]
     rows = np.flatnonzero(cutting.cuts)
     height = _height(cutting, rows, left)
     shapes = [outline(tool, height) for tool in cutting.tools]
