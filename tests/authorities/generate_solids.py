@@ -17,7 +17,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-from manifold3d import CrossSection, Manifold, OpType
+from manifold3d import Manifold, OpType
 from solid_programs import STOCK, programs, record_of
 
 TOP = 60.0  # mm, how high tools reach
