@@ -308,7 +308,7 @@ class PlayerPage {
     box.hidden = false;
     box.textContent = `collision in line ${line}${program ? ` of ${this.listing.name(program)}` : ""}: ${message}`
       + (rest ? ` (and ${rest} more)` : "");
-    box.addEventListener("click", () => this.go(this.afterItem(this.run.itemOfRow[collisions[0].row])));
+    box.addEventListener("click", () => this.jump(() => this.afterItem(collisions[0].row < 0 ? -1 : this.run.itemOfRow[collisions[0].row])));
   }
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
