@@ -13,7 +13,7 @@ from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
 from mnclab.text.program import NUMBER, Program
-from mnclab.workpiece.blank import blank
+from mnclab.workpiece.blank import Revolved, blank
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
@@ -163,6 +163,12 @@ def _kept(run: Run, key: tuple[Any, ...], stock: Any, make: Callable[[], Made]) 
 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:
     """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
-    if run.stock is None:
+    stock = run.stock
+    if stock is None:
         return None, Collisions()
-    return cutting_of(run), collisions(run) if len(run.toolpath) <= JUDGED else Collisions()
+    judged = len(run.toolpath) <= JUDGED
+    if run.toolpath.lathe and isinstance(stock, Revolved):
+        if stock.axis != "Z":  # no lathe turns a body that lies across
+            return None, Collisions()
+        judged &= not any(stock.at[:2])  # what runs out of true is not judged
+    return cutting_of(run), collisions(run) if judged else Collisions()

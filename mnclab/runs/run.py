@@ -252,6 +252,9 @@ class Run:
     def player(self, limits: Limits | str | None = None, **options: Any) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
 
+        Where there is a blank the page cuts it as it plays, on a lathe in section; of runs that are not too long it marks
+        the collisions.
+
         `limits` are those of `profile`. `height` in pixels, `theme` "auto", "light" or "dark", `speed` 1
         for real time. `.save(path)` writes it as a file that needs no network, as `run.save("part.html")` does.
         """
