@@ -9,6 +9,7 @@ import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
 from mnclab.path.columns import Mask
+from mnclab.path.kinds import Kind
 from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
@@ -83,6 +84,14 @@ def _placed(run: Run, fixture: Any) -> Any:
         return fixture.placed(frame)
     body = blank(fixture)
     return body.moved(-run.toolpath.origin) if body else body
+
+
+def rows_from_home(run: Run) -> int:
+    """How many rows of a path bring the tool from home to a blank; none where there is no blank, or nothing else."""
+    path = run.toolpath
+    known = start_known(path, run.setup.start)[1]
+    first = known - 1 if 0 < known <= len(path) and path.kind[known - 1] != Kind.RAPID else known
+    return first if run.stock is not None and first < len(path) else 0
 
 
 def workpiece(
