@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
+from mnclab.path.columns import Mask
 from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
+from mnclab.text.program import NUMBER, Program
 from mnclab.workpiece.blank import blank
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
@@ -35,9 +37,42 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     changed = run.history.changed
     tools, which, lift = tools_of_rows(path.step, changed("tool"), run.setup.tools, run.history.value)
     tools, which = cycle_tools(run, tools, which)
-    known, tilted = start_known(path, run.setup.start), tilted_rows(path.step, changed(TILT))
+    start, tilted = run.setup.start, tilted_rows(path.step, changed(TILT))
+    known = start_known(path, start, None if any(start) else _named(run))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, name=run.place_of_line)
+
+
+def _named(run: Run) -> Mask:
+    """The axes (n, 3) whose words stand in the block of a row, or in a positioning block before it: it may have moved
+    nothing, as X0 does where a machine starts."""
+    step, found = run.toolpath.step, np.zeros((len(run.toolpath), 3), dtype=bool)
+    for index, program in enumerate(run.programs):
+        mine = run.steps.program == index
+        block = np.where(mine, run.steps.block, 0)
+        positioning = _positioning(program)[block]
+        for axis, letter in enumerate("XYZ"):
+            here = mine & _has(program, letter)[block]
+            before = np.flatnonzero(here & positioning)
+            found[:, axis] |= here[step] | (step >= before[0] if len(before) else False)
+    return found
+
+
+def _positioning(program: Program) -> Mask:
+    """The blocks (b,) whose X, Y and Z are places to go to: plain ones, those with G0 or G1, L of Klartext."""
+    straight = program.keywords.index("L") if "L" in program.keywords else -1
+    return program.plain | (program.keyword == straight) | _has(program, "G", (0.0, 1.0))
+
+
+def _has(program: Program, address: str, values: Collection[float] | None = None) -> Mask:
+    """The blocks (b,) with an address, of certain values."""
+    found = np.zeros(len(program), dtype=bool)
+    if address in program.addresses:
+        words = program.address == program.addresses.index(address)
+        if values is not None:
+            words &= (program.form == NUMBER) & np.isin(program.value, list(values))
+        found[np.repeat(np.arange(len(program)), np.diff(program.first))[words]] = True
+    return found
 
 
 def _placed(run: Run, fixture: Any) -> Any:
@@ -130,4 +165,4 @@ def played(run: Run) -> tuple[Cutting | None, Collisions]:
     """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
     if run.stock is None:
         return None, Collisions()
-    return cutting_of(run), Collisions()
+    return cutting_of(run), collisions(run) if len(run.toolpath) <= JUDGED else Collisions()

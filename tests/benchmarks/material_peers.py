@@ -46,5 +46,6 @@ if __name__ == "__main__":
     part = Milled(Cutting(path, [ball], np.broadcast_to(np.int64(0), n), blank), CELL)
     heights = part.heights
     wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
-    told = {"import": 0.0, "wall": wall, "cpu": cpu, "items": n, "end": [round(float(heights.sum()) * CELL**2, 1)]}
+    peak = next(int(line.split()[1]) for line in open("/proc/self/status") if line.startswith("VmHWM")) / 1024
+    told = {"MiB": peak, "import": 0.0, "wall": wall, "cpu": cpu, "items": n, "end": [round(float(heights.sum()) * CELL**2, 1)]}
     print("\nPEER" + json.dumps(told))
