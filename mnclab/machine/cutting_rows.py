@@ -20,6 +20,7 @@ from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 
+UPRIGHT = 1 - 1e-12  # the cosine between the axes of a tool and of the machine from which on it is not tilted
 TILT = "frame tilt"  # the frame of a tilted working plane: the tool stands along its Z
 
 Steps = NDArray[np.integer[Any]]  # the step of each row (n,)
@@ -59,23 +60,28 @@ def lifted(path: Toolpath, lift: Array) -> Toolpath:
 
 def tilted_rows(step: Steps, changes: Changes) -> Mask | None:
     """Rows of some steps that are made with a tilted tool (n,); `changes` are those of the frame `TILT`."""
-    if not any(frame is not None for _, frame in changes):
+    turned = [(when, frame is not None and not np.asarray(frame)[2, 2] > UPRIGHT) for when, frame in changes]
+    if not any(on for _, on in turned):
         return None
-    at, on = zip(*((when, frame is not None) for when, frame in changes), strict=True)
+    at, on = zip(*turned, strict=True)
     return np.asarray(np.array([False, *on])[np.searchsorted(np.array(at), step, "right")])
 
 
-def start_known(path: Toolpath, start: tuple[float, float, float]) -> tuple[int, int]:
+def start_known(path: Toolpath, start: tuple[float, float, float], named: Mask | None = None) -> tuple[int, int]:
     """From which row on the tool's height is known at the end of a row, and from which on every row's start is.
 
     A setup that says where the spindle starts says all of it. Else the tool comes from home: its height is known when Z (on
-    a lathe X and Z) has moved, the whole place when every axis has, or when something was moved at feed.
+    a lathe X and Z) has moved, the whole place when every axis has, or when something was moved at feed. `named` (n, 3) are
+    the axes whose words stand in the block of a row: they are where the program says, whether they moved or not.
     """
     if any(start):
         return 0, 0
     rows = np.flatnonzero(path.is_motion)
     axes = [0, 2] if path.lathe else [0, 1, 2]
-    moved = np.logical_or.accumulate(path.start[rows] != path.end[rows], axis=0)[:, axes]
+    said = path.start[rows] != path.end[rows]
+    if named is not None:
+        said |= named[rows]
+    moved = np.logical_or.accumulate(said, axis=0)[:, axes]
     high = moved.all(axis=1) if path.lathe else moved[:, -1]
     known = moved.all(axis=1) | (path.kind[rows] != Kind.RAPID)
     n = len(path)

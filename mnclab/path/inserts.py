@@ -86,6 +86,8 @@ def insert(tool: Tool, size: float = 0.0, reach: float = 0.0) -> Contour:
     if tool.width:
         high = max(1.6 * size, min(1.5 * tool.width, 2.4 * size), reach)
         return cutting_part(replace(tool, cutting_length=max(high, 1.0)), high)
+    if tool.kind == "thread" and tool.cutting_length:  # ground down beside its teeth, so that it comes near a shoulder
+        return cutting_part(tool, max(size, 1.5 * tool.cutting_length))
     usual = tool.auxiliary_angle or min(USUAL[1], (180 - tool.main_angle) / 2)
     main = math.radians(tool.main_angle or min(USUAL[0], 0.9 * (180 - usual)))
     points, bulges = _nose(tool, main, math.radians(usual))
@@ -110,10 +112,14 @@ def holder(tool: Tool, size: float = 0.0, reach: float = 0.0) -> Floats:
         deep = 2 * tool.shank[0] if tool.shank else 1.2 * size
         corners = np.array([(0.3 * size, 0.2 * size), (4 * size, 0.2 * size), (4 * size, 0.2 * size + deep)])
         corners = np.vstack([corners, (0.3 * size, 0.2 * size + deep)])
+    elif tool.kind == "thread" and tool.cutting_length:
+        front, high = float(insert(tool, size).bounds[0, 0]), 0.8 * max(size, 1.5 * tool.cutting_length)
+        back = front + 0.8 * size
+        corners = np.array([(front, high), (back, high), (back, 2.5 * high), (front, 2.5 * high)])
     else:
         outline = insert(replace(tool, corner=0.0, kind="turning", hand="right"), size).points
         corners = outline.mean(axis=0) + size * np.array([(-0.25, 0.0), (0.55, 0.0), (0.55, 1.5), (-0.25, 1.5)])
-    return (corners[:, ::-1] if tool.kind == FACE else corners) * _mirror(tool)
+    return (corners[:, ::-1] if tool.kind == FACE else corners) * mirror_of(tool)
 
 
 def _nose(tool: Tool, main: float, auxiliary: float) -> tuple[Floats, list[float]]:
@@ -151,8 +157,8 @@ def _round(tool: Tool, height: float) -> Contour:
     return Contour([*corners, (0.0, 0.0)] if point else corners)
 
 
-def _mirror(tool: Tool) -> Floats:
-    """What z and r are multiplied with, of a tool that is no right-hand one for outside."""
+def mirror_of(tool: Tool) -> Floats:
+    """What z and r are multiplied with so that a tool becomes a right-hand one for outside, and back (2,)."""
     return np.array([-1.0 if tool.hand == "left" else 1.0, -1.0 if tool.kind == "boring" else 1.0])
 
 
@@ -161,7 +167,7 @@ def _placed(tool: Tool, points: Floats, bulges: list[float]) -> Contour:
     bulge = np.zeros(len(points))
     bulge[: len(bulges)] = bulges
     some = length_of(np.roll(points, -1, axis=0) - points) > 1e-9
-    mirror, points = _mirror(tool), points[:, ::-1] if tool.kind == FACE else points
+    mirror, points = mirror_of(tool), points[:, ::-1] if tool.kind == FACE else points
     turned = mirror.prod() * (-1 if tool.kind == FACE else 1)
     contour = Contour(points[some] * mirror, bulge[some] * turned)
     return contour if turned > 0 else contour.reversed()

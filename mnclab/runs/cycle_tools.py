@@ -26,16 +26,14 @@ INSIDE, PLAIN = "inside ", ""
 def cycle_tools(run: Run, tools: list[Tool], which: Index) -> tuple[list[Tool], Index]:
     """The tools and which of them each row has (n,), with those of cycles where a row has none."""
     by_code, table = run.control.cycle_tools, run.setup.tools or {}
-    if not by_code or tool_exists(table.get(0, Tool())):
+    if not by_code:
         return tools, which
-    path = run.toolpath
-    codes = _codes(path, tuple(by_code))
-    known = {code: table[number] for code, number in by_code.items() if number in table}
-    added = [known.get(code, Tool()) for code in by_code]
+    path, bare = run.toolpath, ~np.array([tool_exists(tool) for tool in tools])[which]
+    if tool_exists(own := table.get(0, Tool())):
+        return [*tools, own], np.where(bare, len(tools), which)
     place = {code: len(tools) + k for k, code in enumerate(by_code)}
-    bare = ~np.array([tool_exists(tool) for tool in tools])[which]
-    chosen = np.array([place[code] for code in codes], dtype=np.int64)
-    return [*tools, *added], np.where(bare, chosen, which)
+    chosen = np.array([place[code] for code in _codes(path, tuple(by_code))], dtype=np.int64)
+    return [*tools, *(table.get(number, Tool()) for number in by_code.values())], np.where(bare, chosen, which)
 
 
 def _codes(path: Toolpath, known: tuple[str, ...]) -> list[str]:

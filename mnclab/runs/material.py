@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
+from mnclab.path.columns import Mask
+from mnclab.path.kinds import Kind
 from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
-from mnclab.workpiece.blank import blank
+from mnclab.text.program import NUMBER, Program
+from mnclab.workpiece.blank import Revolved, blank
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
@@ -35,9 +38,42 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     changed = run.history.changed
     tools, which, lift = tools_of_rows(path.step, changed("tool"), run.setup.tools, run.history.value)
     tools, which = cycle_tools(run, tools, which)
-    known, tilted = start_known(path, run.setup.start), tilted_rows(path.step, changed(TILT))
+    start, tilted = run.setup.start, tilted_rows(path.step, changed(TILT))
+    known = start_known(path, start, None if any(start) else _named(run))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, name=run.place_of_line)
+
+
+def _named(run: Run) -> Mask:
+    """The axes (n, 3) whose words stand in the block of a row, or in a positioning block before it: it may have moved
+    nothing, as X0 does where a machine starts."""
+    step, found = run.toolpath.step, np.zeros((len(run.toolpath), 3), dtype=bool)
+    for index, program in enumerate(run.programs):
+        mine = run.steps.program == index
+        block = np.where(mine, run.steps.block, 0)
+        positioning = _positioning(program)[block]
+        for axis, letter in enumerate("XYZ"):
+            here = mine & _has(program, letter)[block]
+            before = np.flatnonzero(here & positioning)
+            found[:, axis] |= here[step] | (step >= before[0] if len(before) else False)
+    return found
+
+
+def _positioning(program: Program) -> Mask:
+    """The blocks (b,) whose X, Y and Z are places to go to: plain ones, those with G0 or G1, L of Klartext."""
+    straight = program.keywords.index("L") if "L" in program.keywords else -1
+    return program.plain | (program.keyword == straight) | _has(program, "G", (0.0, 1.0))
+
+
+def _has(program: Program, address: str, values: Collection[float] | None = None) -> Mask:
+    """The blocks (b,) with an address, of certain values."""
+    found = np.zeros(len(program), dtype=bool)
+    if address in program.addresses:
+        words = program.address == program.addresses.index(address)
+        if values is not None:
+            words &= (program.form == NUMBER) & np.isin(program.value, list(values))
+        found[np.repeat(np.arange(len(program)), np.diff(program.first))[words]] = True
+    return found
 
 
 def _placed(run: Run, fixture: Any) -> Any:
@@ -48,6 +84,14 @@ def _placed(run: Run, fixture: Any) -> Any:
         return fixture.placed(frame)
     body = blank(fixture)
     return body.moved(-run.toolpath.origin) if body else body
+
+
+def rows_from_home(run: Run) -> int:
+    """How many rows of a path bring the tool from home to a blank; none where there is no blank, or nothing else."""
+    path = run.toolpath
+    known = start_known(path, run.setup.start)[1]
+    first = known - 1 if 0 < known <= len(path) and path.kind[known - 1] != Kind.RAPID else known
+    return first if run.stock is not None and first < len(path) else 0
 
 
 def workpiece(
@@ -128,6 +172,12 @@ def _kept(run: Run, key: tuple[Any, ...], stock: Any, make: Callable[[], Made]) 
 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:
     """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
-    if run.stock is None:
+    stock = run.stock
+    if stock is None:
         return None, Collisions()
-    return cutting_of(run), Collisions()
+    judged = len(run.toolpath) <= JUDGED
+    if run.toolpath.lathe and isinstance(stock, Revolved):
+        if stock.axis != "Z":  # no lathe turns a body that lies across
+            return None, Collisions()
+        judged &= not any(stock.at[:2])  # what runs out of true is not judged
+    return cutting_of(run), collisions(run) if judged else Collisions()

@@ -60,14 +60,17 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
     import pyvista
 
     mesh = pyvista.PolyData.from_regular_faces(solid.points, solid.triangles)
-    edges = mesh.extract_feature_edges(ANGLE, boundary_edges=False, non_manifold_edges=False, manifold_edges=False)
+    edges = mesh.extract_feature_edges(feature_angle=ANGLE, boundary_edges=False, non_manifold_edges=False, manifold_edges=False)
     plain = tuple(STOCK)
     if colour == "none":
         plotter.add_mesh(mesh, color=plain, **LOOK)
     elif colour == "depth":
         title, values = _depths(workpiece, solid.points)
         mesh.point_data[title] = values
-        plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, scalar_bar_args=scenes.BAR | {"title": title}, **LOOK)
+        cut = values[solid.triangles[solid.row >= 0]]
+        limits = (0.0, float(cut.max() if cut.size and cut.max() > 0 else values.max()))
+        bar = scenes.BAR | {"title": title, "fmt": "%.3g"}
+        plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, scalar_bar_args=bar, **LOOK)
     else:
         values = getattr(workpiece.cutting.path, colour)[solid.row].astype(np.float64)
         mesh.cell_data[colour] = np.where(solid.row >= 0, values, np.nan)
@@ -93,6 +96,6 @@ def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array)
     except (TypeError, AttributeError):
         raise Alarm(f"collisions must be those of a run, got {shown(collisions)}", hint="run.collisions()") from None
     if len(places):
-        ball = pyvista.Sphere(BALL * float(np.ptp(points, axis=0).max()))
+        ball = pyvista.Sphere(radius=BALL * float(np.ptp(points, axis=0).max()))
         balls = pyvista.PolyData(places).glyph(geom=ball, scale=False, orient=False)
         plotter.add_mesh(balls, color=RAPID, name="collisions")

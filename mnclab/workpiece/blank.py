@@ -132,7 +132,8 @@ def chuck(radius: float, back: float, grip: float = 20.0, jaws: float = 25.0, bo
 
     `jaws` is how thick they are, `body` how long what is behind them is. For `Setup(fixtures=(…,))`.
     """
-    for name, number in (("grip", grip), ("thickness of the jaws", jaws), ("length of the body", body), ("radius of the bar", radius)):
+    sizes = {"radius of the bar": radius, "grip": grip, "thickness of the jaws": jaws, "length of the body": body}
+    for name, number in sizes.items():
         check_number(number, f"the {name} of a chuck (mm)", above=0)
     check_number(back, "the place of a chuck along Z (mm)")
     wide = radius + 1.5 * jaws

@@ -78,11 +78,17 @@ class Removal:
         choice(what, "what a removal sums over", KEYS)
         path = self.workpiece.cutting.path
         own, line = path.program.tolist(), path.line.tolist()
-        keys = path.tool.tolist() if what == "tool" else [at if not of else (of, at) for of, at in zip(own, line)]
+        keys = self._tools.tolist() if what == "tool" else [at if not of else (of, at) for of, at in zip(own, line)]
         found: dict[Any, float] = {}
         for row in np.flatnonzero(self.volumes):
             found[keys[row]] = found.get(keys[row], 0.0) + float(self.volumes[row])
         return found
+
+    @property
+    def _tools(self) -> Any:
+        """The number of the tool that cuts each row (n,): some controls have none in their words."""
+        cutting = self.workpiece.cutting
+        return np.array([tool.number for tool in cutting.tools])[cutting.which]
 
     def _fastest(self, rows: Any) -> Fastest | None:
         rates = np.where(rows, self.rate, 0.0)
@@ -100,8 +106,9 @@ class Removal:
         """A row of texts for each tool that took something away, and for all of them: as `HEAD` has it."""
         path = self.workpiece.cutting.path
         numbers = list(self.by("tool"))
-        groups = [(self._tool(number), path.tool == number) for number in numbers]
-        groups += [("all", path.tool >= 0)] if len(numbers) != 1 else []
+        cut_by = self._tools
+        groups = [(self._tool(number), cut_by == number) for number in numbers]
+        groups += [("all", np.ones(len(cut_by), dtype=bool))] if len(numbers) != 1 else []
         told: list[tuple[str, ...]] = []
         for name, rows in groups:
             taken = float(self.volumes[rows].sum())
@@ -134,4 +141,5 @@ class Removal:
 
 def volume(value: float) -> str:
     """mm³ as people say it: three figures, in cm³ from one on."""
-    return f"{value / 1000:.3g} cm³" if value >= 1000 else f"{value:.3g} mm³"
+    number, unit = (value / 1000, "cm³") if value >= 1000 else (value, "mm³")
+    return f"{number:.0f} {unit}" if number >= 1000 else f"{number:.3g} {unit}"

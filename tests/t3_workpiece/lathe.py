@@ -14,8 +14,8 @@ SHARP = Tool(number=1, kind="turning", main_angle=90, auxiliary_angle=60)
 NOSED = Tool(number=1, kind="turning", main_angle=95, auxiliary_angle=30, corner=0.8)
 
 
-def cutting(tools, ways, stock=BAR, threads=(), pitch=0.0):
-    """`ways` has one list for each tool: (z, r), or (z, r, sweep in rad) of an arc that ends there."""
+def cutting(tools, ways, stock=BAR, threads=(), pitch=0.0, rapids=()):
+    """`ways` has one list for each tool: (z, r), or (z, r, sweep in rad) of an arc that ends there; `rapids` are rows."""
     vertices, sweeps, which, synchronous = [], [], [], []
     for k, way in enumerate(ways):
         for place in way:
@@ -32,12 +32,14 @@ def cutting(tools, ways, stock=BAR, threads=(), pitch=0.0):
     n = len(sweep)
     arc = sweep != 0
     fresh = np.diff(which) != 0  # from one tool to the next: not cut
+    kind = np.where(fresh, Kind.TOOL, np.where(arc, Kind.ARC, Kind.LINE))
+    rapid = np.isin(np.arange(n), rapids)
     columns = {
-        "kind": np.where(fresh, Kind.TOOL, np.where(arc, Kind.ARC, Kind.LINE)),
+        "kind": np.where(rapid, Kind.RAPID, kind),
         "sweep": sweep,
         "centre": np.stack([middle[:, 1], np.zeros(n), middle[:, 0]], axis=1),
         "axis": np.broadcast_to([0.0, 1.0, 0.0], (n, 3)),
-        "synchronous": np.array(synchronous[1:], dtype=bool),
+        "synchronous": np.array(synchronous[1:], dtype=bool) & ~rapid,
         "per_rev": np.full(n, pitch or np.nan),
         "line": np.arange(n),
     }

@@ -140,7 +140,7 @@ def test_a_chuck_says_what_it_needs():
 
 
 @pytest.mark.parametrize("kind", ["shank", "holder"])
-@pytest.mark.parametrize("deep", [0.05, 1, 2, 3, 4, 5, 6.5])
+@pytest.mark.parametrize("deep", [0.05, 0.1, 0.2, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6, 6.5])
 def test_a_drill_that_goes_deeper_than_it_is_long(kind, deep):
     body = (12, 30)
     tool = Tool(5, angle=118, kind="drill", **{kind: body if kind == "shank" else (body,)})

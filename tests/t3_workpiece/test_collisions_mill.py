@@ -91,6 +91,18 @@ def test_the_first_approach_comes_from_home():
     only(met("G0 X50 Y30|G0 Z-3|G1 X80 F100|G0 Z50", TOOLS["mill"]), "rapid", 4, 3)
 
 
+@pytest.mark.parametrize("before", ["G0 X-30 Y0 Z5", "G0 Y0|G0 X-30|G0 Z5", "G0 Z5|G0 X-30 Y0"])
+def test_an_axis_that_is_named_is_where_the_program_says(before):
+    """Y0 is where the machine starts, so that nothing moves; the way of the next rapid counts all the same."""
+    found = met(f"{before}|G0 Z-3|G0 X150|G0 Z50", TOOLS["mill"])
+    only(found, "rapid", 5 + before.count("|"), 3)
+
+
+def test_no_deeper_than_the_blank_is_thick():
+    each = only(met("G0 X50 Y30 Z5|G0 Z-300|G0 Z50", TOOLS["mill"]), "rapid", 4, 20)
+    assert each.place[2] == -20
+
+
 # --- plunges ---------------------------------------------------------------------------------------------------------
 
 BLUNT = Tool(5, centre_cutting=False, kind="mill")
@@ -280,6 +292,30 @@ def test_an_arc_leaves_the_travel_between_its_ends():
 
 
 # --- all of them -----------------------------------------------------------------------------------------------------
+
+
+KLARTEXT = "BEGIN PGM A MM|BLK FORM 0.1 Z X+0 Y+0 Z-20|BLK FORM 0.2 X+100 Y+60 Z+0|TOOL CALL 1 Z S1000|"
+OTHER = {
+    "tnc-620": KLARTEXT + "L X-30 Y+30 Z+5 R0 FMAX M3|L Z-3 FMAX|L X+50 FMAX|L Z+50 FMAX|END PGM A MM",
+    "g43": "T1 M6|G54 G17 G90 G0 X-30 Y30 S1200 M3|G43 D1 Z5|G0 Z-3||||G0 X50|G0 Z50",
+}
+
+
+@pytest.mark.parametrize("control", OTHER)
+@pytest.mark.parametrize("length", [0, 62.5])
+def test_every_control_and_any_length_of_the_tool(control, length):
+    tools = {1: Tool(5, length=length, kind="mill")}
+    found = run(lines(OTHER[control]), control, stock=STOCK, tools=tools).collisions()
+    each = only(found, "rapid", 7 if control == "tnc-620" else 8, 3)
+    assert str(each).startswith(f"program:{each.line}: collision: rapid motion in material, 3.000 mm deep at X")
+
+
+def test_a_collision_in_a_called_program_stands_there():
+    called = "BEGIN PGM SUB MM|L Z-3 FMAX|L Z+5 FMAX|END PGM SUB MM"
+    text = KLARTEXT + "L X+50 Y+30 Z+5 R0 FMAX M3|CALL PGM SUB.H|END PGM A MM"
+    (each,) = run(lines(text), "tnc-620", files={"SUB.H": lines(called) + "\n"}).collisions()
+    assert (each.kind, each.line, each.program, each.depth) == ("rapid", 2, 1, pytest.approx(3))
+    assert each.as_dict()["file"] == each.file == "SUB.H"
 
 
 def test_places_are_those_of_the_path_whatever_the_datum():

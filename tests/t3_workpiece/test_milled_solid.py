@@ -96,3 +96,14 @@ def test_flat_places_have_few_triangles():
     """A blank that nothing cuts has its rim, and squares within it."""
     solid = part("G0 X0 Y0 Z5\n").solid()
     assert len(solid.triangles) < 12_000 and solid.volume == pytest.approx(48_000)
+
+
+def test_very_many_moves_are_taken_from_the_map(monkeypatch):
+    """Between the cells of a chamfer of 45 degrees, 2 wide, heights are those of its plane."""
+    from mnclab.workpiece.milling import lattice
+
+    found = part(CHAMFER, step=0.25)
+    monkeypatch.setattr(lattice, "EXACT", 0)
+    x, y = np.linspace(0, 60, 40), np.linspace(0.125, 1.875, 40)
+    assert np.abs(lattice.heights_at(found, x, y) - (y - 2)).max() < 1e-9
+    assert is_closed(found.solid())

@@ -209,7 +209,7 @@ def test_the_blank_of_a_lathe():
     assert box.removed == pytest.approx(ring(30, 20, 20)) and "counts as a bar of radius 30" in box.notes[0]
     cone = turned(SHARP, (5, 40), (4, 40), stock=Revolved(((30, -60), (10, 0))))
     assert cone.volume == pytest.approx(frustum(30, 10, 60)) and cone.at(-30) == pytest.approx(20)
-    with pytest.raises(Alarm, match="a body about Z"):
+    with pytest.raises(Alarm, match="boxes or bodies about Z"):
         turned(SHARP, (5, 40), (4, 40), stock=cylinder(30, 0, 60, axis="X"))
     with pytest.raises(Alarm, match="T1 of the tool table.*180"):
         assert turned(Tool(number=1, kind="turning", main_angle=170, auxiliary_angle=60), (2, 20), (-20, 20)).volume

@@ -36,6 +36,23 @@ def test_passes_go_deeper_in_the_same_groove():
     assert two.removed == pytest.approx(18 * tooth(30, 0.5), rel=1e-12)  # two starts
 
 
+def test_rows_of_one_thread_follow_each_other():
+    """Two rows of 7 and 14 mm are one of 21; the tool pulls out of it in the same turn."""
+    whole = turned(V, (-3, 29), (-24, 29), threads=(0,), pitch=2)
+    parts = turned(V, (-3, 29), (-10, 29), (-24, 29), threads=(0,), pitch=2)
+    out = turned(V, (-3, 29), (-10, 29), (-10.5, 29.5), threads=(0,), pitch=2)
+    assert whole.removed == pytest.approx(11 * tooth(30, 1), rel=1e-12) == parts.removed
+    assert out.removed == pytest.approx(4 * tooth(30, 1), rel=1e-12)
+
+
+def test_a_rapid_out_of_a_thread_cuts_nothing():
+    """Straight across it leaves its groove half a turn on; along the axis it runs into the next one's crest."""
+    out = turned(V, (-3, 29), (-24, 29), (-24, 35), threads=(0,), pitch=2, rapids=(1,))
+    along = turned(V, (-3, 29), (-24, 29), (-30, 29), threads=(0,), pitch=2, rapids=(1,))
+    assert out.removed == pytest.approx(11 * tooth(30, 1), rel=1e-12)
+    assert along.removed > out.removed + 5 * 2 * math.pi * 29
+
+
 def test_a_thread_on_a_cone():
     """Teeth of equal depth under a cone of 1 in 10 are those of the flanks, leaning: area by three corners."""
     cone = cylinder(30, -60, 0)._replace(profile=((36.0, -60.0), (30.0, 0.0)))

@@ -23,7 +23,7 @@ OTHER = {
     "variable_unit": 25.4, "cycle": "another", "position_cycle": "another", "plane": "YZ", "feed": 99.0, "per_rev": True,
     "per_time": True, "speed": 99.0, "turning": -1, "spindle_angle": 30.0, "surface": 200.0, "speed_limit": 3000.0,
     "tool": Tool(radius=7), "side": 1, "corner_rule": 2, "exact": True, "exact_here": True, "synchronous": True,
-    "tolerance": 0.1, "label": "G83 peck", "cut_so_far": "less than it was",
+    "tolerance": 0.1, "label": "G83 peck", "cut_so_far": "less than it was", "stopped": "somewhere",
 }  # fmt: skip
 #: What is altered in its place.
 WITHIN = {

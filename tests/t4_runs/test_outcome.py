@@ -53,7 +53,10 @@ def test_the_parts_of_a_run_are_kept():
     assert len(cut.made) == 6
 
 
-@pytest.mark.parametrize("value, text", [(0.1234, "0.123 mm³"), (999.4, "999 mm³"), (1234.5, "1.23 cm³"), (45678, "45.7 cm³")])
+@pytest.mark.parametrize(
+    "value, text",
+    [(0.1234, "0.123 mm³"), (999.4, "999 mm³"), (1234.5, "1.23 cm³"), (45678, "45.7 cm³"), (1234567, "1235 cm³")],
+)
 def test_volumes_have_three_figures(value, text):
     assert volume(value) == text
 

@@ -84,7 +84,8 @@ def test_pictures_are_the_same_every_time(run, tmp_path, suffix):
 def test_what_cannot_be_written_is_an_alarm(run, tmp_path):
     part = run.workpiece()
     for name, options, sentence in (
-        ("a.xyz", {}, "cannot write a part as .xyz"), ("a", {}, "no suffix"), ("a.stl", {"of": "part"}, "have no options, got of"),
+        ("a.xyz", {}, "cannot write a part as .xyz"), ("a", {}, "no suffix"),
+        ("a.stl", {"of": "part"}, "have no options, got of"),
     ):  # fmt: skip
         with pytest.raises(Alarm, match=sentence):
             part.save(tmp_path / name, **options)

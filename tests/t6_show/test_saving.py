@@ -7,7 +7,7 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
-from mnclab.show.export import WRITERS
+from mnclab.show.export import BODIES, WRITERS
 
 PROGRAM = "T1 S500 M3\nG90 G54\nG0 X0 Y0 Z5\nG1 X10 F100\nG3 X20 Y10 I0 J10\nG1 X30 K5\n"
 
@@ -23,6 +23,7 @@ def run(tmp_path_factory):
 
 
 SAVES = {suffix: (lambda run, path: run.save(path)) for suffix in WRITERS} | {
+    **{suffix: (lambda run, path: run.save(path, of="path")) for suffix in BODIES},
     ".svg true": lambda run, path: run.save(path, true_size=True),
     ".html report": lambda run, path: run.report(path),
     ".pdf report": lambda run, path: run.report(path),

@@ -17,9 +17,9 @@
 16 L Z+2 FMAX
 17 L X+50 Y+50 FMAX
 18 L Z+0 F300
-19 L X+65 RL F250 ; from the centre to the wall of a bore of 30 mm
+19 L X+59 RL F250 ; from the centre to the wall of a bore of 18 mm
 20 CP IPA+1440 IZ-12 DR+ ; four turns, 3 mm deep each
 21 CP IPA+360 DR+ F350
-22 DEP CT CCA90 R+6
+22 DEP CT CCA90 R+2
 23 L Z+50 FMAX M30
 24 END PGM HEXAGON MM

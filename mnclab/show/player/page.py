@@ -22,8 +22,8 @@ from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
 
 SCRIPTS = (
-    "data", "shapes", "camera", "strokes", "swept", "heights", "carving", "relief", "shaded", "section", "shown_part", "picture", "curve", "listing",
-    "state", "player",
+    "data", "shapes", "camera", "strokes", "swept", "heights", "carving", "relief", "shaded", "section", "shown_part",
+    "picture", "curve", "listing", "state", "player",
 )  # fmt: skip
 THEMES = ("auto", "light", "dark")
 #: Tells the frames of a notebook whether its theme is dark (JupyterLab, VS Code), when they ask and when it changes.

@@ -75,7 +75,7 @@ class Picture {
     for (const [kind, colour, width, dashes] of [[CUTS, cut, 1.8, []], [RAPIDS, rapid, 1, this.fewRapids ? [5, 3] : []],
       [PROBINGS, probing, 1.4, [1.5, 2]]]) {
       pen.strokeStyle = colour;
-      pen.lineWidth = this.long ? 1 / this.ratio : pale ? Math.min(width, 1.2) : width;  // hairlines cost a tenth
+      pen.lineWidth = this.long ? 1 / this.ratio : pale || this.part ? Math.min(width, 1.2) : width;  // hairlines cost a tenth
       pen.setLineDash(dashes);
       this.strokes.stroke(pen, kind, from, to);
     }

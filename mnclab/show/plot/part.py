@@ -34,6 +34,7 @@ COLOURS = ("depth", "tool", "line")
 #: Pale above and dark below, in grey print too; what nothing cut is paler still.
 DEPTHS = LinearSegmentedColormap.from_list("depths", ["#f3efe2", "#cfe0cf", "#86bcc4", "#4a86b4", "#2c4f8c", "#1d2a5c"])
 UNCUT = "#f3efe2"
+ROOM = 1.5  # how far the scale of depths goes beyond the deepest place, within the blank: a single depth is no dark blot
 FEW = 8  # tools or lines that a legend names one by one
 EDGES = ((0.0, "#55524a", 0.35), (0.02, colours.INK, 0.75))  # from which part of the depth on, colour, width in points
 
@@ -127,7 +128,8 @@ def _coloured(part: Milled, seen: Relief, colour: str) -> tuple[Array, list[tupl
     if colour == "depth":
         top = float(part.cutting.stock.bounds[1, 2])
         depth = np.where(seen.solid, top - seen.z, 0.0)
-        deepest = max(float(depth.max()), 1e-9)
+        thick = float(np.ptp(part.cutting.stock.bounds[:, 2]))
+        deepest = max(min(ROOM * float(depth.max()), thick), 1e-9)
         shades, scale = DEPTHS(depth / deepest)[..., :3], ("depth, mm", 0.0, deepest, DEPTHS)
     else:
         row = seen.rows(part)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.path.columns import Array, Mask
-from mnclab.workpiece.milling.lattice import THIN, Lattice, lattice_of, rows_at
+from mnclab.workpiece.milling.lattice import THIN, Lattice, heights_at, lattice_of, rows_at
 
 if TYPE_CHECKING:
     from mnclab.workpiece.milling.milled import Milled
@@ -69,7 +69,8 @@ def _pixels(workpiece: Milled, found: Lattice) -> Array:
     j, i = np.nonzero(broken)
     low, side = (found.x[0], found.y[0]), (found.x[1] - found.x[0], found.y[1] - found.y[0])
     fine = fine.reshape(ny * PARTS, nx * PARTS)
-    fine[j, i] = workpiece.at(*(start + (k + 0.5) / PARTS * each for start, k, each in zip(low, (i, j), side)))
+    px, py = (start + (k + 0.5) / PARTS * each for start, k, each in zip(low, (i, j), side))
+    fine[j, i] = heights_at(workpiece, px, py)
     return fine
 
 

@@ -153,7 +153,8 @@ def _outside(ax: Axes, part: Turned) -> None:
             middle = (z0 + z1) / 2
             if abs(float(part.at(middle)) - r0) < 1e-6:
                 text = f"⌀{number(round(2 * r0, 3))}"
-                ax.annotate(text, (middle, -r0 / 2), ha="center", va="center", fontsize=SMALL, bbox=CARD | {"facecolor": OUTSIDE}, zorder=3.0)
+                card = CARD | {"facecolor": OUTSIDE}
+                ax.annotate(text, (middle, -r0 / 2), ha="center", va="center", fontsize=SMALL, bbox=card, zorder=3.0)
     ax.add_collection(LineCollection(edges, colors=colours.INK, linewidths=0.6, zorder=1.7))
 
 

@@ -12,5 +12,8 @@
     erosion  their map: for each cell the tip that cuts deepest, and what its move leaves
     tips     where the tips of a cutter went, cell by cell
     search   which of all tips about a cell leaves the least height
+    lattice  nodes over the map, and the walls between them at their true places
+    divided  a cell that walls cross, as triangles
+    solid    the part as a closed surface
     milled   what is left, as people ask for it
 """

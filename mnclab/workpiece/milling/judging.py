@@ -141,6 +141,6 @@ class Judging:
             k = begin + int(np.round(deep[begin:end], 6).argmax())
             if deep[k] > 0:
                 each = judged[int(at.owner[k])]
-                slack = TOLERANCE + each.fall
-                row = int(self.moves.row[each.move])
-                yield Met(row, each.body, (float(at.x[k]), float(at.y[k]), float(at.low[k]) - slack), float(deep[k]) + slack)
+                low = max(float(at.low[k]) - TOLERANCE - each.fall, float(floor[k]))  # of the body as large as it is
+                place = float(at.x[k]), float(at.y[k]), low
+                yield Met(int(self.moves.row[each.move]), each.body, place, float(at.low[k] + deep[k]) - low)

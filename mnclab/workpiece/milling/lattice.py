@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 STEEP = 0.5  # rise between two nodes, of their distance, from which a wall is looked for
 SUDDEN = 0.25  # of that rise: what is left of it between the last halves when it is a wall, and no steep slope
-HALVINGS = 16
+HALVINGS = 14
+EXACT = 100_000  # moves up to which every height is swept exactly
 THIN = 1e-9  # mm, of material that is none
 
 
@@ -106,13 +107,25 @@ def lattice_of(workpiece: Milled, step: float | None = None) -> Lattice:
     x, y = np.linspace(x0, x1, columns + 1), np.linspace(y0, y1, rows + 1)
     py, px = (each.ravel() for each in np.meshgrid(y, x, indexing="ij"))
     floor = workpiece.blank_at(px, py)[1]
-    z = np.asarray(workpiece.at(px, py))
+    z = heights_at(workpiece, px, py)
     number = np.arange(len(px)).reshape(rows + 1, columns + 1)
     right = np.stack([number[:, :-1].ravel(), number[:, 1:].ravel()], axis=1)
     up = np.stack([number[:-1].ravel(), number[1:].ravel()], axis=1)
     edges = np.concatenate([right, up])
     wall, place, sides, through = _walls(workpiece, np.stack([px, py], axis=1), z, floor, edges)
     return Lattice(x, y, z, floor, edges, wall, place, sides, through)
+
+
+def heights_at(workpiece: Milled, x: Array, y: Array) -> Array:
+    """The heights (m,) at points: exact, or of very many moves between the middles of the cells."""
+    if len(workpiece.moves) <= EXACT:
+        return np.asarray(workpiece.at(x, y))
+    shape, step = workpiece.heights.shape, workpiece.step
+    places = ((x - workpiece.x[0]) / step, shape[1]), ((y - workpiece.y[0]) / step, shape[0])
+    (i, u), (j, v) = ((np.clip(np.floor(at), 0, max(n - 2, 0)).astype(np.int64), np.clip(at, 0, n - 1)) for at, n in places)
+    right, above = np.minimum(i + 1, shape[1] - 1), np.minimum(j + 1, shape[0] - 1)
+    u, v, z = u - i, v - j, workpiece.heights
+    return np.asarray((z[j, i] * (1 - u) + z[j, right] * u) * (1 - v) + (z[above, i] * (1 - u) + z[above, right] * u) * v)
 
 
 def _walls(
@@ -131,7 +144,7 @@ def _walls(
     full = np.stack([solid[first[some]], solid[last[some]]])
     for _ in range(HALVINGS):
         middle = ends.mean(axis=0)
-        here = np.asarray(workpiece.at(*middle.T))
+        here = heights_at(workpiece, middle[:, 0], middle[:, 1])
         there = here - workpiece.blank_at(*middle.T)[1] > THIN
         behind = np.where(through, there != full[0], np.abs(heights[0] - here) >= np.abs(here - heights[1]))
         for end, moves in ((1, behind), (0, ~behind)):

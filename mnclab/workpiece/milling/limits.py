@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mnclab.path.columns import Index, Mask
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.kinds import Kind
 from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.moves import STILL
@@ -14,6 +15,7 @@ from mnclab.workpiece.milling.raster import NOISE
 from mnclab.workpiece.milling.sweep import Sweep
 
 SHOWN = 3  # lines that a note names
+MANY = 20_000  # moves, beyond which undercuts are not looked for
 THREADS = ("tap", "thread mill")
 
 
@@ -24,30 +26,31 @@ def notes_of(cutting: Cutting, sweep: Sweep) -> Iterator[str]:
     cuts = cutting.cuts
     for kind in THREADS:
         numbers = [number for number, tool in enumerate(cutting.tools) if tool.kind == kind]
-        if (threads := cuts & np.isin(cutting.which, numbers)).any():
+        if (threads := cuts & (cutting.path.kind != Kind.RAPID) & np.isin(cutting.which, numbers)).any():
             yield f"a thread is shown without its flanks, at the radius of the {kind} ({_lines(cutting, threads)})"
-    under = np.zeros(len(cutting), dtype=bool)
-    under[undercuts(cutting, sweep)] = True
+    necks = np.array([_neck(tool.shank, tool.effective_radius) for tool in cutting.tools])[cutting.which]
+    thin, under = cuts & np.isfinite(necks), np.zeros(len(cutting), dtype=bool)
+    if thin.any() and len(sweep.moves) > MANY:
+        yield f"undercuts are not looked for; there may be some where a tool is thinner above ({_lines(cutting, thin)})"
+    elif thin.any():
+        under[undercuts(necks, sweep)] = True
     if under.any():
         yield f"what overhangs an undercut is not shown: there the part is open upwards ({_lines(cutting, under)})"
     if isinstance(cutting.stock, Revolved) and cutting.stock.axis != "Z" and cutting.stock.bore > 0:
         yield "the bore of a lying blank is not shown"
 
 
-def undercuts(cutting: Cutting, sweep: Sweep) -> Index:
-    """Rows that take a tool, which is thinner behind its edges, sideways under material that reaches above these."""
-    necks = np.array([_neck(tool.shank, tool.effective_radius) for tool in cutting.tools])
-    if not np.isfinite(necks[cutting.which]).any():
-        return np.zeros(0, dtype=np.int64)
+def undercuts(necks: Array, sweep: Sweep) -> Index:
+    """Rows that take a tool sideways under material that reaches above its edges, which are `necks` (n,) high, mm."""
     moves, rows = sweep.moves, []
-    neck = necks[cutting.which[moves.row]]
+    neck = necks[moves.row]
     sideways = (np.hypot(*(moves.end - moves.start)[:, :2].T) > STILL) | moves.arc
     for tile in sweep.raster.tiles():
         x, y = sweep.raster.middles(tile)
         for which, before, after in sweep.in_order(x, y):
             over = (before > after + neck[which, None] + NOISE).any(axis=1) & sideways[which]
             rows.append(moves.row[which[over]])
-    return np.unique(np.concatenate(rows))
+    return np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *rows]))
 
 
 def _neck(shank: tuple[float, float] | None, radius: float) -> float:

@@ -19,8 +19,8 @@ from mnclab.workpiece.milling.raster import NOISE, chunks, near
 from mnclab.workpiece.milling.sweep import Sweep
 from mnclab.workpiece.milling.swept import left_by
 
-LATTICES = ((89, 55), (55, 34), (34, 21), (21, 13), (13, 8), (8, 5), (5, 3), (1, 1))  # points of each, and its turn
-ROUGH = 3  # the first of those that are fine enough for a row
+FINE, ROUGH = (89, 55), (21, 13)  # points of a lattice and its turn: neighbours in Fibonacci's series
+LATTICES = (FINE, (55, 34), (34, 21), ROUGH, (13, 8), (8, 5), (5, 3), (1, 1))
 EFFORT = 100_000_000  # points times moves, by which the lattice is chosen
 MANY = 5_000  # moves, beyond which what each of them took is told from the middles of the cells alone
 HALF = 0.75  # of a cell, a little more than its corners are away from its middle
@@ -39,9 +39,11 @@ def removed(sweep: Sweep, heights: Array) -> float:
         walls[tile] = crossed.reshape(walls[tile].shape)
         pairs += int(crossed.sum()) * moves
         total += float((sweep.faces(x, y)[0] - heights[tile].ravel())[~crossed].sum()) * raster.step**2
-    lattice = _lattice(pairs)
+    lattice = _lattice(pairs, FINE)
     for tile in raster.tiles():
-        x, y = within(*raster.middles(tile), walls[tile].ravel(), raster.step, lattice)
+        some = walls[tile].ravel()
+        x, y = raster.middles(tile)
+        x, y = within(x[some], y[some], raster.step, lattice)
         if len(x):
             total += float((sweep.faces(x, y)[0] - sweep.left(x, y)).sum()) * raster.step**2 / lattice[0]
     return total
@@ -54,7 +56,8 @@ def removed_by_row(sweep: Sweep, rows: int) -> Array:
         x, y = raster.middles(tile)
         crossed, moves = rims.passing(x, y) if len(sweep.moves) <= MANY else (np.zeros(len(x), dtype=bool), 0)
         lattice = _lattice(int(crossed.sum()) * moves * (raster.shape[0] * raster.shape[1] // len(x)), ROUGH)
-        for points, count in (((x[~crossed], y[~crossed]), 1), (within(x, y, crossed, raster.step, lattice), lattice[0])):
+        spots = within(x[crossed], y[crossed], raster.step, lattice)
+        for points, count in (((x[~crossed], y[~crossed]), 1), (spots, lattice[0])):
             if len(points[0]):
                 for which, before, after in sweep.in_order(*points):
                     taken = before - after
@@ -63,9 +66,9 @@ def removed_by_row(sweep: Sweep, rows: int) -> Array:
     return found
 
 
-def _lattice(pairs: int, first: int = 0) -> tuple[int, int]:
+def _lattice(pairs: int, finest: tuple[int, int]) -> tuple[int, int]:
     """The finest lattice that so many cells times moves allow."""
-    return next((each for each in LATTICES[first:] if each[0] * pairs <= EFFORT), LATTICES[-1])
+    return next((each for each in LATTICES if each <= finest and each[0] * pairs <= EFFORT), LATTICES[-1])
 
 
 def blank_ends(sweep: Sweep, x: Array, y: Array) -> Mask:
@@ -143,12 +146,12 @@ class Rims:
         return np.asarray(NOISE + STEEP * self.half * slope)
 
 
-def within(x: Array, y: Array, some: Mask, step: float, lattice: tuple[int, int]) -> tuple[Array, Array]:
-    """The points of a lattice in some of the cells about middles (m,)."""
+def within(x: Array, y: Array, step: float, lattice: tuple[int, int]) -> tuple[Array, Array]:
+    """The points (m n,) of a lattice of n in each of m cells about their middles."""
     count, turn = lattice
     along = np.arange(count)
     px, py = (step * ((place + 0.5) / count - 0.5) for place in (along, (along * turn) % count))
-    return (x[some, None] + px).ravel(), (y[some, None] + py).ravel()
+    return (x[:, None] + px).ravel(), (y[:, None] + py).ravel()
 
 
 def _stands(material: Array, foot: Array, top: Array) -> Mask:

@@ -21,11 +21,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.geometry import shapely
-from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.sweeps import CHORD_ERROR, broad
-from mnclab.path.inserts import FACE, angles_of
+from mnclab.geometry.contours import Floats
+from mnclab.geometry.sweeps import broad
+from mnclab.path.inserts import FACE, angles_of, mirror_of
 from mnclab.path.tool import Tool
-from mnclab.workpiece.turning.bodies import mirror_of
 
 ALONG = math.radians(15)  # between feed and edge: below, the edge rubs
 FAR = 1e5  # mm
@@ -39,12 +38,12 @@ class Back(NamedTuple):
     depth: float
 
 
-def taken_by_back(tool: Tool, shape: Floats, way: Contour, left: Any) -> Back | None:
-    """What the back of an insert takes of an area `left` along a way; `shape` (k, 2) is the tool about its tip."""
+def taken_by_back(tool: Tool, shape: Floats, way: Floats, left: Any) -> Back | None:
+    """What the back of an insert takes of an area `left` along a way (m, 2); `shape` (k, 2) is the tool about its tip."""
     mirror = mirror_of(tool)
     if tool.kind in ("thread", FACE) or not (tool.width or tool.auxiliary_angle):
         return None
-    places, corners = way.points_within(CHORD_ERROR) * mirror, shape * mirror
+    places, corners = way * mirror, shape * mirror
     here = shapely.transform(left, lambda each: each * mirror)
     judge = _side if tool.width else _auxiliary
     found = []
@@ -64,12 +63,12 @@ def taken_by_back(tool: Tool, shape: Floats, way: Contour, left: Any) -> Back | 
     return Back((float(z), float(r)), worst.depth)
 
 
-def left_by_lean(tool: Tool, way: Contour, taken: Any) -> Any:
+def left_by_lean(tool: Tool, way: Floats, taken: Any) -> Any:
     """What nose and lean of an edge leave on the wall where a straight cut ends that took an area: a wedge, or nothing."""
     if tool.width or tool.kind not in ("turning", "boring") or taken.is_empty:
         return shapely.Polygon()
     mirror, (main, auxiliary) = mirror_of(tool), angles_of(tool)
-    start, end = way.points * mirror
+    start, end = way * mirror
     right, top = (shapely.get_coordinates(taken) * mirror).max(axis=0)
     along, down = end - start
     if along < 0 and -along >= abs(down) and main > math.pi / 2 - 1e-9:

@@ -11,31 +11,22 @@ import numpy as np
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Floats
-from mnclab.path.inserts import EDGE, cutting_part, turns
+from mnclab.path.inserts import EDGE, cutting_part, mirror_of, turns
 from mnclab.path.tool import LATHE, Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
-from mnclab.workpiece.blank import Box, Revolved
+from mnclab.workpiece.turning.turned import half_section
 
 CHORD_ERROR = 1e-4  # mm, of a nose
 THIN = 0.008  # mm: half a tool that has no width, less than what counts
 
 
-def half_section(body: Any) -> Any:
-    """A body about the spindle above its axis; a box counts by its X. An Alarm for any other."""
-    if isinstance(body, Box):
-        (x0, _, z0), (x1, _, z1) = body.bounds
-        return shapely.box(z0, max(x0, 0.0), z1, max(abs(x0), abs(x1)))
-    if not isinstance(body, Revolved) or body.axis != "Z" or any(np.abs(body.at[:2]) > 1e-9):
-        raise Alarm(f"on a lathe a blank and its chuck are boxes or bodies about Z, got {shown(body)}")
-    outer = [(z + body.at[2], r) for r, z in body.profile]
-    whole = shapely.make_valid(shapely.Polygon([*outer, (outer[-1][0], body.bore), (outer[0][0], body.bore)]))
-    return whole
-
-
-def mirror_of(tool: Tool) -> Floats:
-    """What z and r are multiplied with so that a tool becomes a right-hand one for outside (2,)."""
-    return np.array([-1.0 if tool.hand == "left" else 1.0, -1.0 if tool.kind == "boring" else 1.0])
+def area_of(body: Any) -> Any:
+    """A body about the spindle above its axis, X 0 Y 0. An Alarm for any other."""
+    contour, axis, _ = half_section(body)
+    if abs(axis) > 1e-9:
+        raise Alarm(f"on a lathe a blank and its chuck stand about X 0, got {shown(body)}")
+    return shapely.Polygon(contour.points)
 
 
 def outline(tool: Tool, height: float) -> Floats:

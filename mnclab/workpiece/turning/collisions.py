@@ -16,14 +16,14 @@ import numpy as np
 
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, Floats
-from mnclab.geometry.sweeps import broad, swept
+from mnclab.geometry.sweeps import CHORD_ERROR, broad
 from mnclab.path.columns import Index
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.turning.backs import TOLERANCE, left_by_lean, taken_by_back
-from mnclab.workpiece.turning.bodies import behind, half_section, outline
+from mnclab.workpiece.turning.bodies import area_of, behind, outline
 
 AXIS = 1e-6  # mm above the axis, where nothing is outside any more
 AREA = 1e-9  # mm², less is rounding
@@ -66,15 +66,17 @@ def _collision(cutting: Cutting, row: int, met: Met) -> Collision:
 
 
 def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
-    path, left, spared = cutting.path, half_section(cutting.stock), shapely.Polygon()
-    chucks = [half_section(each) for each in cutting.fixtures]
+    path, left, spared = cutting.path, area_of(cutting.stock), shapely.Polygon()
+    chucks = [area_of(each) for each in cutting.fixtures]
     rows = np.flatnonzero(cutting.cuts)
     height = _height(cutting, rows, left)
     shapes = [outline(tool, height) for tool in cutting.tools]
-    for row in rows.tolist():
-        tool, shape = cutting.tool(row), shapes[int(cutting.which[row])]
-        way = _way(cutting, row)
-        covered = swept(shape, way) if way else shapely.Polygon(shape + path.end[row][[2, 0]])
+    bodies = [behind(tool, height) for tool in cutting.tools]
+    ways = [_way(cutting, row) for row in rows.tolist()]
+    areas = _swept([shapes[k] for k in cutting.which[rows].tolist()], ways)
+    for row, way, covered in zip(rows.tolist(), ways, areas, strict=True):
+        which = int(cutting.which[row])
+        tool, shape = cutting.tools[which], shapes[which]
         for chuck in chucks:
             if met := _deepest("chuck", chuck, covered):
                 yield row, met
@@ -82,19 +84,39 @@ def _met(cutting: Cutting) -> Iterator[tuple[int, Met]]:
             rest = shapely.difference(left, covered)
             found = list(_cut(cutting, row, tool, shape, way, left, spared, covered))
             yield from ((row, met) for met in found)
-            if way and not found and path.kind[row] == Kind.LINE:
+            if len(way) == 2 and not found and path.kind[row] == Kind.LINE:
                 wedge = left_by_lean(tool, way, shapely.intersection(left, covered))
                 spared = shapely.union(spared, wedge) if wedge.area > AREA else spared
             left = _held(rest)
-        for kind, body in behind(tool, height):
-            covered = _folded(swept(body, way) if way else shapely.Polygon(body + path.end[row][[2, 0]]))
+        for kind, body in bodies[which]:
+            covered = _folded(_swept([body], [way])[0])
             if met := _deepest(kind, left, covered):
                 yield row, met._replace(said=HOLDER) if kind == "insert" else met
                 left = _held(shapely.difference(left, covered))
 
 
+def _swept(shapes: list[Floats], ways: list[Floats]) -> list[Any]:
+    """What convex shapes (k, 2) cover, each along a way (m, 2) of its own; all hulls at once."""
+    points, owners, parts = [], [], 0
+    counts = []
+    for shape, way in zip(shapes, ways, strict=True):
+        places = way if len(way) > 1 else way[[0, 0]]
+        corners = places[:, None] + shape
+        pairs = np.concatenate([corners[:-1], corners[1:]], axis=1)
+        points.append(pairs.reshape(-1, 2))
+        owners.append(parts + np.repeat(np.arange(len(pairs)), pairs.shape[1]))
+        parts += len(pairs)
+        counts.append(len(pairs))
+    if not parts:
+        return []
+    hulls = shapely.convex_hull(shapely.multipoints(np.concatenate(points), indices=np.concatenate(owners)))
+    ends = np.cumsum(counts).tolist()
+    pieces = [hulls[end - count : end] for end, count in zip(ends, counts, strict=True)]
+    return [each[0] if len(each) == 1 else shapely.union_all(each) for each in pieces]
+
+
 def _cut(
-    cutting: Cutting, row: int, tool: Tool, shape: Floats, way: Contour | None, left: Any, spared: Any, covered: Any
+    cutting: Cutting, row: int, tool: Tool, shape: Floats, way: Floats, left: Any, spared: Any, covered: Any
 ) -> Iterator[Met]:
     """What is wrong with a row that takes material."""
     path = cutting.path
@@ -104,7 +126,7 @@ def _cut(
         return
     if not path.spindle[row] and (met := _deepest("spindle", left, covered)):
         yield met
-    if way and not path.synchronous[row] and (back := taken_by_back(tool, shape, way, left)):
+    if len(way) > 1 and not path.synchronous[row] and (back := taken_by_back(tool, shape, way, left)):
         yield Met("insert", SAID["insert"], back.place, back.depth)
 
 
@@ -115,16 +137,17 @@ def _height(cutting: Cutting, rows: Index, left: Any) -> float:
     return float(2 * max(places.max(initial=0.0), top, abs(low), abs(high)) + 10.0)
 
 
-def _way(cutting: Cutting, row: int) -> Contour | None:
-    """The way of a row; None where only its end counts, or where it has no length."""
+def _way(cutting: Cutting, row: int) -> Floats:
+    """The places (m, 2) of a row, chords of an arc; one where only its end counts, or where it has no length."""
     path = cutting.path
     start, end = path.start[row][[2, 0]], path.end[row][[2, 0]]
     arc = path.kind[row] == Kind.ARC
     if cutting.from_home[row] or (not arc and np.hypot(*(end - start)) < 1e-9):
-        return None
+        return end[None]
     if not arc:
-        return Contour([start, end], closed=False)
-    return _arc(start, end, path.centre[row][[2, 0]], float(path.sweep[row] * path.axis[row, 1]))
+        return np.array([start, end])
+    centre, sweep = path.centre[row][[2, 0]], float(path.sweep[row] * path.axis[row, 1])
+    return _arc(start, end, centre, sweep).points_within(CHORD_ERROR)
 
 
 def _arc(start: Floats, end: Floats, centre: Floats, sweep: float) -> Contour:
@@ -138,8 +161,8 @@ def _arc(start: Floats, end: Floats, centre: Floats, sweep: float) -> Contour:
 
 def _deepest(kind: str, body: Any, covered: Any) -> Met | None:
     """Where an area is deepest in a body, if it is in it deeper than it may touch."""
-    met = broad(shapely.intersection(body, covered), TOLERANCE)
-    if met.is_empty:
+    met = shapely.intersection(body, covered)
+    if met.area < AREA or (met := broad(met, TOLERANCE)).is_empty:
         return None
     circle = shapely.get_coordinates(shapely.maximum_inscribed_circle(met))[:1]
     points = np.vstack([shapely.get_coordinates(shapely.segmentize(met, APART)), circle])

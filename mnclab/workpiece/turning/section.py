@@ -99,15 +99,18 @@ class Drawing:
         starts, ends, element, _, _ = self.pieces
         return traced(area, starts, ends, labels(self.curves)[element], self.curves)
 
+    @cached_property
+    def _tree(self) -> Any:
+        starts, ends = self.pieces[:2]
+        return shapely.STRtree(shapely.linestrings(np.stack([starts, ends], axis=1)))
+
     def rows_of(self, contour: Contour) -> NDArray[np.int64]:
         """The last row (k,) that has cut each element of a traced contour, -1 of the blank."""
-        starts, ends, _, which, _ = self.pieces
-        tree = shapely.STRtree(shapely.linestrings(np.stack([starts, ends], axis=1)))
         upto = np.cumsum(contour.lengths) - contour.lengths / 2
         spots = shapely.points(contour.point_at(upto)[0])
-        element, piece = tree.query(spots, predicate="dwithin", distance=2 * CHORD_ERROR)
+        element, piece = self._tree.query(spots, predicate="dwithin", distance=2 * CHORD_ERROR)
         found = np.full(len(contour.points), -1, dtype=np.int64)
-        np.maximum.at(found, element, self.owners[which[piece]])
+        np.maximum.at(found, element, self.owners[self.pieces[3][piece]])
         return found
 
 

@@ -15,11 +15,13 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.vectors import length_of
+from mnclab.path.columns import Array
 from mnclab.path.inserts import FACE, angles_of, cutting_part, turns
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
+from mnclab.path.toolpath import Toolpath
 from mnclab.text.alarm import Alarm
-from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.cutting import CUTS, Cutting
 from mnclab.workpiece.turning.sweeping import Edge, Point, along_arc, along_line, edges, placed
 
 ON_AXIS = 1e-6  # mm: a tool without a kind that moves there is a drill
@@ -73,13 +75,14 @@ def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: f
     back = float(min(np.min(start[:, 0], initial=low), np.min(end[:, 0], initial=low)))
     room = _Room(low, high, radius, high - back + OUTSIDE, radius - least + OUTSIDE)
     body_of = _Bodies(room)
+    pitch, turns = (each.tolist() for each in threads_of(path))
     contours: list[Contour] = []
     owners: list[int] = []
     for k, row in enumerate(rows.tolist()):
-        if aside[k]:
+        if aside[k] or out_of_thread(path, row):
             continue
         a, b = (float(start[k, 0]), float(start[k, 1])), (float(end[k, 0]), float(end[k, 1]))
-        for contour in _of_row(cutting, row, a, b, axis, body_of):
+        for contour in _of_row(cutting, row, a, b, axis, (pitch[row], turns[row]), body_of):
             if room.meets(contour):
                 mirrored = box_of(contour)[0][1] < 0 and contour.bounds[0, 1] < 0
                 found = [contour, Contour(contour.points * (1, -1), -contour.bulge).reversed()] if mirrored else [contour]
@@ -88,6 +91,13 @@ def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: f
     if any(cutting.path.synchronous[row] for row in owners):
         notes.append("a thread is the profile of its insert in rings a pitch apart")
     return Strokes(contours, owners, tuple(notes))
+
+
+def out_of_thread(path: Toolpath, row: int) -> bool:
+    """Whether a rapid straight across lifts the insert out of the groove that the row before it has cut: it cuts nothing."""
+    if not row or path.kind[row] != Kind.RAPID or not path.synchronous[row - 1]:
+        return False
+    return bool(path.kind[row - 1] in CUTS and path.start[row, 2] == path.end[row, 2])
 
 
 def _check_angles(cutting: Cutting) -> None:
@@ -115,14 +125,17 @@ class _Bodies:
         return self._known[key]
 
 
-def _of_row(cutting: Cutting, row: int, start: Point, end: Point, axis: float, body_of: _Bodies) -> Iterator[Contour]:
+def _of_row(
+    cutting: Cutting, row: int, start: Point, end: Point, axis: float, thread: tuple[float, float], body_of: _Bodies
+) -> Iterator[Contour]:
+    """The contours of a row; `thread` its pitch and the turns before it."""
     path, tool = cutting.path, cutting.tool(row)
     if not tool.kind and tool.radius and max(abs(start[1]), abs(end[1])) < ON_AXIS and start[0] != end[0]:
         tool = replace(tool, kind="drill")
     if cutting.from_home[row]:
         start = end
     if path.synchronous[row] and start != end:
-        yield from _thread(tool, start, end, pitch_of(cutting, row), body_of)
+        yield from _thread(tool, start, end, *thread, body_of)
         return
     body = body_of(tool, start, end)
     sweep = float(path.sweep[row] * path.axis[row, 1]) if path.kind[row] == Kind.ARC else 0.0
@@ -144,17 +157,24 @@ def _centre(start: Point, end: Point, sweep: float) -> Point | None:
     return (start[0] + end[0]) / 2 - share * dr, (start[1] + end[1]) / 2 + share * dz
 
 
-def pitch_of(cutting: Cutting, row: int) -> float:
-    """How far a row with a locked spindle goes in a turn, mm; 0 where nobody knows."""
-    path = cutting.path
-    if math.isfinite(path.per_rev[row]):
-        return float(path.per_rev[row])
-    speed = abs(float(path.spindle[row]))
-    return float(path.feed[row]) / speed if speed and math.isfinite(path.feed[row]) else 0.0
+def threads_of(path: Toolpath) -> tuple[Array, Array]:
+    """Of each row (n,) how far it goes in a turn of a locked spindle, mm, 0 where nobody knows, and how often the spindle
+    has turned so when the row begins: rows of a thread follow each other."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        by_time = np.where(path.spindle != 0, path.feed / np.abs(path.spindle), 0.0)
+        pitch = np.nan_to_num(np.where(np.isfinite(path.per_rev), path.per_rev, by_time), posinf=0.0)
+        turns = np.linalg.norm(path.end - path.start, axis=1) / pitch
+    locked = path.synchronous & np.isin(path.kind, CUTS)
+    turns = np.where(locked & (pitch > 0), turns, 0.0)
+    before = np.cumsum(turns) - turns
+    fresh = ~(locked & np.append(False, locked[:-1]))
+    return pitch, before - np.maximum.accumulate(np.where(fresh, before, 0.0))
 
 
-def _thread(tool: Tool, start: Point, end: Point, pitch: float, body_of: _Bodies) -> Iterator[Contour]:
-    """The profile of the insert in every turn from the start on, that of a tap on its way in."""
+def _thread(
+    tool: Tool, start: Point, end: Point, pitch: float, turned: float, body_of: _Bodies
+) -> Iterator[Contour]:
+    """The profile of the insert in every whole turn, that of a tap on its way in; `turned`: turns before the start."""
     length = math.hypot(end[0] - start[0], end[1] - start[1])
     tap = not turns(tool)
     if tap and end[0] > start[0]:
@@ -170,7 +190,8 @@ def _thread(tool: Tool, start: Point, end: Point, pitch: float, body_of: _Bodies
             yield found
     if not pitch or length / pitch > MOST_TEETH:
         return
-    shares = pitch * np.arange(math.floor(length / pitch + 1e-9) + 1) / length
+    whole = np.arange(math.ceil(turned - 1e-9), math.floor(turned + length / pitch + 1e-9) + 1)
+    shares = np.clip(pitch * (whole - turned) / length, 0.0, 1.0)
     for share in shares.tolist():
         place = start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
         if tap:

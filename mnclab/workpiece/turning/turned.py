@@ -12,7 +12,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number
+from mnclab.text.given import check_number, shown
 from mnclab.workpiece.blank import Box, Revolved
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
@@ -28,6 +28,7 @@ PLANES = ("ZX", "XZ", "ZY", "YZ", "XY")
 class Turned(Workpiece):
     """`section`: closed contours (z, r), mm, from the axis of the spindle outwards; outer ones counter-clockwise, holes
     clockwise. `parted` are the pieces that fell off: the bar hangs in a chuck where its z is lowest.
+    Nothing is sampled: a `step` changes nothing.
     """
 
     def __init__(self, cutting: Cutting, step: float | None = None) -> None:
@@ -128,18 +129,20 @@ class Turned(Workpiece):
         return revolved.solid(self.section, self.rows, self.axis)
 
 
-def half_section(stock: Any) -> tuple[Contour, float, tuple[str, ...]]:
-    """The contour (z, r) of a lathe's blank, where its axis stands in x, mm, and what is to be said of it."""
-    if isinstance(stock, Box):
-        (x0, _, z0), (x1, _, z1) = stock.bounds.tolist()
-        radius = max(abs(x0), abs(x1))
-        told = (f"the box counts as a bar of radius {radius:g}",)
-        return Contour([(z0, 0.0), (z1, 0.0), (z1, radius), (z0, radius)]), 0.0, told
-    if not isinstance(stock, Revolved) or stock.axis != "Z":
-        raise Alarm("the blank of a lathe is a body about Z: cylinder(radius, low, high)", hint=f"it was {stock!r}")
-    z = stock.at[2]
-    outer = [(place + z, radius) for radius, place in stock.profile]
-    points = np.array([*outer, (outer[-1][0], stock.bore), (outer[0][0], stock.bore)])
+def half_section(body: Any) -> tuple[Contour, float, tuple[str, ...]]:
+    """The contour (z, r) of a lathe's blank or chuck, where its axis stands in x, mm, and what is to be said of it.
+
+    A box counts as a bar, or beside the axis as a ring, by its X.
+    """
+    if isinstance(body, Box):
+        (x0, _, z0), (x1, _, z1) = body.bounds.tolist()
+        inner, outer = max(x0, -x1, 0.0), max(abs(x0), abs(x1))
+        told = (f"the box counts as a bar of radius {outer:g}",)
+        return Contour([(z0, inner), (z1, inner), (z1, outer), (z0, outer)]), 0.0, told
+    if not isinstance(body, Revolved) or body.axis != "Z":
+        raise Alarm(f"on a lathe a blank and its chuck are boxes or bodies about Z, got {shown(body)}")
+    profile = [(place + body.at[2], radius) for radius, place in body.profile]
+    points = np.array([*profile, (profile[-1][0], body.bore), (profile[0][0], body.bore)])
     some = np.hypot(*(np.roll(points, -1, axis=0) - points).T) > 0
     contour = Contour(points[some])
-    return contour if contour.area > 0 else contour.reversed(), float(stock.at[0]), ()
+    return contour if contour.area > 0 else contour.reversed(), float(body.at[0]), ()

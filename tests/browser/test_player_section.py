@@ -1,0 +1,90 @@
+"""The player turns: the section on its canvas is that of the kernel at every place, forwards and backwards."""
+
+import numpy as np
+import pytest
+
+import mnclab
+from mnclab import Setup
+from mnclab.workpiece.blank import chuck, cylinder
+
+BAR = cylinder(31, -90, 1)
+PROGRAM = """M3
+T1
+S800 G97 G95 F0.25
+G00 X32 Z3
+G77 X20.3 Z-59.9 U20.3 W-59.9 D3
+G00 X21
+G77 X14 Z-25 U18 W-21 D3
+G00 X40 Z20
+T2
+G00 X10 Z2
+G01 Z0
+G14 X13 R-3
+G12 Z-26 R5
+G01 X20 Z-32
+Z-60
+X31
+G00 X60 Z50
+M5
+"""
+#: Whether material is seen at places (z, r), on the upper half and on the lower one.
+SEEN = """([item, share, places]) => {
+    const player = window.player, {run, part, picture} = player, {camera, ratio} = picture;
+    player.place = share === null ? player.afterItem(item)
+        : {item, t: run.begin[item] + share * (run.end[item] - run.begin[item]), done: false};
+    player.draw();
+    const pen = part.canvas.getContext("2d");
+    return [1, -1].map(side => places.map(([z, r]) => {
+        const [x, y] = camera.project([side * r, 0, z]);
+        return pen.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data[3] > 128;
+    }));
+}"""
+
+
+@pytest.fixture
+def run():
+    found = mnclab.run(PROGRAM, "jnc-t01", Setup(stock=BAR, fixtures=(chuck(31, -90),)))
+    assert found.ok, found.alarms
+    return found
+
+
+def clear_of_the_contour(run, row, points):
+    """Places that lie 0.5 mm or more off the kernel's section after a row, and whether it holds them."""
+    section = run.workpiece(row=row).section
+    inside = sum(contour.winding(points) for contour in section) != 0
+    away = np.min([contour.distance(points) for contour in section], axis=0) > 0.5
+    return points[away], inside[away]
+
+
+def test_the_section_is_that_of_the_kernel_forwards_and_backwards(browser, tmp_path, run):
+    page = browser.new_page(viewport={"width": 1366, "height": 768})
+    faults = []
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.goto(run.save(tmp_path / "part.html").as_uri())
+    page.wait_for_function("window.player")
+    dice = np.random.default_rng(4)
+    points = dice.uniform((-60, 1), (2, 32), (400, 2))
+    rows = [row for row in range(len(run.toolpath)) if run.toolpath.is_motion[row]]
+    for row in [*rows[::4], rows[-1], *rows[-2::-5]]:
+        item = page.evaluate("row => window.player.run.itemOfRow[row]", row)
+        places, inside = clear_of_the_contour(run, row, points)
+        for seen in page.evaluate(SEEN, [item, None, places.tolist()]):
+            assert seen == inside.tolist()
+    page.close()
+    assert faults == []
+
+
+def test_within_a_row_the_tool_has_cut_up_to_where_it_stands(browser, tmp_path, run):
+    """The first pass at radius 29 turns from Z3 to Z-59.9 away what lies outside."""
+    page = browser.new_page(viewport={"width": 1366, "height": 768})
+    page.goto(run.save(tmp_path / "part.html").as_uri())
+    page.wait_for_function("window.player")
+    path = run.toolpath
+    (row, *_) = np.flatnonzero((path.end[:, 2] < -59) & (path.kind == 1))
+    item = page.evaluate("row => window.player.run.itemOfRow[row]", int(row))
+    places = [[z, 30.2] for z in (-5, -15, -25, -35, -45, -55)]
+    for share in (0.5, 0.8, 0.3):
+        seen = page.evaluate(SEEN, [item, share, places])
+        z = page.evaluate("() => window.player.now().point[2]")
+        assert seen == [[place < z for place, _ in places]] * 2
+    page.close()

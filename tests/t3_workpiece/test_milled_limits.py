@@ -1,0 +1,63 @@
+"""What a map of heights cannot hold is said with the lines it comes from."""
+
+import pytest
+from milled import BLOCK, MILL, part
+from running import run
+
+from mnclab import Tool
+from mnclab.workpiece.blank import cylinder
+
+SLOT = "G0 X-10 Y20\nG1 Z-8\nG1 X70\nG0 Z50"
+HOLE = "G0 X30 Y20\nG1 Z-8\nG0 Z50"
+
+
+def test_a_plain_part_has_no_notes_and_is_exact():
+    left = part(SLOT)
+    assert left.notes == () and left.method == "exact sweep" and left.error == 1e-9
+    assert repr(left).startswith("<Milled: ") and "note" not in repr(left)
+
+
+@pytest.mark.parametrize("kind", ["tap", "thread mill"])
+def test_a_thread_is_shown_without_its_flanks(kind):
+    left = part(HOLE, Tool(radius=3, number=1, kind=kind, pitch=1))
+    (note,) = left.notes
+    assert note == f"a thread is shown without its flanks, at the radius of the {kind} (program:6)"
+    assert left.at(32.99, 20) == -8
+    assert "note: a thread" in repr(left)
+
+
+def test_a_cutter_with_a_thin_neck_may_leave_an_overhang():
+    slotter = Tool(radius=5, number=1, kind="mill", shank=(2, 3))
+    (note,) = part(SLOT, slotter).notes
+    assert note == "what overhangs an undercut is not shown: there the part is open upwards (program:7)"
+    shallow = SLOT.replace("Z-8", "Z-3")
+    assert part(shallow, slotter).notes == ()  # the neck stays above the blank
+    assert part(HOLE, slotter).notes == ()  # it takes all that is above it on its way down
+    assert part(SLOT, Tool(radius=5, number=1, kind="mill", shank=(6, 3))).notes == ()
+
+
+def test_a_pass_under_what_is_cut_already_is_no_undercut():
+    deeper = "G0 X-10 Y20\nG1 Z-3\nG1 X70\nG1 Z-6\nG1 X-10\nG0 Z50"
+    assert part(deeper, Tool(radius=5, number=1, kind="mill", shank=(2, 3))).notes == ()
+
+
+def test_the_bore_of_a_lying_tube_is_not_shown():
+    (note,) = part("G0 X0", stock=cylinder(6, 0, 40, axis="X", bore=3)).notes
+    assert note == "the bore of a lying blank is not shown"
+
+
+def test_rows_of_a_tilted_tool_are_left_out_and_told():
+    text = """TOOL CALL 1 Z S1000 F500
+L X+10 Y+20 Z+50 R0 FMAX M3
+L Z-2 F500
+L X+50
+L Z+50 FMAX
+CYCL DEF 19.0 WORKING PLANE
+CYCL DEF 19.1 A+0 B+45 C+0 F5000 ABST50
+L X+10 Y+20 Z+50 R0 FMAX
+L Z-2 F500
+"""
+    left = run(text, "tnc-620", tools={1: MILL}, stock=BLOCK).workpiece()
+    (note,) = left.notes
+    assert note == "3 rows of a tilted tool are left out (program:6, program:8, program:9)"  # with the row that swivels
+    assert left.at(30, 20) == -2 and left.removed == pytest.approx((10 * 40 + 25 * 3.14159265) * 2, rel=1e-3)

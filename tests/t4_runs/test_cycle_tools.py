@@ -1,0 +1,64 @@
+"""A control without tool words: every cycle is cut with the tool that is made for it."""
+
+import numpy as np
+import pytest
+
+import mnclab
+from mnclab import Setup, Tool
+from mnclab.machine.magazine import LATHES
+from mnclab.runs.material import cutting_of
+from mnclab.workpiece.blank import cylinder
+
+HEAD = "S800\nM3\nF20\nZ200~\nX4000~\n"
+BAR = cylinder(20, -60, 0)
+OUTSIDE = "G77*~\nX3000*\nZ-2000*\nF2000*\nP300\n"
+CYCLES = {
+    "G77": (OUTSIDE, 1),
+    "G70": ("G70*~\nX3600*\nZ-2000*\nF2000\n", 2),
+    "G78": ("G78*~\nX0*\nZ-200*\nF2000*\nP80\n", 1),
+    "G73": ("X0~\nG73*\nZ-3000*\nF1000*\nP1000\n", 6),
+    "inside G77": ("X1000~\nG77*~\nX2000*\nZ-1500*\nF1000*\nP200\n", 5),
+    "G74": ("X2000~\nG74*~\nX3000*\nZ-200*\nF500*\nP400\n", 7),
+    "G75": ("X4400~\nZ-1000~\nG75*~\nX3000*\nZ-2000*\nF500*\nP400\n", 3),
+    "G31": ("X4400~\nZ450~\nG31*\nX4000*\nZ-2000*\nF15000*\nP92*\nP25\n", 4),
+}
+
+
+def tools(text, setup=None):
+    run = mnclab.run(HEAD + text, "nc-31", setup or Setup(stock=BAR))
+    assert run.ok
+    cutting = cutting_of(run)
+    return run.toolpath, [cutting.tool(row) for row in range(len(cutting))]
+
+
+@pytest.mark.parametrize("code", CYCLES)
+def test_a_cycle_has_its_tool(code):
+    text, number = CYCLES[code]
+    path, held = tools(text)
+    rows = [row for row, move in enumerate(path) if move.label.startswith(code.split(" ")[-1])]
+    assert rows and {held[row] for row in rows} == {LATHES[number]}
+
+
+def test_a_move_of_no_cycle_is_a_roughing_one_and_a_rapid_brings_the_next_tool():
+    path, held = tools("X3800\nZ-1000\nX4400~\nZ200~\nX0~\n" + CYCLES["G73"][0])
+    cut = (path.label == 0) & (path.kind == mnclab.Kind.LINE)
+    assert {held[row] for row in np.flatnonzero(cut)} == {LATHES[1]}
+    assert {held[row] for row in np.flatnonzero(path.is_motion & ~cut)} == {LATHES[6]}
+
+
+def test_a_tool_0_that_cuts_stands_for_all_and_a_number_that_is_missing_for_none():
+    blade = Tool(width=2, kind="grooving")
+    assert set(tools(OUTSIDE, Setup(tools={0: blade}, stock=BAR))[1]) == {blade}
+    _, held = tools(OUTSIDE + CYCLES["G73"][0], Setup(tools={1: LATHES[1]}, stock=BAR))
+    assert {tool.kind for tool in held} == {"turning", ""}
+
+
+def test_a_control_with_tool_words_says_itself_what_cuts():
+    run = mnclab.run("M3 S500\nG94 F100\nG00 X18 Z2\nG01 Z-10\n", "jnc-t01", Setup(stock=BAR))
+    assert run.workpiece().removed == 0
+
+
+def test_a_blade_for_faces_leaves_a_groove_beside_its_tip():
+    """The tip is the corner nearer to the axis: a groove from 12 to 15, 4 deep, is π (15² − 12²) 4 mm³."""
+    run = mnclab.run("M3 S500 T7\nG94 F100\nG00 X12 Z2\nG01 Z-4\nG00 Z2\n", "jnc-t01", Setup(stock=BAR))
+    assert run.workpiece().removed == pytest.approx(np.pi * (15**2 - 12**2) * 4) and run.collisions() == ()
