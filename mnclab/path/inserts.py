@@ -113,9 +113,9 @@ def holder(tool: Tool, size: float = 0.0, reach: float = 0.0) -> Floats:
         corners = np.array([(0.3 * size, 0.2 * size), (4 * size, 0.2 * size), (4 * size, 0.2 * size + deep)])
         corners = np.vstack([corners, (0.3 * size, 0.2 * size + deep)])
     elif tool.kind == "thread" and tool.cutting_length:
-        left = float(insert(tool, size).bounds[0, 0])
-        high = 0.8 * max(size, 1.5 * tool.cutting_length)
-        corners = np.array([(left, high), (left + 0.8 * size, high), (left + 0.8 * size, 2.5 * high), (left, 2.5 * high)])
+        front, high = float(insert(tool, size).bounds[0, 0]), 0.8 * max(size, 1.5 * tool.cutting_length)
+        back = front + 0.8 * size
+        corners = np.array([(front, high), (back, high), (back, 2.5 * high), (front, 2.5 * high)])
     else:
         outline = insert(replace(tool, corner=0.0, kind="turning", hand="right"), size).points
         corners = outline.mean(axis=0) + size * np.array([(-0.25, 0.0), (0.55, 0.0), (0.55, 1.5), (-0.25, 1.5)])

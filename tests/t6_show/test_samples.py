@@ -21,3 +21,13 @@ def test_a_sample_runs_clean(path):
 def test_a_sample_names_its_origin_in_its_first_line(path):
     first = path.read_text("utf-8").splitlines()[0]
     assert first.rstrip().endswith("Made for this project.") or "Source:" in first
+
+
+LATHES = [path for path in PROGRAMS if path.parent.name in ("jnc-t01", "nc-31")]
+
+
+@pytest.mark.parametrize("path", LATHES, ids=lambda path: path.name)
+def test_what_a_lathe_shows_speaks_of_no_mill(path, tmp_path):
+    run = mnclab.run(path)
+    shown = run.report(tmp_path / "page.html").read_text("utf-8") + repr(run.setup) + run._repr_html_()
+    assert "end mill" not in shown and "roughing insert" in repr(run.setup)
