@@ -124,13 +124,14 @@ def draw_relief(ax: Axes, seen: Relief, image: Array, order: float = 0.8) -> Non
 def _coloured(part: Milled, seen: Relief, colour: str) -> tuple[Array, list[tuple[str, Any]], Any]:
     """The image (ny, nx, 4), the colours that a legend names, and a scale: title, ends and map, where there are many."""
     names: list[tuple[str, Any]] = []
-    scale = None
+    scale: Any = None
     if colour == "depth":
         top = float(part.cutting.stock.bounds[1, 2])
         depth = np.where(seen.solid, top - seen.z, 0.0)
         thick = float(np.ptp(part.cutting.stock.bounds[:, 2]))
         deepest = max(min(ROOM * float(depth.max()), thick), 1e-9)
-        shades, scale = DEPTHS(depth / deepest)[..., :3], ("depth, mm", 0.0, deepest, DEPTHS)
+        shades = DEPTHS(depth / deepest)[..., :3]
+        scale = ("depth, mm", 0.0, deepest, DEPTHS) if depth.any() else None  # nothing is deep where all holes go through
     else:
         row = seen.rows(part)
         values = getattr(part.cutting.path, colour)[row]
