@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mnclab.path.columns import Array
+from mnclab.path.columns import Array, Mask
 from mnclab.show import scene as scenes
 from mnclab.show.export_mesh import RAPID, STOCK
 from mnclab.text.alarm import Alarm
@@ -67,10 +67,10 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
     if colour == "none":
         plotter.add_mesh(mesh, color=plain, **LOOK)
     elif colour == "depth":
-        title, values = _depths(workpiece, solid.points)
-        mesh = _apart(solid)
-        mesh.point_data[title] = np.concatenate([values, np.full(len(values), np.nan)])
-        cut = values[solid.triangles[solid.row >= 0]]
+        mesh, uncut = _apart(solid)
+        title, values = _depths(workpiece, mesh.points)
+        mesh.point_data[title] = np.where(uncut, np.nan, values)
+        cut = values[~uncut]
         limits = (0.0, float(cut.max() if cut.size and cut.max() > 0 else values.max()))
         bar = scenes.BAR | BESIDE | {"title": title, "fmt": "%.3g"}
         plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, nan_color=plain, scalar_bar_args=bar, **LOOK)
@@ -83,12 +83,14 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
         plotter.add_mesh(edges, color=EDGE, line_width=1.3, name="edges of the part")
 
 
-def _apart(solid: Solid) -> Any:
-    """The mesh of a body with points of its own, the second half of all, for what nothing cut."""
+def _apart(solid: Solid) -> tuple[Any, Mask]:
+    """The mesh of a body where what nothing cut has points of its own, and which points (n,) these are."""
     import pyvista
 
-    uncut = np.where(solid.row < 0, len(solid.points), 0)
-    return pyvista.PolyData.from_regular_faces(np.tile(solid.points, (2, 1)), solid.triangles + uncut[:, None])
+    doubled = solid.triangles + np.where(solid.row < 0, len(solid.points), 0)[:, None]
+    used, index = np.unique(doubled, return_inverse=True)
+    points = solid.points[used % len(solid.points)]
+    return pyvista.PolyData.from_regular_faces(points, index.reshape(doubled.shape)), used >= len(solid.points)
 
 
 def _depths(workpiece: Workpiece, points: Array) -> tuple[str, Array]:
