@@ -9,11 +9,12 @@ import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
 from mnclab.path.columns import Mask
+from mnclab.path.kinds import Kind
 from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
 from mnclab.text.program import NUMBER, Program
-from mnclab.workpiece.blank import blank
+from mnclab.workpiece.blank import Revolved, blank
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
@@ -83,6 +84,14 @@ def _placed(run: Run, fixture: Any) -> Any:
         return fixture.placed(frame)
     body = blank(fixture)
     return body.moved(-run.toolpath.origin) if body else body
+
+
+def rows_from_home(run: Run) -> int:
+    """How many rows of a path bring the tool from home to a blank; none where there is no blank, or nothing else."""
+    path = run.toolpath
+    known = start_known(path, run.setup.start)[1]
+    first = known - 1 if 0 < known <= len(path) and path.kind[known - 1] != Kind.RAPID else known
+    return first if run.stock is not None and first < len(path) else 0
 
 
 def workpiece(
@@ -163,6 +172,12 @@ def _kept(run: Run, key: tuple[Any, ...], stock: Any, make: Callable[[], Made]) 
 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:
     """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
-    if run.stock is None:
+    stock = run.stock
+    if stock is None:
         return None, Collisions()
-    return cutting_of(run), collisions(run) if len(run.toolpath) <= JUDGED else Collisions()
+    judged = len(run.toolpath) <= JUDGED
+    if run.toolpath.lathe and isinstance(stock, Revolved):
+        if stock.axis != "Z":  # no lathe turns a body that lies across
+            return None, Collisions()
+        judged &= not any(stock.at[:2])  # what runs out of true is not judged
+    return cutting_of(run), collisions(run) if judged else Collisions()

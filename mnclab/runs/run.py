@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.machine.control import Control
-from mnclab.machine.cutting_rows import start_known, stock_of
+from mnclab.machine.cutting_rows import stock_of
 from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
 from mnclab.machine.settling import paths, shifted, stop_at_travel
@@ -209,9 +209,9 @@ class Run:
         return material.collisions(self, stock, step)
 
     @property
-    def known_from(self) -> int:
-        """The first row of the path whose start somebody has said: before it the tool comes from home."""
-        return start_known(self.toolpath, self.setup.start)[1]
+    def rows_from_home(self) -> int:
+        """How many rows of the path bring the tool from home to a blank, from where nobody has said; pictures leave them out."""
+        return material.rows_from_home(self)
 
     def removal(self, limits: Limits | str | None = None, *, step: float | None = None) -> Removal:
         """How much material goes by row, line and tool, and how fast; `limits` as in `profile`, `step` as in `workpiece`."""
@@ -251,6 +251,9 @@ class Run:
 
     def player(self, limits: Limits | str | None = None, **options: Any) -> Player:
         """A page to play the run in: forwards and backwards, by block, move or time; orbit, pan and zoom.
+
+        Where there is a blank the page cuts it as it plays, on a lathe in section; of runs that are not too long it marks
+        the collisions.
 
         `limits` are those of `profile`. `height` in pixels, `theme` "auto", "light" or "dark", `speed` 1
         for real time. `.save(path)` writes it as a file that needs no network, as `run.save("part.html")` does.

@@ -59,8 +59,9 @@ def scene(
     """The path of a run with its tool and blank, seen from the front, right and above.
 
     `colour` of the cuts: "kind", "feed" (mm/min), "tool", "z" (mm) or "line"; rapids are thin and red in all of them.
-    `row`: where the tool stands, by default at the end. `stock`: whether the blank of the setup or the program
-    is shown, or another one, mm in the coordinates of the path: two opposite corners (3,) or a body of
+    Beside a blank the first approach, from a place that nobody has said, is left out. `row`: where the tool stands, by
+    default at the end. `stock`: whether the blank of the setup or the program is shown, or another one, mm in the
+    coordinates of the path: two opposite corners (3,) or a body of
     `workpiece.blank`. `part` shows what is left of the blank after `row` in place of it. `size` in pixels.
 
     An Alarm says in a sentence what is missing: pyvista, or something for VTK to draw with.
@@ -70,7 +71,7 @@ def scene(
     check_drawing()
     path = run.toolpath
     plotter = new_plotter(f"scene of {path!r}", size)
-    _add_path(plotter, path, colour)
+    _add_path(plotter, path[run.rows_from_home :], colour)
     if tool and (body := solids.tool_of(run, row)):
         look: dict[str, Any] = {"specular": 0.4, "smooth_shading": True, "split_sharp_edges": True}
         plotter.add_mesh(_surface(body), color=TOOL, name="tool", **look)

@@ -194,6 +194,15 @@ def test_only_a_rapid_in_the_material_is_red(opened):
     assert (shown(page, len(run.toolpath) - 4)[1] < 0).all()
 
 
+def test_a_collision_is_said_marked_and_leads_to_its_move(opened):
+    run = run_block()
+    page = opened(run)
+    assert page.locator(".line.collision code").all_inner_texts() == []  # further down
+    page.get_by_role("button", name="collision in line 32: rapid motion in material").click()
+    assert page.locator(".line.now code").all_inner_texts() == ["N32 G0 Z-6"]
+    assert page.locator(".line.collision code").all_inner_texts() == ["N32 G0 Z-6", "N33 G0 Y42"]
+
+
 def test_an_unknown_start_cuts_nothing(opened):
     """The first rapid would come from inside the block."""
     run = run_block(program="N1 G17 G90 G54 T1 S3000 M3\nN2 G0 X40 Y40 Z3\nN3 G1 Z-2 F500\n", stock=((-30, -30, -9), (60, 60, 9)))

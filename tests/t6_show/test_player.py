@@ -21,6 +21,7 @@ from mnclab.runs.run import run_program
 from mnclab.show.player.logs import plain
 from mnclab.show.player.packing import Packer
 from mnclab.show.player.payload import payload
+from mnclab.workpiece.blank import cylinder
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = sorted(
@@ -381,3 +382,46 @@ def test_half_a_letter_does_not_stop_the_page():
     assert "?.mnc" in page and Data(payload(run, run.profile())).header["programs"][0]["text"].startswith(
         "G0 X1 // ?\n"
     )
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("control", ["mnc", "jnc-t01"])
+def test_with_a_part_twenty_thousand_moves_stay_below_two_megabytes(control):
+    k = np.arange(20_000)
+    if control == "mnc":
+        name, *columns = "XYZ", np.cos(k / 40) * 45, np.sin(k / 40) * 40, -k / 4000
+        head, stock = "N1 G90 G54 T1 S3000 M3 F1500", ((-50, -50, -20), (50, 50, 0))
+    else:
+        name, *columns = "XZ", 30 - k / 1000 + np.sin(k / 9) / 5, -np.abs(k % 400 - 200) / 4
+        head, stock = "M3 T1 S800 G97 G94 F200", cylinder(31, -90, 1)
+    lines = ["G1 " + " ".join(f"{axis}{v:.3f}" for axis, v in zip(name, row)) for row in zip(*columns)]
+    run = mnclab.run(head + "\n" + "\n".join(lines) + "\n", control, Setup(stock=stock))
+    assert run.ok and len(run.toolpath.motion) >= 19_000
+    player = run.player()
+    assert player.cutting is not None and len(player.page.encode()) < 2_000_000
+
+
+@pytest.mark.parametrize(
+    ("control", "stock", "cut"),
+    [
+        ("mnc", ((0, 0, -20), (60, 40, 0)), "part"),
+        ("mnc", cylinder(20, 0, 60, "X"), "part"),
+        ("jnc-t01", cylinder(30, -60, 1), "section"),
+        ("jnc-t01", cylinder(30, -60, 1, at=(2, 0, 0)), "section"),
+        ("jnc-t01", cylinder(30, -60, 1, "X"), None),
+        ("mnc", None, None),
+    ],
+)
+def test_a_page_has_the_part_where_there_is_a_blank(control, stock, cut):
+    run = mnclab.run("T1 S800 M3\nG0 X10 Z5\nG1 Z-5 F100\nX20\n", control, Setup(stock=stock))
+    player = run.player()
+    header = Data(payload(run, player.profile, player.cutting, player.collisions)).header
+    assert [name for name in ("part", "section") if header[name]] == ([cut] if cut else [])
+
+
+def test_collisions_are_said_with_their_rows():
+    run = mnclab.run("T1 S800 M3\nG0 X10 Y10 Z5\nG0 Z-5\nG0 Z5\n", "mnc", Setup(stock=((0, 0, -20), (60, 40, 0))))
+    player = run.player()
+    (told,) = Data(payload(run, player.profile, player.cutting, player.collisions)).header["collisions"]
+    assert (told["kind"], told["line"], told["program"]) == ("rapid", 3, 0)
+    assert run.toolpath.line[told["row"]] == 3

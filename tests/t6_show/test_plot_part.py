@@ -118,7 +118,7 @@ def test_the_part_lies_under_the_path(run):
 def test_a_first_approach_comes_from_home(run):
     """Beside a blank, from an unknown start: no rapid from the zero point, no mark on it; from a known start both."""
     home = mnclab.run(TEXT, "g43", Setup(tools=TOOLS, stock=STOCK))
-    assert home.known_from == 3 and run.known_from == 0
+    assert home.rows_from_home == 3 and run.rows_from_home == 0
     above, side = home.plot().axes
     assert "from home" in texts(home.plot()) and "start" not in texts(home.plot())
     (mark,) = [line for line in above.lines if line.get_label() == "from home"]
@@ -126,7 +126,7 @@ def test_a_first_approach_comes_from_home(run):
     assert _first(above, "rapid") == [15, 20] and len(side.texts) == len(above.texts) + 1  # the arrow from above
     assert _first(run.plot().axes[0], "rapid") == [0, 0] and "start" in texts(run.plot())
     without = mnclab.run(TEXT, "g43", Setup(tools=TOOLS))
-    assert "start" in texts(without.plot())
+    assert "start" in texts(without.plot()) and without.rows_from_home == 0
 
 
 def _first(ax: Axes, name: str) -> list[float]:

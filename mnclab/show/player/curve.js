@@ -53,6 +53,7 @@ class Curve {
     }
     pen.fillStyle = colours.alarm;  // where something collides: a wedge at the upper edge
     for (const {row} of this.run.header.collisions) {
+      if (row < 0) continue;  // before the first one
       const x = this.run.begin[this.run.itemOfRow[row]] / total * w;
       trace(pen, [[x - 4, 0], [x + 4, 0], [x, 8]]);
       pen.fill();

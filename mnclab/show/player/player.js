@@ -294,8 +294,10 @@ class PlayerPage {
     this.find("help").setAttribute("aria-expanded", !box.hidden);
   }
   alarms() {
-    const {alarms, more, collisions} = this.run.header, first = alarms.find(alarm => alarm.severity === "alarm") || alarms[0], box = this.find("alarm");
-    if (!first) return this.collided(collisions, box);
+    const {alarms, more, collisions} = this.run.header, worst = alarms.find(alarm => alarm.severity === "alarm"), box = this.find("alarm");
+    if (!worst && collisions.length) return this.collided(collisions, box);
+    const first = worst || alarms[0];
+    if (!first) return;
     box.hidden = false;
     box.className = first.severity;
     const where = first.line ? ` in line ${first.line}${first.program ? ` of ${this.listing.name(first.program)}` : ""}` : "";
@@ -303,12 +305,11 @@ class PlayerPage {
     box.addEventListener("click", () => first.line && this.goLine(first.program, first.line));
   }
   collided(collisions, box) {  // where there is no alarm, the first collision has its place
-    if (!collisions.length) return;
     const [{line, program, message}] = collisions, rest = collisions.length - 1;
     box.hidden = false;
     box.textContent = `collision in line ${line}${program ? ` of ${this.listing.name(program)}` : ""}: ${message}`
       + (rest ? ` (and ${rest} more)` : "");
-    box.addEventListener("click", () => this.go(this.afterItem(this.run.itemOfRow[collisions[0].row])));
+    box.addEventListener("click", () => this.jump(() => this.afterItem(collisions[0].row < 0 ? -1 : this.run.itemOfRow[collisions[0].row])));
   }
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;

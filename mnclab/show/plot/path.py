@@ -177,18 +177,12 @@ def plot_run(
     if part or (run.toolpath.lathe and stock and run.stock and len(run.toolpath) <= MOST):
         given["part"] = run.workpiece()
     path = run.toolpath
-    first = _arrival(path, run.known_from) if run.stock else 0
-    if first:
+    if first := run.rows_from_home:
         path, given["home"] = path[first:], True
         if isinstance(insert := options.get("insert"), int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
     return plot_path(path, ax, view, **{**given, **options}, marks=marks)
 
-
-def _arrival(path: Toolpath, known: int) -> int:
-    """The row with which a picture begins whose rows before `known` come from home."""
-    first = known - 1 if known and path.kind[known - 1] != Kind.RAPID else known
-    return first if first < len(path) else 0
 
 
 # --- what is drawn ---------------------------------------------------------------------------------------------------
