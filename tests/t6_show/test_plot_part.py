@@ -66,6 +66,12 @@ def test_a_scale_says_how_deep_colours_are(run):
     assert "line 5" in texts(run.workpiece().plot(colour="line"))
 
 
+def test_a_part_with_nothing_but_through_holes_has_no_scale():
+    text = "G17 G90 G54\nT2 M6 S2000 M3\nG0 X50 Y10 Z5\nG1 Z-30 F300\nG0 Z20\n"
+    figure = mnclab.run(text, "g43", Setup(tools=TOOLS, stock=STOCK)).workpiece().plot()
+    assert len(figure.axes) == 1 and "depth, mm" not in texts(figure)
+
+
 def test_sections_stand_below_with_their_letters(run):
     part = run.workpiece()
     figure = part.plot(section=["XZ", "XZ"], at=[20, 10])
