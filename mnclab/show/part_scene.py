@@ -68,8 +68,9 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
         title, values = _depths(workpiece, solid.points)
         mesh.point_data[title] = values
         cut = values[solid.triangles[solid.row >= 0]]
-        limits = (0.0, float(cut.max() if cut.size and cut.max() > 0 else values.max()))
-        bar = scenes.BAR | {"title": title, "fmt": "%.3g"}
+        deep = not workpiece.cutting.lathe and cut.size and cut.max() > 0
+        limits = (0.0, float(cut.max() if deep else values.max()))
+        bar = scenes.BAR | {"title": title + "\n", "fmt": "%.3g"}
         plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, scalar_bar_args=bar, **LOOK)
     else:
         values = getattr(workpiece.cutting.path, colour)[solid.row].astype(np.float64)
