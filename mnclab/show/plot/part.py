@@ -24,7 +24,6 @@ from mnclab.show.plot.sections import FIXTURE, draw_fixtures, draw_section, held
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, shown
 from mnclab.workpiece.collision import Collision
-from mnclab.workpiece.milling.lattice import THIN
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
