@@ -20,7 +20,7 @@ from mnclab.path.inserts import FACE, angles_of, cutting_part, turns
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, several
 from mnclab.workpiece.cutting import CUTS, Cutting
 from mnclab.workpiece.turning.sweeping import Edge, Point, along_arc, along_line, edges, placed
 
@@ -69,7 +69,7 @@ def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: f
     notes: list[str] = []
     aside = (path.start[rows, 1] != path.end[rows, 1]) | ((path.kind[rows] == Kind.ARC) & (np.abs(path.axis[rows, 1]) < 0.5))
     if aside.any():
-        notes.append(f"{aside.sum()} rows leave the plane of Z and X: they are not in the section")
+        notes.append(f"{several(int(aside.sum()), 'row')} out of the plane of Z and X: not in the section")
     _check_angles(cutting)
     least = float(min(np.min(start[:, 1], initial=0.0), np.min(end[:, 1], initial=0.0)))
     back = float(min(np.min(start[:, 0], initial=low), np.min(end[:, 0], initial=low)))
