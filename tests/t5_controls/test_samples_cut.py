@@ -119,7 +119,7 @@ RADII = {
     "nc-31/bush": ({-1: 25, -30: 25}, {-1: 15, -20: 15, -30: 5, -40: 5}),
     "nc-31/shaft": ({-25: 10.5, -29: 10.5, -35: 20}, {}),
     "nc-31/square": ({-5: 15, -18: 15, -21: 20}, {}),
-    "nc-31/spiral_groove": ({-2: 50, -30: 50}, {}),
+    "nc-31/spiral_groove": ({-1.01: 50, -30: 50}, {}),  # no deeper than 1 mm; the turns of a feed not locked are not seen
 }
 
 
