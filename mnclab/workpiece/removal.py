@@ -65,13 +65,21 @@ class Removal:
 
     @property
     def mean(self) -> float:
-        """mm³/min while something is taken away."""
-        return 60 * self.volume / self.time if self.time else 0.0
+        """mm³/min while something is taken away at feed: what a rapid tears away is no rate."""
+        return self._mean(self._at_feed)
+
+    def _mean(self, rows: Any) -> float:
+        seconds = float(self.seconds[rows & (self.volumes > 0)].sum())
+        return 60 * float(self.volumes[rows].sum()) / seconds if seconds else 0.0
+
+    @cached_property
+    def _at_feed(self) -> Any:
+        return np.isin(self.workpiece.cutting.path.kind, CUTS)
 
     @property
     def largest(self) -> Fastest | None:
         """The row at feed with the largest rate; None if none cuts."""
-        return self._fastest(np.isin(self.workpiece.cutting.path.kind, CUTS))
+        return self._fastest(self._at_feed)
 
     def by(self, what: str = "line") -> dict[Any, float]:
         """mm³ by "tool", or by "line": of a program that was called a pair (program, line), as `Profile.time_by` has it."""
@@ -104,7 +112,6 @@ class Removal:
 
     def rows(self) -> list[tuple[str, ...]]:
         """A row of texts for each tool that took something away, and for all of them: as `HEAD` has it."""
-        path = self.workpiece.cutting.path
         numbers = list(self.by("tool"))
         cut_by = self._tools
         groups = [(self._tool(number), cut_by == number) for number in numbers]
@@ -113,9 +120,9 @@ class Removal:
         for name, rows in groups:
             taken = float(self.volumes[rows].sum())
             seconds = float(self.seconds[rows & (self.volumes > 0)].sum())
-            most = self._fastest(rows & np.isin(path.kind, CUTS))
+            most = self._fastest(rows & self._at_feed)
             told.append((
-                name, volume(taken), f"{seconds:.2f} s", f"{volume(60 * taken / seconds if seconds else 0.0)}/min",
+                name, volume(taken), f"{seconds:.2f} s", f"{volume(self._mean(rows & self._at_feed))}/min",
                 f"{volume(most.rate)}/min" if most else "", self.place(most) if most else "",
             ))  # fmt: skip
         return told
