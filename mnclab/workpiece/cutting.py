@@ -89,5 +89,6 @@ class Cutting:
 
 
 def tool_exists(tool: Tool) -> bool:
-    """Whether a tool has a body: a mill a radius, a lathe tool its kind."""
-    return tool.effective_radius > 0 or tool.kind in LATHE
+    """Whether a tool has a body: a mill a radius, a lathe tool its kind, or a nose, an angle or a width."""
+    edge = tool.corner or tool.main_angle or tool.auxiliary_angle or tool.width
+    return bool(tool.effective_radius > 0 or tool.kind in LATHE or edge)

@@ -6,7 +6,7 @@
 A tool is a convex body of facets, turned about its axis and high enough to stand out of the blank. Along a straight move it
 sweeps the convex hull of both its ends; an arc is a chain of chords. All hulls are taken away from the blank together.
 Circles are polygons of the same area. Everything is done twice, once with half as many corners and chords: `removed` (mm³)
-is the finer answer, `coarse` the other, so a quarter of what lies between them is about how far the finer one is off.
+is the finer answer, `coarse` the other, so a third of what lies between them is about how far the finer one is off.
 `heights`: places x, y and the height of the material, by rays that start above; only where rays beside them agree.
 """
 

@@ -12,7 +12,9 @@ from mnclab.workpiece.milling import milled
 
 FILE = Path(__file__).parents[1] / "authorities" / "solids.json"
 RECORDS = json.loads(FILE.read_text())["programs"]
-FACETS = 0.008  # mm, by which a facet of the recorded solids misses a round surface
+FACETS = 0.012  # mm, by which a facet of the recorded solids misses a round surface: 0.004, three times that where it is steep
+# One recorded ray passes the ring that a ball of 2 mm cut 1 mm deep, 15 mm about (34.142, 20.225), and says 0: where it was
+MISSED = ("many_tools 4", 28.85, 34.81)
 
 pytestmark = pytest.mark.deep
 
@@ -31,6 +33,9 @@ def test_volume_and_heights(record):
     assert part.method == "exact sweep"
     assert part.removed == pytest.approx(record["removed"], rel=1e-3)
     x, y, z = np.array(record["heights"]).T
+    missed = (record["name"] == MISSED[0]) & (x == MISSED[1]) & (y == MISSED[2])
+    beside = np.abs(np.hypot(x - 34.142, y - 20.225) - 15)
+    z[missed] = 1 - np.sqrt(4 - beside[missed] ** 2)  # the closed form
     assert np.abs(part.at(x, y) - z).max() < FACETS
 
 

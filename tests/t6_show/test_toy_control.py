@@ -13,6 +13,7 @@ from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.trial import number
 from mnclab.machining.steps import Go
 from mnclab.show import forms, magic
+from mnclab.show.forms import DRAWING
 from mnclab.show.plot import colours
 
 FUNCTIONS, CYCLES = FunctionTable(), CycleTable()
@@ -82,4 +83,5 @@ def test_it_can_be_named_wherever_a_control_is_named():
 def test_its_files_open_in_the_editor(tmp_path):
     live = mnclab.editor(tmp_path / "part.toy")
     live.text.value = "G81 P7\n"
+    DRAWING.submit(lambda: None).result()  # a busy machine may still be drawing
     assert live.run.control is TOY and live.run.toolpath.bounds[0, 2] == -7

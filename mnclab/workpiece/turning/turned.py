@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, shown
 from mnclab.workpiece.blank import Box, Revolved
 from mnclab.workpiece.cutting import Cutting
@@ -72,7 +72,7 @@ class Turned(Workpiece):
 
     @property
     def notes(self) -> tuple[str, ...]:  # type: ignore[override]
-        fell = (f"{len(self.parted)} pieces fell off",) if self.parted else ()
+        fell = (f"{several(len(self.parted), 'piece')} fell off",) if self.parted else ()
         return (*self._told, *self._strokes.notes, *fell)
 
     @property
