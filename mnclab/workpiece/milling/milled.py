@@ -89,7 +89,8 @@ class Milled(Workpiece):
     @cached_property
     def surface(self) -> Sweep:
         """What sections, solids and pictures ask for heights: the exact sweep, of very many moves the map."""
-        return Mapped(self.raster, self.moves, self.blank_at, self.heights) if self.many else self.sweep
+        sweep = self.sweep
+        return Mapped(sweep.raster, sweep.moves, sweep.faces, sweep.top, self.heights) if self.many else sweep
 
     def at(self, x: ArrayLike, y: ArrayLike) -> Array | float:
         """The height of the material at a place or at places, mm: exact, whatever the step."""
