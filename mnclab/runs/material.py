@@ -14,7 +14,7 @@ from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
 from mnclab.text.program import NUMBER, Program
-from mnclab.workpiece.blank import Revolved, blank
+from mnclab.workpiece.blank import Revolved, blank, volume_of
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
@@ -34,6 +34,8 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     body = run.stock if stock is None else blank(stock)
     if body is None:
         raise no_blank() if stock is None else Alarm(f"stock must be two corners or a blank, got {shown(stock)}")
+    if not volume_of(body) > 0:
+        raise Alarm(f"there is nothing to cut: the blank is {shown(body)}")
     body = body if stock is None else body.moved(-origin)
     changed = run.history.changed
     tools, which, lift = tools_of_rows(path.step, changed("tool"), run.setup.tools, run.history.value)
@@ -175,7 +177,7 @@ def _kept(run: Run, key: tuple[Any, ...], stock: Any, make: Callable[[], Made]) 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:
     """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
     stock = run.stock
-    if stock is None:
+    if stock is None or not volume_of(stock) > 0:
         return None, Collisions()
     judged = len(run.toolpath) <= JUDGED
     if run.toolpath.lathe and isinstance(stock, Revolved):

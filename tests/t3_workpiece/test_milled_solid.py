@@ -103,7 +103,7 @@ def test_flat_places_have_few_triangles():
 def test_very_many_moves_are_taken_from_the_map():
     """Between the cells of a chamfer of 45 degrees, 2 wide, heights are those of its plane."""
     found = part(CHAMFER, step=0.25)
-    found.surface = Mapped(found.raster, found.moves, found.blank_at, found.heights)
+    found.surface = Mapped(found.raster, found.moves, found.blank_at, 0.0, found.heights)
     x, y = np.linspace(0, 60, 40), np.linspace(0.125, 1.875, 40)
     assert np.abs(lattice.heights_at(found, x, y) - (y - 2)).max() < 1e-9
     assert is_closed(found.solid())
