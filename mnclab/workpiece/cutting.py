@@ -87,8 +87,7 @@ class Cutting:
     @cached_property
     def numbers(self) -> Index:
         """The number of the tool of each row (n,): where a program has no tool words, of the one that cuts all the same."""
-        held = np.array([tool.number for tool in self.tools], dtype=np.int64)
-        return np.where(self.path.tool == 0, held[self.which], self.path.tool) if len(held) else self.path.tool
+        return numbers_of(self.path, self.tools, self.which)
 
     @property
     def bare(self) -> Mask:
@@ -112,6 +111,12 @@ class Cutting:
     @property
     def lathe(self) -> bool:
         return self.path.lathe
+
+
+def numbers_of(path: Toolpath, tools: Sequence[Tool], which: Index) -> Index:
+    """The number of the tool of each row (n,), that of `tools[which[row]]` where the path has none."""
+    held = np.array([tool.number for tool in tools] or [0], dtype=np.int64)
+    return np.where(path.tool == 0, held[which], path.tool).astype(np.int64)
 
 
 def tool_exists(tool: Tool) -> bool:

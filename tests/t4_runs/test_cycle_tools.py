@@ -7,6 +7,7 @@ import mnclab
 from mnclab import Setup, Tool
 from mnclab.machine.magazine import LATHES
 from mnclab.runs.material import cutting_of
+from mnclab.show.report import report
 from mnclab.workpiece.blank import cylinder
 
 HEAD = "S800\nM3\nF20\nZ200~\nX4000~\n"
@@ -84,3 +85,10 @@ def test_moves_of_a_mill_without_a_tool_are_told():
     cut = "S500 M3\nG0 X-9 Y9 Z2 F100\nG1 Z-3\nX30\n"
     bare, held = (mnclab.run(head + cut, "mnc", setup).workpiece().notes for head in ("", "T1\n"))
     assert bare == ("rows without a tool cut nothing (program:4)",) and held == ()
+
+
+def test_pictures_and_reports_have_the_tool_of_the_cycle():
+    run = mnclab.run(HEAD + CYCLES["G74"][0], "nc-31", Setup(stock=BAR))
+    tools, numbers = run.tools_that_cut
+    assert set(numbers[run.toolpath.label > 0].tolist()) == {7} and tools[7].kind == "face grooving"
+    assert [row[:2] for row in report(run).tools][-1] == ("T7", LATHES[7].name)
