@@ -71,7 +71,8 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
         title, values = _depths(workpiece, mesh.points)
         mesh.point_data[title] = np.where(uncut, np.nan, values)
         cut = values[~uncut]
-        limits = (0.0, float(cut.max() if cut.size and cut.max() > 0 else values.max()))
+        deep = not workpiece.cutting.lathe and cut.size and cut.max() > 0
+        limits = (0.0, float(cut.max() if deep else values.max()))
         bar = scenes.BAR | BESIDE | {"title": title, "fmt": "%.3g"}
         plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, nan_color=plain, scalar_bar_args=bar, **LOOK)
     else:

@@ -81,3 +81,17 @@ def test_beside_the_exact_sweep(monkeypatch, stock):
     assert by_row.sum() == pytest.approx(many.removed, rel=1e-12)
     quarters = np.arange(len(by_row)) * 4 // len(by_row)
     assert np.bincount(quarters, by_row) == pytest.approx(np.bincount(quarters, expected), rel=0.02)
+
+
+def test_sections_and_solids_follow_the_map(monkeypatch):
+    """A pocket of 40 × 20 with round corners of 4: its walls stand within a cell, and the part says so."""
+    monkeypatch.setattr(milled, "EXACT", 100)
+    points = passes(-3.0, 600, 4.0, 76.0, 2.0)
+    points[:, :2] = np.clip(points[:, :2], (24.0, 24.0), (56.0, 36.0))
+    part = Milled(cutting(points), 0.5)
+    outline, hole = sorted(part.cut("XY", -1.0), key=lambda each: -each.area)
+    round_ = 40 * 20 - (4 - np.pi) * 4**2
+    assert outline.area == pytest.approx(80 * 60, rel=1e-6)
+    assert -hole.area == pytest.approx(round_, abs=0.5 * 2 * (40 + 20))
+    assert part.solid().volume == pytest.approx(80 * 60 * 20 - 3 * round_, abs=3 * 0.5 * 2 * (40 + 20))
+    assert part.notes[-1].startswith("level sections, solids and pictures follow the map")

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 STEEP = 0.5  # rise between two nodes, of their distance, from which a wall is looked for
 SUDDEN = 0.25  # of that rise: what is left of it between the last halves when it is a wall, and no steep slope
 HALVINGS = 14
-EXACT = 100_000  # moves up to which every height is swept exactly
 THIN = 1e-9  # mm, of material that is none
 
 
@@ -118,14 +117,7 @@ def lattice_of(workpiece: Milled, step: float | None = None) -> Lattice:
 
 def heights_at(workpiece: Milled, x: Array, y: Array) -> Array:
     """The heights (m,) at points: exact, or of very many moves between the middles of the cells."""
-    if len(workpiece.moves) <= EXACT:
-        return np.asarray(workpiece.at(x, y))
-    shape, step = workpiece.heights.shape, workpiece.step
-    places = ((x - workpiece.x[0]) / step, shape[1]), ((y - workpiece.y[0]) / step, shape[0])
-    (i, u), (j, v) = ((np.clip(np.floor(at), 0, max(n - 2, 0)).astype(np.int64), np.clip(at, 0, n - 1)) for at, n in places)
-    right, above = np.minimum(i + 1, shape[1] - 1), np.minimum(j + 1, shape[0] - 1)
-    u, v, z = u - i, v - j, workpiece.heights
-    return np.asarray((z[j, i] * (1 - u) + z[j, right] * u) * (1 - v) + (z[above, i] * (1 - u) + z[above, right] * u) * v)
+    return workpiece.surface.at(x, y)
 
 
 def _walls(

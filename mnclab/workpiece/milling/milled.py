@@ -19,7 +19,7 @@ from mnclab.workpiece.milling.many import ManyMoves
 from mnclab.workpiece.milling.moves import CHORD, Moves, moves_of
 from mnclab.workpiece.milling.raster import NOISE, Raster
 from mnclab.workpiece.milling.sections import level, upright
-from mnclab.workpiece.milling.sweep import Sweep
+from mnclab.workpiece.milling.sweep import Mapped, Sweep
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Solid, Workpiece, sections
@@ -60,7 +60,8 @@ class Milled(Workpiece):
 
     @cached_property
     def notes(self) -> tuple[str, ...]:  # type: ignore[override]
-        return tuple(limits.notes_of(self.cutting, self.sweep))
+        of_map = ("level sections, solids and pictures follow the map: a wall stands within a cell",) if self.many else ()
+        return *limits.notes_of(self.cutting, self.sweep), *of_map
 
     @cached_property
     def heights(self) -> Array:
@@ -81,6 +82,11 @@ class Milled(Workpiece):
         low = float(self.cutting.stock.bounds[0, 2])
         top, floor = top_of(self.cutting.stock, x, y), floor_of(self.cutting.stock, x, y)
         return np.where(np.isnan(top), low, top), np.where(np.isnan(floor), low, floor)
+
+    @cached_property
+    def surface(self) -> Sweep:
+        """What sections, solids and pictures ask for heights: the exact sweep, of very many moves the map."""
+        return Mapped(self.raster, self.moves, self.blank_at, self.heights) if self.many else self.sweep
 
     def at(self, x: ArrayLike, y: ArrayLike) -> Array | float:
         """The height of the material at a place or at places, mm: exact, whatever the step."""
@@ -136,7 +142,7 @@ class Milled(Workpiece):
         (x0, y0, _), (x1, y1, _) = self.cutting.stock.bounds.tolist()
         if plane == "XY":
             edges = (self.step * (np.arange(-1, n + 1) + 0.5) for n in reversed(self.raster.shape))
-            return level(self.sweep, at, *(low + places for low, places in zip((x0, y0), edges)))
+            return level(self.surface, at, *(low + places for low, places in zip((x0, y0), edges)))
         if plane == "XZ":
             return upright(lambda x: self._sides(x, np.full_like(x, at)), x0, x1, self.step / ALONG)
         return upright(lambda y: self._sides(np.full_like(y, at), y), y0, y1, self.step / ALONG)

@@ -18,6 +18,7 @@ from mnclab.workpiece.milling.swept import left_by
 
 TILE = 32  # cells of a tile's side
 AT_ONCE = 1 << 17  # points times moves that are looked at together
+FEW, PAIRS = 64, 1 << 14  # points, and points times moves, beyond which points are looked at quarter by quarter
 NOISE = 1e-9  # mm: less than this is rounding, and nothing taken away
 CELLS = 25_000_000  # at most
 
@@ -76,13 +77,20 @@ def near(moves: Moves, boxes: Array, x: Array, y: Array, below: float) -> Index:
     found = np.flatnonzero(
         (boxes[:, 0] <= x1) & (boxes[:, 1] <= y1) & (boxes[:, 2] >= x0) & (boxes[:, 3] >= y0) & (moves.low < below)
     )
-    if not len(found):
-        return found
-    reach = moves.radius[found] + np.hypot(x1 - x0, y1 - y0) / 2 + 1e-9
-    none = np.zeros_like(reach)
-    discs = moves[found].with_cutter(np.stack([reach, reach, none, none], axis=1))
-    middle = left_by(discs, np.array([(x0 + x1) / 2]), np.array([(y0 + y1) / 2]))
-    return found[np.isfinite(middle[:, 0])]
+    return found[_least(moves, found, x, y) < below]
+
+
+def _least(moves: Moves, which: Index, x: Array, y: Array) -> Array:
+    """What some moves (k,) leave at least at points, infinite where they reach none of them (k,).
+
+    A cutter that is wider by the way from the middle of the points to their corners leaves no less in the middle.
+    """
+    if not len(which):
+        return np.zeros(0)
+    x0, y0, x1, y1 = x.min(), y.min(), x.max(), y.max()
+    some, more = moves[which], np.hypot(x1 - x0, y1 - y0) / 2 + 1e-9
+    wide = some.with_cutter(np.stack([some.radius + more, some.flat + more, some.corner, some.slope], axis=1))
+    return left_by(wide, np.array([(x0 + x1) / 2]), np.array([(y0 + y1) / 2]))[:, 0] - NOISE
 
 
 def chunks(found: Index, points: int) -> Iterator[Index]:
@@ -94,14 +102,30 @@ def chunks(found: Index, points: int) -> Iterator[Index]:
 def lowered(moves: Moves, boxes: Array, x: Array, y: Array, top: Array) -> Array:
     """The heights (m,) that all moves leave together at points whose material reaches up to `top` (m,)."""
     heights = top.copy()
-    found = near(moves, boxes, x, y, float(top.max()))
-    found = found[np.argsort(moves.low[found], kind="stable")]
-    for chunk in chunks(found, len(x)):
-        chunk = chunk[moves.low[chunk] < heights.max()]
-        if not len(chunk):
-            break
-        np.minimum(heights, left_by(moves[chunk], x, y).min(axis=0), out=heights)
+    _lower(moves, near(moves, boxes, x, y, float(top.max())), x, y, heights, np.arange(len(x)))
     return heights
+
+
+def _lower(moves: Moves, found: Index, x: Array, y: Array, heights: Array, points: Index) -> None:
+    """Lowers the heights of some points to what the found moves leave: quarter by quarter where both are many."""
+    px, py = x[points], y[points]
+    least = _least(moves, found, px, py)
+    order = np.argsort(least, kind="stable")
+    order = order[: np.searchsorted(least[order], heights[points].max())]
+    found, least = found[order], least[order]
+    apart = len(points) > FEW and max(np.ptp(px), np.ptp(py)) > NOISE
+    if apart and len(found) * len(points) > PAIRS:
+        right, upper = px > (px.min() + px.max()) / 2, py > (py.min() + py.max()) / 2
+        for quarter in (right & upper, right & ~upper, ~right & upper, ~right & ~upper):
+            if quarter.any():
+                _lower(moves, found, x, y, heights, points[quarter])
+        return
+    here = heights[points]
+    for first in range(0, len(found), many := max(PAIRS // len(points), 1)):
+        if least[first] >= here.max():
+            break
+        np.minimum(here, left_by(moves[found[first : first + many]], px, py).min(axis=0), out=here)
+    heights[points] = here
 
 
 def in_order(moves: Moves, boxes: Array, x: Array, y: Array, top: Array) -> Iterator[tuple[Index, Array, Array]]:

@@ -51,6 +51,28 @@ class Sweep:
         return replace(self, moves=self.moves[near(self.moves, self.boxes, x, y, np.inf)])
 
 
+@dataclass(frozen=True, eq=False)
+class Mapped(Sweep):
+    """The same, with heights between those of a map (ny, nx) at the middles of the cells: a cell is their error in the plane."""
+
+    heights: Array
+
+    def left(self, x: Array, y: Array) -> Array:
+        (ny, nx), z, raster = self.heights.shape, self.heights, self.raster
+        u, v = np.clip((x - raster.x[0]) / raster.step, 0, nx - 1), np.clip((y - raster.y[0]) / raster.step, 0, ny - 1)
+        i, j = (np.minimum(np.floor(at).astype(np.int64), max(n - 2, 0)) for at, n in ((u, nx), (v, ny)))
+        right, above, u, v = np.minimum(i + 1, nx - 1), np.minimum(j + 1, ny - 1), u - i, v - j
+        between = (z[j, i] * (1 - u) + z[j, right] * u) * (1 - v) + (z[above, i] * (1 - u) + z[above, right] * u) * v
+        top, floor = self.faces(x, y)
+        return np.asarray(np.clip(between, floor, top))
+
+    def at(self, x: Array, y: Array) -> Array:
+        return self.left(x, y)
+
+    def about(self, x: Array, y: Array) -> Sweep:
+        return self
+
+
 def grouped(x: Array, y: Array, side: float) -> Iterator[Index]:
     """Points that lie in one square of a side, square by square."""
     column, row = np.floor(x / side), np.floor(y / side)

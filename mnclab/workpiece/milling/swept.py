@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.path.columns import Array
-from mnclab.workpiece.milling.cutters import edge_height
+from mnclab.workpiece.milling.cutters import Cutter, edge_height
 from mnclab.workpiece.milling.helix import FULL_TURN, helix
 from mnclab.workpiece.milling.moves import STILL, Moves
 
@@ -77,57 +77,65 @@ def _level(moves: Moves, x: Array, y: Array) -> Array:
 
 
 def _sloping(moves: Moves, x: Array, y: Array) -> Array:
-    """A straight move that goes up or down: where the tool stood that cut deepest at a point."""
+    """Straight moves that go up or down, those of one cutter at a time."""
+    columns = moves.radius, moves.flat, moves.corner, moves.slope
+    if all((column == column[0]).all() for column in columns):
+        return _of_cutter(moves, Cutter(*(float(column[0]) for column in columns)), x, y)
+    shapes, shape = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
+    found = np.empty((len(moves), x.shape[-1]))
+    for k, each in enumerate(shapes.tolist()):
+        which = shape.reshape(-1) == k
+        found[which] = _of_cutter(moves[which], Cutter(*each), *((x[which], y[which]) if x.ndim == 2 else (x, y)))
+    return found
+
+
+def _of_cutter(moves: Moves, cutter: Cutter, x: Array, y: Array) -> Array:
+    """Straight moves of one cutter that go up or down: where the tool stood that cut deepest at a point."""
     ahead, beside2, length = _along(moves, x, y)
-    radius = moves.radius[:, None]
-    over = np.nonzero((beside2 <= radius * radius * (1 + TOUCH)) & (np.abs(ahead - length / 2) <= length / 2 + radius))
+    reach2 = cutter.radius * cutter.radius * (1 + TOUCH)
+    over = (beside2 <= reach2) & (np.abs(ahead - length / 2) <= length / 2 + cutter.radius)
+    move = np.nonzero(over)[0]
+    slope, length = ((moves.end[:, 2] - moves.start[:, 2]) / length[:, 0])[move], length[move, 0]
     found = np.full(ahead.shape, NONE)
-    ahead, beside2, length = ahead[over], beside2[over], length[over[0], 0]
-    some = moves[over[0]]
-    slope = (some.end[:, 2] - some.start[:, 2]) / length
-    behind = _lowest(some, beside2, np.abs(slope))  # how far the tool was past, or before, the point
-    place = np.clip(ahead - np.sign(slope) * behind, 0.0, length)
+    ahead, beside2 = ahead[over], beside2[over]
+    behind = _lowest(cutter, beside2, np.abs(slope))  # how far the tool was past, or before, the point
+    place = np.minimum(np.maximum(ahead - np.copysign(behind, slope), 0.0), length)
     rho2 = beside2 + (ahead - place) ** 2
-    reached = rho2 <= some.radius**2 * (1 + TOUCH)
-    edge = edge_height(np.sqrt(rho2), some.flat, some.corner, some.slope)
-    found[over] = np.where(reached, some.start[:, 2] + slope * place + edge, NONE)
+    heights = moves.start[move, 2] + slope * place
+    if cutter.flat < cutter.radius:
+        heights += edge_height(np.sqrt(rho2), *cutter[1:])
+    found[over] = np.where(rho2 <= reach2, heights, NONE)
     return found
 
 
-def _lowest(moves: Moves, beside2: Array, slope: Array) -> Array:
+def _lowest(cutter: Cutter, beside2: Array, slope: Array) -> Array:
     """How far along its move from a point (p,) the cutter is that leaves it lowest, were the move without ends."""
-    radius, flat, corner, cone = moves.radius, moves.flat, moves.corner, moves.slope
+    radius, flat, corner, cone = cutter
+    if corner and not flat:
+        free = np.sqrt(np.maximum(corner * corner - beside2, 0.0))
+        return np.asarray(free * slope / np.sqrt(1 + slope * slope))
     rim = np.sqrt(np.maximum(radius * radius - beside2, 0.0))
+    if flat >= radius or not (corner or cone):
+        return rim
     inner = np.sqrt(np.maximum(flat * flat - beside2, 0.0))
-    found = np.where(flat >= radius, rim, inner)
-    ball = (corner > 0) & (flat == 0)
-    if ball.any():
-        free = np.sqrt(np.maximum(corner[ball] ** 2 - beside2[ball], 0.0))
-        found[ball] = free * slope[ball] / np.sqrt(1 + slope[ball] ** 2)
-    bull = (corner > 0) & (flat > 0)
-    if bull.any():
-        found[bull] = _under_corner(inner[bull], rim[bull], beside2[bull], slope[bull], flat[bull], corner[bull])
-    pointed = cone > 0
-    if pointed.any():
-        rise, m = cone[pointed], slope[pointed]
-        steep = m >= rise
-        out = m / np.sqrt(np.where(steep, 1.0, rise * rise - m * m))
-        free = np.where(steep, rim[pointed], np.sqrt(beside2[pointed]) * out)
-        found[pointed] = np.clip(free, inner[pointed], rim[pointed])
-    return found
+    if not cone:
+        return _under_corner(inner, rim, beside2, slope, flat, corner)
+    steep = slope >= cone
+    out = slope / np.sqrt(np.where(steep, 1.0, cone * cone - slope * slope))
+    return np.clip(np.where(steep, rim, np.sqrt(beside2) * out), inner, rim)
 
 
-def _under_corner(low: Array, high: Array, beside2: Array, slope: Array, flat: Array, corner: Array) -> Array:
+def _under_corner(low: Array, high: Array, beside2: Array, slope: Array, flat: float, corner: float) -> Array:
     """The place between two where the corner rises as the move does."""
-    low, high = low.copy(), high.copy()
+    low, width, slope2, corner2 = low.copy(), high - low, slope * slope, corner * corner
     for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        rho = np.sqrt(beside2 + middle * middle)
-        out = rho - flat
-        rises = out * middle > slope * rho * np.sqrt(np.maximum(corner * corner - out * out, 0.0))
-        high = np.where(rises, middle, high)
-        low = np.where(rises, low, middle)
-    return (low + high) / 2
+        width /= 2
+        place2 = np.square(low + width)
+        rho2 = beside2 + place2
+        out2 = np.square(np.sqrt(rho2) - flat)
+        falls = out2 * place2 <= slope2 * rho2 * (corner2 - out2)
+        low += width * falls
+    return np.asarray(low + width / 2)
 
 
 def _level_arc(moves: Moves, x: Array, y: Array) -> Array:
