@@ -84,19 +84,13 @@ class Removal:
     def by(self, what: str = "line") -> dict[Any, float]:
         """mm³ by "tool", or by "line": of a program that was called a pair (program, line), as `Profile.time_by` has it."""
         choice(what, "what a removal sums over", KEYS)
-        path = self.workpiece.cutting.path
-        own, line = path.program.tolist(), path.line.tolist()
-        keys = self._tools.tolist() if what == "tool" else [at if not of else (of, at) for of, at in zip(own, line)]
+        cutting = self.workpiece.cutting
+        own, line = cutting.path.program.tolist(), cutting.path.line.tolist()
+        keys = cutting.numbers.tolist() if what == "tool" else [at if not of else (of, at) for of, at in zip(own, line)]
         found: dict[Any, float] = {}
         for row in np.flatnonzero(self.volumes):
             found[keys[row]] = found.get(keys[row], 0.0) + float(self.volumes[row])
         return found
-
-    @property
-    def _tools(self) -> Any:
-        """The number of the tool that cuts each row (n,): some controls have none in their words."""
-        cutting = self.workpiece.cutting
-        return np.array([tool.number for tool in cutting.tools])[cutting.which]
 
     def _fastest(self, rows: Any) -> Fastest | None:
         rates = np.where(rows, self.rate, 0.0)
@@ -113,7 +107,7 @@ class Removal:
     def rows(self) -> list[tuple[str, ...]]:
         """A row of texts for each tool that took something away, and for all of them: as `HEAD` has it."""
         numbers = list(self.by("tool"))
-        cut_by = self._tools
+        cut_by = self.workpiece.cutting.numbers
         groups = [(self._tool(number), cut_by == number) for number in numbers]
         groups += [("all", np.ones(len(cut_by), dtype=bool))] if len(numbers) != 1 else []
         told: list[tuple[str, ...]] = []
