@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.contours import Contour, steps_within
 from mnclab.path.inserts import cutting_part, holder, insert, turns
 from mnclab.path.tool import Tool
 from mnclab.show.player.logs import columns, log, parted
@@ -33,13 +34,12 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
     bar, axis, notes = half_section(cutting.stock)
     (low, _), (high, radius) = bar.bounds.tolist()
     strokes = strokes_of(cutting, low, high, radius, axis)
-    areas = [contour.points_within(OFF) for contour in strokes.contours]
+    corners, count = _areas(strokes.contours)
     told = [*notes, *strokes.notes]
-    count = np.array([len(area) for area in areas], dtype=np.int64)
     kept = int(np.searchsorted(np.cumsum(count), MOST, "right"))
-    if kept < len(areas):
+    if kept < len(count):
         told.append(f"the section is shown up to row {strokes.rows[kept]} only")
-    corners = np.concatenate(areas[:kept]) if kept else np.empty((0, 2))
+    corners = corners[: int(count[:kept].sum())]
     reach = high - low + radius
     return {
         "bar": _corners(bar.points_within(OFF)),
@@ -54,6 +54,18 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
         "chuck": [_corners(half_section(each)[0].points) for each in cutting.fixtures if _turns(each)],
         "note": "; ".join(told),
     }
+
+
+def _areas(contours: Sequence[Contour]) -> tuple[Array, NDArray[np.int64]]:
+    """The corners of closed contours (m, 2), one after the other, and how many each has (k,): all at once, as one line."""
+    if not contours:
+        return np.empty((0, 2)), np.empty(0, dtype=np.int64)
+    points = np.concatenate([part for each in contours for part in (each.points, each.points[:1])])
+    bulge = np.concatenate([part for each in contours for part in (each.bulge, [0.0])])
+    line = Contour(points, bulge, closed=False)
+    steps = np.append(steps_within(line.radii, line.sweeps, OFF), 1)
+    size = np.array([len(each.points) + 1 for each in contours])
+    return line.points_within(OFF), np.add.reduceat(steps, np.cumsum(size) - size).astype(np.int64)
 
 
 def _turns(body: Any) -> bool:
