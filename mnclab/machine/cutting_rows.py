@@ -67,25 +67,29 @@ def tilted_rows(step: Steps, changes: Changes) -> Mask | None:
     return np.asarray(np.array([False, *on])[np.searchsorted(np.array(at), step, "right")])
 
 
-def start_known(path: Toolpath, start: tuple[float, float, float], named: Mask | None = None) -> tuple[int, int]:
+def start_known(
+    path: Toolpath, start: tuple[float, float, float], named: Mask | None = None, earlier: Mask | None = None
+) -> tuple[int, int]:
     """From which row on the tool's height is known at the end of a row, and from which on every row's start is.
 
     A setup that says where the spindle starts says all of it. Else the tool comes from home: its height is known when Z (on
     a lathe X and Z) has moved, the whole place when every axis has, or when something was moved at feed. `named` (n, 3) are
-    the axes whose words stand in the block of a row: they are where the program says, whether they moved or not.
+    the axes whose words stand in the block of a row, `earlier` in one before it: they are where the program says, whether
+    they moved or not.
     """
     if any(start):
         return 0, 0
-    rows = np.flatnonzero(path.is_motion)
+    rows, n = np.flatnonzero(path.is_motion), len(path)
     axes = [0, 2] if path.lathe else [0, 1, 2]
-    said = path.start[rows] != path.end[rows]
-    if named is not None:
-        said |= named[rows]
-    moved = np.logical_or.accumulate(said, axis=0)[:, axes]
+    before = np.zeros((n, 3), dtype=bool) if earlier is None else earlier
+    own = before if named is None else before | named
+    moved = np.logical_or.accumulate((path.start != path.end)[rows] | own[rows], axis=0)[:, axes]
     high = moved.all(axis=1) if path.lathe else moved[:, -1]
     known = moved.all(axis=1) | (path.kind[rows] != Kind.RAPID)
-    n = len(path)
-    return (int(rows[high.argmax()]) if high.any() else n), (int(rows[known.argmax()]) + 1 if known.any() else n)
+    arrived = int(rows[high.argmax()]) if high.any() else n
+    all_before = before[rows][:, axes].all(axis=1)
+    firsts = [rows[said.argmax()] + late for said, late in ((known, 1), (all_before, 0)) if said.any()]
+    return arrived, int(min(firsts, default=n))
 
 
 def stock_of(given: Any, changes: Changes, origin: Array) -> Blank | None:

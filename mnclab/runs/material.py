@@ -39,15 +39,16 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     tools, which, lift = tools_of_rows(path.step, changed("tool"), run.setup.tools, run.history.value)
     tools, which = cycle_tools(run, tools, which)
     start, tilted = run.setup.start, tilted_rows(path.step, changed(TILT))
-    known = start_known(path, start, None if any(start) else _named(run))
+    known = start_known(path, start, *(() if any(start) else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, name=run.place_of_line)
 
 
-def _named(run: Run) -> Mask:
-    """The axes (n, 3) whose words stand in the block of a row, or in a positioning block before it: it may have moved
-    nothing, as X0 does where a machine starts."""
-    step, found = run.toolpath.step, np.zeros((len(run.toolpath), 3), dtype=bool)
+def _named(run: Run) -> tuple[Mask, Mask]:
+    """The axes (n, 3) whose words stand in the block of a row, and those in a positioning block before it: it may have
+    moved nothing, as X0 does where a machine starts."""
+    step = run.toolpath.step
+    found, earlier = np.zeros((2, len(step), 3), dtype=bool)
     for index, program in enumerate(run.programs):
         mine = run.steps.program == index
         block = np.where(mine, run.steps.block, 0)
@@ -55,8 +56,9 @@ def _named(run: Run) -> Mask:
         for axis, letter in enumerate("XYZ"):
             here = mine & _has(program, letter)[block]
             before = np.flatnonzero(here & positioning)
-            found[:, axis] |= here[step] | (step >= before[0] if len(before) else False)
-    return found
+            found[:, axis] |= here[step]
+            earlier[:, axis] |= step > before[0] if len(before) else False
+    return found, earlier
 
 
 def _positioning(program: Program) -> Mask:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mnclab.path.columns import Array
+from mnclab.path.columns import Array, Mask
 from mnclab.show import scene as scenes
 from mnclab.show.export_mesh import RAPID, STOCK
 from mnclab.text.alarm import Alarm
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 COLOURS = ("depth", "tool", "line", "none")
 DEPTHS = "YlGnBu"  # pale above, dark below, in grey print too
 EDGE, ANGLE = "#33312b", 25.0  # degrees between two faces from which their edge is drawn
-BALL = 0.012  # radius where something collides, of the greatest side of the part
+BALL, PIN = 0.012, 0.1  # where something collides: radius, and how far its pin stands out, of the greatest side of the part
+BESIDE = {"position_x": 0.89}  # the scale, clear of the rulers
 LOOK: dict[str, Any] = {
     "smooth_shading": True, "split_sharp_edges": True, "feature_angle": ANGLE, "ambient": 0.22, "diffuse": 0.82,
     "specular": 0.1, "name": "part",
@@ -39,7 +40,8 @@ def scene(
     """The part as a body, seen from the front, right and above.
 
     `colour`: "depth" (mm below the highest place; on a lathe the diameter), the "tool" or the "line" that cut a face, or
-    "none"; what nothing cut has the colour of the blank. `collisions` are red balls at their places. `size` in pixels.
+    "none"; what nothing cut has the colour of the blank. `collisions` are red balls at their places, with pins that stand out
+    of the part. `size` in pixels.
     """
     choice(colour, "colour", COLOURS)
     scenes.check_drawing()
@@ -47,11 +49,11 @@ def scene(
     plotter = scenes.new_plotter(repr(workpiece).splitlines()[0], size)
     solid = workpiece.solid()
     add_part(plotter, workpiece, solid, colour)
-    add_collisions(plotter, collisions, solid.points)
+    add_collisions(plotter, collisions, solid.points, lathe)
     if axes:
         plotter.add_axes(line_width=3, color="black")
         scenes.add_rulers(plotter, np.stack([solid.points.min(axis=0), solid.points.max(axis=0)]))
-    scenes.view_from(plotter, (0.35, 1.0, 0.6) if lathe else (-0.5, -1.0, 1.0), lathe, zoom=1.05)
+    scenes.view_from(plotter, (0.35, 1.0, 0.6) if lathe else (-0.5, -1.0, 1.0), lathe, zoom=0.95)
     return plotter
 
 
@@ -65,19 +67,31 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
     if colour == "none":
         plotter.add_mesh(mesh, color=plain, **LOOK)
     elif colour == "depth":
-        title, values = _depths(workpiece, solid.points)
-        mesh.point_data[title] = values
-        cut = values[solid.triangles[solid.row >= 0]]
-        limits = (0.0, float(cut.max() if cut.size and cut.max() > 0 else values.max()))
-        bar = scenes.BAR | {"title": title, "fmt": "%.3g"}
-        plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, scalar_bar_args=bar, **LOOK)
+        mesh, uncut = _apart(solid)
+        title, values = _depths(workpiece, mesh.points)
+        mesh.point_data[title] = np.where(uncut, np.nan, values)
+        cut = values[~uncut]
+        deep = not workpiece.cutting.lathe and cut.size and cut.max() > 0
+        limits = (0.0, float(cut.max() if deep else values.max()))
+        bar = scenes.BAR | BESIDE | {"title": title, "fmt": "%.3g"}
+        plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, nan_color=plain, scalar_bar_args=bar, **LOOK)
     else:
         values = getattr(workpiece.cutting.path, colour)[solid.row].astype(np.float64)
         mesh.cell_data[colour] = np.where(solid.row >= 0, values, np.nan)
-        bar = scenes.bar_of(colour, values[solid.row >= 0])
+        bar = scenes.bar_of(colour, values[solid.row >= 0]) | BESIDE
         plotter.add_mesh(mesh, scalars=colour, cmap=scenes.MAP, nan_color=plain, scalar_bar_args=bar, **LOOK)
     if edges.n_cells:
         plotter.add_mesh(edges, color=EDGE, line_width=1.3, name="edges of the part")
+
+
+def _apart(solid: Solid) -> tuple[Any, Mask]:
+    """The mesh of a body where what nothing cut has points of its own, and which points (n,) these are."""
+    import pyvista
+
+    doubled = solid.triangles + np.where(solid.row < 0, len(solid.points), 0)[:, None]
+    used, index = np.unique(doubled, return_inverse=True)
+    points = solid.points[used % len(solid.points)]
+    return pyvista.PolyData.from_regular_faces(points, index.reshape(doubled.shape)), used >= len(solid.points)
 
 
 def _depths(workpiece: Workpiece, points: Array) -> tuple[str, Array]:
@@ -87,8 +101,8 @@ def _depths(workpiece: Workpiece, points: Array) -> tuple[str, Array]:
     return "depth, mm", float(workpiece.cutting.stock.bounds[1, 2]) - points[:, 2]
 
 
-def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array) -> None:
-    """Red balls where something collides."""
+def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array, lathe: bool) -> None:
+    """Red balls where something collides, and pins from them up, on a lathe along X: most are deep in the part."""
     import pyvista
 
     try:
@@ -96,6 +110,11 @@ def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array)
     except (TypeError, AttributeError):
         raise Alarm(f"collisions must be those of a run, got {shown(collisions)}", hint="run.collisions()") from None
     if len(places):
-        ball = pyvista.Sphere(radius=BALL * float(np.ptp(points, axis=0).max()))
+        side, out = float(np.ptp(points, axis=0).max()), 0 if lathe else 2
+        ball = pyvista.Sphere(radius=BALL * side)
         balls = pyvista.PolyData(places).glyph(geom=ball, scale=False, orient=False)
         plotter.add_mesh(balls, color=RAPID, name="collisions")
+        heads = places.copy()
+        heads[:, out] = np.maximum(places[:, out], points[:, out].max()) + PIN * side
+        pins = pyvista.line_segments_from_points(np.stack([places, heads], axis=1).reshape(-1, 3))
+        plotter.add_mesh(pins, color=RAPID, line_width=3, name="pins")

@@ -43,6 +43,7 @@ BAR: dict[str, Any] = {
     "color": "black", "fmt": "%.6g", "title_font_size": 16, "label_font_size": 14,
     "vertical": True, "position_x": 0.86, "position_y": 0.25, "height": 0.5, "width": 0.07,
 }  # fmt: skip
+NARROWED, ASIDE = 0.88, 0.13  # how much smaller and how far to the left (of half the width) a body stands beside a scale
 
 
 def scene(
@@ -111,7 +112,9 @@ def view_from(plotter: Any, towards: tuple[float, float, float], lathe: bool, zo
     """Look from a side without perspective; on a lathe X stands upright."""
     plotter.view_vector(towards, (1, 0, 0) if lathe else (0, 0, 1))
     plotter.enable_parallel_projection()
-    plotter.camera.zoom(zoom)
+    bars = len(plotter.scalar_bars) > 0
+    plotter.camera.zoom(zoom * (NARROWED if bars else 1.0))
+    plotter.camera.SetWindowCenter(ASIDE if bars else 0.0, 0.0)
 
 
 def check_drawing() -> None:
@@ -188,7 +191,7 @@ def _add_path(plotter: Any, path: Toolpath, colour: str) -> None:
 
 def bar_of(colour: str, values: np.ndarray) -> dict[str, Any]:
     """How the scale of a colour looks."""
-    bar = BAR | {"title": TITLES[colour]}
+    bar = BAR | {"title": TITLES[colour] + "\n"}  # clear of the highest number
     spread = float(np.ptp(values)) if len(values) else 0.0
     if colour in ("tool", "line"):  # whole numbers alone
         bar |= {"fmt": "%.0f", "n_labels": int(spread) + 1 if spread < 6 else 5}

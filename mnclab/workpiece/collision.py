@@ -23,6 +23,11 @@ KINDS = {
 HEAD = ("place", "kind", "depth", "at", "message")
 
 
+def coordinates(axes: str, place: Iterable[float]) -> str:
+    """A place as people read it: X10.000 Z-2.500."""
+    return " ".join(f"{axis}{round(value, 3) + 0.0:.3f}" for axis, value in zip(axes, place))  # never -0.000
+
+
 class Collision(NamedTuple):
     """`kind` is one of `KINDS`; `place` (x, y, z) mm in the coordinates of the path, `depth` mm.
 
@@ -82,7 +87,7 @@ class Collisions(tuple[Collision, ...]):
         first, more = self._shown()
         rows = [
             (f"{each.file}:{each.line}".lstrip(":"), each.kind, f"{each.depth:.3f} mm",
-             " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", each.place)), each.message + others)
+             coordinates("XYZ", each.place), each.message + others)
             for each, others in first
         ]  # fmt: skip
         table = html_table(HEAD, rows, numbers=(2,)) if rows else "<p>no collisions</p>"

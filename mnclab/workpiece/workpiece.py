@@ -98,11 +98,11 @@ class Workpiece(ABC):
 
         return plot_part(self, **options)
 
-    def scene(self, **options: Any) -> pyvista.Plotter:
+    def scene(self, colour: str = "depth", **options: Any) -> pyvista.Plotter:
         """The part as a body (needs pyvista); see `show.part_scene.scene`."""
         from mnclab.show.part_scene import scene
 
-        return scene(self, **options)
+        return scene(self, colour, **options)
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write one file; the suffix says what: stl, gltf, glb, vtk (the body), svg, pdf, png (the picture), csv."""

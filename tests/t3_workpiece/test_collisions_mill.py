@@ -9,6 +9,7 @@ from running import lines, run
 import mnclab
 from mnclab import Limits, Tool
 from mnclab.workpiece.blank import cylinder
+from mnclab.workpiece.collision import coordinates
 
 STOCK = ((0, 0, -20), (100, 60, 0))
 BEFORE = "N10 G17 G90 G54\nN20 T1 S2500 M3\n"  # lines 1 and 2 of every program
@@ -329,3 +330,7 @@ def test_places_are_those_of_the_path_whatever_the_datum():
     for one, other in zip(here, there, strict=True):
         assert one[:5] == other[:5] or one.message != other.message
         assert np.allclose(one.place, other.place, atol=1e-9) and one.depth == pytest.approx(other.depth)
+
+
+def test_a_place_beside_zero_has_no_sign():
+    assert coordinates("XYZ", (-1e-5, 0.0, -2.5)) == "X0.000 Y0.000 Z-2.500"

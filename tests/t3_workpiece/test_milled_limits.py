@@ -1,11 +1,15 @@
 """What a map of heights cannot hold is said with the lines it comes from."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 from milled import BLOCK, MILL, part
 from running import run
 
 from mnclab import Tool
 from mnclab.workpiece.blank import cylinder
+from mnclab.workpiece.milling.milled import Milled
 
 SLOT = "G0 X-10 Y20\nG1 Z-8\nG1 X70\nG0 Z50"
 HOLE = "G0 X30 Y20\nG1 Z-8\nG0 Z50"
@@ -61,3 +65,11 @@ L Z-2 F500
     (note,) = left.notes
     assert note == "3 rows of a tilted tool are left out (program:6, program:8, program:9)"  # with the row that swivels
     assert left.at(30, 20) == -2 and left.removed == pytest.approx((10 * 40 + 25 * 3.14159265) * 2, rel=1e-3)
+
+
+def test_one_row_of_a_tilted_tool_is_one_row():
+    text = "TOOL CALL 1 Z S1000 F500\nL X+10 Y+20 Z+50 R0 FMAX M3\nL Z+20 FMAX\nL Z-2 F500\n"
+    cutting = run(text, "tnc-620", tools={1: MILL}, stock=BLOCK).workpiece().cutting
+    tilted = np.arange(len(cutting)) == len(cutting) - 1
+    (note,) = Milled(replace(cutting, tilted=tilted)).notes
+    assert note == "1 row of a tilted tool is left out (program:4)"

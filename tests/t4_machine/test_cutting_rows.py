@@ -1,5 +1,7 @@
 """What rows cut with: tools as their table stands, tilted rows, the blank in the coordinates of a path."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -67,3 +69,10 @@ def test_a_part_that_was_never_tilted_has_no_note_of_it():
     moves = "TOOL CALL 1 Z S1000\nL Z+50 R0 FMAX M3\nM30\n"  # M30 takes back what tilts, without there being anything
     run = mnclab.run(f"BEGIN PGM A MM\n{form}{moves}END PGM A MM\n", "tnc-620", Setup())
     assert run.workpiece().notes == ()
+
+
+def test_an_axis_that_is_named_where_it_stands_is_known():
+    """`G0 X0 Y0 Z0` moves nothing on a machine that starts there, and the helix after it is cut whole, not at its end alone."""
+    text = "G54 G17 G90 T1 S1000 M3\nG0 X0 Y0 Z0\nG2 X0 Y0 Z-5 I8 J0 F100\nG0 Z50\n"
+    found = mnclab.run(text, "mnc", mnclab.Setup(tools={1: mnclab.Tool(2)}, stock=((-20, -20, -20), (40, 20, 0)))).workpiece()
+    assert found.at(8, 8) == pytest.approx(-1.25 - 5 * math.asin(0.125) / math.pi, abs=1e-9)  # until its rim has left

@@ -93,3 +93,13 @@ def test_the_picture_has_the_rates(slots):
     assert line[:, 1].max() == removal.largest.rate
     assert "line 5: " in rate.texts[0].get_text()
     assert feed.get_xlim() == rate.get_xlim()
+
+
+def test_a_rapid_in_material_does_not_set_the_scale():
+    text = "G17 G90 G54\nT1 M6 S2000 M3\nG0 X-10 Y10 Z-4\nG0 X70\nG0 Y30\nG1 X-10 F300\nG0 Z50\n"
+    setup = Setup(tools=TOOLS, stock=((0, 0, -20), (60, 40, 0)), start=(-10, 10, 50))
+    removal = mnclab.run(text, "g43", setup).removal(FAST)
+    assert removal.rate.max() > 10 * removal.largest.rate and removal.largest.line == 6
+    _, rate = removal.plot().axes
+    assert rate.get_ylim()[1] == pytest.approx(1.25 * removal.largest.rate)
+    assert f"rapids reach {removal.rate.max():.0f} mm³/min" in rate.texts[0].get_text()

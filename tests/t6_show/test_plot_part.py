@@ -66,6 +66,12 @@ def test_a_scale_says_how_deep_colours_are(run):
     assert "line 5" in texts(run.workpiece().plot(colour="line"))
 
 
+def test_a_part_with_nothing_but_through_holes_has_no_scale():
+    text = "G17 G90 G54\nT2 M6 S2000 M3\nG0 X50 Y10 Z5\nG1 Z-30 F300\nG0 Z20\n"
+    figure = mnclab.run(text, "g43", Setup(tools=TOOLS, stock=STOCK)).workpiece().plot()
+    assert len(figure.axes) == 1 and "depth, mm" not in texts(figure)
+
+
 def test_sections_stand_below_with_their_letters(run):
     part = run.workpiece()
     figure = part.plot(section=["XZ", "XZ"], at=[20, 10])
@@ -153,3 +159,36 @@ def test_a_chuck_of_the_setup_is_drawn_where_it_stands(turned):
     (ax,) = done.workpiece().plot().axes
     chucks = [p.get_xy() for p in ax.patches if str(p.get_label()) == "chuck"]
     assert len(chucks) == 2 and chucks[0].max(axis=0).tolist() == [-35, 45]
+
+
+@pytest.mark.parametrize("size", [(7, 6), (4.6, 6), (9, 3)])
+@pytest.mark.parametrize("stock", [STOCK, ((0, 0, -20), (20, 300, 0)), ((0, 0, -200), (60, 40, 0))])
+def test_the_titles_of_many_sections_have_room(run, size, stock):
+    part = run.workpiece(stock=stock)
+    figure = part.plot(section=["XZ", "YZ", "XY"], size=size)
+    assert figure.get_figwidth() <= size[0] + 1e-9 and figure.get_figheight() <= size[1] + 1e-9
+    plan, *cuts, _ = figure.axes
+    scales = {round(np.ptp(ax.get_xlim()) / ax.get_window_extent().width, 9) for ax in (plan, *cuts)}
+    assert len(scales) == 1  # all of one scale
+    boxes = [ax.get_window_extent() for ax in (plan, *cuts)]
+    assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
+    for ax in cuts:
+        title, below = ax.texts[0].get_window_extent(), ax.patches[0].get_window_extent()
+        assert title.width <= ax.get_window_extent().width and title.y0 >= below.y1
+
+
+def test_what_is_cut_right_through_has_a_scale_of_its_thickness():
+    through = mnclab.run("G17 G90 G54\nT2 M6 S2000 M3\nG0 X30 Y20 Z5\nG1 Z-30 F300\nG0 Z20\n", "g43",
+                         Setup(tools=TOOLS, stock=STOCK, start=(0, 0, 50)))  # fmt: skip
+    assert through.workpiece().plot().axes[-1].get_xlim() == (0, 20)
+
+
+def test_fixtures_are_drawn_beside_the_part(run):
+    held = run.again(Setup(tools=TOOLS, stock=STOCK, start=(0, 0, 50), fixtures=(((-50, 5, -20), (0, 35, 3)),)))
+    figure = held.workpiece().plot(section=["XZ", "YZ"])
+    assert "fixture" in texts(figure) and "fixture" not in texts(run.workpiece().plot())
+    plan, along, across = (ax.patches for ax in figure.axes[:3])
+    assert plan[0].get_xy().min(axis=0).tolist() == [-50, 5]
+    assert figure.axes[0].get_xlim()[0] == pytest.approx(-12 - 0.06 * 72)  # a fifth of the blank's side of it is shown
+    assert along[-1].get_xy().max(axis=0).tolist() == [0, 3]
+    assert len(across) == 2  # the plane in the middle of the blank does not meet it

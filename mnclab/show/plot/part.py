@@ -20,7 +20,7 @@ from mnclab.show.plot.classes import number
 from mnclab.show.plot.part_words import in_words, told
 from mnclab.show.plot.picture import SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend
 from mnclab.show.plot.relief import Relief, relief
-from mnclab.show.plot.sections import draw_section, mark_section, sections_of
+from mnclab.show.plot.sections import FIXTURE, draw_fixtures, draw_section, held, mark_section, sections_of
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, shown
 from mnclab.workpiece.collision import Collision
@@ -35,6 +35,7 @@ COLOURS = ("depth", "tool", "line")
 DEPTHS = LinearSegmentedColormap.from_list("depths", ["#f3efe2", "#cfe0cf", "#86bcc4", "#4a86b4", "#2c4f8c", "#1d2a5c"])
 UNCUT = "#f3efe2"
 ROOM = 1.5  # how far the scale of depths goes beyond the deepest place, within the blank: a single depth is no dark blot
+BESIDE = 0.2  # of the blank's greatest side: how much of the fixtures around it is shown
 FEW = 8  # tools or lines that a legend names one by one
 EDGES = ((0.0, "#55524a", 0.35), (0.02, colours.INK, 0.75))  # from which part of the depth on, colour, width in points
 
@@ -78,13 +79,18 @@ def plot_part(
     views = [VIEWS["XY"], *(each.view for each in cuts)]
     handles: list[Any] = [Patch(facecolor=shade, edgecolor=colours.INK, linewidth=0.5, label=name) for name, shade in names]
     handles.append(Line2D([], [], **BLANK))
+    if fixtures := held(part):
+        handles.append(Patch(**FIXTURE, label="fixture"))
+        room = BESIDE * float((high - low).max())
+        low = np.maximum(np.min([low, *(each.bounds[0] for each in fixtures)], axis=0), low - room)
+        high = np.minimum(np.max([high, *(each.bounds[1] for each in fixtures)], axis=0), high + room)
     handles += [Line2D([], [], **MARK)] if len(marks) else []
     labels = [str(each.get_label()) for each in handles]
     picture, axes = arrange(views, low, high, labels, Foot(told(part)), in_words(part), size, scale is not None)
     _draw(axes[0], part, seen, image, marks)
     for one, each in zip(axes[1:], cuts):
         draw_section(one, part, each)
-        mark_section(axes[0], each, low, high)
+        mark_section(axes[0], each, *part.cutting.stock.bounds)
     if scale:
         _scale(picture, *scale)
     write_legend(picture, handles, SCALE if scale else 0.0)
@@ -105,6 +111,7 @@ def _places(collisions: Iterable[Collision]) -> Array:
 
 def _draw(ax: Axes, part: Milled, seen: Relief, image: Array, marks: Array) -> None:
     draw_relief(ax, seen, image)
+    draw_fixtures(ax, part, VIEWS["XY"])
     for outline in part.cutting.stock.outline(0, 1):
         ax.add_line(Line2D(outline[:, 0], outline[:, 1], **BLANK))
     if len(marks):

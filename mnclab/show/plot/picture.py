@@ -29,15 +29,17 @@ from mnclab.text.alarm import Alarm
 SIZE = (7.0, 6.0)  # the greatest width and height, unless something else is said
 LEAST = (4.6, 2.4)
 SMALL = 8.0  # points: ticks, legend, alarm
-GAP, BELOW, RIGHT, ROW, LINE, SCALE = 0.14, 0.52, 0.18, 0.22, 0.15, 0.34
+GAP, BELOW, RIGHT, ROW, LINE, SCALE, NARROW = 0.14, 0.52, 0.18, 0.22, 0.15, 0.34, 1.4
 
 
 class View(NamedTuple):
-    """Which coordinates (0 X, 1 Y, 2 Z) go to the right and up; `diameter` shows the upward one doubled."""
+    """Which coordinates (0 X, 1 Y, 2 Z) go to the right and up; `diameter` shows the upward one doubled, `head` inches are
+    kept free above for a title."""
 
     right: int
     up: int
     diameter: bool = False
+    head: float = 0.0
 
     @property
     def labels(self) -> tuple[str, str]:
@@ -122,59 +124,87 @@ def arrange(
 ) -> tuple[Picture, list[Axes]]:  # fmt: skip
     """A picture of at most `size` with one axes a view, all at one scale, around the box `low` to `high` (3,) mm.
 
-    Two views stand one above the other when they share what goes to the right, or side by side, whichever is larger.
-    `names` get room for a legend above, and `scale_above` keeps room for a scale of colours above that; `foot`
-    is one line of text below.
+    The views stand above one another, side by side or in columns, whichever is largest. `names` get room for a legend above,
+    and `scale_above` keeps room for a scale of colours above that; `foot` is text below.
     """
     low, high = roomy(low, high)
     span = high - low
     digits = max(len(f"{value:.{_decimals(side)}f}") for value, side in zip((*low, *high), (*span, *span)))
     left = 0.42 + 0.068 * digits
-    rights, ups = [float(span[v.right]) for v in views], [float(span[v.up]) for v in views]
     bottom, (most_wide, most_high) = BELOW + (ROW + LINE * (len(foot.lines) - 1) if foot else 0), size
 
     def top(width: float) -> float:
         return 0.12 + (SCALE if scale_above else 0.0) + ROW * math.ceil(len(names) / columns(names, width))
 
-    n = len(views)
-    free_width, free_height = most_wide - left - RIGHT, most_high - bottom - top(most_wide)
-    stack = min(free_width / max(rights), (free_height - (n - 1) * GAP) / sum(ups))
-    beside = min((most_wide - n * (left + RIGHT)) / sum(rights), free_height / max(ups))
-    stacked = n == 1 or (len({v.right for v in views}) == 1 and stack >= beside)
-    scale = stack if stacked else beside
+    free = most_high - bottom - top(most_wide)
+    layout, scale = _layout(views, span, most_wide, left + RIGHT, free)
+    sides = len(layout) * (left + RIGHT)
 
-    # boxes in inches; what a box has beyond its data widens the view
-    if stacked:
-        width = min(most_wide, max(LEAST[0], left + RIGHT + scale * max(rights)))
-        inner = width - left - RIGHT
-        share = max(1.0, (LEAST[1] - bottom - top(width)) / (scale * sum(ups) + (n - 1) * GAP))
-        heights = [scale * up * share for up in ups]
-        floor = [bottom + sum(heights[k + 1 :]) + GAP * (n - 1 - k) for k in range(n)]
-        boxes = [(left, floor[k], inner, heights[k]) for k in range(n)]
-    else:
-        width = min(most_wide, max(LEAST[0], n * (left + RIGHT) + scale * sum(rights)))
-        share = (width - n * (left + RIGHT)) / (scale * sum(rights))
-        widths = [scale * right * share for right in rights]
-        tall = max(scale * max(ups), LEAST[1] - bottom - top(width))
-        begin = [left * (k + 1) + RIGHT * k + sum(widths[:k]) for k in range(n)]
-        boxes = [(begin[k], bottom, widths[k], tall) for k in range(n)]
-    height = bottom + top(width) + (max(box[1] + box[3] for box in boxes) - bottom)
+    # boxes in inches, from the upper left corner of the views; what a box has beyond its data widens the view
+    widths = [scale * max(float(span[views[k].right]) for k in column) for column in layout]
+    widths = [max(each, NARROW) for each in widths] if len(layout) > 1 else widths
+    width = min(most_wide, max(LEAST[0], sides + sum(widths)))
+    widths = [each * (width - sides) / sum(widths) for each in widths]
+    row = scale * max(float(span[each.up]) for each in views) if len(layout) == len(views) else 0.0
+    boxes: dict[int, tuple[float, float, float, float]] = {}
+    for place, column in enumerate(layout):
+        ups = [max(scale * float(span[views[k].up]), row) + views[k].head for k in column]
+        gaps = _gaps(views, column)
+        share = max(1.0, (LEAST[1] - bottom - top(width) - sum(gaps)) / sum(ups))
+        begin, under = left * (place + 1) + RIGHT * place + sum(widths[:place]), 0.0
+        for k, up, gap in zip(column, ups, (0.0, *gaps)):
+            under += gap + up * share
+            boxes[k] = begin, under, widths[place], up * share
+    deep = max(under for _, under, _, _ in boxes.values())
+    height = bottom + top(width) + deep
 
     picture = Picture((width, height), alt)
+    joined = {k for column in layout for k, gap in zip(column, _gaps(views, column)) if gap == GAP}
     axes = []
-    for k, (view, (x, y, w, h)) in enumerate(zip(views, boxes)):
-        ax = picture.add_axes((x / width, y / height, w / width, h / height))
+    for k, view in enumerate(views):
+        x, under, w, h = boxes[k]
+        ax = picture.add_axes((x / width, (bottom + deep - under) / height, w / width, h / height))
         dress(ax, view, (w, h), digits)
-        middle = (low + high) / 2
-        ax.set_xlim(middle[view.right] - w / scale / 2, middle[view.right] + w / scale / 2)
-        ax.set_ylim(middle[view.up] - h / scale / 2, middle[view.up] + h / scale / 2)
-        if stacked and k < n - 1:
+        x, y = ((low + high) / 2)[[view.right, view.up]] + (0.0, view.head / scale / 2)
+        ax.set_xlim(x - w / scale / 2, x + w / scale / 2)
+        ax.set_ylim(y - h / scale / 2, y + h / scale / 2)
+        if k in joined:
             ax.set_xlabel("")
             ax.tick_params(labelbottom=False)
         axes.append(ax)
     if foot:
         foot.write(picture)
     return picture, axes
+
+
+def _layout(views: Sequence[View], span: Array, wide: float, beside: float, free: float) -> tuple[list[list[int]], float]:
+    """Columns of views, by number, and the scale (inches to a mm) at which they are largest.
+
+    `wide` inches have all columns with `beside` for the labels of each, `free` is the height.
+    """
+    rights = sorted({view.right for view in views}, key=[view.right for view in views].index)
+    layouts = [[[k for k, view in enumerate(views) if view.right == right] for right in rights]]
+    layouts += [[list(range(len(views)))[k::count] for k in range(count)] for count in range(1, len(views) + 1)]
+    found = []
+    for layout in layouts:
+        room = wide - len(layout) * beside
+        across = [max(float(span[views[k].right]) for k in column) for column in layout]
+        scale = room / sum(across)
+        for narrow in range(1, len(across)):  # a column is never narrower than the title of a section
+            if scale * sorted(across)[narrow - 1] < NARROW:
+                scale = (room - narrow * NARROW) / sum(sorted(across)[narrow:])
+        down = (
+            (free - sum(_gaps(views, each)) - sum(views[k].head for k in each)) / sum(float(span[views[k].up]) for k in each)
+            for each in layout
+        )
+        found.append((min(scale, *down), layout))
+    scale, layout = max(found, key=lambda each: each[0])
+    return layout, scale
+
+
+def _gaps(views: Sequence[View], column: Sequence[int]) -> list[float]:
+    """Inches between the views of a column: those that share what goes to the right share its numbers."""
+    return [GAP if views[a].right == views[b].right else BELOW for a, b in pairwise(column)]
 
 
 def _decimals(span: float) -> int:

@@ -14,10 +14,12 @@ from mnclab.show.plot.profile import plot_profile
 
 SIZE = (7.0, 4.6)  # inches
 SHADE = 0.28  # of the area under the rate
+FAST = 2.5  # times the largest rate at feed, beyond which what rapids take away is cut off
+CARD = {"facecolor": colours.PAPER, "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
 
 
 def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
-    """Feed (mm/min) and removal rate (mm³/min, the mean of each row) over time (s); the largest is marked with its line.
+    """Feed (mm/min) and removal rate (mm³/min, the mean of each row) over time (s); the largest at feed is marked with its line.
 
     `size`: width and height in inches.
     """
@@ -37,6 +39,12 @@ def plot_removal(removal: Any, *, size: tuple[float, float] = SIZE) -> Figure:
     rate.plot(t, height_of, color=colours.REACHED.colour, linewidth=1.2)
     top = 1.25 * float(removal.rate.max(initial=0.0)) or 1.0
     rate.set_ylim(0, top)
+    if most and top > FAST * most.rate:  # a rapid in material takes away in no time
+        rate.set_ylim(0, 1.25 * most.rate)
+        rate.text(
+            0.995, 0.96, f"cut off: rapids reach {removal.rate.max():.0f} mm³/min", transform=rate.transAxes, ha="right",
+            va="top", fontsize=SMALL - 1, color=colours.RAPID.colour, bbox=CARD, zorder=5,
+        )  # fmt: skip
     if most:
         middle = (begin[most.row] + end[most.row]) / 2
         rate.plot([middle], [most.rate], **colours.SLOW_CORNER.style())

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import PathPatch
+from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
 
@@ -19,6 +19,7 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SMALL, VIEWS, View
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, shown
+from mnclab.workpiece.blank import Blank, Box, Revolved
 from mnclab.workpiece.workpiece import Workpiece
 
 ACROSS = {"XY": 2, "XZ": 1, "YZ": 0}  # the coordinate that a plane fixes
@@ -28,6 +29,10 @@ HATCH: dict[str, Any] = {"facecolor": "none", "edgecolor": "#55524a", "linewidth
 CUT: dict[str, Any] = {"color": colours.INK, "linewidth": 0.8, "linestyle": (0, (10, 3, 1.5, 3))}
 HALO = [withStroke(linewidth=1.8, foreground=colours.PAPER)]
 CARD: dict[str, Any] = {"boxstyle": "round,pad=0.12", "facecolor": colours.PAPER, "edgecolor": "none"}  # behind a text
+FIXTURE: dict[str, Any] = {  # dashed as drawings have what is beside the part
+    "facecolor": "#c9ccd180", "edgecolor": "#55524a", "linewidth": 0.8, "linestyle": (0, (9, 2, 1.5, 2, 1.5, 2)),
+}  # fmt: skip
+HEAD = 0.16  # inches, of a title
 OUT, ARROW = 0.035, 0.05  # of the part's greatest side: how far the line of a cut goes beyond it, arrows
 
 
@@ -41,7 +46,7 @@ class Section(NamedTuple):
 
     @property
     def view(self) -> View:
-        return VIEWS[self.plane]
+        return VIEWS[self.plane]._replace(head=HEAD)
 
     @property
     def title(self) -> str:
@@ -80,9 +85,26 @@ def draw_section(ax: Axes, workpiece: Workpiece, section: Section) -> None:
         ax.add_patch(hatch)
     for line in workpiece.cutting.stock.outline(view.right, view.up):
         ax.add_line(Line2D(line[:, 0], line[:, 1], **{**colours.BLANK.style(), "linestyle": (0, (6, 2))}))
+    draw_fixtures(ax, workpiece, view, section.at)
     ax.annotate(
-        section.title, (0.5, 0.965), xycoords="axes fraction", ha="center", va="top", fontsize=SMALL + 1, bbox=CARD, zorder=5,
+        section.title, (0.5, 1.0), (0, -2), xycoords="axes fraction",
+        textcoords="offset points", ha="center", va="top", fontsize=SMALL + 1, bbox=CARD, zorder=5,
     )  # fmt: skip
+
+
+def held(workpiece: Workpiece) -> list[Blank]:
+    """The fixtures whose outline is known."""
+    return [each for each in workpiece.cutting.fixtures if isinstance(each, Box | Revolved)]
+
+
+def draw_fixtures(ax: Axes, workpiece: Workpiece, view: View, at: float | None = None) -> None:
+    """The outlines of fixtures; of a section of those that its plane meets."""
+    across = 3 - view.right - view.up
+    for each in held(workpiece):
+        low, high = each.bounds[:, across].tolist()
+        if at is None or low <= at <= high:
+            for line in each.outline(view.right, view.up):
+                ax.add_patch(Polygon(line, **FIXTURE, zorder=1.8))
 
 
 def outline_of(contours: Sequence[Contour]) -> Path:

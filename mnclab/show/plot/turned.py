@@ -44,6 +44,7 @@ def plot_turned(
     radius, span = part.radius, part.high - part.low
     low, high = np.array([-radius, 0.0, part.low]), np.array([radius, 0.0, part.high])
     chucks = [half_section(each)[0] for each in part.cutting.fixtures if isinstance(each, Box | Revolved)]
+    known = bool(chucks)
     chucks = chucks or [_jaw(part)]
     for each in chucks:
         (z0, _), (z1, r1) = each.bounds
@@ -65,7 +66,7 @@ def plot_turned(
         own = ax
         dress(own, VIEW)
     own.yaxis.set_major_formatter(lambda value, _: number(abs(2 * round(value, 9))))
-    _draw(own, part, chucks)
+    _draw(own, part, chucks, known)
     for _, shade, lines in names:
         own.add_collection(LineCollection(lines, colors=shade, linewidths=2.2, capstyle="butt", zorder=2.6))
     if tip is not None:
@@ -107,12 +108,12 @@ def _jaw(part: Turned) -> Contour:
     return Contour([(left, part.radius), (part.low, part.radius), (part.low, part.radius + high), (left, part.radius + high)])
 
 
-def _draw(ax: Axes, part: Turned, chucks: list[Contour]) -> None:
+def _draw(ax: Axes, part: Turned, chucks: list[Contour], known: bool) -> None:
     for chuck in chucks:
         ring = chuck.points_within(CHORD)
         for side in (1, -1):
             ax.add_patch(Polygon(ring * (1, side), **CHUCK, zorder=2.0, label="chuck"))
-    stub = part.low - JAW[0] * part.radius  # the bar in the chuck
+    stub = part.low - (0.0 if known else JAW[0] * part.radius)  # in a chuck that nobody gave the bar goes on
     ax.add_patch(Polygon(
         [(stub, -part.radius), (part.low, -part.radius), (part.low, part.radius), (stub, part.radius)],
         facecolor="#e6e2d6", edgecolor="#8c8778", linewidth=0.7, zorder=1.2,

@@ -15,7 +15,7 @@ import numpy as np
 
 from mnclab.path.columns import Mask
 from mnclab.path.tool import Tool
-from mnclab.workpiece.collision import Collision, Collisions
+from mnclab.workpiece.collision import Collision, Collisions, coordinates
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.bodies import TOLERANCE, Body, above_edges, edges, holder
 from mnclab.workpiece.milling.cutters import Cutter
@@ -39,16 +39,12 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
     for kind, said, met in _kinds(scene):
         row = met.row
         line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
-        message = f"{said}, {met.depth:.3f} mm deep at {_at(met.place)}{_hint(cutting, kind, row)}"
+        message = f"{said}, {met.depth:.3f} mm deep at {coordinates('XYZ', met.place)}{_hint(cutting, kind, row)}"
         each = Collision(kind, message, line, program, row, met.place, met.depth, _file(cutting, line, program))
         known = found.get((row, kind))
         if known is None or each.depth > known.depth:
             found[row, kind] = each
     return Collisions(found.values())
-
-
-def _at(place: tuple[float, float, float]) -> str:
-    return " ".join(f"{axis}{value + 0.0:.3f}" for axis, value in zip("XYZ", place))
 
 
 def _hint(cutting: Cutting, kind: str, row: int) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
+from mnclab.text.alarm import several
 from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.moves import STILL
@@ -22,7 +23,9 @@ THREADS = ("tap", "thread mill")
 def notes_of(cutting: Cutting, sweep: Sweep) -> Iterator[str]:
     """What is left out, and what looks other than it is."""
     if cutting.tilted is not None and (out := cutting.cuts & cutting.tilted).any():
-        yield f"{int(out.sum())} rows of a tilted tool are left out ({_lines(cutting, out)})"
+        number = int(out.sum())
+        left = "is" if number == 1 else "are"
+        yield f"{several(number, 'row')} of a tilted tool {left} left out ({_lines(cutting, out)})"
     cuts = cutting.cuts
     for kind in THREADS:
         numbers = [number for number, tool in enumerate(cutting.tools) if tool.kind == kind]

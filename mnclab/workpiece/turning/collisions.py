@@ -20,7 +20,7 @@ from mnclab.geometry.sweeps import CHORD_ERROR, broad
 from mnclab.path.columns import Index
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
-from mnclab.workpiece.collision import Collision, Collisions
+from mnclab.workpiece.collision import Collision, Collisions, coordinates
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.turning.backs import TOLERANCE, left_by_lean, taken_by_back
 from mnclab.workpiece.turning.bodies import area_of, behind, outline
@@ -60,7 +60,7 @@ def collisions_of(cutting: Cutting, step: float | None = None) -> Collisions:
 def _collision(cutting: Cutting, row: int, met: Met) -> Collision:
     line, program = int(cutting.path.line[row]), int(cutting.path.program[row])
     z, x = met.place
-    message = f"{met.said}, {met.depth:.3f} mm deep at X{x + 0.0:.3f} Z{z + 0.0:.3f}"
+    message = f"{met.said}, {met.depth:.3f} mm deep at {coordinates('XZ', (x, z))}"
     file = str(cutting.name(line, program)).rpartition(":")[0]
     return Collision(met.kind, message, line, program, row, (x, 0.0, z), met.depth, file)
 
