@@ -36,7 +36,7 @@ def cutter_of(tool: Tool) -> Cutter:
     return Cutter(radius, radius - corner, corner)
 
 
-def edge_height(rho: Array, flat: Array, corner: Array, slope: Array) -> Array:
+def edge_height(rho: Array, flat: Array | float, corner: Array | float, slope: Array | float) -> Array:
     """Height of the edge above the tip at distances from the axis; all of them broadcast."""
     out = np.maximum(rho - flat, 0.0)
     return np.asarray(corner - np.sqrt(np.maximum(corner * corner - out * out, 0.0)) + slope * out)
