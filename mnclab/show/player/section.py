@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import shapely
-from mnclab.geometry.contours import Contour
+from mnclab.geometry.contours import Contour, steps_within
 from mnclab.path.inserts import cutting_part, holder, insert, turns
 from mnclab.path.tool import Tool
 from mnclab.show.player.logs import columns, log, parted
@@ -65,7 +65,7 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
 
 def _areas(strokes: Strokes, bar: Contour, low: float) -> tuple[list[int], list[Array], list[int]]:
     """Rows and outlines of what goes, in order: of all strokes of a row, then of the pieces that fall; and which these are."""
-    rows, areas = list(strokes.rows), [contour.points_within(OFF) for contour in strokes.contours]
+    rows, areas = list(strokes.rows), _outlines(strokes.contours)
     drawing = Drawing([bar, *strokes.contours], np.array([-1, *rows], dtype=np.int64))
     fallen: list[int] = []
     if not areas or not held(left_of(drawing), low)[1]:
@@ -77,6 +77,18 @@ def _areas(strokes: Strokes, bar: Contour, low: float) -> tuple[list[int], list[
             areas.insert(fallen[-1], shapely.get_coordinates(shapely.simplify(piece.exterior, OFF / 2))[:-1])
             rows.insert(fallen[-1], row)
     return rows, areas, fallen
+
+
+def _outlines(contours: Sequence[Contour]) -> list[Array]:
+    """The corners of closed contours (m, 2): all at once, as one line."""
+    if not contours:
+        return []
+    points = np.concatenate([part for each in contours for part in (each.points, each.points[:1])])
+    bulge = np.concatenate([part for each in contours for part in (each.bulge, [0.0])])
+    line = Contour(points, bulge, closed=False)
+    steps = np.append(steps_within(line.radii, line.sweeps, OFF), 1)
+    size = np.array([len(each.points) + 1 for each in contours])
+    return np.split(line.points_within(OFF), np.add.reduceat(steps, np.cumsum(size) - size).cumsum()[:-1])
 
 
 def _turns(body: Any) -> bool:

@@ -56,7 +56,7 @@ class Judging:
     def of(cls, cutting: Cutting, step: float | None) -> Judging:
         bounds = cutting.stock.bounds
         apart = float(step) if step is not None else float((bounds[1] - bounds[0])[:2].max()) / CELLS
-        return cls(cutting, moves_of(cutting), apart)
+        return cls(cutting, moves_of(cutting, chord=TOLERANCE / 10), apart)
 
     @cached_property
     def boxes(self) -> Array:

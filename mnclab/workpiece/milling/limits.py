@@ -48,7 +48,7 @@ def undercuts(necks: Array, sweep: Sweep) -> Index:
     moves, rows = sweep.moves, []
     neck = necks[moves.row]
     sideways = (np.hypot(*(moves.end - moves.start)[:, :2].T) > STILL) | moves.arc
-    for tile in sweep.raster.tiles():
+    for tile in sweep.tiles:
         x, y = sweep.raster.middles(tile)
         for which, before, after in sweep.in_order(x, y):
             over = (before > after + neck[which, None] + NOISE).any(axis=1) & sideways[which]

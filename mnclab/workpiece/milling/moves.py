@@ -80,8 +80,8 @@ class Moves:
         return np.concatenate([low - wide, high + wide], axis=1)
 
 
-def moves_of(cutting: Cutting, rows: Mask | None = None) -> Moves:
-    """The moves of the rows that cut, or of other ones; a tilted tool has none."""
+def moves_of(cutting: Cutting, rows: Mask | None = None, chord: float = CHORD) -> Moves:
+    """The moves of the rows that cut, or of other ones; a tilted tool has none. `chord` mm: see `CHORD`."""
     path = cutting.path
     chosen = cutting.cuts if rows is None else rows
     if cutting.tilted is not None:
@@ -93,7 +93,7 @@ def moves_of(cutting: Cutting, rows: Mask | None = None) -> Moves:
     bent[arc] = ~_about_z(path, index[arc])
     row, start, end = _plain(path, index[~bent])
     if bent.any():
-        pieces = [(row, start, end), *(_chords(path, int(row)) for row in index[bent])]
+        pieces = [(row, start, end), *(_chords(path, int(row), chord) for row in index[bent])]
         row, start, end = (np.concatenate(column) for column in zip(*pieces, strict=True))
         order = np.argsort(row, kind="stable")
         row, start, end = row[order], start[order], end[order]
@@ -121,6 +121,6 @@ def _plain(path: Toolpath, rows: Index) -> tuple[Index, Array, Array]:
     return rows, path.start[rows], path.end[rows]
 
 
-def _chords(path: Toolpath, row: int) -> tuple[Index, Array, Array]:
-    places = points(path[row : row + 1], CHORD)[0]
+def _chords(path: Toolpath, row: int, chord: float) -> tuple[Index, Array, Array]:
+    places = points(path[row : row + 1], chord)[0]
     return np.full(len(places) - 1, row), places[:-1], places[1:]

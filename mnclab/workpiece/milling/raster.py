@@ -16,7 +16,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.swept import left_by
 
-TILE = 32  # cells of a tile's side
+TILE, SMALL = 32, 8  # cells of a tile's side, and of one where the moves go in order and are many
 AT_ONCE = 1 << 17  # points times moves that are looked at together
 FEW, PAIRS = 64, 1 << 14  # points, and points times moves, beyond which points are looked at quarter by quarter
 NOISE = 1e-9  # mm: less than this is rounding, and nothing taken away
@@ -55,11 +55,11 @@ class Raster:
         """The middles of the cells of a column (ny,)."""
         return np.asarray(self.low[1] + self.step * (np.arange(self.shape[0]) + 0.5))
 
-    def tiles(self) -> Iterator[tuple[slice, slice]]:
-        """Rows and columns of every tile."""
-        for j in range(0, self.shape[0], TILE):
-            for i in range(0, self.shape[1], TILE):
-                yield slice(j, min(j + TILE, self.shape[0])), slice(i, min(i + TILE, self.shape[1]))
+    def tiles(self, side: int = TILE) -> Iterator[tuple[slice, slice]]:
+        """Rows and columns of every tile of so many cells a side."""
+        for j in range(0, self.shape[0], side):
+            for i in range(0, self.shape[1], side):
+                yield slice(j, min(j + side, self.shape[0])), slice(i, min(i + side, self.shape[1]))
 
     @property
     def tile(self) -> float:
@@ -136,7 +136,12 @@ def in_order(moves: Moves, boxes: Array, x: Array, y: Array, top: Array) -> Iter
     """
     heights = top.copy()
     found = near(moves, boxes, x, y, float(top.max()))
-    for chunk in chunks(found, len(x)):
+    least = _least(moves, found, x, y)
+    many = max(PAIRS // len(x), FEW)
+    for first in range(0, len(found), many):
+        chunk = found[first : first + many][least[first : first + many] < heights.max()]
+        if not len(chunk):
+            continue
         left = left_by(moves[chunk], x, y)
         upto = np.minimum.accumulate(np.concatenate([heights[None], left]), axis=0)
         yield chunk, upto[:-1], left

@@ -1,4 +1,4 @@
-"""Sections of a milled part: closed contours of the material, found on exact heights and not on the map.
+"""Sections of a milled part: closed contours of the material, on exact heights; level ones of very many moves on the map.
 
 Upright sections are sampled along their line, level ones over the cells; where something bends or jumps between two
 samples, it is halved until it is straight within `STRAIGHT`, or until it is a wall within `WALL`.

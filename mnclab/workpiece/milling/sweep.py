@@ -10,7 +10,9 @@ import numpy as np
 
 from mnclab.path.columns import Array, Index
 from mnclab.workpiece.milling.moves import Moves
-from mnclab.workpiece.milling.raster import Raster, in_order, lowered, near
+from mnclab.workpiece.milling.raster import SMALL, TILE, Raster, in_order, lowered, near
+
+MANY = 5_000  # moves, beyond which tiles are small
 
 Faces = Callable[[Array, Array], tuple[Array, Array]]  # upper and lower side of the blank at points (m,)
 
@@ -27,6 +29,11 @@ class Sweep:
     @cached_property
     def boxes(self) -> Array:
         return self.moves.boxes
+
+    @property
+    def tiles(self) -> Iterator[tuple[slice, slice]]:
+        """Rows and columns of tiles to go through in order: the more moves, the smaller."""
+        return self.raster.tiles(TILE if len(self.moves) <= MANY else SMALL)
 
     def left(self, x: Array, y: Array) -> Array:
         """The heights (m,) at points that lie close together."""

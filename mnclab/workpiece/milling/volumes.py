@@ -67,7 +67,7 @@ def _bent(taken: Array) -> Mask:
 def removed_by_row(sweep: Sweep, rows: int) -> Array:
     """What each of so many rows took away (rows,), mm³, on a coarser lattice."""
     rims, raster, found = Rims(sweep), sweep.raster, np.zeros(rows)
-    for tile in raster.tiles():
+    for tile in sweep.tiles:
         x, y = raster.middles(tile)
         crossed, moves = rims.passing(x, y) if len(sweep.moves) <= MANY else (np.zeros(len(x), dtype=bool), 0)
         lattice = _lattice(int(crossed.sum()) * moves * (raster.shape[0] * raster.shape[1] // len(x)), ROUGH)
