@@ -13,6 +13,7 @@ from mnclab.workpiece.part import contact
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
+DEEP = 1e-6  # mm, by which a ball may stand in the material where its touch begins: it only rests on it
 Point = tuple[float, float, float]
 
 
@@ -27,7 +28,8 @@ class Contact(NamedTuple):
 def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, miss: str) -> Contact:
     """Move the tip (the south pole of the ball) towards a point in program coordinates at feed `f`.
 
-    No contact is an alarm, or with `miss="return"` an answer that is no `hit`. Radius compensation is refused.
+    No contact is an alarm, or with `miss="return"` an answer that is no `hit`. Radius compensation is refused,
+    and a ball that stands in the material already.
     """
     if m.side:
         m.alarm("a probe cannot move under radius compensation", word)
@@ -41,6 +43,8 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     if reach == 0:
         m.alarm("a touch needs a direction", word)
     direction, up = (goal - start) / reach, np.array([0.0, 0.0, ball])
+    if float(part(start + up)[0]) - ball < -DEEP:
+        m.alarm("the stylus is in contact before it touches", word, hint="the touch begins where the ball is free")
     travel = contact(part, start + up, direction, ball, reach)
     if travel is None and miss == "alarm":
         m.alarm(f"touch point inaccessible: no contact within {reach:g} mm", word)

@@ -17,6 +17,7 @@ KINDS = (
     "turning", "boring", "grooving", "face grooving", "thread",
 )  # fmt: skip
 LATHE = ("turning", "boring", "grooving", "face grooving", "thread")  # their corner is the nose, whatever the radius
+MOST = 1e9  # of every number of a tool
 BODIES = ("centre_cutting", "shank", "holder")  # no plain numbers
 SIZES = ("radius", "corner", "teeth", "cutting_length", "width", "number", "angle", "plunge_angle")  # never negative
 
@@ -69,7 +70,7 @@ class Tool:
             if each.name in BODIES:
                 continue
             if each.name not in TEXTS:
-                check_number(value, what, at_least=0 if each.name in SIZES else None)
+                check_number(value, what, at_least=0 if each.name in SIZES else None, at_most=MOST)
             elif not isinstance(value, str):
                 raise Alarm(f"{what} must be a text, got {shown(value)}")
         if self.teeth != int(self.teeth):

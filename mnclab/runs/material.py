@@ -114,6 +114,8 @@ def workpiece(
 ) -> Workpiece:
     """What is left after a run, a pass of a line, or a row."""
     last = None
+    if row is not None and line is not None:
+        raise Alarm(f"a part is that after a line or after a row, got line {shown(line)} and row {shown(row)}")
     if row is not None:
         last, n = whole(row, "the row"), len(run.toolpath)
         if not -n <= last < n:

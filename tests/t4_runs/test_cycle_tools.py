@@ -92,3 +92,12 @@ def test_pictures_and_reports_have_the_tool_of_the_cycle():
     tools, numbers = run.tools_that_cut
     assert set(numbers[run.toolpath.label > 0].tolist()) == {7} and tools[7].kind == "face grooving"
     assert [row[:2] for row in report(run).tools][-1] == ("T7", LATHES[7].name)
+
+
+def test_a_hole_from_the_side_is_left_out_and_noted():
+    """The radial drill of G72 makes no body of revolution."""
+    text = "S800\nM3\nF20\nZ200~\nX4400~\nZ-3000~\nG72*\nX2000*\nF1000*\nP600\n"
+    run = mnclab.run(text, "nc-31", mnclab.Setup(stock=mnclab.blank.cylinder(20, -60, 0)))
+    found = run.workpiece()
+    assert run.ok and found.removed == 0 and any("without a tool" in note for note in found.notes)
+    assert not run.collisions()
