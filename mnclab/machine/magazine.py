@@ -42,4 +42,5 @@ LATHES: Magazine = MappingProxyType({
     5: Tool(number=5, name="boring bar", corner=0.4, main_angle=90, auxiliary_angle=30, kind="boring"),
     6: Tool(number=6, name="drill 10", radius=5, angle=118, kind="drill"),
     7: Tool(number=7, name="face grooving blade 3", width=3, kind="face grooving"),
+    8: Tool(radius=5, number=8, name="tap M10", pitch=1.5, kind="tap"),
 })  # fmt: skip

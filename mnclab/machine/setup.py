@@ -9,8 +9,6 @@ from pathlib import Path
 from types import MappingProxyType, UnionType
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from mnclab.machine.magazine import MILLS, Magazine
 from mnclab.machine.setup_page import page
 from mnclab.path.limits import Limits
@@ -19,7 +17,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, shown
 from mnclab.text.records import written
 from mnclab.text.tables import html_table
-from mnclab.workpiece.blank import Revolved, blank
+from mnclab.workpiece.blank import blank
 from mnclab.workpiece.part import Part
 
 
@@ -128,13 +126,7 @@ def _variable(what: str, given: Any) -> None:
 
 
 def _stock(what: str, given: Any) -> None:
-    try:
-        body = None if given is None else blank(given)
-        good = given is None or (body is not None and bool(np.isfinite(body.bounds).all()))
-        good = good and not (isinstance(body, Revolved) and any(radius < 0 for radius, _ in body.profile))
-    except (TypeError, ValueError, OverflowError):  # of numpy, of what is no number
-        good = False
-    _must(good, what, "two corners (x, y, z), or a blank", given)
+    _must(given is None or blank(given) is not None, what, "two corners (x, y, z), or a blank", given)
 
 
 def _part(what: str, given: Any) -> None:

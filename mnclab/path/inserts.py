@@ -75,6 +75,8 @@ def cutting_part(tool: Tool, height: float) -> Contour:
     height = max(height, float(points[:, 1].max()))
     behind = _ray(points[-1], auxiliary, 1.0, edge, height)
     ahead = _ray(points[0], math.pi - main, -1.0, edge, height)
+    if (far := float(ahead[-1, 0])) > behind[-1, 0]:  # a main edge that leans back over the insert: the other one is longer
+        behind = np.array([(far, points[-1, 1] + (far - points[-1, 0]) * math.tan(auxiliary))])
     return _placed(tool, np.vstack([points, behind, ahead[::-1]]), bulges)
 
 

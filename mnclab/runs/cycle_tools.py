@@ -7,6 +7,7 @@ gives a body stands for all of them.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,7 +34,8 @@ def cycle_tools(run: Run, tools: list[Tool], which: Index) -> tuple[list[Tool], 
         return [*tools, own], np.where(bare, len(tools), which)
     place = {code: len(tools) + k for k, code in enumerate(by_code)}
     chosen = np.array([place[code] for code in _codes(path, tuple(by_code))], dtype=np.int64)
-    return [*tools, *(table.get(number, Tool()) for number in by_code.values())], np.where(bare, chosen, which)
+    own_ones = [replace(table.get(number, Tool()), number=number) for number in by_code.values()]
+    return [*tools, *own_ones], np.where(bare, chosen, which)
 
 
 def _codes(path: Toolpath, known: tuple[str, ...]) -> list[str]:

@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from mnclab.machine.cutting_rows import TILT, lifted, start_known, tilted_rows, tools_of_rows
-from mnclab.path.columns import Mask
+from mnclab.path.columns import Index, Mask
 from mnclab.path.kinds import Kind
+from mnclab.path.tool import Tool
 from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
 from mnclab.text.program import NUMBER, Program
-from mnclab.workpiece.blank import Revolved, blank
+from mnclab.workpiece.blank import Revolved, blank, volume_of
 from mnclab.workpiece.collision import Collision, Collisions
-from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.cutting import Cutting, numbers_of
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Workpiece, no_blank
 
@@ -34,14 +35,26 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     body = run.stock if stock is None else blank(stock)
     if body is None:
         raise no_blank() if stock is None else Alarm(f"stock must be two corners or a blank, got {shown(stock)}")
+    if not volume_of(body) > 0:
+        raise Alarm(f"there is nothing to cut: the blank is {shown(body)}")
     body = body if stock is None else body.moved(-origin)
-    changed = run.history.changed
-    tools, which, lift = tools_of_rows(path.step, changed("tool"), run.setup.tools, run.history.value)
-    tools, which = cycle_tools(run, tools, which)
-    start, tilted = run.setup.start, tilted_rows(path.step, changed(TILT))
+    tools, which, lift = _held(run)
+    start, tilted = run.setup.start, tilted_rows(path.step, run.history.changed(TILT))
     known = start_known(path, start, *(() if any(start) else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, name=run.place_of_line)
+
+
+def tools_that_cut(run: Run) -> tuple[dict[int, Tool], Index]:
+    """The tools by their numbers as the tables stand at the end, and the number of each row of the path (n,)."""
+    tools, which, _ = _held(run)
+    return {tool.number: tool for tool in tools} | run.tables.tools, numbers_of(run.toolpath, tools, which)
+
+
+def _held(run: Run) -> tuple[list[Tool], Index, Any]:
+    history = run.history
+    tools, which, lift = tools_of_rows(run.toolpath.step, history.changed("tool"), run.setup.tools, history.value)
+    return *cycle_tools(run, tools, which), lift
 
 
 def _named(run: Run) -> tuple[Mask, Mask]:
@@ -175,7 +188,7 @@ def _kept(run: Run, key: tuple[Any, ...], stock: Any, make: Callable[[], Made]) 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:
     """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
     stock = run.stock
-    if stock is None:
+    if stock is None or not volume_of(stock) > 0:
         return None, Collisions()
     judged = len(run.toolpath) <= JUDGED
     if run.toolpath.lathe and isinstance(stock, Revolved):

@@ -21,10 +21,12 @@ from mnclab.machine.machine import Machine
 from mnclab.machine.machine_file import load
 from mnclab.machine.settling import paths, shifted, stop_at_travel
 from mnclab.machine.setup import Setup, Tables
+from mnclab.path.columns import Index
 from mnclab.path.compensation import Gouge
 from mnclab.path.kinds import Kind
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
+from mnclab.path.tool import Tool
 from mnclab.path.travel import Stopped
 from mnclab.running.flow import Steps, course
 from mnclab.running.interpreter import Interpreter, Stop
@@ -207,6 +209,12 @@ class Run:
         The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`.
         """
         return material.collisions(self, stock, step)
+
+    @property
+    def tools_that_cut(self) -> tuple[dict[int, Tool], Index]:
+        """The tools by their numbers, and the number of each row of the path (n,): where a control has no tool words, of the
+        tool that its cycle is cut with."""
+        return material.tools_that_cut(self)
 
     @property
     def rows_from_home(self) -> int:

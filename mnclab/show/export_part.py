@@ -68,7 +68,7 @@ def write_vtk(workpiece: Workpiece, path: Path) -> None:
         file.write(f"{head}POINTS {len(points)} double\n".encode() + points.astype(">f8").tobytes())
         file.write(f"\nPOLYGONS {len(cells)} {cells.size}\n".encode() + cells.astype(">i4").tobytes())
         file.write(f"\nCELL_DATA {len(cells)}\n".encode())
-        for name, column in (("row", row), ("line", rows.line[row]), ("tool", rows.tool[row])):
+        for name, column in (("row", row), ("line", rows.line[row]), ("tool", workpiece.cutting.numbers[row])):
             values = np.where(row >= 0, column, -1)
             file.write(f"SCALARS {name} int 1\nLOOKUP_TABLE default\n".encode() + values.astype(">i4").tobytes() + b"\n")
 

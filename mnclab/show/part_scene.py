@@ -73,7 +73,7 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
         cut = values[~uncut]
         deep = not workpiece.cutting.lathe and cut.size and cut.max() > 0
         limits = (0.0, float(cut.max() if deep else values.max()))
-        bar = scenes.BAR | BESIDE | {"title": title, "fmt": "%.3g"}
+        bar = scenes.BAR | BESIDE | {"title": title + "\n", "fmt": "%.3g"}
         plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, nan_color=plain, scalar_bar_args=bar, **LOOK)
     else:
         values = getattr(workpiece.cutting.path, colour)[solid.row].astype(np.float64)

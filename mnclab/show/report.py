@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from mnclab.path.columns import Index
 from mnclab.path.kinds import Kind
 from mnclab.path.listing import figure
 from mnclab.path.tool import Tool
@@ -77,8 +78,9 @@ def report(run: Any, title: str | None = None) -> Report:
     facts += became.facts() if became else []
     removal = became.removal.rows() if became and became.removal else []
     collisions = became.collisions if became else None
-    by_tool, table = profile.time_by("tool"), run.tables.tools
-    tools = [_tool(number, table.get(number, Tool()), by_tool.get(number, 0.0)) for number in _used(run)]
+    table, numbers = run.tools_that_cut
+    seconds = profile.seconds
+    tools = [_tool(n, table.get(n, Tool()), float(seconds[numbers == n].sum())) for n in _used(run, numbers)]
     causes = sorted(profile.time_by("cause").items(), key=lambda item: -item[1])
     times: Table = [(str(name), clock(s), f"{100 * s / profile.time:.1f} %") for name, s in causes if s > 0]
     (_, main), *called = ((program.title, _numbered(run, index)) for index, program in enumerate(run.programs))
@@ -97,10 +99,10 @@ def _numbered(run: Any, index: int) -> Listing:
     return [(number, text, marks.get(number, "")) for number, text in lines]
 
 
-def _used(run: Any) -> list[int]:
+def _used(run: Any, numbers: Index) -> list[int]:
     """The tools of the path, in the order of their first cut or change."""
     path = run.toolpath
-    rows = path.tool[path.is_motion | (path.kind == Kind.TOOL)]
+    rows = numbers[path.is_motion | (path.kind == Kind.TOOL)]
     return [number for number in dict.fromkeys(rows.tolist()) if number]
 
 

@@ -15,6 +15,7 @@ from mnclab.text.given import check_number, check_point
 from mnclab.text.records import written
 
 CORNERS = 96  # of a circle in a picture
+FARTHEST = 1e9  # mm, where a blank may stand
 Array = NDArray[np.float64]
 
 
@@ -142,13 +143,21 @@ def chuck(radius: float, back: float, grip: float = 20.0, jaws: float = 25.0, bo
 
 
 def blank(given: Any) -> Blank | None:
-    """What a Setup calls its stock: two corners (3,), or a blank; None for what is neither."""
-    if isinstance(given, Box | Revolved):
-        return given
-    if not isinstance(given, tuple | list | np.ndarray) or np.shape(given) != (2, 3):
+    """What a Setup calls its stock: two corners (3,), or a blank; None for what is neither, or stands nowhere."""
+    try:
+        body = given
+        if not isinstance(given, Box | Revolved):
+            if not isinstance(given, tuple | list | np.ndarray) or np.shape(given) != (2, 3):
+                return None
+            low, high = np.asarray(given, dtype=np.float64).tolist()
+            body = Box(tuple(low), tuple(high))
+        good = body.bounds.shape == (2, 3) and bool((np.abs(body.bounds) <= FARTHEST).all())
+        if isinstance(body, Revolved):
+            profile = np.array(body.profile, dtype=np.float64)
+            good &= len(profile) > 1 and len(body.at) == 3 and bool(body.bore >= 0) and bool((profile[:, 0] >= 0).all())
+    except (TypeError, ValueError, IndexError, OverflowError):  # of numpy, of what is no number
         return None
-    low, high = np.asarray(given, dtype=np.float64).tolist()
-    return Box(tuple(low), tuple(high))
+    return body if good else None
 
 
 def top_of(body: Blank, x: Array, y: Array) -> Array:
@@ -191,10 +200,20 @@ def _faces(body: Blank, x: Array, y: Array) -> tuple[Array, Array]:
             bottom, top, inside = _stacked(profile, body.bore, rho, at[2])
         else:
             along, beside = (x - at[0], y - at[1]) if body.axis == "X" else (y - at[1], x - at[0])
-            radius = np.interp(along, profile[:, 1], profile[:, 0], left=np.nan, right=np.nan)
+            radius = _widest(profile, along)
             half = np.sqrt(np.where(np.abs(beside) <= radius, radius * radius - beside * beside, np.nan))
             bottom, top, inside = at[2] - half, at[2] + half, np.isfinite(half)
     return np.where(inside, bottom, np.nan), np.where(inside, top, np.nan)
+
+
+def _widest(profile: Array, along: Array) -> Array:
+    """The radius of a body at places along its axis (m,), nan beyond its ends."""
+    found = np.full(along.shape, -np.inf)
+    for (r0, z0), (r1, z1) in zip(profile[:-1], profile[1:]):
+        there = (along >= min(z0, z1)) & (along <= max(z0, z1))
+        radius = r0 + (r1 - r0) * (along - z0) / (z1 - z0) if z1 != z0 else np.full(along.shape, max(r0, r1))
+        found = np.where(there, np.maximum(found, radius), found)
+    return np.where(np.isfinite(found), found, np.nan)
 
 
 def _stacked(profile: Array, bore: float, rho: Array, at: float) -> tuple[Array, Array, NDArray[np.bool_]]:

@@ -5,7 +5,7 @@ All of it stands in the coordinates of the path. This is all that the room of th
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -20,6 +20,7 @@ from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.part import Part
 
 CUTS = (Kind.LINE, Kind.ARC)  # what moves at feed; a probe cuts nothing
+SHOWN = 3  # lines that a sentence names
 
 
 def _lines(line: int, program: int) -> str:
@@ -83,9 +84,39 @@ class Cutting:
         first = (rows == self.arrived) | (self.path.kind == Kind.RAPID)
         return np.asarray((rows >= self.arrived) & (rows < self.known) & first)
 
+    @cached_property
+    def numbers(self) -> Index:
+        """The number of the tool of each row (n,): where a program has no tool words, of the one that cuts all the same."""
+        return numbers_of(self.path, self.tools, self.which)
+
+    @property
+    def bare(self) -> Mask:
+        """Rows (n,) that go through the box of the blank at feed and cut nothing: they have no tool, or one without a body."""
+        path, (low, high) = self.path, self.stock.bounds
+        ends = np.stack([path.start, path.end])
+        inside = ((ends.min(axis=0) < high) & (ends.max(axis=0) > low)).all(axis=1)
+        bodies = np.array([tool.kind == "probe" or tool_exists(tool) for tool in self.tools], dtype=bool)
+        return np.asarray(inside & np.isin(path.kind, CUTS) & (~bodies[self.which] if len(bodies) else True))
+
+    def lines(self, rows: Mask) -> str:
+        """The first lines of some rows (n,), in words."""
+        found = list(dict.fromkeys(zip(self.path.line[rows].tolist(), self.path.program[rows].tolist())))
+        return ", ".join(self.name(*each) for each in found[:SHOWN]) + (", …" if len(found) > SHOWN else "")
+
+    def notes(self) -> Iterator[str]:
+        """What of the path is not in a part, whatever turns or mills it."""
+        if (bare := self.bare).any():
+            yield f"rows without a tool cut nothing ({self.lines(bare)})"
+
     @property
     def lathe(self) -> bool:
         return self.path.lathe
+
+
+def numbers_of(path: Toolpath, tools: Sequence[Tool], which: Index) -> Index:
+    """The number of the tool of each row (n,), that of `tools[which[row]]` where the path has none."""
+    held = np.array([tool.number for tool in tools] or [0], dtype=np.int64)
+    return np.where(path.tool == 0, held[which], path.tool).astype(np.int64)
 
 
 def tool_exists(tool: Tool) -> bool:

@@ -65,30 +65,32 @@ class Removal:
 
     @property
     def mean(self) -> float:
-        """mm³/min while something is taken away."""
-        return 60 * self.volume / self.time if self.time else 0.0
+        """mm³/min while something is taken away at feed: what a rapid tears away is no rate."""
+        return self._mean(self._at_feed)
+
+    def _mean(self, rows: Any) -> float:
+        seconds = float(self.seconds[rows & (self.volumes > 0)].sum())
+        return 60 * float(self.volumes[rows].sum()) / seconds if seconds else 0.0
+
+    @cached_property
+    def _at_feed(self) -> Any:
+        return np.isin(self.workpiece.cutting.path.kind, CUTS)
 
     @property
     def largest(self) -> Fastest | None:
         """The row at feed with the largest rate; None if none cuts."""
-        return self._fastest(np.isin(self.workpiece.cutting.path.kind, CUTS))
+        return self._fastest(self._at_feed)
 
     def by(self, what: str = "line") -> dict[Any, float]:
         """mm³ by "tool", or by "line": of a program that was called a pair (program, line), as `Profile.time_by` has it."""
         choice(what, "what a removal sums over", KEYS)
-        path = self.workpiece.cutting.path
-        own, line = path.program.tolist(), path.line.tolist()
-        keys = self._tools.tolist() if what == "tool" else [at if not of else (of, at) for of, at in zip(own, line)]
+        cutting = self.workpiece.cutting
+        own, line = cutting.path.program.tolist(), cutting.path.line.tolist()
+        keys = cutting.numbers.tolist() if what == "tool" else [at if not of else (of, at) for of, at in zip(own, line)]
         found: dict[Any, float] = {}
         for row in np.flatnonzero(self.volumes):
             found[keys[row]] = found.get(keys[row], 0.0) + float(self.volumes[row])
         return found
-
-    @property
-    def _tools(self) -> Any:
-        """The number of the tool that cuts each row (n,): some controls have none in their words."""
-        cutting = self.workpiece.cutting
-        return np.array([tool.number for tool in cutting.tools])[cutting.which]
 
     def _fastest(self, rows: Any) -> Fastest | None:
         rates = np.where(rows, self.rate, 0.0)
@@ -104,18 +106,17 @@ class Removal:
 
     def rows(self) -> list[tuple[str, ...]]:
         """A row of texts for each tool that took something away, and for all of them: as `HEAD` has it."""
-        path = self.workpiece.cutting.path
         numbers = list(self.by("tool"))
-        cut_by = self._tools
+        cut_by = self.workpiece.cutting.numbers
         groups = [(self._tool(number), cut_by == number) for number in numbers]
         groups += [("all", np.ones(len(cut_by), dtype=bool))] if len(numbers) != 1 else []
         told: list[tuple[str, ...]] = []
         for name, rows in groups:
             taken = float(self.volumes[rows].sum())
             seconds = float(self.seconds[rows & (self.volumes > 0)].sum())
-            most = self._fastest(rows & np.isin(path.kind, CUTS))
+            most = self._fastest(rows & self._at_feed)
             told.append((
-                name, volume(taken), f"{seconds:.2f} s", f"{volume(60 * taken / seconds if seconds else 0.0)}/min",
+                name, volume(taken), f"{seconds:.2f} s", f"{volume(self._mean(rows & self._at_feed))}/min",
                 f"{volume(most.rate)}/min" if most else "", self.place(most) if most else "",
             ))  # fmt: skip
         return told

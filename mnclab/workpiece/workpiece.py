@@ -85,7 +85,9 @@ class Workpiece(ABC):
         """mm³ by "line" (of the main program or a called one), "tool" or "row"; the values sum to `removed`."""
         choice(what, "what removed_by sums over", SHARES)
         volumes = self.removed_by_row()
-        keys = np.arange(len(volumes)) if what == "row" else getattr(self.cutting.path, what)
+        keys = self.cutting.numbers if what == "tool" else np.arange(len(volumes))
+        if what == "line":
+            keys = self.cutting.path.line.astype(np.int64)
         known, index = np.unique(keys, return_inverse=True)
         sums = np.bincount(index, volumes, minlength=len(known))
         return {int(key): float(total) for key, total in zip(known, sums) if total != 0}

@@ -122,6 +122,12 @@ def test_a_slow_arc_runs_at_its_feed():
 # --- feeds -----------------------------------------------------------------------------------------------------------
 
 
+def test_an_arc_whose_ends_miss_its_circle_has_no_corners_within():
+    turn = {"kind": Kind.ARC, "centre": np.zeros((1, 3)), "sweep": 2 * math.pi, "feed": 500.0}
+    profile = Profile(path((0.049208, -0.008866, 0), (0.049294, -0.008373, 0), **turn), Limits())
+    assert 2 * math.pi * 0.05 / (500 / 60) < profile.time < 0.1
+
+
 def test_feed_per_revolution_and_override():
     limits = Limits(spindle=1000)
     line = path((0, 0, 0), (100, 0, 0), feed=400.0, per_rev=0.2, spindle=2000.0)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import mnclab
 from mnclab import Alarm
 from mnclab.show.solids import body_of
-from mnclab.workpiece.blank import CORNERS, Box, Revolved, blank, cylinder
+from mnclab.workpiece.blank import CORNERS, Box, Revolved, blank, cylinder, floor_of, top_of
 
 sizes = st.floats(0.5, 100)
 places = st.tuples(*[st.floats(-50, 50)] * 3)
@@ -53,6 +53,39 @@ def test_a_tube_has_its_volume_along_every_axis(radius, length, share, axis, at)
         assert np.allclose([points.min(axis=0), points.max(axis=0)], tube.bounds[:, [right, up]])
     edges = np.concatenate(tube.edges())
     assert np.allclose([edges.min(axis=0), edges.max(axis=0)], tube.bounds)
+
+
+@pytest.mark.parametrize("given", [
+    (("a", 0, 0), (1, 1, 1)), ((None, 0, 0), (1, 1, 1)), ((0, 0, 0), (1, 1, float("inf"))), ((0, 0, 0), (1, 1, 1e300)),
+    Box(("a", 0, 0), (1, 1, 1)), Box((0, 0), (1, 1)), Box((0, 0, 0), (1, float("nan"), 1)),
+    Revolved(()), Revolved(((5, 0),)), Revolved(((5, 0), (-5, 9))), Revolved(((5, 0), (5, 9)), "Q"),
+    Revolved(((5, 0), (5, 9)), at=(0, 0)), Revolved(((5, 0), (5, 9)), bore=-1), Revolved(((5, 0), (5, 9)), bore=float("nan")),
+], ids=str)  # fmt: skip
+def test_what_stands_nowhere_is_no_blank(given):
+    assert blank(given) is None
+    with pytest.raises(Alarm, match="stock must be two corners"):
+        mnclab.Setup(stock=given)
+    with pytest.raises(Alarm, match="stock must be two corners or a blank"):
+        mnclab.run("G0 X1\n", "mnc").workpiece(stock=given)
+
+
+@pytest.mark.parametrize("given", [((0, 0, 0), (40, 20, 0)), ((0, 0, 0), (0, 0, 0)), Revolved(((5, 0), (5, 9)), bore=5)])
+def test_what_holds_nothing_cannot_be_cut(given):
+    run = mnclab.run("G0 X1\n", "mnc", mnclab.Setup(stock=given))
+    for ask in (run.workpiece, run.collisions):
+        with pytest.raises(Alarm, match="there is nothing to cut"):
+            ask()
+
+
+@pytest.mark.parametrize("axis", "XY")
+def test_a_lying_blank_reads_its_profile_from_either_end(axis):
+    rod = Revolved(((6, 0), (8, 20), (10, 20), (10, 30), (4, 25)), axis)
+    along, zero = np.array([-1.0, 0.0, 10.0, 20.0, 22.0, 29.0, 31.0]), np.zeros(7)
+    at = (along, zero) if axis == "X" else (zero, along)
+    expected = [np.nan, 6, 7, 10, 10, 10, np.nan]
+    for body in (rod, rod._replace(profile=rod.profile[::-1])):
+        assert np.allclose(top_of(body, *at), expected, equal_nan=True)
+        assert np.allclose(floor_of(body, *at), np.negative(expected), equal_nan=True)
 
 
 def test_a_cone_is_a_third_of_its_cylinder():

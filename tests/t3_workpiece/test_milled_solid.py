@@ -8,6 +8,7 @@ import pytest
 import mnclab
 from mnclab import Setup, Tool
 from mnclab.workpiece.blank import cylinder
+from mnclab.workpiece.milling import lattice
 from mnclab.workpiece.milling.sweep import Mapped
 
 STOCK = ((0, 0, -20), (60, 40, 0))
@@ -102,7 +103,7 @@ def test_flat_places_have_few_triangles():
 def test_very_many_moves_are_taken_from_the_map():
     """Between the cells of a chamfer of 45 degrees, 2 wide, heights are those of its plane."""
     found = part(CHAMFER, step=0.25)
-    found.surface = Mapped(found.raster, found.moves, found.blank_at, found.heights)
+    found.surface = Mapped(found.raster, found.moves, found.blank_at, 0.0, found.heights)
     x, y = np.linspace(0, 60, 40), np.linspace(0.125, 1.875, 40)
     assert np.abs(found.surface.at(x, y) - (y - 2)).max() < 1e-9
     assert is_closed(found.solid())

@@ -7,7 +7,7 @@ import pytest
 from milled import BALL, BLOCK, BULL, DRILL, MILL, part
 from running import run
 
-from mnclab import Tool
+from mnclab import Alarm, Tool
 from mnclab.workpiece.blank import Box, cylinder, floor_of, top_of, volume_of
 
 CLOSE = 1e-3  # of what is removed
@@ -52,6 +52,35 @@ def test_holes_narrower_than_a_cell():
     left = part("".join(f"G0 X{x} Y{y} Z5\nG1 Z-4\nG0 Z5\n" for x in range(5, 60, 5) for y in range(5, 40, 5)),
                 Tool(radius=0.05, number=1))  # fmt: skip
     assert left.removed == pytest.approx(77 * 4 * math.pi * 0.05**2, rel=0.1)
+
+
+@pytest.mark.parametrize("depth", [0.02, 0.1, 0.2, 0.5, 2.0])
+@pytest.mark.parametrize("way", [(1.0, 0.0), (0.6, 0.8)], ids=str)
+def test_scratches_between_the_middles_of_cells(depth, way):
+    (dx, dy), (x, y) = way, (30, 21)  # where four cells of 0.15 mm meet
+    text = f"G0 X{x - 12 * dx:g} Y{y - 12 * dy:g}\nG1 Z-{depth}\nG1 X{x + 12 * dx:g} Y{y + 12 * dy:g}\nG0 Z50"
+    tan = math.tan(math.radians(30))
+    left = part(text, Tool(radius=3, number=1, kind="chamfer", angle=60))
+    assert left.removed == pytest.approx(24 * depth**2 * tan + math.pi * (depth * tan) ** 2 * depth / 3, rel=CLOSE)
+    assert left.removed_by_row().sum() == pytest.approx(left.removed, rel=1e-12)
+    segment = 16 * math.acos(1 - depth / 4) - (4 - depth) * math.sqrt(8 * depth - depth**2)
+    left = part(text, BALL)
+    assert left.removed == pytest.approx(24 * segment + math.pi * depth**2 * (4 - depth / 3), rel=CLOSE)
+
+
+@pytest.mark.parametrize("width", [0.3, 1.0, 5.0])
+def test_a_strip_narrower_than_its_cells_would_be(width):
+    left = part("G0 X-10 Y0\nG1 Z-2\nG1 X70\nG0 Z50", stock=((0, 0, -10), (1000, width, 0)))
+    end = (width * math.sqrt(25 - width**2) + 25 * math.asin(width / 5)) / 2  # of the slot, which is round
+    assert left.removed == pytest.approx(2 * (70 * width + end), rel=CLOSE)
+    assert np.array_equal(np.unique(left.heights[:, left.x < 1000]), [-2, 0])
+
+
+def test_a_step_is_no_wider_than_the_blank():
+    left = part("G0 X-10 Y20\nG1 Z-2\nG1 X70\nG0 Z50", step=1e300)
+    assert left.step == 40 and left.removed == pytest.approx(60 * 10 * 2, rel=0.02)
+    with pytest.raises(Alarm, match="at most 25,000,000 cells"):
+        part("G0 X-10 Y20\nG1 Z-2", step=1e-300)
 
 
 def test_grooves_points_and_round_floors():

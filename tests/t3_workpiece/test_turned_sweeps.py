@@ -11,6 +11,7 @@ from t3_workpiece.lathe import BAR, NOSED, SHARP, turned
 
 from mnclab.path.inserts import cutting_part
 from mnclab.path.tool import Tool
+from mnclab.workpiece.blank import cylinder
 from mnclab.workpiece.turning.sweeping import along_arc, along_line, edges
 
 FINE = 1e-6
@@ -119,3 +120,23 @@ def test_mirrored_at_the_axis():
     assert [loop.area for loop in part.section] == [pytest.approx(57 * 30)]
     drill = Tool(kind="drill", radius=4, angle=118)
     assert turned(drill, (3, 0), (-20, 0)).volume == pytest.approx(turned(drill, (-20, 0), (3, 0)).volume)
+
+
+def test_a_main_edge_that_leans_back_takes_a_deep_cut_as_well():
+    """117.5 degrees on a bar of 60: the wall leans by 27.5 degrees, and in front of the insert nothing is left."""
+    vee = Tool(number=1, kind="turning", main_angle=117.5, auxiliary_angle=27.5)
+    part = turned(vee, (2, 20), (-50, 20), stock=cylinder(60, -80, 0))
+    lean = math.tan(math.radians(27.5))
+    wall = 2 * math.pi * lean * ((60**3 - 20**3) / 3 - 10 * (60**2 - 20**2))  # between Z-50 and the leaning wall
+    wanted = math.pi * (20**2 * 80 + (60**2 - 20**2) * 30) + wall
+    assert part.volume == pytest.approx(wanted, rel=1e-9)
+    assert part.at([-1.0, -20.0]) == pytest.approx([20, 20])
+
+
+def test_a_boring_bar_takes_the_wedge_under_its_edge_wherever_its_row_begins():
+    """Out of a bore of 4 to 12 at 30 degrees: the auxiliary edge, 12 long, leaves a cone from its tip down to the bore."""
+    bar = Tool(number=5, kind="boring", main_angle=90, auxiliary_angle=30)
+    part = turned(bar, (-20, 3), (-20, 9), stock=cylinder(14, -40, 0, bore=4))
+    long = 5 / math.tan(math.radians(30))
+    wanted = math.pi / 3 * long * (9**2 + 9 * 4 + 4**2) - math.pi * 4**2 * long
+    assert part.removed == pytest.approx(wanted, rel=1e-9)

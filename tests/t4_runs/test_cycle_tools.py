@@ -7,6 +7,7 @@ import mnclab
 from mnclab import Setup, Tool
 from mnclab.machine.magazine import LATHES
 from mnclab.runs.material import cutting_of
+from mnclab.show.report import report
 from mnclab.workpiece.blank import cylinder
 
 HEAD = "S800\nM3\nF20\nZ200~\nX4000~\n"
@@ -20,6 +21,8 @@ CYCLES = {
     "inside G77": ("X1000~\nG77*~\nX2000*\nZ-1500*\nF1000*\nP200\n", 5),
     "G74": ("X2000~\nG74*~\nX3000*\nZ-200*\nF500*\nP400\n", 7),
     "G75": ("X4400~\nZ-1000~\nG75*~\nX3000*\nZ-2000*\nF500*\nP400\n", 3),
+    "G32": ("X3800\nG32*\nZ-2000*\nF15000\n", 4),
+    "G33": ("X0~\nG33*\nZ-2000*\nF15000\n", 8),
     "G31": ("X4400~\nZ450~\nG31*\nX4000*\nZ-2000*\nF15000*\nP92*\nP25\n", 4),
 }
 
@@ -62,3 +65,30 @@ def test_a_blade_for_faces_leaves_a_groove_beside_its_tip():
     """The tip is the corner nearer to the axis: a groove from 12 to 15, 4 deep, is π (15² − 12²) 4 mm³."""
     run = mnclab.run("M3 S500 T7\nG94 F100\nG00 X12 Z2\nG01 Z-4\nG00 Z2\n", "jnc-t01", Setup(stock=BAR))
     assert run.workpiece().removed == pytest.approx(np.pi * (15**2 - 12**2) * 4) and run.collisions() == ()
+
+
+def test_volumes_are_those_of_the_tools_of_cycles():
+    """A tool that is listed under a number without having one too."""
+    setup = Setup(tools={1: Tool(kind="turning", main_angle=90)}, stock=BAR)
+    run = mnclab.run(HEAD + OUTSIDE, "nc-31", setup)
+    assert list(run.workpiece().removed_by("tool")) == [1] == list(run.removal().by("tool"))
+
+
+def test_rows_without_a_tool_are_told():
+    run = mnclab.run("M3 S500\nG94 F100\nG00 X18 Z2\nG01 Z-10\nT1\nG01 X30\n", "jnc-t01", Setup(stock=BAR))
+    assert run.workpiece().notes == ("rows without a tool cut nothing (program:4)",)
+    assert run.workpiece(line=3).notes == () == mnclab.run(HEAD + OUTSIDE, "nc-31", Setup(stock=BAR)).workpiece().notes
+
+
+def test_moves_of_a_mill_without_a_tool_are_told():
+    setup = Setup(stock=((0, 0, -10), (40, 40, 0)))
+    cut = "S500 M3\nG0 X-9 Y9 Z2 F100\nG1 Z-3\nX30\n"
+    bare, held = (mnclab.run(head + cut, "mnc", setup).workpiece().notes for head in ("", "T1\n"))
+    assert bare == ("rows without a tool cut nothing (program:4)",) and held == ()
+
+
+def test_pictures_and_reports_have_the_tool_of_the_cycle():
+    run = mnclab.run(HEAD + CYCLES["G74"][0], "nc-31", Setup(stock=BAR))
+    tools, numbers = run.tools_that_cut
+    assert set(numbers[run.toolpath.label > 0].tolist()) == {7} and tools[7].kind == "face grooving"
+    assert [row[:2] for row in report(run).tools][-1] == ("T7", LATHES[7].name)

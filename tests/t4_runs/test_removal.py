@@ -100,6 +100,7 @@ def test_a_rapid_in_material_does_not_set_the_scale():
     setup = Setup(tools=TOOLS, stock=((0, 0, -20), (60, 40, 0)), start=(-10, 10, 50))
     removal = mnclab.run(text, "g43", setup).removal(FAST)
     assert removal.rate.max() > 10 * removal.largest.rate and removal.largest.line == 6
+    assert removal.mean == pytest.approx(removal.largest.rate)  # of the one move at feed
     _, rate = removal.plot().axes
     assert rate.get_ylim()[1] == pytest.approx(1.25 * removal.largest.rate)
     assert f"rapids reach {removal.rate.max():.0f} mm³/min" in rate.texts[0].get_text()

@@ -425,3 +425,17 @@ def test_collisions_are_said_with_their_rows():
     (told,) = Data(payload(run, player.profile, player.cutting, player.collisions)).header["collisions"]
     assert (told["kind"], told["line"], told["program"]) == ("rapid", 3, 0)
     assert run.toolpath.line[told["row"]] == 3
+
+
+def test_a_piece_that_is_parted_off_goes_with_the_row_that_frees_it():
+    text = "M3\nT3\nS800 G97 G94 F60\nG00 X35 Z-30\nG01 X-0.5\nG00 X40\nM5\n"
+    run = mnclab.run(text, "jnc-t01", Setup(stock=cylinder(30, -60, 0), start=(60, 0, 50)))
+    header, columns = unpack(payload(run, run.profile(), run.workpiece().cutting))
+    section = header["section"]
+    rows, count = columns[section["rows"]], columns[section["count"]]
+    (which,) = section["fallen"]
+    assert [run.toolpath.line[row] for row in rows[: which + 2]] == [5] * (which + 1) + [6]  # the last of its row
+    z, r = (np.array(columns[k])[sum(count[:which]) : sum(count[: which + 1])] / section["parts"] for k in section["corners"])
+    assert (z.min(), z.max(), r.min(), r.max()) == (-27, 0, 0, 30)
+    (chuck,) = section["chuck"]
+    assert max(place for place, _ in chuck) == -60  # a chuck that nobody gave stands behind the bar

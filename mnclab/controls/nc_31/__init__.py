@@ -49,7 +49,7 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 #: The source has no tool words: the operator put the tool of a cycle in.
 CYCLE_TOOLS = {
     "": 1, "G70": 2, "G71": 2, "G77": 1, "G78": 1, "inside G70": 5, "inside G77": 5, "G72": 6, "G73": 6, "G74": 7, "G75": 3,
-    "G31": 4,
+    "G31": 4, "G32": 4, "G33": 8,
 }  # fmt: skip
 
 CYCLES = stock_removal.CYCLES | grooving.CYCLES | drilling.CYCLES | threads.CYCLES

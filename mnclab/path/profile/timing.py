@@ -118,6 +118,8 @@ def _turned(found: Plan, slow: Mask, limits: Limits, override: float) -> tuple[P
     caps = np.full(len(path), np.nan)
     caps[turns.rows] = turns.cap
     rows = measure(path, limits, override, caps)
+    inner = np.setdiff1d(turns.rows, turns.rows[turns.first[:-1]])  # no corners, if both ends of an arc miss its circle
+    rows.corner[inner] = np.minimum(rows.cap[inner - 1], rows.cap[inner])
     w = turns.speeds_at(rows.corner, rows.a, rows.length)
     w0, w1 = w[turns.rows], w[turns.rows + 1]
     row = part if found.row is None else found.row[part]

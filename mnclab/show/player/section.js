@@ -114,7 +114,8 @@ class ShownSection {
   }
   // What the row going on has taken so far: of a thread some rings, else the cutting part on its way.
   begun(pen, row, share) {
-    const from = last(this.rows, row - 1) + 1, own = last(this.rows, row) + 1 - from;
+    const from = last(this.rows, row - 1) + 1, to = last(this.rows, row) + 1;
+    const own = to - from - this.section.fallen.filter(k => k >= from && k < to).length;
     if (!own || !this.cuts.value(row)) return;
     if (own > 2) return this.take(pen, from, from + Math.floor(own * share));
     const {path} = this.run, {axis, tools} = this.section, {blade} = tools[this.which.value(row)];

@@ -6,12 +6,14 @@ rows it moves the convex cutting part of the tool itself.
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, steps_within
 from mnclab.path.inserts import cutting_part, holder, insert, turns
 from mnclab.path.tool import Tool
@@ -19,11 +21,13 @@ from mnclab.show.player.logs import columns, log, parted
 from mnclab.show.player.packing import Packer
 from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.turning.strokes import strokes_of
+from mnclab.workpiece.turning.section import Drawing, cuts, held, left_of
+from mnclab.workpiece.turning.strokes import Strokes, strokes_of
 from mnclab.workpiece.turning.turned import half_section
 
 OFF = 0.01  # mm
 PARTS = 1e3  # of a millimetre
+BEHIND, JAWS = 0.3, 1.55  # of the radius of the bar: how long and how high a chuck is that nobody gave, behind the bar
 MOST = 200_000  # corners of all areas; the page of more would be too large
 
 Array = NDArray[np.float64]
@@ -34,38 +38,57 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
     bar, axis, notes = half_section(cutting.stock)
     (low, _), (high, radius) = bar.bounds.tolist()
     strokes = strokes_of(cutting, low, high, radius, axis)
-    corners, count = _areas(strokes.contours)
+    rows, areas, fallen = _areas(strokes, bar, low)
     told = [*notes, *strokes.notes]
+    count = np.array([len(area) for area in areas], dtype=np.int64)
     kept = int(np.searchsorted(np.cumsum(count), MOST, "right"))
-    if kept < len(count):
-        told.append(f"the section is shown up to row {strokes.rows[kept]} only")
-    corners = corners[: int(count[:kept].sum())]
+    if kept < len(areas):
+        told.append(f"the section is shown up to row {rows[kept]} only")
+    corners = np.concatenate(areas[:kept]) if kept else np.empty((0, 2))
     reach = high - low + radius
     return {
         "bar": _corners(bar.points_within(OFF)),
         "axis": axis,
         "parts": PARTS,
-        "rows": pack.add(strokes.rows[:kept]),
+        "rows": pack.add(rows[:kept]),
         "count": pack.add(count[:kept]),
+        "fallen": fallen,
         "corners": columns(pack, parted(corners, PARTS)),
         "which": log(pack, cutting.which),
         "cuts": log(pack, cutting.cuts & ~cutting.from_home),
         "tools": [_tool(tool, reach, radius) for tool in cutting.tools],
-        "chuck": [_corners(half_section(each)[0].points) for each in cutting.fixtures if _turns(each)],
+        "chuck": [_corners(half_section(each)[0].points) for each in cutting.fixtures if _turns(each)]
+        or [[[low - BEHIND * radius, 0.0], [low, 0.0], [low, JAWS * radius], [low - BEHIND * radius, JAWS * radius]]],
         "note": "; ".join(told),
     }
 
 
-def _areas(contours: Sequence[Contour]) -> tuple[Array, NDArray[np.int64]]:
-    """The corners of closed contours (m, 2), one after the other, and how many each has (k,): all at once, as one line."""
+def _areas(strokes: Strokes, bar: Contour, low: float) -> tuple[list[int], list[Array], list[int]]:
+    """Rows and outlines of what goes, in order: of all strokes of a row, then of the pieces that fall; and which these are."""
+    rows, areas = list(strokes.rows), _outlines(strokes.contours)
+    drawing = Drawing([bar, *strokes.contours], np.array([-1, *rows], dtype=np.int64))
+    fallen: list[int] = []
+    if not areas or not held(left_of(drawing), low)[1]:
+        return rows, areas, fallen
+    for number, _, off in cuts(drawing, low):
+        for piece in off:
+            row = strokes.rows[number]
+            fallen.append(bisect(rows, row))
+            areas.insert(fallen[-1], shapely.get_coordinates(shapely.simplify(piece.exterior, OFF / 2))[:-1])
+            rows.insert(fallen[-1], row)
+    return rows, areas, fallen
+
+
+def _outlines(contours: Sequence[Contour]) -> list[Array]:
+    """The corners (m, 2) of each closed contour: all at once, as one line."""
     if not contours:
-        return np.empty((0, 2)), np.empty(0, dtype=np.int64)
+        return []
     points = np.concatenate([part for each in contours for part in (each.points, each.points[:1])])
     bulge = np.concatenate([part for each in contours for part in (each.bulge, [0.0])])
     line = Contour(points, bulge, closed=False)
     steps = np.append(steps_within(line.radii, line.sweeps, OFF), 1)
-    size = np.array([len(each.points) + 1 for each in contours])
-    return line.points_within(OFF), np.add.reduceat(steps, np.cumsum(size) - size).astype(np.int64)
+    size = np.cumsum([len(each.points) + 1 for each in contours])
+    return np.split(line.points_within(OFF), np.cumsum(steps)[size[:-1] - 1])
 
 
 def _turns(body: Any) -> bool:

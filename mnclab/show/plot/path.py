@@ -170,16 +170,19 @@ def plot_run(
     """
     given = {"programmed": None if run.programmed is run.toolpath else run.programmed, "alarms": run.alarms}
     given["stock"] = run.stock if stock else None
-    if run.toolpath.lathe:
-        given["tools"] = run.tables.tools
+    path, insert = run.toolpath, options.get("insert", True)
+    if path.lathe:
+        given["tools"], numbers = run.tools_that_cut
+        row = len(path) - 1 if isinstance(insert, bool) else insert
+        if isinstance(row, int) and -len(path) <= row < len(path) and not path.tool[row]:
+            given["tools"] |= {0: given["tools"].get(int(numbers[row]), Tool())}
     if marks:
         given["places"] = places_of(run)
     if part or (run.toolpath.lathe and stock and run.stock and len(run.toolpath) <= MOST):
         given["part"] = run.workpiece()
-    path = run.toolpath
     if first := run.rows_from_home:
         path, given["home"] = path[first:], True
-        if isinstance(insert := options.get("insert"), int) and not isinstance(insert, bool) and insert >= 0:
+        if isinstance(insert, int) and not isinstance(insert, bool) and insert >= 0:
             options["insert"] = max(insert - first, 0)
     return plot_path(path, ax, view, **{**given, **options}, marks=marks)
 

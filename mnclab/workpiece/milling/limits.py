@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mnclab.path.columns import Array, Index, Mask
+from mnclab.path.columns import Array, Index
 from mnclab.path.kinds import Kind
 from mnclab.text.alarm import several
 from mnclab.workpiece.blank import Revolved
@@ -15,30 +15,30 @@ from mnclab.workpiece.milling.moves import STILL
 from mnclab.workpiece.milling.raster import NOISE
 from mnclab.workpiece.milling.sweep import Sweep
 
-SHOWN = 3  # lines that a note names
 MANY = 20_000  # moves, beyond which undercuts are not looked for
 THREADS = ("tap", "thread mill")
 
 
 def notes_of(cutting: Cutting, sweep: Sweep) -> Iterator[str]:
     """What is left out, and what looks other than it is."""
+    yield from cutting.notes()
     if cutting.tilted is not None and (out := cutting.cuts & cutting.tilted).any():
         number = int(out.sum())
         left = "is" if number == 1 else "are"
-        yield f"{several(number, 'row')} of a tilted tool {left} left out ({_lines(cutting, out)})"
+        yield f"{several(number, 'row')} of a tilted tool {left} left out ({cutting.lines(out)})"
     cuts = cutting.cuts
     for kind in THREADS:
         numbers = [number for number, tool in enumerate(cutting.tools) if tool.kind == kind]
         if (threads := cuts & (cutting.path.kind != Kind.RAPID) & np.isin(cutting.which, numbers)).any():
-            yield f"a thread is shown without its flanks, at the radius of the {kind} ({_lines(cutting, threads)})"
+            yield f"a thread is shown without its flanks, at the radius of the {kind} ({cutting.lines(threads)})"
     necks = np.array([_neck(tool.shank, tool.effective_radius) for tool in cutting.tools])[cutting.which]
     thin, under = cuts & np.isfinite(necks), np.zeros(len(cutting), dtype=bool)
     if thin.any() and len(sweep.moves) > MANY:
-        yield f"undercuts are not looked for; there may be some where a tool is thinner above ({_lines(cutting, thin)})"
+        yield f"undercuts are not looked for; there may be some where a tool is thinner above ({cutting.lines(thin)})"
     elif thin.any():
         under[undercuts(necks, sweep)] = True
     if under.any():
-        yield f"what overhangs an undercut is not shown: there the part is open upwards ({_lines(cutting, under)})"
+        yield f"what overhangs an undercut is not shown: there the part is open upwards ({cutting.lines(under)})"
     if isinstance(cutting.stock, Revolved) and cutting.stock.axis != "Z" and cutting.stock.bore > 0:
         yield "the bore of a lying blank is not shown"
 
@@ -59,11 +59,3 @@ def undercuts(necks: Array, sweep: Sweep) -> Index:
 def _neck(shank: tuple[float, float] | None, radius: float) -> float:
     """How far above the tip a tool becomes thinner, mm; infinite where it does not."""
     return shank[1] if shank is not None and shank[0] < radius - NOISE else np.inf
-
-
-def _lines(cutting: Cutting, rows: Mask) -> str:
-    """The first lines of some rows."""
-    path = cutting.path
-    found = list(dict.fromkeys(zip(path.line[rows].tolist(), path.program[rows].tolist())))
-    more = ", …" if len(found) > SHOWN else ""
-    return ", ".join(cutting.name(*each) for each in found[:SHOWN]) + more

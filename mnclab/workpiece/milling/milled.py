@@ -24,7 +24,7 @@ from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Solid, Workpiece, sections
 
-CELLS = 400  # along the longer side, by default
+CELLS, FEWEST = 400, 4  # along the longer side by default, and across a strip
 EXACT = 20_000  # moves that are swept exactly
 PLANES = ("XY", "XZ", "YZ")
 ALONG = 4  # samples of an upright section for each cell, before it is looked at closer
@@ -41,10 +41,13 @@ class Milled(Workpiece):
         bounds = cutting.stock.bounds
         if step is not None:
             check_number(step, "the step of a workpiece (mm)", above=0)
-        self.step = float(step) if step is not None else float((bounds[1] - bounds[0])[:2].max()) / CELLS
-        self.raster = Raster.over(bounds, self.step)
+        if step is None:
+            shorter, longer = sorted((bounds[1] - bounds[0])[:2].tolist())
+            step = min(longer / CELLS, shorter / FEWEST)
+        self.raster = Raster.over(bounds, float(step))
+        self.step = self.raster.step
         self.moves: Moves = moves_of(cutting)
-        self.sweep = Sweep(self.raster, self.moves, self.blank_at)
+        self.sweep = Sweep(self.raster, self.moves, self.blank_at, float(bounds[1, 2]))
         self.many = ManyMoves(self.sweep) if len(self.moves) > EXACT else None
         self.method, self.error = "exact sweep", CHORD if self.moves.chords else NOISE
         if self.many:
@@ -86,7 +89,8 @@ class Milled(Workpiece):
     @cached_property
     def surface(self) -> Sweep:
         """What sections, solids and pictures ask for heights: the exact sweep, of very many moves the map."""
-        return Mapped(self.raster, self.moves, self.blank_at, self.heights) if self.many else self.sweep
+        sweep = self.sweep
+        return Mapped(sweep.raster, sweep.moves, sweep.faces, sweep.top, self.heights) if self.many else sweep
 
     def at(self, x: ArrayLike, y: ArrayLike) -> Array | float:
         """The height of the material at a place or at places, mm: exact, whatever the step."""

@@ -33,9 +33,10 @@ class Raster:
 
     @classmethod
     def over(cls, bounds: Array, step: float) -> Raster:
-        """Cells over a box (2, 3); the last of a row or column may stand over."""
+        """Cells over a box (2, 3), no wider than its shorter side; the last of a row or column may stand over."""
         (x0, y0), (x1, y1) = bounds[:, :2].tolist()
-        wanted = [max(np.ceil((high - low) / step - 1e-9), 1.0) for low, high in ((y0, y1), (x0, x1))]
+        step = min(step, x1 - x0, y1 - y0)
+        wanted = [float(np.ceil(side / step - 1e-9)) for side in (y1 - y0, x1 - x0)]
         if not wanted[0] * wanted[1] <= CELLS:
             least = float(np.sqrt((x1 - x0) * (y1 - y0) / CELLS))
             found = f"{step:g} mm makes {wanted[0] * wanted[1]:.3g} over {x1 - x0:g} × {y1 - y0:g} mm"

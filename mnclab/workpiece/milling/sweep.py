@@ -19,11 +19,12 @@ Faces = Callable[[Array, Array], tuple[Array, Array]]  # upper and lower side of
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """`faces` are the upper and lower side of the blank, which are equal where there is none."""
+    """`faces` are the upper and lower side of the blank, which are equal where there is none; `top` is its highest place."""
 
     raster: Raster
     moves: Moves
     faces: Faces
+    top: float
 
     @cached_property
     def boxes(self) -> Array:

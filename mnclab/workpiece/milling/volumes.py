@@ -1,8 +1,9 @@
 """What was taken away, in mm³: cells where a wall stands weigh by the share of them that is covered.
 
-A wall is where the rim of a tool has been, or the rim of the blank. A cell that one of them may cross is seen at the points
-of a lattice within it, whose places along x are evenly spaced, and along y too; every other cell is seen at its middle. The
-heights are exact at all of these points.
+A wall is where the rim of a tool has been, or the rim of the blank; a groove that a point or a ball scratches, no wider
+than a few cells, counts as one. A cell that one of them may cross is seen at the points of a lattice within it, whose
+places along x are evenly spaced, and along y too; so, with fewer points, is a cell that bends or is bent beside its
+neighbours; every other cell is seen at its middle. The heights are exact at all of these points.
 """
 
 from __future__ import annotations
@@ -26,27 +27,41 @@ MANY = 5_000  # moves, beyond which what each of them took is told from the midd
 HALF = 0.75  # of a cell, a little more than its corners are away from its middle
 STEEP = 3.0  # times what the slope of a move explains: a wall
 LOW = 0.002  # of how deep its foot lies in the blank: a lower wall is not looked at
+THIN = 1.5  # cells from its axis to its edges: a groove so thin may lie between the middles
+BENT = 1e-3  # of what was taken away about a cell, by which its middle may be off
 
 
 def removed(sweep: Sweep, heights: Array) -> float:
     """What all moves took away together, mm³; `heights` (ny, nx) are what they leave at the middles."""
-    rims, raster, total = Rims(sweep), sweep.raster, 0.0
-    walls, pairs = np.zeros(raster.shape, dtype=bool), 0
+    rims, raster = Rims(sweep), sweep.raster
+    walls, bends, pairs = np.zeros(raster.shape, dtype=bool), np.zeros(raster.shape, dtype=bool), np.zeros(2, dtype=np.int64)
+    taken = np.empty(raster.shape)
+    for tile in raster.tiles():
+        taken[tile] = sweep.faces(*raster.middles(tile))[0].reshape(taken[tile].shape) - heights[tile]
+    bent = _bent(taken)
     for tile in raster.tiles():
         x, y = raster.middles(tile)
         crossed, moves = rims.standing(x, y, _highest(heights, tile))
-        crossed |= blank_ends(sweep, x, y)
-        walls[tile] = crossed.reshape(walls[tile].shape)
-        pairs += int(crossed.sum()) * moves
-        total += float((sweep.faces(x, y)[0] - heights[tile].ravel())[~crossed].sum()) * raster.step**2
-    lattice = _lattice(pairs, FINE)
-    for tile in raster.tiles():
-        some = walls[tile].ravel()
-        x, y = raster.middles(tile)
-        x, y = within(x[some], y[some], raster.step, lattice)
-        if len(x):
-            total += float((sweep.faces(x, y)[0] - sweep.left(x, y)).sum()) * raster.step**2 / lattice[0]
+        walls[tile] = (crossed | blank_ends(sweep, x, y)).reshape(walls[tile].shape)
+        bends[tile] = bent[tile] & ~walls[tile]
+        pairs += int(walls[tile].sum()) * moves, int(bends[tile].sum()) * moves
+    total = float(taken[~walls & ~bends].sum()) * raster.step**2
+    for cells, lattice in ((walls, _lattice(int(pairs[0]), FINE)), (bends, _lattice(int(pairs[1]), ROUGH))):
+        for tile in raster.tiles():
+            some = cells[tile].ravel()
+            x, y = raster.middles(tile)
+            x, y = within(x[some], y[some], raster.step, lattice)
+            if len(x):
+                total += float((sweep.faces(x, y)[0] - sweep.left(x, y)).sum()) * raster.step**2 / lattice[0]
     return total
+
+
+def _bent(taken: Array) -> Mask:
+    """Cells (ny, nx) whose middle tells too little of how much was taken away (ny, nx) mm about it."""
+    wide = np.pad(taken, 1, mode="edge")
+    beside = np.stack([wide[:-2, 1:-1], wide[2:, 1:-1], wide[1:-1, :-2], wide[1:-1, 2:]])
+    off = np.abs(beside.sum(axis=0) - 4 * taken) / 24  # of an even bend: what the middle misses of the mean
+    return np.asarray(off > np.maximum(BENT * np.maximum(beside.max(axis=0), taken), NOISE))
 
 
 def removed_by_row(sweep: Sweep, rows: int) -> Array:
@@ -88,10 +103,11 @@ class Rims:
     def standing(self, x: Array, y: Array, material: Array) -> tuple[Mask, int]:
         """Cells (m,) where a rim has been lower than the material about them; how many moves come near."""
         found, top = np.zeros(len(x), dtype=bool), self.sweep.faces(x, y)[0]
-        moves = near(self.wide, self.boxes, x, y, float(material.max()))
+        moves = near(self.wide, self.boxes, x, y, float((top if self.within_cells.any() else material).max()))
         for which in chunks(moves, len(x)):
             crosses, height = self._crossing(which, x, y)
-            found |= (crosses & _stands(material, height, top)).any(axis=0)
+            stood = np.where(self.within_cells[which, None], top, material)  # the middles do not tell
+            found |= (crosses & _stands(stood, height, top)).any(axis=0)
         return found, len(moves)
 
     def passing(self, x: Array, y: Array) -> tuple[Mask, int]:
@@ -109,7 +125,7 @@ class Rims:
     def _crossing(self, which: Index, x: Array, y: Array) -> tuple[Mask, Array]:
         """Whether the rim of each move may cross each cell (k, m), and how high it is there."""
         height, inner = left_by(self.wide[which], x, y), left_by(self.narrow[which], x, y)
-        inner[self.sweep.moves.radius[which] <= self.half] = np.inf  # tools that are no wider than a cell
+        inner[self.within_cells[which]] = np.inf
         return np.isfinite(height) & (inner > height + self.slack[which, None]), height
 
     @property
@@ -117,9 +133,28 @@ class Rims:
         return HALF * self.sweep.raster.step
 
     @cached_property
+    def reach(self) -> Array:
+        """How far from the axis each tool may cut in the blank (k,): a point or a ball not as far as its rim."""
+        moves = self.sweep.moves
+        deep = np.maximum(self.sweep.top - moves.low, 0.0)
+        bent = np.sqrt(np.maximum(moves.corner**2 - np.maximum(moves.corner - deep, 0.0) ** 2, 0.0))
+        out = np.where(moves.slope > 0, deep / np.where(moves.slope > 0, moves.slope, 1.0), bent)
+        return np.asarray(np.minimum(moves.flat + out, moves.radius))
+
+    @cached_property
+    def thin(self) -> Mask:
+        """Grooves (k,) so thin that their edges are no rims, and may lie between the middles of cells."""
+        return np.asarray((self.reach < self.sweep.moves.radius) & (self.reach <= THIN * self.sweep.raster.step))
+
+    @cached_property
+    def within_cells(self) -> Mask:
+        """Tools and grooves (k,) that are no wider than a cell, or a few: all of a wall may lie within one."""
+        return np.asarray(self.thin | (self.sweep.moves.radius <= self.half))
+
+    @cached_property
     def wide(self) -> Moves:
-        """Discs that are a little larger than the rims."""
-        return self._discs(self.sweep.moves.radius + self.half)
+        """Discs that are a little larger than the rims, or than what a thin groove reaches."""
+        return self._discs(np.where(self.thin, self.reach, self.sweep.moves.radius) + self.half)
 
     @cached_property
     def boxes(self) -> Array:
@@ -130,9 +165,9 @@ class Rims:
         return self._discs(np.maximum(self.sweep.moves.radius - self.half, 0.0))
 
     def _discs(self, radius: Array) -> Moves:
-        """The moves of flat discs that stand as high as the rims of the tools."""
+        """The moves of flat discs that stand as high as the rims of the tools, in thin grooves as their tips."""
         moves, none = self.sweep.moves, np.zeros_like(radius)
-        rim = edge_height(moves.radius, moves.flat, moves.corner, moves.slope)
+        rim = np.where(self.thin, 0.0, edge_height(moves.radius, moves.flat, moves.corner, moves.slope))
         return moves.with_cutter(np.stack([radius, radius, none, none], axis=1), rim)
 
     @cached_property

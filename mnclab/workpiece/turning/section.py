@@ -6,7 +6,7 @@ these are found again. All strokes are taken away at once. What hangs on the chu
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -134,16 +134,22 @@ def moment(area: Any) -> float:
     return float(sum(each.area * each.centroid.y for each in shapely.get_parts(area) if each.area))
 
 
-def taken(drawing: Drawing, rows: int, low: float) -> tuple[NDArray[np.float64], list[Any]]:
-    """What each row took away, as moments (rows,), mm³, and the pieces that fell, in order."""
-    found = np.zeros(rows)
-    rest, fallen = drawing.areas[0], list[Any]()
-    for owner, area in zip(drawing.owners[1:].tolist(), drawing.areas[1:]):
+def cuts(drawing: Drawing, low: float) -> Iterator[tuple[int, Any, list[Any]]]:
+    """The number of each stroke that takes something away, the area that it takes, and the pieces that fall then."""
+    rest = drawing.areas[0]
+    for number, area in enumerate(drawing.areas[1:]):
         if not shapely.intersects(rest, area):
             continue
-        cut = shapely.intersection(rest, area)
-        found[owner] += moment(cut)
+        cut, off = shapely.intersection(rest, area), list[Any]()
         if cut.area:
             rest, off = held(shapely.difference(rest, area), low)
-            fallen += off
+        yield number, cut, off
+
+
+def taken(drawing: Drawing, rows: int, low: float) -> tuple[NDArray[np.float64], list[Any]]:
+    """What each row took away, as moments (rows,), mm³, and the pieces that fell, in order."""
+    found, fallen = np.zeros(rows), list[Any]()
+    for number, cut, off in cuts(drawing, low):
+        found[drawing.owners[1 + number]] += moment(cut)
+        fallen += off
     return found, fallen

@@ -20,7 +20,7 @@ from mnclab.path.inserts import FACE, angles_of, cutting_part, turns
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.alarm import Alarm
+from mnclab.text.alarm import Alarm, several
 from mnclab.workpiece.cutting import CUTS, Cutting
 from mnclab.workpiece.turning.sweeping import Edge, Point, along_arc, along_line, edges, placed
 
@@ -69,11 +69,12 @@ def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: f
     notes: list[str] = []
     aside = (path.start[rows, 1] != path.end[rows, 1]) | ((path.kind[rows] == Kind.ARC) & (np.abs(path.axis[rows, 1]) < 0.5))
     if aside.any():
-        notes.append(f"{aside.sum()} rows leave the plane of Z and X: they are not in the section")
+        notes.append(f"{several(int(aside.sum()), 'row')} out of the plane of Z and X: not in the section")
     _check_angles(cutting)
     least = float(min(np.min(start[:, 1], initial=0.0), np.min(end[:, 1], initial=0.0)))
-    back = float(min(np.min(start[:, 0], initial=low), np.min(end[:, 0], initial=low)))
-    room = _Room(low, high, radius, high - back + OUTSIDE, radius - least + OUTSIDE)
+    ends = np.concatenate([start[:, 0], end[:, 0], [low, high]])
+    most = float(max(np.max(start[:, 1], initial=radius), np.max(end[:, 1], initial=radius)))
+    room = _Room(low, high, radius, float(np.ptp(ends)) + OUTSIDE, most - least + OUTSIDE)
     body_of = _Bodies(room)
     pitch, turns = (each.tolist() for each in threads_of(path))
     contours: list[Contour] = []
@@ -84,7 +85,8 @@ def strokes_of(cutting: Cutting, low: float, high: float, radius: float, axis: f
         a, b = (float(start[k, 0]), float(start[k, 1])), (float(end[k, 0]), float(end[k, 1]))
         for contour in _of_row(cutting, row, a, b, axis, (pitch[row], turns[row]), body_of):
             if room.meets(contour):
-                mirrored = box_of(contour)[0][1] < 0 and contour.bounds[0, 1] < 0
+                bored = cutting.tool(row).kind == "boring" and min(a[1], b[1]) >= 0  # prolonged away from the part
+                mirrored = not bored and box_of(contour)[0][1] < 0 and contour.bounds[0, 1] < 0
                 found = [contour, Contour(contour.points * (1, -1), -contour.bulge).reversed()] if mirrored else [contour]
                 contours += found
                 owners += [row] * len(found)
@@ -109,7 +111,7 @@ def _check_angles(cutting: Cutting) -> None:
 
 
 class _Bodies:
-    """The cutting part of every tool, worked out once; that of a boring bar ends at the axis."""
+    """The cutting part of every tool, worked out once; a boring bar beyond the axis has its nose alone."""
 
     def __init__(self, room: _Room) -> None:
         self.room = room
@@ -117,8 +119,8 @@ class _Bodies:
 
     def __call__(self, tool: Tool, start: Point, end: Point) -> list[Edge]:
         height = self.room.deep if turns(tool) and tool.kind != FACE else self.room.long
-        if tool.kind == "boring":
-            height = max(min(start[1], end[1]), 0.0)
+        if tool.kind == "boring" and min(start[1], end[1]) < 0:
+            height = 0.0
         key = id(tool), height
         if key not in self._known:
             self._known[key] = edges(cutting_part(tool, height))

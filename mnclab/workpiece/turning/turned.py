@@ -73,7 +73,7 @@ class Turned(Workpiece):
     @property
     def notes(self) -> tuple[str, ...]:  # type: ignore[override]
         fell = (f"{several(len(self.parted), 'piece')} fell off",) if self.parted else ()
-        return (*self._told, *self._strokes.notes, *fell)
+        return (*self._told, *self.cutting.notes(), *self._strokes.notes, *fell)
 
     @property
     def volume(self) -> float:
