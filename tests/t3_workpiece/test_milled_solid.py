@@ -8,7 +8,6 @@ import pytest
 import mnclab
 from mnclab import Setup, Tool
 from mnclab.workpiece.blank import cylinder
-from mnclab.workpiece.milling import lattice
 from mnclab.workpiece.milling.sweep import Mapped
 
 STOCK = ((0, 0, -20), (60, 40, 0))
