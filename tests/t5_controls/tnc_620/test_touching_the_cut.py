@@ -66,3 +66,12 @@ def test_without_a_blank():
     (alarm,) = run(SLOT, probe()).alarms
     assert alarm.message == "there is no blank of which the program could have cut the part to touch"
     assert alarm.span.line == 9
+
+
+@pytest.mark.parametrize(("z", "free"), [(-3.9, True), (-4.1, False), (-5, False)])
+def test_a_stylus_that_is_in_contact_already(z, free):
+    """The floor of the slot is at Z-6, and the ball of 2 mm stands round Z: from Z-4 down it is in the floor."""
+    found = run(FORM, SLOT, probe(z=z))
+    assert found.ok is free
+    if not free:
+        assert "the stylus is in contact before it touches" in found.alarms[-1].message
