@@ -98,7 +98,8 @@ def helix(moves: Moves, x: Array, y: Array) -> Array:
         low, high = np.maximum(-half, -passed), np.minimum(half, whole[which] - passed)
         over = low <= high
         some, place = pairs._replace(z=pairs.z - fall * passed), high.copy()
-        place[over & bent] = some.of(over & bent).lowest(low[over & bent], high[over & bent])
+        if (both := over & bent).any():  # a flat cutter leaves least where it goes
+            place[both] = some.of(both).lowest(low[both], high[both])
         left = some.of(over).heights(place[over])
         spots = which[over], at[over]
         found[spots] = np.minimum(found[spots], left)
