@@ -106,7 +106,7 @@ def rows_from_home(run: Run) -> int:
     path = run.toolpath
     known = start_known(path, run.setup.start)[1]
     first = known - 1 if 0 < known <= len(path) and path.kind[known - 1] != Kind.RAPID else known
-    return first if run.stock is not None and first < len(path) else 0
+    return first if run.stock is not None and path.is_motion[first:].any() else 0
 
 
 def workpiece(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.patches import Polygon
 
-from mnclab import Alarm, Limits, Setup, Tool, run
+from mnclab import Alarm, Limits, Setup, Tool, blank, run
 from mnclab.comparison.turning_schemes import compare, toolpath
 from mnclab.geometry.contours import Contour
 from mnclab.machining.turning import thread_schemes as threads
@@ -126,3 +126,10 @@ def test_a_tool_that_cannot_be_is_named():
     turned = run("G90 G94\nT1\nG00 X20 Z5\nG01 Z-10 F100\n", "jnc-t01", setup)
     with pytest.raises(Alarm, match="T1 of the tool table: main and auxiliary angle"):
         turned.plot()
+
+
+@pytest.mark.parametrize(("control", "text"), [("nc-31", "S800\nM3\n"), ("jnc-t01", "T1\nM3 S500\n"), ("jnc-t01", "M3\n")])
+@pytest.mark.parametrize("stock", [None, blank.cylinder(10, -20, 0)])
+def test_a_program_that_moves_nothing_has_a_picture(control, text, stock):
+    found = run(text, control, Setup(stock=stock))
+    assert found.ok and found.rows_from_home == 0 and found.plot().axes

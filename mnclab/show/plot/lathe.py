@@ -80,8 +80,8 @@ def draw_blank(ax: Axes, found: Lathe) -> None:
 
 
 def draw_insert(ax: Axes, found: Lathe, size: float) -> None:
-    """The insert with its tip where it stands; `size` mm is the length of its edges."""
-    for patch in insert_patches(found.tool, found.tip, size) if found.tip else ():
+    """The insert with its tip where it stands; `size` mm is the length of its edges, 0 where nothing has moved."""
+    for patch in insert_patches(found.tool, found.tip, size) if found.tip and size > 0 else ():
         ax.add_patch(patch)
 
 
