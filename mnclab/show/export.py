@@ -27,7 +27,7 @@ from mnclab.show.export_svg import write_true_size
 from mnclab.show.given_away import named
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import replaced
-from mnclab.text.given import choice, shown
+from mnclab.text.given import choice
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -40,13 +40,7 @@ def save(run: Any, path: str | Path, picture: Callable[..., Figure] | None = Non
     glb, vtk) are those of the part, with `of="path"` those of the path.
     `picture` draws another figure of the run than the views of its path.
     """
-    if not isinstance(path, str | Path):
-        raise Alarm(f"a file is written to a path, got {shown(path)}")
-    path = Path(path)
-    suffix = path.suffix.lower()
-    if suffix not in WRITERS:
-        what = f"cannot write {suffix} files" if suffix else f"{path.name!r} has no suffix to say what to write"
-        raise Alarm(what, hint=f"known: {', '.join(WRITERS)}")
+    path, suffix = export_part.named(path, WRITERS, "cannot write {} files")
     writer = WRITERS[suffix]
     if picture is not None:
         if suffix not in FIGURES:

@@ -8,7 +8,7 @@ that of a turned one the corners of its half section.
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -29,19 +29,25 @@ if TYPE_CHECKING:
 
 def save(workpiece: Workpiece, path: str | Path, **options: Any) -> Path:
     """Write a part to one file and return its path; pictures take the options of `Workpiece.plot`."""
-    if not isinstance(path, str | Path):
-        raise Alarm(f"a file is written to a path, got {shown(path)}")
-    path = Path(path)
-    suffix = path.suffix.lower()
-    if suffix not in WRITERS:
-        what = f"cannot write a part as {suffix}" if suffix else f"{path.name!r} has no suffix to say what to write"
-        raise Alarm(what, hint=f"known: {', '.join(WRITERS)}")
+    path, suffix = named(path, WRITERS, "cannot write a part as {}")
     writer = WRITERS[suffix]
     if options and len(signature(writer).parameters) == 2:
         raise Alarm(f"{suffix} files have no options, got {', '.join(options)}")
     with replaced(path) as beside:
         writer(workpiece, beside, **options)
     return path
+
+
+def named(path: str | Path, known: Collection[str], refused: str) -> tuple[Path, str]:
+    """The path of a file and its suffix, which is one of the known ones; an Alarm where it is not, in `refused` words."""
+    if not isinstance(path, str | Path):
+        raise Alarm(f"a file is written to a path, got {shown(path)}")
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix not in known:
+        what = refused.format(suffix) if suffix else f"{path.name!r} has no suffix to say what to write"
+        raise Alarm(what, hint=f"known: {', '.join(known)}")
+    return path, suffix
 
 
 def write_stl(workpiece: Workpiece, path: Path) -> None:

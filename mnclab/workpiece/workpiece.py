@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -122,8 +121,3 @@ def no_blank() -> Alarm:
     """The alarm of a workpiece without a blank."""
     hint = "the blank is two corners or a cylinder: Setup(stock=((0, 0, -20), (60, 40, 0))), or BLK FORM in the program"
     return Alarm("there is no blank to cut", hint=hint)
-
-
-def sections(planes: Sequence[str], plane: str) -> str:
-    """A plane that is asked for; an Alarm names the known ones."""
-    return choice(plane, "the plane of a section", tuple(planes))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from t3_workpiece.lathe import BAR, NOSED, SHARP, cutting, turned
 
-from mnclab import Alarm
+from mnclab import Alarm, Setup, run
 from mnclab.path.tool import Tool
 from mnclab.workpiece.blank import Box, Revolved, cylinder
 from mnclab.workpiece.turning.turned import Turned
@@ -223,3 +223,10 @@ def test_two_tools():
     blade = Tool(number=3, kind="grooving", width=4)
     part = Turned(cutting([SHARP, blade], [[(2, 20), (-20, 20), (-20, 35)], [(-12, 35), (-12, 15), (-12, 35)]]))
     assert part.removed == pytest.approx(ring(30, 20, 20) + ring(20, 15, 4), rel=1e-12)
+
+
+def test_a_plane_may_be_written_in_small_letters():
+    """A ring of radius 30 at the bar's middle, not its two halves."""
+    whole = run("G00 X40 Z5\n", "jnc-t01", Setup(stock=cylinder(30, -50, 0))).workpiece()
+    (ring,) = whole.cut("xy", -25)
+    assert ring.area == pytest.approx(math.pi * 30**2, rel=1e-9)

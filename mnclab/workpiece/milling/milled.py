@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import check_number, choice, shown
 from mnclab.workpiece.blank import floor_of, top_of, volume_of
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling import limits, volumes
@@ -22,7 +22,7 @@ from mnclab.workpiece.milling.sections import level, upright
 from mnclab.workpiece.milling.sweep import Mapped, Sweep
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
-from mnclab.workpiece.workpiece import Solid, Workpiece, sections
+from mnclab.workpiece.workpiece import Solid, Workpiece
 
 CELLS, FEWEST = 400, 4  # along the longer side by default, and across a strip
 EXACT = 20_000  # moves that are swept exactly
@@ -141,7 +141,7 @@ class Milled(Workpiece):
         return volume_of(self.cutting.stock)
 
     def cut(self, plane: str, at: float = 0.0) -> list[Contour]:
-        plane = sections(PLANES, plane)
+        plane = choice(plane, "the plane of a section", PLANES)
         check_number(at, f"where the section {plane} is (mm)")
         (x0, y0, _), (x1, y1, _) = self.cutting.stock.bounds.tolist()
         if plane == "XY":

@@ -12,7 +12,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm, several
-from mnclab.text.given import check_number, shown
+from mnclab.text.given import check_number, choice, shown
 from mnclab.workpiece.blank import Box, Revolved
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
@@ -20,7 +20,7 @@ from mnclab.workpiece.turning import revolved
 from mnclab.workpiece.turning.section import Drawing, held, left_of, taken
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of
 from mnclab.workpiece.turning.sweeping import CHORD_ERROR
-from mnclab.workpiece.workpiece import Solid, Workpiece, sections
+from mnclab.workpiece.workpiece import Solid, Workpiece
 
 PLANES = ("ZX", "XZ", "ZY", "YZ", "XY")
 
@@ -105,7 +105,7 @@ class Turned(Workpiece):
 
     def cut(self, plane: str, at: float = 0.0) -> list[Contour]:
         """A section: along the axis ("ZX", "ZY" with z first, "XZ", "YZ" with it last) both halves; "XY" rings over a z."""
-        sections(PLANES, plane)
+        plane = choice(plane, "the plane of a section", PLANES)
         check_number(at, "the place of a section (mm)")
         if plane == "XY":
             radii = revolved.radii_at(self.section, np.array([float(at)]))[0]
