@@ -11,10 +11,11 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import NamedTuple
 
-from mnclab.machine.setup_file import File, check_names, parse, record
+from mnclab.machine.setup_file import record
 from mnclab.path.limits import Limits
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
+from mnclab.text.toml_file import File, check_names, parse
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 PLACES = (_PACKAGE / "data" / "machines", _PACKAGE.parent / "data" / "machines")  # installed; in the sources

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-import re
-import tomllib
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import fields
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from mnclab.machine.setup import NOT_BUILT, Datum, Probe, Setup
 from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
-from mnclab.text.alarm import Alarm, Span
-from mnclab.text.file import read
+from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
-from mnclab.text.nearest import hint
+from mnclab.text.toml_file import File, check_names, parse
 from mnclab.workpiece.blank import Blank, Box, cylinder
-
-Result = TypeVar("Result")
 
 #: The format, as the help of the command line shows it.
 FORMAT = """\
@@ -61,99 +55,11 @@ ROWS = {"tools": Tool, "datums": Datum, "presets": Datum, "correctors": Datum}
 RECORDS = {"limits": Limits, "probe": Probe}
 TEXTS = ("name", "kind", "hand", "corner_speed", "rapid_motion")  # of a tool; of the limits
 KNOWN = ("start", "stock", "part", "fixtures", *ROWS, *RECORDS, "settings", "files", "variables")
-KEY = r"""(?:[\w-]+|"[^"]*"|'[^']*')"""
-PATH = rf"{KEY}(?:[ \t]*\.[ \t]*{KEY})*"
-WRITTEN = re.compile(rf"^[ \t]*\[\[?[ \t]*({PATH})[ \t]*\]|(?:^|[{{,])[ \t]*({PATH})[ \t]*=")
-DEEPEST = 50  # parts of a dotted key
-LARGEST = 1_000_000  # bytes of a setup file
-
-
-class File:
-    """The text of a setup file, so that an alarm can show a line of it."""
-
-    def __init__(self, name: str, text: str) -> None:
-        self.name, self._lines = name, text.splitlines()
-
-    @property
-    def end(self) -> Span:
-        return Span(len(self._lines), len(self._lines[-1]) + 1) if self._lines else Span(1, 1)
-
-    def line_text(self, line: int) -> str:
-        return self._lines[line - 1] if 0 < line <= len(self._lines) else ""
-
-    def place_of(self, *keys: str) -> Span | None:
-        """Where a value is written that keys lead to, else the table that it is in; None if neither is found."""
-        found = [(len(path), span) for path, span in self._written() if path == list(keys[: len(path)])]
-        return max(found, key=lambda each: each[0])[1] if found else None
-
-    def _written(self) -> Iterator[tuple[list[str], Span]]:
-        """The keys of every table and value, the outer ones before it, and the place of the last of them."""
-        table: list[str] = []
-        for number, line in enumerate(self._lines, 1):
-            outer = table
-            for found in WRITTEN.finditer(line):
-                header, key = found.groups()
-                keys = [*re.finditer(KEY, header or key)]
-                path = [each[0].strip("\"'") for each in keys]
-                if header:
-                    table = path
-                else:
-                    path = [*outer, *path]
-                    outer = path if outer is table else outer  # keys after the first are those of a table in the line
-                column = found.start(1 if header else 2) + keys[-1].start() + 1
-                yield path, Span(number, column, len(keys[-1][0]))
-
-    @contextmanager
-    def at(self, *keys: str) -> Iterator[None]:
-        """Alarms raised here show where keys get their value."""
-        try:
-            yield
-        except Alarm as alarm:
-            alarm.span = alarm.span or self.place_of(*keys)
-            raise
 
 
 def load(path: str | Path) -> Setup:
     """The setup of a file; an Alarm names what is wrong in it."""
     return parse(path, _setup, "setup")
-
-
-def parse(path: str | Path, build: Callable[[dict[str, Any], File], Result], what: str) -> Result:
-    """What `build` makes of the table in a TOML file; alarms show the line of the file."""
-    if not isinstance(path, str | Path) or not str(path):
-        raise Alarm(f"the {what} must be the name of a file, got {shown(path)}")
-    file = File(str(Path(path)), "")
-    try:
-        text = read(Path(path), f"the {what}", LARGEST).decode("utf-8-sig")
-        file = File(file.name, text)
-        return build(_table_of(text), file)
-    except UnicodeDecodeError:
-        raise Alarm(f"the {what} cannot be read: it is not UTF-8", source=file) from None
-    except tomllib.TOMLDecodeError as error:
-        place = re.search(r"line (\d+), column (\d+)", str(error))
-        span = Span(int(place[1]), int(place[2])) if place else file.end
-        raise Alarm(re.sub(r" \(at .*\)", "", str(error)), span, source=file) from None
-    except Alarm as alarm:
-        alarm.source = file
-        raise
-
-
-def _table_of(text: str) -> dict[str, Any]:
-    """The table that a text writes; an Alarm for one that Python would take hours for."""
-    for number, line in enumerate(text.splitlines() if text.count(".") > DEEPEST else (), 1):
-        deep = 0
-        for part in line.split("."):
-            deep = deep + 1 if part.strip().replace("-", "").replace("_", "").isalnum() else 0
-            if deep > DEEPEST:
-                raise Alarm(f"a key has more than {DEEPEST} parts", Span(number, 1))
-    try:
-        return tomllib.loads(text)
-    except RecursionError:
-        raise Alarm("tables or lists are nested too deeply") from None
-    except tomllib.TOMLDecodeError:
-        raise
-    except ValueError as error:  # of a number of some thousand digits
-        raise Alarm(f"a value cannot be read: {error}") from None
 
 
 def _setup(table: Mapping[str, Any], file: File) -> Setup:
@@ -284,12 +190,3 @@ def _list(value: Any, where: str) -> list[Any]:
     if not isinstance(value, list):
         raise Alarm(f"{where} must be a list of tables, got {shown(value)}", hint=f"write [[{where}]] before each")
     return value
-
-
-def check_names(table: Mapping[str, Any], known: Any, where: str, file: File, *keys: str) -> None:
-    """An Alarm for the first name that is not known; `keys` lead to the table in the file."""
-    for name in table:
-        if name not in known:
-            with file.at(*keys, name):
-                near = hint(name[:40], known, 1) or f"known: {', '.join(known)}"
-                raise Alarm(f"{where} has no {shown(name)}", hint=near)

@@ -15,7 +15,7 @@ from mnclab.runs.cycle_tools import cycle_tools
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, shown, whole
 from mnclab.text.program import NUMBER, Program
-from mnclab.workpiece.blank import Revolved, blank, volume_of
+from mnclab.workpiece.blank import Revolved, blank
 from mnclab.workpiece.collision import Collision, Collisions
 from mnclab.workpiece.cutting import Cutting, numbers_of
 from mnclab.workpiece.part import Part
@@ -35,7 +35,7 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     body = run.stock if stock is None else blank(stock)
     if body is None:
         raise no_blank() if stock is None else Alarm(f"stock must be two corners or a blank, got {shown(stock)}")
-    if not volume_of(body) > 0:
+    if not body.volume > 0:
         raise Alarm(f"there is nothing to cut: the blank is {shown(body)}")
     body = body if stock is None else body.moved(-origin)
     tools, which, lift = _held(run)
@@ -190,7 +190,7 @@ def _kept(run: Run, key: tuple[Any, ...], stock: Any, make: Callable[[], Made]) 
 def played(run: Run) -> tuple[Cutting | None, Collisions]:
     """What a player cuts and marks: nothing without a blank, no collisions where finding them takes long."""
     stock = run.stock
-    if stock is None or not volume_of(stock) > 0:
+    if stock is None or not stock.volume > 0:
         return None, Collisions()
     judged = len(run.toolpath) <= JUDGED
     if run.toolpath.lathe and isinstance(stock, Revolved):

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
-from mnclab.workpiece.blank import Blank, Box
+from mnclab.workpiece.blank import Box
 
 SIDES = 48  # of a tool
 TUBE_SIDES = 6
@@ -126,7 +126,7 @@ def size_of(path: Toolpath) -> float:
     return span if np.isfinite(span) and span > 0 else 1.0
 
 
-def body_of(stock: Blank) -> Body:
+def body_of(stock: Any) -> Body:
     """A blank as a body."""
     if isinstance(stock, Box):
         return box(*stock.bounds)

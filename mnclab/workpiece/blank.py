@@ -5,7 +5,7 @@ A blank is for pictures; it stands in the coordinates of whoever gives it (machi
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -45,6 +45,17 @@ class Box(NamedTuple):
         pairs = [(a, a | bit) for bit in (1, 2, 4) for a in range(8) if not a & bit]
         return [np.stack([corners[a], corners[b]]) for a, b in pairs]
 
+    @property
+    def volume(self) -> float:
+        """mm³."""
+        return float(np.prod(self.bounds[1] - self.bounds[0]))
+
+    def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """How low and how high it reaches at points (m,); nan beside it."""
+        low, high = self.bounds
+        inside = (x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])
+        return np.where(inside, low[2], np.nan), np.where(inside, high[2], np.nan)
+
     def outline(self, right: int, up: int) -> list[Array]:
         """What a view along an axis shows: closed lines (k, 2) in the coordinates `right` and `up` (0 to 2)."""
         (x0, y0), (x1, y1) = self.bounds[:, [right, up]]
@@ -80,6 +91,36 @@ class Revolved(NamedTuple):
         low[k], high[k] = centre[k] + profile[:, 1].min(), centre[k] + profile[:, 1].max()
         return np.stack([low, high])
 
+    @property
+    def volume(self) -> float:
+        """What lies between the lower and the upper side, mm³: the bore of a lying tube and what its profile lets in from the
+        side are filled."""
+        profile, at = np.array(self.profile, dtype=np.float64), np.array(self.at, dtype=np.float64)
+        if self.axis != "Z":
+            (r0, z0), (r1, z1) = profile[:-1].T, profile[1:].T
+            return float(np.pi / 3 * np.abs((z1 - z0) * (r0 * r0 + r0 * r1 + r1 * r1)).sum())
+        rings = np.unique(np.append(profile[:, 0], [self.bore, 0.0]))
+        inner, outer = rings[:-1], rings[1:]
+        inner, outer = inner[inner >= self.bore], outer[inner >= self.bore]
+        near, far = (2 * inner + outer) / 3, (inner + 2 * outer) / 3  # the sides are straight between two rings
+        thick = [np.subtract(*self.faces(at[0] + rho, at[1] + 0 * rho)[::-1]) for rho in (near, far)]
+        rise = (thick[1] - thick[0]) / (far - near)
+        start = thick[0] - rise * near
+        return float(np.pi * (start * (outer**2 - inner**2) + rise * (outer**3 - inner**3) * 2 / 3).sum())
+
+    def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """How low and how high it reaches at points (m,); nan beside it."""
+        profile, at = np.array(self.profile, dtype=np.float64), np.array(self.at, dtype=np.float64)
+        if self.axis == "Z":
+            rho = np.hypot(x - at[0], y - at[1])
+            bottom, top, inside = _stacked(profile, self.bore, rho, at[2])
+        else:
+            along, beside = (x - at[0], y - at[1]) if self.axis == "X" else (y - at[1], x - at[0])
+            radius = _widest(profile, along)
+            half = np.sqrt(np.where(np.abs(beside) <= radius, radius * radius - beside * beside, np.nan))
+            bottom, top, inside = at[2] - half, at[2] + half, np.isfinite(half)
+        return np.where(inside, bottom, np.nan), np.where(inside, top, np.nan)
+
     def rims(self) -> list[tuple[float, float]]:
         """Radius and place along the axis of every edge that goes round; those of a bore too."""
         bore = [(self.bore, self.profile[0][1]), (self.bore, self.profile[-1][1])]
@@ -112,7 +153,31 @@ class Revolved(NamedTuple):
         return [centre + (line if self.along == up else line[:, ::-1]) for line in lines]
 
 
-Blank = Box | Revolved
+class Blank(Protocol):
+    """What can be cut: a box, a body turned about an axis, a part that was cut before, a design. It does not change.
+
+    It is known by its lower and its upper side; on a lathe, by its half section besides.
+    """
+
+    @property
+    def bounds(self) -> Array:
+        """The corners with the least and the greatest coordinates (2, 3)."""
+
+    @property
+    def volume(self) -> float:
+        """mm³."""
+
+    def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """How low and how high it reaches at points (m,); nan beside it."""
+
+    def moved(self, by: ArrayLike) -> Blank:
+        """The same elsewhere."""
+
+    def outline(self, right: int, up: int) -> list[Array]:
+        """What a view along an axis shows: closed lines (k, 2) in the coordinates `right` and `up` (0 to 2)."""
+
+    def edges(self) -> list[Array]:
+        """Lines (k, 3) that show it in space."""
 
 
 def cylinder(
@@ -143,10 +208,13 @@ def chuck(radius: float, back: float, grip: float = 20.0, jaws: float = 25.0, bo
 
 
 def blank(given: Any) -> Blank | None:
-    """What a Setup calls its stock: two corners (3,), or a blank; None for what is neither, or stands nowhere."""
+    """What a Setup calls its stock: two corners (3,), a blank, or what has one, a workpiece or a design (`as_blank`).
+
+    None for what is none of it, or stands nowhere.
+    """
     try:
-        body = given
-        if not isinstance(given, Box | Revolved):
+        body = given.as_blank() if hasattr(given, "as_blank") else given
+        if not hasattr(type(body), "faces"):
             if not isinstance(given, tuple | list | np.ndarray) or np.shape(given) != (2, 3):
                 return None
             low, high = np.asarray(given, dtype=np.float64).tolist()
@@ -158,52 +226,6 @@ def blank(given: Any) -> Blank | None:
     except (TypeError, ValueError, IndexError, OverflowError):  # of numpy, of what is no number
         return None
     return body if good else None
-
-
-def top_of(body: Blank, x: Array, y: Array) -> Array:
-    """How high a blank reaches at points (m,); nan beside it."""
-    return _faces(body, x, y)[1]
-
-
-def floor_of(body: Blank, x: Array, y: Array) -> Array:
-    """How low a blank reaches at points (m,); nan beside it."""
-    return _faces(body, x, y)[0]
-
-
-def volume_of(body: Blank) -> float:
-    """What lies between the lower and the upper side of a blank, mm³: the bore of a lying tube and what its profile lets in
-    from the side are filled."""
-    if isinstance(body, Box):
-        return float(np.prod(body.bounds[1] - body.bounds[0]))
-    profile, at = np.array(body.profile, dtype=np.float64), np.array(body.at, dtype=np.float64)
-    if body.axis != "Z":
-        (r0, z0), (r1, z1) = profile[:-1].T, profile[1:].T
-        return float(np.pi / 3 * np.abs((z1 - z0) * (r0 * r0 + r0 * r1 + r1 * r1)).sum())
-    rings = np.unique(np.append(profile[:, 0], [body.bore, 0.0]))
-    inner, outer = rings[:-1], rings[1:]
-    inner, outer = inner[inner >= body.bore], outer[inner >= body.bore]
-    near, far = (2 * inner + outer) / 3, (inner + 2 * outer) / 3  # the sides are straight between two rings
-    thick = [top_of(body, at[0] + rho, at[1] + 0 * rho) - floor_of(body, at[0] + rho, at[1] + 0 * rho) for rho in (near, far)]
-    rise = (thick[1] - thick[0]) / (far - near)
-    start = thick[0] - rise * near
-    return float(np.pi * (start * (outer**2 - inner**2) + rise * (outer**3 - inner**3) * 2 / 3).sum())
-
-
-def _faces(body: Blank, x: Array, y: Array) -> tuple[Array, Array]:
-    low, high = body.bounds
-    inside = (x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])
-    bottom, top = np.full(x.shape, low[2]), np.full(x.shape, high[2])
-    if isinstance(body, Revolved):
-        profile, at = np.array(body.profile, dtype=np.float64), np.array(body.at, dtype=np.float64)
-        if body.axis == "Z":
-            rho = np.hypot(x - at[0], y - at[1])
-            bottom, top, inside = _stacked(profile, body.bore, rho, at[2])
-        else:
-            along, beside = (x - at[0], y - at[1]) if body.axis == "X" else (y - at[1], x - at[0])
-            radius = _widest(profile, along)
-            half = np.sqrt(np.where(np.abs(beside) <= radius, radius * radius - beside * beside, np.nan))
-            bottom, top, inside = at[2] - half, at[2] + half, np.isfinite(half)
-    return np.where(inside, bottom, np.nan), np.where(inside, top, np.nan)
 
 
 def _widest(profile: Array, along: Array) -> Array:

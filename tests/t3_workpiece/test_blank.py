@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import mnclab
 from mnclab import Alarm
 from mnclab.show.solids import body_of
-from mnclab.workpiece.blank import CORNERS, Box, Revolved, blank, cylinder, floor_of, top_of
+from mnclab.workpiece.blank import CORNERS, Box, Revolved, blank, cylinder
 
 sizes = st.floats(0.5, 100)
 places = st.tuples(*[st.floats(-50, 50)] * 3)
@@ -84,8 +84,9 @@ def test_a_lying_blank_reads_its_profile_from_either_end(axis):
     at = (along, zero) if axis == "X" else (zero, along)
     expected = [np.nan, 6, 7, 10, 10, 10, np.nan]
     for body in (rod, rod._replace(profile=rod.profile[::-1])):
-        assert np.allclose(top_of(body, *at), expected, equal_nan=True)
-        assert np.allclose(floor_of(body, *at), np.negative(expected), equal_nan=True)
+        floor, top = body.faces(*at)
+        assert np.allclose(top, expected, equal_nan=True)
+        assert np.allclose(floor, np.negative(expected), equal_nan=True)
 
 
 def test_a_cone_is_a_third_of_its_cylinder():

@@ -8,7 +8,7 @@ from milled import BALL, BLOCK, BULL, DRILL, MILL, part
 from running import run
 
 from mnclab import Alarm, Tool
-from mnclab.workpiece.blank import Box, cylinder, floor_of, top_of, volume_of
+from mnclab.workpiece.blank import Box, cylinder
 
 CLOSE = 1e-3  # of what is removed
 SMALL = Tool(radius=1.5, number=1)
@@ -137,8 +137,9 @@ def test_the_volume_of_a_blank_is_what_lies_between_its_sides(body):
     low, high = body.bounds
     x, y = (np.linspace(low[k], high[k], 1501)[:-1] + (high[k] - low[k]) / 3000 for k in (0, 1))
     x, y = (each.ravel() for each in np.meshgrid(x, y))
-    thick = np.nan_to_num(top_of(body, x, y) - floor_of(body, x, y))
-    assert volume_of(body) == pytest.approx(thick.mean() * np.prod((high - low)[:2]), rel=3e-4)
+    floor, top = body.faces(x, y)
+    thick = np.nan_to_num(top - floor)
+    assert body.volume == pytest.approx(thick.mean() * np.prod((high - low)[:2]), rel=3e-4)
 
 
 def test_what_rows_tools_and_lines_took_away():

@@ -30,7 +30,7 @@ PUT_TOGETHER = {
     "formulas.py": (r"[ \t]*LEN(?![A-Z])", "match"),
     "reader.py": (r"/[ \t]?/|;", "search"),
     "program.py": (r"/[ \t]?/", "search"),
-    "setup_file.py": (r"""(?:^|[\s.{,])(["']?start["']?)\s*=""", "search"),
+    "toml_file.py": (r"""(?:^|[\s.{,])(["']?start["']?)\s*=""", "search"),
 }
 
 

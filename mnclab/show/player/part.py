@@ -14,7 +14,6 @@ from mnclab.path.toolpath import Toolpath
 from mnclab.show.player.logs import log, parted
 from mnclab.show.player.packing import Packer
 from mnclab.text.alarm import several
-from mnclab.workpiece.blank import floor_of, top_of
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.cutters import cutter_of
 from mnclab.workpiece.milling.raster import Raster
@@ -31,7 +30,7 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
     raster = Raster.over(bounds, float((bounds[1] - bounds[0])[:2].max()) / CELLS)
     y, x = (each.ravel() for each in np.meshgrid(raster.y, raster.x, indexing="ij"))
     low = float(bounds[0, 2])  # beside the blank nothing is left
-    top, floor = (np.nan_to_num(face(cutting.stock, x, y), nan=low) for face in (top_of, floor_of))
+    floor, top = (np.nan_to_num(side, nan=low) for side in cutting.stock.faces(x, y))
     tilted = np.zeros(len(path), dtype=bool) if cutting.tilted is None else cutting.tilted
     does = np.where(cutting.cuts & ~tilted, np.where(cutting.from_home, ARRIVES, CUTS), NOTHING)
     return {

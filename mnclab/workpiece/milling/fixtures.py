@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.path.columns import Array, Index
-from mnclab.workpiece.blank import Blank, top_of
+from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.milling.bodies import TOLERANCE, Body, bodies_of
 from mnclab.workpiece.milling.cutters import Cutter
 from mnclab.workpiece.milling.footprint import under
@@ -101,7 +101,7 @@ def _points(scene: Judging, fixture: Blank | Part) -> Held:
 def _top(fixture: Blank | Part, x: Array, y: Array, low: float, high: float) -> Array:
     """How high a fixture reaches at points (m,); nan beside it. A part is looked for between `low` and far above `high`."""
     if not isinstance(fixture, Part):
-        return top_of(fixture, x, y)
+        return fixture.faces(x, y)[1]
     z = np.full(len(x), high + ABOVE)
     going = np.arange(len(x))
     for _ in range(STEPS):

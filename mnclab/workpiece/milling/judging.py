@@ -12,7 +12,6 @@ import numpy as np
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
-from mnclab.workpiece.blank import floor_of, top_of
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.before import Points, depths
 from mnclab.workpiece.milling.bodies import TOLERANCE, Body
@@ -133,7 +132,7 @@ class Judging:
 
     def _deepest(self, judged: Sequence[Judged], batch: list[Points], first: int) -> Iterator[Met]:
         at = Points(*map(np.concatenate, zip(*batch)))
-        top, floor = (face(self.cutting.stock, at.x, at.y) for face in (top_of, floor_of))
+        floor, top = self.cutting.stock.faces(at.x, at.y)
         at = at._replace(low=np.fmax(at.low, floor))
         deep = depths(self.moves, self.boxes, at, np.where(np.isnan(top), -np.inf, top))
         ends = np.flatnonzero(np.diff(at.owner, append=-1)) + 1

@@ -11,7 +11,6 @@ from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, shown
-from mnclab.workpiece.blank import floor_of, top_of, volume_of
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling import limits, volumes
 from mnclab.workpiece.milling.erosion import ERROR
@@ -83,7 +82,7 @@ class Milled(Workpiece):
     def blank_at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Upper and lower side of the blank at points (m,); beside it both are its lowest place."""
         low = float(self.cutting.stock.bounds[0, 2])
-        top, floor = top_of(self.cutting.stock, x, y), floor_of(self.cutting.stock, x, y)
+        floor, top = self.cutting.stock.faces(x, y)
         return np.where(np.isnan(top), low, top), np.where(np.isnan(floor), low, floor)
 
     @cached_property
@@ -138,7 +137,7 @@ class Milled(Workpiece):
 
     @cached_property
     def blank_volume(self) -> float:
-        return volume_of(self.cutting.stock)
+        return float(self.cutting.stock.volume)
 
     def cut(self, plane: str, at: float = 0.0) -> list[Contour]:
         plane = choice(plane, "the plane of a section", PLANES)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mnclab.path.columns import Array, Mask
-from mnclab.workpiece.blank import Blank, floor_of, top_of
+from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.milling.moves import STILL, Moves
 from mnclab.workpiece.milling.raster import lowered
 from mnclab.workpiece.part import Part
@@ -86,7 +86,7 @@ class Touched:
 
     def _columns(self, moves: Moves, x: Array, y: Array) -> tuple[Array, Array]:
         """From where to where the material reaches at points (m,); empty columns are upside down."""
-        top, floor = top_of(self.stock, x, y), floor_of(self.stock, x, y)
+        floor, top = self.stock.faces(x, y)
         inside = np.isfinite(top)
         found = np.where(inside, top, -np.inf)
         if inside.any() and len(moves):
