@@ -17,13 +17,14 @@ class ShownSection {
       path.closePath();
       return path;
     });
-    this.bar = outline(section.bar);
+    this.bar = new Path2D();
+    section.bar.forEach(loop => this.bar.addPath(outline(loop)));
     this.layer = document.createElement("canvas");
     this.kept = [];  // [areas taken, canvas]
     this.done = -1;  // areas that the layer has lost
     this.key = "";
     this.crashed = new Set(run.header.collisions.filter(each => each.kind === "rapid").map(each => each.row));
-    this.radius = Math.max(...section.bar.map(([, radius]) => radius));
+    this.radius = Math.max(...section.bar.flat().map(([, radius]) => radius));
   }
   show(on) {
     this.picture.part = on ? this : null;
@@ -48,7 +49,7 @@ class ShownSection {
     }
   }
   fresh(pen) {  // the bar, hatched
-    const {colours, camera} = this.picture, {bar, radius} = this, zs = this.section.bar.map(([z]) => z);
+    const {colours, camera} = this.picture, {bar, radius} = this, zs = this.section.bar.flat().map(([z]) => z);
     const [low, high] = [Math.min(...zs), Math.max(...zs)], gap = 9 / camera.zoom;
     this.halves(pen, () => {
       pen.fillStyle = colours.metal;
