@@ -50,6 +50,12 @@ class Cutting:
     def __len__(self) -> int:
         return len(self.path)
 
+    @classmethod
+    def of_nothing(cls, stock: Any, lathe: bool = False) -> Cutting:
+        """No rows: the part is its blank."""
+        path = Toolpath({"kind": np.zeros(0, dtype=np.uint8)}, lathe=lathe)
+        return cls(path, (), np.zeros(0, dtype=np.int64), stock)
+
     def until(self, row: int) -> Cutting:
         """The same up to a row and with it."""
         tilted = None if self.tilted is None else self.tilted[: row + 1]
