@@ -33,7 +33,7 @@ def _fields(record: Any) -> Iterator[tuple[str, Any, Any]]:
 
 
 def _same(value: Any, default: Any) -> bool:
-    return value is default or (type(value) in (int, float, str, bool, tuple) and bool(value == default))
+    return value is default or (type(value) in (int, float, str, bool, tuple, dict) and bool(value == default))
 
 
 def _value(value: Any) -> str:

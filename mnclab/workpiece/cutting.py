@@ -51,6 +51,12 @@ class Cutting:
     def __len__(self) -> int:
         return len(self.path)
 
+    @classmethod
+    def of_nothing(cls, stock: Any, lathe: bool = False) -> Cutting:
+        """No rows: the part is its blank."""
+        path = Toolpath({"kind": np.zeros(0, dtype=np.uint8)}, lathe=lathe)
+        return cls(path, (), np.zeros(0, dtype=np.int64), stock)
+
     def until(self, row: int) -> Cutting:
         """The same up to a row and with it."""
         tilted = None if self.tilted is None else self.tilted[: row + 1]
@@ -58,7 +64,7 @@ class Cutting:
 
     def uncut(self, stock: Blank) -> Cutting:
         """Another blank on the same machine, before the first row."""
-        return Cutting(self.path[:0], (), self.which[:0], stock, origin=self.origin)
+        return replace(Cutting.of_nothing(stock, self.lathe), origin=self.origin)
 
     def tool(self, row: int) -> Tool:
         return self.tools[int(self.which[row])]

@@ -73,30 +73,31 @@ def _halves(start: Floats, end: Floats, sweep: float, centre: Floats, radius: fl
     return list(zip(zip(places, places[1:]), sides))
 
 
-def faces(section: Sequence[Contour], rho: Floats) -> tuple[Floats, Floats]:
-    """The lowest and the highest place along the axis at distances from it (m,); nan where there is no material."""
-    low, high = np.full(rho.shape, np.inf), np.full(rho.shape, -np.inf)
+def ends_at(section: Sequence[Contour], radius: Floats) -> tuple[Floats, Floats]:
+    """The lowest and the highest z of the material at each radius, in its shape; nan where there is none."""
+    low, high = np.full(radius.shape, np.inf), np.full(radius.shape, -np.inf)
     for contour in section:
-        for start, end, sweep, centre, radius in zip(
-            contour.starts, contour.ends, contour.sweeps, contour.centres, contour.radii
-        ):
-            across = np.array([[0.0, 1.0], [1.0, 0.0]])  # along r as `_halves` goes along z
-            pieces = [((float(start[1]), float(end[1])), 0.0)]
+        rows = zip(contour.starts, contour.ends, contour.sweeps, contour.centres, contour.radii)
+        for (z0, r0), (z1, r1), sweep, (zc, rc), size in rows:
+            places = [(np.full(radius.shape, z), radius == r) for z, r in ((z0, r0), (z1, r1))]
             if sweep:
-                pieces = _halves(start @ across, end @ across, -sweep, centre @ across, radius)
-            for (a, b), side in pieces:
-                there = (rho >= min(a, b)) & (rho <= max(a, b))
-                if side:
-                    z = centre[0] + side * np.sqrt(np.maximum(radius**2 - (rho - centre[1]) ** 2, 0.0))
-                    ends: tuple[Floats, ...] = (z,)
-                elif a != b:
-                    ends = (start[0] + (rho - a) / (b - a) * (end[0] - start[0]),)
-                else:
-                    ends = np.full_like(rho, start[0]), np.full_like(rho, end[0])
-                for z in ends:
-                    low, high = np.where(there, np.minimum(low, z), low), np.where(there, np.maximum(high, z), high)
-    solid = high > low
-    return np.where(solid, low, np.nan), np.where(solid, high, np.nan)
+                first = math.atan2(r0 - rc, z0 - zc)
+                half = np.sqrt(np.maximum(size**2 - (radius - rc) ** 2, 0.0))
+                for side in (half, -half):
+                    ahead = np.mod((np.arctan2(radius - rc, side) - first) * np.sign(sweep), 2 * np.pi)
+                    places.append((zc + side, (np.abs(radius - rc) <= size) & (ahead <= abs(sweep))))
+            elif r0 != r1:
+                share = (radius - r0) / (r1 - r0)
+                places.append((z0 + share * (z1 - z0), (share >= 0) & (share <= 1)))
+            for z, there in places:
+                low, high = np.where(there, np.minimum(low, z), low), np.where(there, np.maximum(high, z), high)
+    return np.where(np.isfinite(low), low, np.nan), np.where(np.isfinite(high), high, np.nan)
+
+
+def both_halves(section: Sequence[Contour]) -> tuple[Contour, ...]:
+    """The whole section through the axis, closed contours (z, x), x from the axis on."""
+    other = [Contour(loop.points * (1, -1), -loop.bulge).reversed() for loop in section]
+    return Region(tuple(section)).union(Region(tuple(other))).loops
 
 
 def overhangs(section: Sequence[Contour]) -> bool:
@@ -105,18 +106,6 @@ def overhangs(section: Sequence[Contour]) -> bool:
     middles = (corners[:-1] + corners[1:])[np.diff(corners) > AXIS] / 2
     across = [Contour(contour.points[:, ::-1], -contour.bulge) for contour in section]
     return any(len(places) > 2 for places in radii_at(across, middles))
-
-
-def edges(section: Sequence[Contour], axis: float) -> list[Floats]:
-    """The rims as closed lines (k, 3), and four lines along the surface (k, 3)."""
-    angle, found = np.linspace(0, 2 * np.pi, ROUND + 1), []
-    for contour in section:
-        line = contour.points_within(CHORD_ERROR)
-        for turn in np.pi / 2 * np.arange(4):
-            found.append(np.column_stack([axis + line[:, 1] * np.cos(turn), line[:, 1] * np.sin(turn), line[:, 0]]))
-        for z, r in contour.points[contour.points[:, 1] > AXIS]:
-            found.append(np.column_stack([axis + r * np.cos(angle), r * np.sin(angle), np.full(len(angle), z)]))
-    return found
 
 
 def volume(section: Sequence[Contour]) -> float:

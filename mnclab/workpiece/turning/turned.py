@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, shown
@@ -22,6 +21,7 @@ from mnclab.workpiece.turning import revolved
 from mnclab.workpiece.turning.section import Drawing, held, left_of, taken
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of
 from mnclab.workpiece.turning.sweeping import CHORD_ERROR
+from mnclab.workpiece.turning.turned_blank import TurnedBlank
 from mnclab.workpiece.workpiece import Solid, Workpiece
 
 if TYPE_CHECKING:
@@ -118,34 +118,31 @@ class Turned(Workpiece):
             return rings[::-1]
         if at != 0:
             raise Alarm(f"a section along the axis of a turned part goes through the axis, at 0, got {at:g}")
-        other = [Contour(loop.points * (1, -1), -loop.bulge).reversed() for loop in self.section]
-        whole = Region(tuple(self.section)).union(Region(tuple(other)))
+        whole = revolved.both_halves(self.section)
         frame = np.array([[1.0, 0, 0], [0, 1, self.axis if "X" in plane else 0.0], [0, 0, 1]])
         swap = np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, 1]])
         if plane[0] == "Z":
-            return [loop.transformed(frame) for loop in whole.loops]
-        return [loop.transformed(swap @ frame).reversed() for loop in whole.loops]
+            return [loop.transformed(frame) for loop in whole]
+        return [loop.transformed(swap @ frame).reversed() for loop in whole]
 
     # --- as the next blank -------------------------------------------------------------------------------------------
 
     def half_section(self) -> tuple[list[Contour], float]:
         return self.section, self.axis
 
+    @property
+    def _body(self) -> TurnedBlank:
+        return TurnedBlank(tuple(self.section), (self.axis, 0.0))
+
     def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
         """What overhangs counts as filled: from the lowest place to the highest one."""
-        return revolved.faces(self.section, np.hypot(x - self.axis, y))
+        return self._body.faces(x, y)
 
     def outline(self, right: int, up: int) -> list[Array]:
-        if 2 not in (right, up):
-            radii = np.concatenate([each.points_within(revolved.CHORD_ERROR)[:, 1] for each in self.section])
-            rings = [Contour.circle((self.axis, 0.0), r) for r in (float(radii.max()), float(radii.min())) if r > revolved.AXIS]
-            return [ring.points_within(revolved.CHORD_ERROR)[:, [right, up]] for ring in rings]
-        plane = "".join("XYZ"[axis] for axis in (right, up))
-        return [each.points_within(revolved.CHORD_ERROR) for each in self.cut(plane)]
+        return self._body.outline(right, up)
 
     def edges(self) -> list[Array]:
-        """The rims as closed lines, and four lines along the surface."""
-        return revolved.edges(self.section, self.axis)
+        return self._body.edges()
 
     def made_by(self) -> Iterator[tuple[Moves, Placement]]:
         return iter(())
