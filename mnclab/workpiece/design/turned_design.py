@@ -213,7 +213,7 @@ class TurnedDesign:
     def _check_blank(self) -> None:
         if self.blank is None:
             return
-        (low, radius, bore), body = _cylinder(self.blank), self.bodies[-1]
+        (low, radius, bore), body = cylinder_of(self.blank), self.bodies[-1]
         for name, has, allowed, inside in (
             ("Z from", body.low, low[0], body.low >= low[0] - SAME),
             ("Z to", body.high, low[1], body.high <= low[1] + SAME),
@@ -225,7 +225,7 @@ class TurnedDesign:
                 raise Alarm(f"the design does not lie within its blank, whose {name} is {allowed:g}: it has {has:g}")
 
 
-def _cylinder(given: Revolved) -> tuple[tuple[float, float], float, float]:
+def cylinder_of(given: Revolved) -> tuple[tuple[float, float], float, float]:
     """From where to where in z a cylinder goes, its radius and its bore."""
     (radius, low), (_, high) = given.profile
     return (low + given.at[2], high + given.at[2]), radius, given.bore
@@ -234,7 +234,7 @@ def _cylinder(given: Revolved) -> tuple[tuple[float, float], float, float]:
 def _turned_over(given: Revolved | None, middle: float) -> Revolved | None:
     if given is None:
         return None
-    (low, high), radius, _ = _cylinder(given)
+    (low, high), radius, _ = cylinder_of(given)
     return given._replace(profile=((radius, middle - high), (radius, middle - low)), at=(0.0, 0.0, 0.0))
 
 

@@ -205,31 +205,36 @@ class CentreHole(_FromEnd):
         if (self.diameter is None or self.depth is None) and float(self.pilot) not in CENTRES:
             known = ", ".join(f"{each:g}" for each in CENTRES)
             raise Alarm(f"a centre hole has a pilot of {known} by DIN 332-1, or its diameter and depth given, got {self.pilot:g}")
+        wide, deep = self.sizes
+        check_number(wide, "the diameter of a centre hole (mm)", above=self.pilot)
+        check_number(deep, "the depth of a centre hole (mm)", above=self.sunk)
+
+    @property
+    def sizes(self) -> tuple[float, float]:
+        """The diameter of the countersink and the depth of the pilot, mm: those given, else those of DIN 332-1."""
         wide, deep = CENTRES.get(float(self.pilot), (0.0, 0.0))
-        for name, usual in (("diameter", wide), ("depth", deep)):
-            if getattr(self, name) is None:
-                object.__setattr__(self, name, usual)
-        check_number(self.diameter, "the diameter of a centre hole (mm)", above=self.pilot)
-        check_number(self.depth, "the depth of a centre hole (mm)", above=self.sunk)
+        return wide if self.diameter is None else self.diameter, deep if self.depth is None else self.depth
 
     @property
     def sunk(self) -> float:
         """How deep the countersink goes, mm."""
-        return float((self.diameter or 0.0) - self.pilot) / 2 / math.tan(math.pi / 6)
+        return (self.sizes[0] - self.pilot) / 2 / math.tan(math.pi / 6)
 
     def _measures(self) -> Iterator[Measure]:
-        yield Measure("diameter", float(self.diameter or 0.0), "diameter")
+        wide, deep = self.sizes
+        yield Measure("diameter", wide, "diameter")
         yield Measure("pilot diameter", self.pilot, "diameter")
-        yield Measure("depth", float(self.depth or 0.0), "depth")
+        yield Measure("depth", deep, "depth")
 
     def _from_front(self, body: TurnedBody) -> Contour:
-        wide, pilot, high = float(self.diameter or 0.0) / 2, self.pilot / 2, body.high
+        (wide, deep), pilot, high = self.sizes, self.pilot / 2, body.high
+        wide = wide / 2
         if abs(body.ends_at(wide)[1] - high) > SAME or abs(body.ends_at(0.0)[1] - high) > SAME:
             raise Alarm(f"it needs a flat end at least {2 * wide:g} wide")
-        shoulder = high - float(self.depth or 0.0)
+        shoulder = high - deep
         steep = pilot / math.tan(math.radians(59))
         if shoulder - steep < body.low + SAME:
-            raise Alarm(f"its depth must be less than the length of the part, {high - body.low:g}, got {self.depth:g}")
+            raise Alarm(f"its depth must be less than the length of the part, {high - body.low:g}, got {deep:g}")
         flare = wide + LEAST * math.tan(math.pi / 6)
         points = [(high + LEAST, -BEYOND), (high + LEAST, flare), (high - self.sunk, pilot), (shoulder, pilot)]
         return outline([*points, (shoulder - steep * (1 + BEYOND / pilot), -BEYOND)], {}, "a centre hole")

@@ -15,7 +15,7 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number
+from mnclab.text.given import check_number, choice
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.threads import metric
 from mnclab.workpiece.design.turned_body import BEYOND, SAME, TurnedBody
@@ -138,38 +138,42 @@ class Undercut(TurnedFeature):
     thread_at: str = "front"
 
     def _check(self) -> None:
-        wide, pitch = metric(self.thread)
+        _, pitch = metric(self.thread)
         check_number(self.z, "the z of an undercut (mm)")
         self._flag("inside")
         self._positive("diameter", "width")
         check_number(self.angle, "the angle of an undercut (degrees)", above=0, at_most=90)
-        if self.thread_at not in ENDS:
-            raise Alarm(f"the thread_at of an undercut must be front or back, got {self.thread_at!r}")
-        if None in (self.diameter, self.width, self.corner):
-            if pitch not in UNDERCUTS:
-                known = ", ".join(f"{each:g}" for each in UNDERCUTS)
-                raise Alarm(f"DIN 76-1 has undercuts for the pitches {known}, got {pitch:g}",
-                            hint="give the diameter, the width and the corner of the undercut")  # fmt: skip
-            less, width, corner = UNDERCUTS[pitch]
-            usual = {"diameter": wide - less, "width": width, "corner": corner}
-            if self.inside:
-                usual |= {"diameter": wide + (0.5 if pitch >= 1 else 0.3), "width": 4 * pitch}
-            for name, value in usual.items():
-                if getattr(self, name) is None:
-                    object.__setattr__(self, name, value)
-        check_number(self.corner, "the corner of an undercut (mm)", at_least=0)
+        choice(self.thread_at, "the thread_at of an undercut", ENDS)
+        if None in (self.diameter, self.width, self.corner) and pitch not in UNDERCUTS:
+            known = ", ".join(f"{each:g}" for each in UNDERCUTS)
+            raise Alarm(f"DIN 76-1 has undercuts for the pitches {known}, got {pitch:g}",
+                        hint="give the diameter, the width and the corner of the undercut")  # fmt: skip
+        if self.corner is not None:
+            check_number(self.corner, "the corner of an undercut (mm)", at_least=0)
+
+    @property
+    def sizes(self) -> tuple[float, float, float]:
+        """Diameter, width of the bottom and radius of its corners, mm: those given, else those of DIN 76-1."""
+        wide, pitch = metric(self.thread)
+        less, width, corner = UNDERCUTS.get(pitch, (0.0, 0.0, 0.0))
+        usual = (wide + (0.5 if pitch >= 1 else 0.3), 4 * pitch, corner) if self.inside else (wide - less, width, corner)
+        given = (self.diameter, self.width, self.corner)
+        diameter, width, corner = (float(u if g is None else g) for g, u in zip(given, usual))
+        return diameter, width, corner
 
     def _measures(self) -> Iterator[Measure]:
-        yield Measure("diameter", float(self.diameter or 0), "diameter")
-        yield Measure("width", float(self.width or 0))
-        yield Measure("corner radius", float(self.corner or 0), "radius")
+        diameter, width, corner = self.sizes
+        yield Measure("diameter", diameter, "diameter")
+        yield Measure("width", width)
+        if corner:
+            yield Measure("corner radius", corner, "radius")
         yield Measure("angle", self.angle, "angle")
         yield Measure("z", self.z, "place")
 
     def cut(self, body: TurnedBody) -> Contour:
         ahead = 1.0 if self.thread_at == "front" else -1.0
-        bottom, out = float(self.diameter or 0) / 2, -1.0 if self.inside else 1.0
-        foot = self.z + ahead * float(self.width or 0)
+        diameter, width, corner = self.sizes
+        bottom, out, foot = diameter / 2, -1.0 if self.inside else 1.0, self.z + ahead * width
         body.check_within(max(self.z, foot), min(self.z, foot))
         beside = foot + ahead * 1e-6
         wall = float((body.inner if self.inside else body.outer)(np.array([beside]))[0])
@@ -180,8 +184,8 @@ class Undercut(TurnedFeature):
         if not behind * out > bottom * out + SAME or behind < SAME:
             raise Alarm(f"there is no shoulder at Z {self.z:g}: the surface behind it has {2 * behind:g}")
         high = out * (wall - bottom)
-        if float(self.corner or 0) > high + SAME:
-            raise Alarm(f"its corner must be at most its depth, {high:g}, got {self.corner:g}")
+        if corner > high + SAME:
+            raise Alarm(f"its corner must be at most its depth, {high:g}, got {corner:g}")
         lean = ahead / math.tan(math.radians(self.angle)) if self.angle < 90 else 0.0
         end = foot + lean * high
         body.check_within(max(self.z, end), min(self.z, end))
@@ -189,7 +193,7 @@ class Undercut(TurnedFeature):
         rise = min(abs(sky - wall), 1e-3)  # it goes out of the surface by so much, then straight up
         points = [(self.z, sky), (self.z, bottom), (foot, bottom), (end + lean * rise, wall + out * rise)]
         points.append((end + lean * rise, sky))
-        return outline(points, {1: float(self.corner), 2: float(self.corner)} if self.corner else {}, "an undercut")
+        return outline(points, {1: corner, 2: corner} if corner else {}, "an undercut")
 
     def turned_over(self, middle: float) -> Self:
         return replace(self, z=middle - self.z, thread_at=ENDS[self.thread_at == "front"])
