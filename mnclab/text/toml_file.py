@@ -42,8 +42,12 @@ class File:
         return max(found, key=lambda each: each[0])[1] if found else None
 
     def _written(self) -> Iterator[tuple[list[str], Span]]:
-        """The keys of every table and value, the outer ones before it, and the place of the last of them."""
+        """The keys of every table and value, the outer ones before it, and the place of the last of them.
+
+        Tables of a list, `[[name]]`, are counted: name, "0".
+        """
         table: list[str] = []
+        counts: dict[tuple[str, ...], int] = {}
         for number, line in enumerate(self._lines, 1):
             outer = table
             for found in WRITTEN.finditer(line):
@@ -57,6 +61,10 @@ class File:
                     outer = path if outer is table else outer  # keys after the first are those of a table in the line
                 column = found.start(1 if header else 2) + keys[-1].start() + 1
                 yield path, Span(number, column, len(keys[-1][0]))
+                if header and found[0].lstrip().startswith("[["):
+                    count = counts[tuple(path)] = counts.get(tuple(path), -1) + 1
+                    table = [*path, str(count)]
+                    yield table, Span(number, column, len(keys[-1][0]))
 
     @contextmanager
     def at(self, *keys: str) -> Iterator[None]:
@@ -113,3 +121,17 @@ def check_names(table: Mapping[str, Any], known: Any, where: str, file: File, *k
             with file.at(*keys, name):
                 near = hint(name[:40], known, 1) or f"known: {', '.join(known)}"
                 raise Alarm(f"{where} has no {shown(name)}", hint=near)
+
+
+def as_table(value: Any, where: str) -> Mapping[str, Any]:
+    """A value as a table; an Alarm where it is none."""
+    if not isinstance(value, dict):
+        raise Alarm(f"{where} must be a table, got {shown(value)}", hint=f"write [{where}] on a line of its own")
+    return value
+
+
+def as_tables(value: Any, where: str) -> list[Any]:
+    """A value as a list of tables, which are not looked at; an Alarm where it is none."""
+    if not isinstance(value, list):
+        raise Alarm(f"{where} must be a list of tables, got {shown(value)}", hint=f"write [[{where}]] before each")
+    return value

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
@@ -19,8 +19,8 @@ from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, check_point, faults_as_alarms, shown
-from mnclab.text.records import written
+from mnclab.text.given import check_number, check_point, faults_as_alarms, plain, shown
+from mnclab.text.records import exactly
 from mnclab.workpiece.design.measures import Measure, Tolerance, with_tolerances
 from mnclab.workpiece.design.removals import Flat, Removal, Slanting
 from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle, Shape, shape_of
@@ -51,7 +51,7 @@ class Feature(ABC):
 
     top: float | None = None
     name: str = ""
-    tolerances: Mapping[str, Tolerance] = field(default_factory=dict)
+    tolerances: Mapping[str, Tolerance] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
         if self.top is not None:
@@ -60,11 +60,15 @@ class Feature(ABC):
             raise Alarm(f"the name of a {self.kind} must be a text, got {shown(self.name)}")
         if not isinstance(self.tolerances, Mapping):
             raise Alarm(f"tolerances of a {self.kind} are names and values, got {shown(self.tolerances)}", hint=EXAMPLE)
+        given = {name: tuple(each) if isinstance(each, list) else each for name, each in self.tolerances.items()}
+        object.__setattr__(self, "tolerances", given)
+        for each in fields(self):
+            object.__setattr__(self, each.name, plain(getattr(self, each.name)))
         self._check()
         self.measures()
 
     def __repr__(self) -> str:
-        return written(self)
+        return exactly(self)
 
     @abstractmethod
     def _check(self) -> None:
