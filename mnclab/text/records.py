@@ -54,7 +54,7 @@ def _exact(value: Any) -> str:
 
 
 def _value(value: Any, inner: Callable[[Any], str] | None = None) -> str:
-    """A value in short: whole numbers without a point, a mapping as a dict, a function by its name; `inner` writes their parts."""
+    """A value in short: whole numbers without a point, a mapping as a dict, a function by its name; `inner` writes parts."""
     inner = inner or _value
     if isinstance(value, float):
         return f"{value:.10g}"
