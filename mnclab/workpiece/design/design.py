@@ -233,10 +233,9 @@ class Design:
 
     def save(self, path: str | Path, **options: Any) -> Path:
         """Write one file: toml the design; svg, pdf, png, dxf its drawing; stl, gltf, glb, vtk, csv its body."""
-        from mnclab.workpiece.design.design_file import text_of
         from mnclab.workpiece.design.saving import save
 
-        return save(self, path, text_of, **options)
+        return save(self, path, **options)
 
     def plot(self, **options: Any) -> Figure:
         """The dimensioned drawing; see `show.drawing`."""

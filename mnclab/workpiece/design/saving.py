@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import named, replaced
+from mnclab.workpiece.design.design_file import text_of
 
 DRAWN = (".svg", ".pdf", ".png", ".dxf")
 BODIES = (".stl", ".gltf", ".glb", ".vtk", ".csv")
 
 
-def save(design: Any, path: str | Path, text_of: Callable[[Any], str], **options: Any) -> Path:
-    """Write one file and return its path. `text_of` writes the design; drawings take the options of `plot`, bodies
-    `step`, mm of the cells of a milled part."""
+def save(design: Any, path: str | Path, **options: Any) -> Path:
+    """Write one file and return its path; drawings take the options of `plot`, bodies those of `workpiece`."""
     path, suffix = named(path, (".toml", *DRAWN, *BODIES), "cannot write a design as {}")
     if suffix in DRAWN:
         return _drawing(design, path, **options)
