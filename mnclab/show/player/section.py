@@ -26,7 +26,7 @@ from mnclab.workpiece.turning.strokes import Strokes, strokes_of
 from mnclab.workpiece.turning.turned import half_section
 
 OFF = 0.01  # mm
-PARTS = 1e3  # of a millimetre
+PARTS = 1e4  # of a millimetre
 BEHIND, JAWS = 0.3, 1.55  # of the radius of the bar: how long and how high a chuck is that nobody gave, behind the bar
 MOST = 200_000  # corners of all areas; the page of more would be too large
 

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mnclab.geometry.contours import Contour
-from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, shown
@@ -113,13 +112,12 @@ class Turned(Workpiece):
             return rings[::-1]
         if at != 0:
             raise Alarm(f"a section along the axis of a turned part goes through the axis, at 0, got {at:g}")
-        other = [Contour(loop.points * (1, -1), -loop.bulge).reversed() for loop in self.section]
-        whole = Region(tuple(self.section)).union(Region(tuple(other)))
+        whole = revolved.both_halves(self.section)
         frame = np.array([[1.0, 0, 0], [0, 1, self.axis if "X" in plane else 0.0], [0, 0, 1]])
         swap = np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, 1]])
         if plane[0] == "Z":
-            return [loop.transformed(frame) for loop in whole.loops]
-        return [loop.transformed(swap @ frame).reversed() for loop in whole.loops]
+            return [loop.transformed(frame) for loop in whole]
+        return [loop.transformed(swap @ frame).reversed() for loop in whole]
 
     @property
     def part(self) -> Part:
