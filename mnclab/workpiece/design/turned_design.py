@@ -70,7 +70,7 @@ class TurnedDesign:
             raise Alarm(f"tolerances of a design are names and values, got {shown(self.tolerances)}",
                         hint='tolerances={"diameter 1": "h6"}')  # fmt: skip
         object.__setattr__(self, "profile", _profile(self.profile))
-        outline = Profile(self.profile.contour, self.roundings, self.chamfers)
+        outline = self.outline_as_drawn
         object.__setattr__(self, "roundings", outline.roundings)
         object.__setattr__(self, "chamfers", outline.chamfers)
         object.__setattr__(self, "features", _features(self.features))
