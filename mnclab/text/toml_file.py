@@ -135,3 +135,17 @@ def check_names(table: Mapping[str, Any], known: Any, where: str, file: File, *k
             with file.at(*keys, name):
                 near = hint(name[:40], known, 1) or f"known: {', '.join(known)}"
                 raise Alarm(f"{where} has no {shown(name)}", hint=near)
+
+
+def as_table(value: Any, where: str) -> Mapping[str, Any]:
+    """A value as a table; an Alarm where it is none."""
+    if not isinstance(value, dict):
+        raise Alarm(f"{where} must be a table, got {shown(value)}", hint=f"write [{where}] on a line of its own")
+    return value
+
+
+def as_tables(value: Any, where: str) -> list[Any]:
+    """A value as a list of tables, which are not looked at; an Alarm where it is none."""
+    if not isinstance(value, list):
+        raise Alarm(f"{where} must be a list of tables, got {shown(value)}", hint=f"write [[{where}]] before each")
+    return value

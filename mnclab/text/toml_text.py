@@ -18,19 +18,20 @@ def toml(table: Mapping[str, Any], rows: Collection[str] = ()) -> str:
     values, tables, lists = list[str](), list[str](), list[str]()
     for name, value in table.items():
         if isinstance(value, Mapping):
-            tables += ["", f"[{key(name)}]", *_lines(value)]
+            tables += ["", f"[{key(name)}]", *lines(value)]
         elif name in rows:
             values += [f"{key(name)} = [", *(f"    {of(each)}," for each in value), "]"]
         elif isinstance(value, list | tuple) and value and isinstance(value[0], Mapping):
             for each in value:
-                lists += ["", f"[[{key(name)}]]", *_lines(each)]
+                lists += ["", f"[[{key(name)}]]", *lines(each)]
         else:
             values.append(f"{key(name)} = {of(value)}")
     return "\n".join([*values, *tables, *lists]).lstrip("\n") + "\n"
 
 
-def _lines(table: Mapping[str, Any]) -> list[str]:
-    return [f"{key(name)} = {of(value)}" for name, value in table.items()]
+def lines(table: Mapping[str, Any]) -> list[str]:
+    """A line for each key of a table; what is None is left out."""
+    return [f"{key(name)} = {of(value)}" for name, value in table.items() if value is not None]
 
 
 def key(name: str) -> str:
@@ -45,7 +46,7 @@ def of(value: Any) -> str:
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007F")
     if isinstance(value, Mapping):
-        return f"{{ {', '.join(_lines(value))} }}" if value else "{}"
+        return f"{{ {', '.join(lines(value))} }}" if value else "{}"
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(of, value))}]"
     number = float(value)
