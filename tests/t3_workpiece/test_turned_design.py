@@ -1,5 +1,6 @@
 """Turned designs: volumes by hand, exact sections, what a probe touches, files, both ends."""
 
+import functools
 import math
 
 import numpy as np
@@ -8,29 +9,36 @@ from t3_workpiece.turned_designs import frustum, ring, rounded, shaft
 
 import mnclab as mnc
 from mnclab.geometry.contours import Contour
-from mnclab.text.toml_file import parse
 from mnclab.workpiece.design import Bore, CentreHole, FaceGroove, RingGroove, Thread, TurnedDesign, Undercut
-from mnclab.workpiece.design.turned_file import design_of, text_of
 from mnclab.workpiece.part import contact
 
-SEEDS = range(80)
 QUARTER = math.tan(math.pi / 8)
+FEW = range(6)
+MANY = [*FEW, *(pytest.param(seed, marks=pytest.mark.deep) for seed in range(6, 90))]
+shaft = functools.cache(shaft)
 
 
-@pytest.fixture(scope="module")
-def shafts():
-    return [shaft(seed) for seed in SEEDS]
+@pytest.mark.parametrize("seed", MANY)
+def test_a_random_shaft(seed, tmp_path):
+    """Its volume by hand; its file reads back equal; end for end twice it is the same."""
+    design, volume, _ = shaft(seed)
+    assert design.volume == pytest.approx(volume, rel=1e-9)
+    assert design.workpiece().volume == pytest.approx(volume, rel=1e-9)
+    again = TurnedDesign.load(design.save(tmp_path / "design.toml"))
+    assert again == design and again.volume == design.volume
+    over = design.turned_over()
+    assert over.volume == pytest.approx(volume, rel=1e-9)
+    assert over.bounds == pytest.approx(design.bounds, abs=1e-9)
+    for one, other in zip(design.section, over.turned_over().section, strict=True):
+        assert other.points == pytest.approx(one.points, abs=1e-9) and other.bulge == pytest.approx(one.bulge, abs=1e-9)
+    middle = float(design.bounds[:, 2].sum())
+    z = np.linspace(*design.bounds[:, 2], 23)[1:-1] + 1e-3 * math.pi
+    assert over.workpiece().at(middle - z) == pytest.approx(design.workpiece().at(z), abs=1e-9)
 
 
-def test_volumes_of_random_shafts(shafts):
-    for design, volume, _ in shafts:
-        assert design.volume == pytest.approx(volume, rel=1e-9), design.title
-        assert design.workpiece().volume == pytest.approx(volume, rel=1e-9)
-
-
-def test_sides_of_random_shafts_by_quadrature(shafts):
+def test_sides_of_random_shafts_by_quadrature():
     """Shells 2πr·h of the sides that a mill would see, and by hand what is undercut: grooves count as full there."""
-    for design, _, _ in shafts[::8]:
+    for design, _, _ in map(shaft, FEW):
         full = mnc.TurnedDesign(
             design.profile, [each for each in design.features if not isinstance(each, RingGroove)],
             roundings=design.roundings, chamfers=design.chamfers,
@@ -104,35 +112,25 @@ def test_threads_are_weighed_without_teeth():
     assert Thread("M30", 0, -20).pitch == 3.5
 
 
-def test_a_probe_touches_a_design(shafts):
+@pytest.mark.parametrize("seed", MANY)
+def test_a_probe_touches_a_shaft(seed):
     """A ball of 1.5 from the side, onto the front, into the bore: plain arithmetic."""
-    for design, _, bottom in shafts[:40]:
-        (z, _), (low, wide) = design.profile.points[0], design.profile.points[-1]
-        middle = (low + design.profile.points[-2][0]) / 2
-        turn = math.radians(37)
-        ahead = (-math.cos(turn), -math.sin(turn), 0)
-        start = (-60 * ahead[0], -60 * ahead[1], middle)
-        assert contact(design.part, start, ahead, 1.5, 100) == pytest.approx(60 - wide - 1.5, abs=1e-9)
-        bore = next((each for each in design.features if isinstance(each, Bore)), None)
-        if bore is None:
-            assert contact(design.part, (3, 0, z + 20), (0, 0, -1), 1.5, 50) == pytest.approx(18.5, abs=1e-9)
-            continue
-        deep = z - (bore.depth + 6.5) / 2  # beyond the groove in it
-        assert contact(design.part, (0, 0, deep), (0, 1, 0), 0.2, 50) == pytest.approx(bore.diameter / 2 - 0.2, abs=1e-9)
-        if bore.point == 180:
-            assert contact(design.part, (0, 0, z + 5), (0, 0, -1), 1.0, 80) == pytest.approx(z + 5 - bottom - 1, abs=1e-9)
-        else:  # in the point: the ball lies in the cone, 1 / sin of half its angle above the tip
-            half = math.radians(bore.point / 2)
-            rest = bottom - bore.tip + 1 / math.sin(half)
-            assert contact(design.part, (0, 0, z + 5), (0, 0, -1), 1.0, 80) == pytest.approx(z + 5 - rest, abs=1e-9)
-
-
-def test_files_read_back_equal(shafts, tmp_path):
-    for design, _, _ in shafts[:40]:
-        path = tmp_path / "design.toml"
-        path.write_text(text_of(design), encoding="utf-8")
-        again = parse(path, design_of, "design")
-        assert again == design and again.volume == design.volume, design.title
+    design, _, bottom = shaft(seed)
+    (z, _), (low, wide) = design.profile.points[0], design.profile.points[-1]
+    middle, turn = (low + design.profile.points[-2][0]) / 2, math.radians(37)
+    ahead = (-math.cos(turn), -math.sin(turn), 0)
+    start = (-60 * ahead[0], -60 * ahead[1], middle)
+    assert contact(design.part, start, ahead, 1.5, 100) == pytest.approx(60 - wide - 1.5, abs=1e-9)
+    bore = next((each for each in design.features if isinstance(each, Bore)), None)
+    if bore is None:
+        assert contact(design.part, (3, 0, z + 20), (0, 0, -1), 1.5, 50) == pytest.approx(18.5, abs=1e-9)
+        return
+    deep = z - (bore.depth + 6.5) / 2  # beyond the groove in it
+    assert contact(design.part, (0, 0, deep), (0, 1, 0), 0.2, 50) == pytest.approx(bore.diameter / 2 - 0.2, abs=1e-9)
+    rest = bottom + 1
+    if bore.point < 180:  # in the point: the ball lies in the cone, 1 / sin of half its angle above the tip
+        rest = bottom - bore.tip + 1 / math.sin(math.radians(bore.point / 2))
+    assert contact(design.part, (0, 0, z + 5), (0, 0, -1), 1.0, 80) == pytest.approx(z + 5 - rest, abs=1e-9)
 
 
 def test_a_file_of_arcs_and_odd_texts(tmp_path):
@@ -142,34 +140,20 @@ def test_a_file_of_arcs_and_odd_texts(tmp_path):
         title="Привіт\x7f\t", tolerances={"length": 0.2},
     )  # fmt: skip
     path = tmp_path / "d.toml"
-    path.write_text(text_of(design), encoding="utf-8")
-    assert parse(path, design_of, "design") == design
+    assert TurnedDesign.load(design.save(path)) == design
     path.write_text("profile = [[0, 0, ], { z = 0.0, r = 0 }, [-5, 5]]\n")
     with pytest.raises(mnc.Alarm, match="the same place"):
-        parse(path, design_of, "design")
+        mnc.Design.load(path)
     rows = "{ z = 0, r = 0, arc = 10 },\n  { z = -10, r = 10, chamfer = [1, 30] },\n  [-10, 20],\n  [-20, 20],\n"
     path.write_text(f"profile = [\n  {rows}]\n")
     with pytest.raises(mnc.Alarm, match="one of its neighbours is an arc"):
-        parse(path, design_of, "design")
+        mnc.Design.load(path)
     path.write_text("profile = [\n  { z = 0, r = 0, arc = 10 },\n  [-10, 10],\n  [-20, 10],\n]\n")
-    assert parse(path, design_of, "design").volume == pytest.approx(2 / 3 * math.pi * 1000 + math.pi * 1000, rel=1e-12)
+    assert mnc.Design.load(path).volume == pytest.approx(2 / 3 * math.pi * 1000 + math.pi * 1000, rel=1e-12)
 
 
-def test_turned_over_twice_is_the_same(shafts):
-    for design, volume, _ in shafts[:16]:
-        over = design.turned_over()
-        assert over.volume == pytest.approx(volume, rel=1e-9)
-        assert over.bounds == pytest.approx(design.bounds, abs=1e-9)
-        twice = over.turned_over()
-        for one, other in zip(design.section, twice.section, strict=True):
-            assert other.points == pytest.approx(one.points, abs=1e-9) and other.bulge == pytest.approx(one.bulge, abs=1e-9)
-        middle = float(design.bounds[:, 2].sum())
-        z = np.linspace(*design.bounds[:, 2], 23)[1:-1] + 1e-3 * math.pi
-        assert over.workpiece().at(middle - z) == pytest.approx(design.workpiece().at(z), abs=1e-9)
-
-
-def test_moved_along_the_axis(shafts):
-    design, volume, _ = shafts[3]
+def test_moved_along_the_axis():
+    design, volume, _ = shaft(3)
     there = design.moved((0, 0, 12.5))
     assert there.volume == pytest.approx(volume, rel=1e-9)
     assert there.bounds == pytest.approx(design.bounds + (0, 0, 12.5))
