@@ -32,6 +32,7 @@ FRONT = np.eye(3)
 LEFT = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  # to the right what is in front
 SAME = 1e-6  # mm
 DEEP = 3.0  # worth of a feature whose depth is told by a section only
+LEAST = 2  # features that a second section must tell the depth of: a single one has it at a leader
 
 
 def drafts(design: Design, ledger: Ledger, tabled: int = 0) -> list[Draft]:
@@ -120,7 +121,7 @@ def _second(design: Design, left: Sequence[Item]) -> Plane | None:
     if not keys:
         return None
     plane = chosen([each._replace(worth=each.worth if each.key in keys else 0.1) for each in _items(design, LEFT) if each.key in {i.key for i in left}])
-    return plane if plane and plane.shows & keys else None
+    return plane if plane and len(plane.shows & keys) >= LEAST else None
 
 
 def _elevation(
