@@ -16,7 +16,7 @@ from mnclab.text.given import check_number
 Point = tuple[float, float]
 Tolerance = float | tuple[float, float] | str | None  # ±, (lower, upper) or a class of ISO 286
 
-MINUS, BEFORE_TOLERANCE = "\N{MINUS SIGN}", "\N{THIN SPACE}"
+MINUS = "\N{MINUS SIGN}"
 DIGITS = 3  # decimals of a millimetre
 
 

@@ -55,9 +55,11 @@ class Profile:
     def _loop(self) -> tuple[Contour, int]:
         """The profile closed to the axis, counter-clockwise, and the number that its first point has as given."""
         line, points = self.contour, self.contour.points
+        for k in np.flatnonzero(points[:, 1] < -SAME):
+            raise Alarm(f"point {k} of {WHAT} must have a radius of at least 0, got {points[k, 1]:g}", hint="points are (z, r)")
         low = float(line.bounds[0, 1])
         if low < -SAME:
-            raise Alarm(f"{WHAT} has radii of at least 0, got {low:.6g}", hint="points are (z, r)")
+            raise Alarm(f"an arc of {WHAT} must stay at radii of at least 0, it goes to {low:.6g}")
         gaps = np.hypot(*(line.ends - line.starts).T)
         if (gaps < SAME).any():
             k, place = int(gaps.argmin()), shown(tuple(points[int(gaps.argmin())].tolist()))

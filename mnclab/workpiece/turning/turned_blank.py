@@ -34,6 +34,10 @@ class TurnedBlank(NamedTuple):
         """Where the axis of the spindle stands in x, mm."""
         return self.axis[0]
 
+    def half_section(self) -> tuple[tuple[Contour, ...], float]:
+        """What a lathe asks for: the contours (z, r) and where the axis stands in x, mm."""
+        return self.section, self.axis_x
+
     @property
     def bounds(self) -> Array:
         """The corners with the least and the greatest coordinates (2, 3)."""
