@@ -83,7 +83,7 @@ def areas_of(work: Work, blank: Region) -> tuple[list[Area], list[int]]:
                 inside = shapely.intersects(piece, here)
                 fresh.append([track for track, on in zip(tracks, inside) if on])
         for some in fresh:
-            for area in _areas(z, some, blank):
+            for area in _areas(z, some, blank, gone):
                 if _matters(polygon(area.region), gone):
                     found.append(area)
         gone = shapely.union_all([gone, *(polygon(area.region) for area in found if area.floor == z)])
@@ -99,16 +99,21 @@ def _matters(area: Any, gone: Any) -> bool:
     return not rest.is_empty and not rest.buffer(-THIN / 2).is_empty
 
 
-def _areas(z: float, tracks: list[Track], blank: Region) -> list[Area]:
-    """What some tracks clear at a height, in connected areas."""
+def _areas(z: float, tracks: list[Track], blank: Region, gone: Any) -> list[Area]:
+    """What some tracks clear at a height, in connected areas; an island that is gone deeper is none."""
     found = []
     for whole in swept(tracks).parts:
         region = whole if _within(whole, blank) else whole.intersection(blank)
         for part in region.parts:
+            part = Region(tuple(loop for loop in part.loops if loop.area > 0 or _matters(_island(loop), gone)))
             places = polygon(part)
             mine = [track for track, piece in zip(tracks, coarse(tracks)) if piece.intersects(places)]
             found.append(Area(z, part, whole, mine))
     return found
+
+
+def _island(loop: Contour) -> Any:
+    return shapely.Polygon(loop.points_within(THIN / 2))
 
 
 def _within(region: Region, blank: Region) -> bool:

@@ -8,17 +8,19 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.design.features import Face, Feature, Groove, Hole, Pocket, Slot, Stud
 from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle
-from mnclab.workpiece.recognition.areas import ON_EDGE, Area
+from mnclab.workpiece.recognition.areas import ON_EDGE, THIN, Area
 from mnclab.workpiece.recognition.outlines import Stadium, named, number
 from mnclab.workpiece.recognition.sorting import Plunge, Work
-from mnclab.workpiece.recognition.tracks import Track, distinct
+from mnclab.workpiece.recognition.tracks import Track, coarse, distinct, polygon
 
-ALIKE = 1e-6  # of an area's boundary, mm, by which two areas may differ
+ALIKE = 1e-6  # mm, of the rim of an area, by which two areas may differ
+MOST = 100  # pieces of a line that a groove goes along
 
 
 @dataclass
@@ -76,8 +78,7 @@ def _hole(area: Area, work: Work, depth: float, bottom: float, more: dict[str, A
     """A round area that was drilled, plunged or bored by a helix, or goes through; else it is a pocket."""
     circle, tracks = area.shape, distinct(area.tracks)
     drill = next((each for each in work.plunges if _drilled(area, each)), None)
-    centre = round(circle.x, 6), round(circle.y, 6)
-    bored = len(tracks) == 1 and any(each[:2] == centre for each in work.helices)
+    bored = any(math.dist(each, (circle.x, circle.y, circle.diameter / 2)) < ON_EDGE for each in work.helices)
     through = area.floor <= bottom + ON_EDGE
     if not (through or drill or bored or all(each.stands for each in tracks)):
         return None
@@ -96,19 +97,24 @@ def _groove(area: Area, blank: Region, depth: float, more: dict[str, Any]) -> Gr
     """What one tool leaves along one line that it goes once, or along the closed part of it."""
     tracks = distinct(area.tracks)
     width = number(2 * tracks[0].radius)
-    if any(abs(2 * each.radius - width) > ON_EDGE or each.stands for each in tracks):
+    if len(tracks) > MOST or any(abs(2 * each.radius - width) > ON_EDGE or each.stands for each in tracks):
         return None
     for chain in _chains(tracks):
         line = _joined(chain)
+        shape = named(line) if line.closed else line
         try:
-            groove = Groove(named(line) if line.closed and not isinstance(named(line), Stadium) else line, width, depth, **more)
-            there = groove.area.intersection(blank)
-        except (Alarm, ValueError):  # it crosses itself: no groove of a drawing
+            groove = Groove(line if isinstance(shape, Stadium) else shape, width, depth, **more)
+        except Alarm:  # it crosses itself: no groove of a drawing
             continue
-        off = there.difference(area.region).area + area.region.difference(there).area
-        if off < ALIKE * sum(loop.length for loop in area.region.loops):
+        if len(chain) == len(tracks) or _covers(chain, area, blank):
             return groove
     return None
+
+
+def _covers(chain: list[Track], area: Area, blank: Region) -> bool:
+    """Whether some of the tracks of an area sweep all of it."""
+    rest = polygon(area.region).difference(shapely.union_all(coarse(chain)).buffer(THIN))
+    return bool(rest.intersection(polygon(blank)).buffer(-THIN / 2).is_empty)
 
 
 def _chains(tracks: list[Track]) -> Iterator[list[Track]]:

@@ -143,7 +143,8 @@ def _thread(thread: Threaded, found: list[Found], top: float, bottom: float) -> 
         each.feature = replace(hole, thread=name, thread_depth=None if whole else deep)
         return []
     if thread.bend > thread.radius + ON_EDGE:
-        return [f"the thread {name} at ({thread.x:g}, {thread.y:g}) is cut outside: no feature has it"]
+        outside = thread_name(replace(thread, diameter=2 * (thread.bend - thread.radius)))
+        return [f"the thread {outside} at ({thread.x:g}, {thread.y:g}) is cut outside: no feature has it"]
     above = min((each.floor for each in found if each.floor > thread.tip and each.region.contains([(thread.x, thread.y)])[0]), default=top)
     through = thread.tip <= bottom + ON_EDGE
     more = {} if above == top else {"top": number(above)}

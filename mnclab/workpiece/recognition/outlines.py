@@ -117,8 +117,9 @@ def _corner(one: Stretch, other: Stretch) -> Array:
     else:
         apart = math.dist(one.centre, other.centre)
         if apart > SAME and min(abs(apart - one.radius - other.radius), abs(apart - abs(one.radius - other.radius))) < SAME:
-            way = (other.centre - one.centre) / apart
-            return np.asarray(one.centre + way * one.radius * (1 if apart > one.radius or one.radius > other.radius else -1))
+            within = apart < max(one.radius, other.radius)  # one of the circles lies in the other
+            way = (other.centre - one.centre) / apart * (-1 if within and one.radius < other.radius else 1)
+            return np.asarray(one.centre + way * one.radius)
     return np.asarray((one.end + other.start) / 2)
 
 

@@ -76,7 +76,7 @@ class Work:
     levels: dict[float, list[Track]] = field(default_factory=dict)
     plunges: list[Plunge] = field(default_factory=list)
     slopes: list[tuple[float, Track]] = field(default_factory=list)
-    helices: set[tuple[float, float, float]] = field(default_factory=set)  # centre and the bend of their axis
+    helices: list[tuple[float, float, float]] = field(default_factory=list)  # their axis and how far out they reach
     cones: list[Cone] = field(default_factory=list)
     threads: list[Threaded] = field(default_factory=list)
     balls: list[int] = field(default_factory=list)
@@ -115,7 +115,7 @@ def sort(cutting: Cutting) -> Work:
     for k in slanting:
         work.slopes.append((max(float(moves.low[k]), bottom), _track(moves, k, top)))
     for z, track in _full_turns(moves, slanting):
-        work.helices.add((*np.round(track.centre, 6).tolist(), round(track.bend, 6)))
+        work.helices.append((*track.centre, track.bend + track.radius))
         if z < top - TOUCH:
             levels[max(z, bottom)].append(track)
     ways: dict[tuple[float, float, float], list[Track]] = defaultdict(list)
