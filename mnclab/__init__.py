@@ -18,7 +18,8 @@ The map of the house, floor by floor (a folder imports only from those above its
     show        what people see and take away: plots, forms, files
 
 This module is the front door, and nothing else: it imports numpy only. What needs more is opened when it is first asked
-for, with its own signature; `part`, `blank`, `area`, `strategies` and `schemes` are shelves: print one to see what is on it.
+for, with its own signature; `part`, `blank`, `design`, `area`, `strategies` and `schemes` are shelves: print one to see
+what is on it.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -52,6 +53,8 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.show.forms import panel as panel
     from mnclab.show.forms import profile_panel as profile_panel
     from mnclab.show.magic import load_ipython_extension as load_ipython_extension
+    from mnclab.workpiece.design import Design as Design
+    from mnclab.workpiece.design import TurnedDesign as TurnedDesign
 
 __version__ = "0.1.0"
 
@@ -64,6 +67,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.show.editor": "editor",
     "mnclab.show.forms": "compensation_panel, form, panel, profile_panel",
     "mnclab.show.magic": "load_ipython_extension",
+    "mnclab.workpiece.design": "Design, TurnedDesign",
 })  # fmt: skip
 
 part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts combine: a | b, a & b, a - b", {
@@ -72,6 +76,12 @@ part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts co
 
 blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…), and what holds it, for Setup(fixtures=…)", {
     "mnclab.workpiece.blank": "Box, Revolved, chuck, cylinder",
+})  # fmt: skip
+
+design = Shelf("mnclab.design", "features of a part as drawn, for Design(blank, features) and TurnedDesign(profile, features)", {
+    "mnclab.workpiece.design":
+        "Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud, "
+        "Bore, CentreHole, FaceGroove, RingGroove, Thread, Undercut",
 })  # fmt: skip
 
 area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawing or a path", {
@@ -109,6 +119,7 @@ __all__ = [
     "Alarm",
     "Collision",
     "Datum",
+    "Design",
     "Help",
     "Kind",
     "Limits",
@@ -120,6 +131,7 @@ __all__ = [
     "Setup",
     "Tool",
     "Toolpath",
+    "TurnedDesign",
     "Workpiece",
     "area",
     "blank",
@@ -127,6 +139,7 @@ __all__ = [
     "compare_turning",
     "compensation_panel",
     "controls",
+    "design",
     "diff",
     "editor",
     "form",
@@ -145,7 +158,7 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name in OPENED.__all__:
         return getattr(OPENED, name)
-    shelves = {each: shelf for shelf in (part, blank, area, strategies, schemes) for each in shelf.__all__}
+    shelves = {each: shelf for shelf in (part, blank, design, area, strategies, schemes) for each in shelf.__all__}
     near = [] if name.startswith("_") else _nearest(name, dict.fromkeys([*__all__, *OPENED.__all__, *shelves]))
     said = ", ".join(f"{shelves[each].__name__}.{each}" if each in shelves else each for each in near)
     raise AttributeError(f"mnclab has no {name!r}" + (f" (near: {said})" if said else ""))

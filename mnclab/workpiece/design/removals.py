@@ -1,0 +1,205 @@
+"""What features take away, as simple bodies: all above a level within a region, and what a cone or a chamfer slants off.
+
+The lower side of a part has the same bodies upside down: what they take away lies below.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+from mnclab.path.columns import Array, Mask
+
+NOTHING = Region(())
+
+
+@dataclass(frozen=True, eq=False)
+class Flat:
+    """All of a region above `floor`, mm; with `up` False all below it."""
+
+    region: Region
+    floor: float
+    up: bool = True
+
+    def reaches(self, z: float) -> bool:
+        """Whether material at a height is taken away."""
+        return z > self.floor if self.up else z < self.floor
+
+    def level(self, x: Array, y: Array) -> Array:
+        """How far down (up) it reaches at points (m,); infinite beside it."""
+        return np.where(within(self.region, x, y), self.floor, np.inf if self.up else -np.inf)
+
+    @property
+    def reach(self) -> Region:
+        """All that it takes something of, from above."""
+        return self.region
+
+    def level_within(self, x: Array, y: Array) -> float | Array:
+        """The same at points (m,) within its reach."""
+        return self.floor
+
+    def turned_over(self, flip: Array, z: float) -> Flat:
+        """The same after the part was turned over: `flip` (3, 3) in the plane, heights count from `z` down."""
+        return Flat(flipped(self.region, flip), z - self.floor, not self.up)
+
+
+@dataclass(frozen=True, eq=False)
+class Slanting:
+    """A slanting face about a contour, or a cone about a point, and all between it and the feature that it stands on.
+
+    At a distance `near` from `base`, mm, it is at the height `deep`, at `far` at the height `open`. The base is a region,
+    from whose edge distances count outwards (`inside`: inwards), or a point.
+    """
+
+    base: Region | tuple[float, float]
+    near: float
+    far: float
+    deep: float
+    open: float
+    inside: bool = False
+
+    @property
+    def up(self) -> bool:
+        return self.open > self.deep
+
+    @property
+    def low(self) -> float:
+        return min(self.deep, self.open)
+
+    @property
+    def high(self) -> float:
+        return max(self.deep, self.open)
+
+    def away(self, x: Array, y: Array) -> Array:
+        """How far points (m,) are from the base; negative before its edge."""
+        if isinstance(self.base, Region):
+            return signed(self.base, np.stack([x, y], axis=1)) * (-1.0 if self.inside else 1.0)
+        return np.hypot(x - self.base[0], y - self.base[1])
+
+    def at(self, z: float) -> float:
+        """How far out it reaches at a height, mm; `near` where it does not."""
+        share = (z - self.deep) / (self.open - self.deep)
+        return self.near + (self.far - self.near) * min(max(share, 0.0), 1.0)
+
+    def section(self, z: float) -> Region:
+        """What it takes away at a height between both ends."""
+        out = self.at(z)
+        if out <= self.near:
+            return NOTHING
+        if isinstance(self.base, Region):
+            grown = self.grown(out)
+            return self.base.difference(grown) if self.inside else grown.difference(self.base)
+        return self.grown(out)
+
+    @property
+    def edges(self) -> tuple[Contour, ...]:
+        """The edge of its base, the slant to the right of it; none of a cone."""
+        loops = self.base.loops if isinstance(self.base, Region) else ()
+        return tuple(loop.reversed() for loop in loops) if self.inside else loops
+
+    def grown(self, out: float) -> Region:
+        """The base with its edge moved by a distance."""
+        if isinstance(self.base, Region):
+            return self.base.inset(out) if self.inside else self.base.offset(out)
+        return Region((Contour.circle(self.base, out),))
+
+    @cached_property
+    def sky(self) -> Flat:
+        """What is above it: no tool comes there without taking it away."""
+        return Flat(self.section(self.open), self.open, self.up)
+
+    def level(self, x: Array, y: Array) -> Array:
+        """How far down (up) it reaches at points (m,); infinite beside it."""
+        found = np.full(len(x), np.inf if self.up else -np.inf)
+        about = np.flatnonzero(self._box(x, y))
+        out = self.away(x[about], y[about])
+        least = self.near if isinstance(self.base, Region) else -np.inf
+        on = (out > least) & (out <= self.far)
+        found[about[on]] = self._height(out[on])
+        return found
+
+    @property
+    def reach(self) -> Region:
+        """All that it takes something of, from above."""
+        return self.sky.region
+
+    def level_within(self, x: Array, y: Array) -> Array:
+        """The same at points (m,) within its reach."""
+        if isinstance(self.base, Region):
+            return self._height(np.minimum(self.base.distance(np.stack([x, y], axis=1)), self.far))
+        return self._height(np.minimum(self.away(x, y), self.far))
+
+    def _height(self, out: Array) -> Array:
+        share = np.maximum(out - self.near, 0.0) / (self.far - self.near)
+        return np.asarray(self.deep + share * (self.open - self.deep))
+
+    def _box(self, x: Array, y: Array) -> Mask:
+        if isinstance(self.base, Region):
+            (x0, y0), (x1, y1) = self.base.bounds
+        else:
+            (x0, y0), (x1, y1) = self.base, self.base
+        return (x >= x0 - self.far) & (x <= x1 + self.far) & (y >= y0 - self.far) & (y <= y1 + self.far)
+
+    def turned_over(self, flip: Array, z: float) -> Slanting:
+        base: Region | tuple[float, float]
+        if isinstance(self.base, Region):
+            base = flipped(self.base, flip)
+        else:
+            px, py, _ = (flip @ [*self.base, 1.0]).tolist()
+            base = px, py
+        return replace(self, base=base, deep=z - self.deep, open=z - self.open)
+
+    # Distances are those of triangles in the plane of the distance from the base and the height.
+
+    def taken(self, x: Array, y: Array, z: Array) -> Array:
+        """How far points (m,) are from what it takes away, mm; 0 within."""
+        return in_triangle((self.near, self.deep), (self.near, self.open), (self.far, self.open), self.away(x, y), z)
+
+    def left(self, low: float, high: float, x: Array, y: Array, z: Array) -> Array:
+        """How far points (m,) are from the material under the slant between two heights, mm; 0 within."""
+        if self.up:
+            corners = (self.at(low), low), (self.at(high), low), (self.at(high), high)
+        else:
+            corners = (self.at(high), high), (self.at(low), high), (self.at(low), low)
+        return in_triangle(*corners, self.away(x, y), z)
+
+
+def in_triangle(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], s: Array, z: Array) -> Array:
+    """How far points (m,) of a plane are from a triangle, 0 within."""
+    sides, inside = [], np.ones(len(s), dtype=bool)
+    turn = np.sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    for (s0, z0), (s1, z1) in ((a, b), (b, c), (c, a)):
+        ds, dz = s1 - s0, z1 - z0
+        share = np.clip(((s - s0) * ds + (z - z0) * dz) / max(ds * ds + dz * dz, 1e-300), 0.0, 1.0)
+        sides.append(np.hypot(s - s0 - share * ds, z - z0 - share * dz))
+        inside &= (ds * (z - z0) - dz * (s - s0)) * turn >= 0
+    return np.where(inside, 0.0, np.min(sides, axis=0))
+
+
+def within(region: Region, x: Array, y: Array) -> Mask:
+    """Which points (m,) lie in a region: only those in the box about it are looked at."""
+    found = np.zeros(len(x), dtype=bool)
+    if region.loops:
+        (x0, y0), (x1, y1) = region.bounds
+        about = np.flatnonzero((x >= x0) & (x <= x1) & (y >= y0) & (y <= y1))
+        found[about] = region.contains(np.stack([x[about], y[about]], axis=1))
+    return found
+
+
+def signed(region: Region, spots: Array) -> Array:
+    """How far points (m, 2) are from a region, negative within (m,)."""
+    if not region.loops:
+        return np.full(len(spots), np.inf)
+    return np.where(region.contains(spots), -1.0, 1.0) * region.distance(spots)
+
+
+def flipped(region: Region, flip: Array) -> Region:
+    """A region under a mirror (3, 3) of the plane."""
+    return Region(tuple(loop.transformed(flip).reversed() for loop in region.loops))
+
+
+Removal = Flat | Slanting
