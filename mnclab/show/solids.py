@@ -130,6 +130,8 @@ def body_of(stock: Any) -> Body:
     """A blank as a body."""
     if isinstance(stock, Box):
         return box(*stock.bounds)
+    if hasattr(stock, "solid"):  # a part that was cut before
+        return Body(*stock.solid()[:2])
     profile = np.array(stock.profile, dtype=np.float64)
     points, triangles = revolved(profile if profile[-1, 1] > profile[0, 1] else profile[::-1], 2 * SIDES, stock.bore)
     along = stock.along  # Z, X, Y of the body in turn lie there
