@@ -25,7 +25,7 @@ FLOORS = {
 
 OUTSIDE = {  # package -> the only modules of mnclab that import it
     "shapely": ("geometry.shapely",),
-    "matplotlib": ("show.plot",),
+    "matplotlib": ("show.plot", "show.drawing"),
     "pyvista": ("show.scene", "show.part_scene"),
     "vtkmodules": ("show.scene", "show.part_scene"),
     "ezdxf": ("geometry.dxf",),

@@ -42,7 +42,7 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     start, tilted = run.setup.start, tilted_rows(path.step, run.history.changed(TILT))
     known = start_known(path, start, *(() if any(start) else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
-    return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, name=run.place_of_line)
+    return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, run.place_of_line, tuple(origin.tolist()))
 
 
 def tools_that_cut(run: Run) -> tuple[dict[int, Tool], Index]:

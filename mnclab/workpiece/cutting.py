@@ -34,7 +34,7 @@ class Cutting:
     `tools[which[row]]` is the tool of a row. From row `arrived` on the tool's height is known at the end of a row, from
     `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `tilted` rows
     are made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line
-    stands ("FILE:LINE").
+    stands ("FILE:LINE"). `origin` (3,) is where the zero of the path stands on the machine.
     """
 
     path: Toolpath
@@ -46,6 +46,7 @@ class Cutting:
     tilted: Mask | None = None
     fixtures: Sequence[Blank | Part] = ()
     name: Any = field(default=_lines)
+    origin: Sequence[float] = (0.0, 0.0, 0.0)
 
     def __len__(self) -> int:
         return len(self.path)
@@ -60,6 +61,10 @@ class Cutting:
         """The same up to a row and with it."""
         tilted = None if self.tilted is None else self.tilted[: row + 1]
         return replace(self, path=self.path[: row + 1], which=self.which[: row + 1], tilted=tilted)
+
+    def uncut(self, stock: Blank) -> Cutting:
+        """Another blank on the same machine, before the first row."""
+        return replace(Cutting.of_nothing(stock, self.lathe), origin=self.origin)
 
     def tool(self, row: int) -> Tool:
         return self.tools[int(self.which[row])]

@@ -38,6 +38,11 @@ class Camera {
       this.size[1] / 2 - this.zoom * (x * u[0] + y * u[1] + z * u[2]),
     ];
   }
+  // A point that lies at a place of the screen, at the depth of the target.
+  unproject(x, y) {
+    const dx = (x - this.size[0] / 2) / this.zoom, dy = (this.size[1] / 2 - y) / this.zoom;
+    return this.target.map((t, k) => t + dx * this.right[k] + dy * this.up[k]);
+  }
   pan(dx, dy) {
     this.target = this.target.map((t, k) => t - (dx * this.right[k] - dy * this.up[k]) / this.zoom);
   }

@@ -21,10 +21,12 @@ from mnclab.text.given import check_number, choice
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
 
-SCRIPTS = (
-    "data", "shapes", "camera", "strokes", "swept", "heights", "carving", "relief", "shaded", "section", "shown_part",
-    "picture", "curve", "listing", "state", "player",
-)  # fmt: skip
+SCRIPTS = ("data", "shapes", "camera", "strokes", "curves", "picture", "curve", "listing", "state", "points", "measure", "player")
+#: What is only in the pages that cut, by whether the machine is a lathe.
+CUTTING = {
+    False: ("swept", "heights", "carving", "relief", "shaded", "surface", "shown_part"),
+    True: ("section", "rims"),
+}
 THEMES = ("auto", "light", "dark")
 #: Tells the frames of a notebook whether its theme is dark (JupyterLab, VS Code), when they ask and when it changes.
 #: Where the scripts of outputs do not run, a page follows the system's choice.
@@ -48,6 +50,11 @@ POLICY = (
 
 def _digest(text: str) -> str:
     return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+def _short(script: str) -> str:
+    """A script without its indents and its lines of comment, which would be in every page."""
+    return re.sub(r"(?m)^ *//.*\n|^ +", "", script)
 
 
 class Player:
@@ -75,7 +82,8 @@ class Player:
         """The page: markup, style, data and scripts in one text."""
         here = files("mnclab.show.player")
         text = {name: here.joinpath(name).read_text("utf-8") for name in ("page.html", "page.css")}
-        scripts = "\n".join(here.joinpath(f"{name}.js").read_text("utf-8") for name in SCRIPTS)
+        names = [*(CUTTING[self.run.toolpath.lathe] if self.cutting else ()), *SCRIPTS]
+        scripts = "\n".join(_short(here.joinpath(f"{name}.js").read_text("utf-8")) for name in names)
         script, style = f'\n"use strict";\n{scripts}\n', f"\n{text['page.css']}\n"
         parts = {
             "title": escape(f"{self.name} on {self.run.control.title}"),

@@ -6,6 +6,7 @@ const KEYS = [
   ["shift ← →", "one second at a time"], ["Home  End", "to the start, to the end"], ["W A S D", "turn the picture"],
   ["+  −  F", "zoom, fit"], ["1 2 3 4", "views"], ["drag", "turns; with shift or two fingers it shifts"],
   ["click", "on a line or on the path goes there"], ["wheel", "zooms, once the picture has been clicked"],
+  ["M", "measures between two clicks (or arrows and enter); Esc clears"],
 ];
 const PART_KEYS = [["P", "the part, shown or not"]];
 const LATHE_KEYS = new Map([["drag", "shifts; with shift it turns"], ["1 2 3 4", "views (three)"]]);
@@ -25,6 +26,7 @@ class PlayerPage {
     this.curve = new Curve(find("curve"), run);
     this.listing = new Listing(find("listing"), run, (program, line) => this.goLine(program, line), find("program"));
     this.board = new Board(run, find);
+    this.measure = new Measure(this);
     this.buttons();
     this.alarms();
     this.showPart(true);
@@ -171,6 +173,7 @@ class PlayerPage {
     const {run, picture} = this, now = this.now(), going = now.item >= 0 && run.itemRow[now.item] === now.row ? now.row : -1;
     const tool = run.history.has("tool") ? run.history.get("tool").value(now.step) : null;
     const side = now.row >= 0 ? run.row.side.value(now.row) : 0;
+    this.measure.draw();
     picture.draw({row: going, tip: now.point, tool, side, at: Math.max(now.row, 0)}, now.rowsDone);
     if (this.part && !this.part.draw(now.rowsDone, now.share, going)) this.show();  // not there yet: go on with the next frame
   }
@@ -316,6 +319,7 @@ class PlayerPage {
     const {target, key} = event, tag = target.tagName, jump = act => () => this.jump(act);
     if (tag === "SELECT" || (tag === "BUTTON" && (key === " " || key === "Enter"))) return;
     if (tag === "INPUT" && /^(Arrow|Page|Home|End)/.test(key)) return;
+    if (this.measure.on && target.id === "picture" && this.measure.key(key, event.shiftKey)) return event.preventDefault();
     const turn = (yaw, pitch) => () => this.change(camera => camera.turn(yaw, pitch));
     const acts = {
       " ": () => this.playing ? this.stop() : this.play(1), "k": () => this.stop(), "l": () => this.playing > 0 || this.play(1),
@@ -325,7 +329,8 @@ class PlayerPage {
       "PageDown": jump(() => this.atTime(this.place.t + 1)), "PageUp": jump(() => this.atTime(this.place.t - 1)),
       "+": () => this.find("zoom-in").click(), "=": () => this.find("zoom-in").click(), "-": () => this.find("zoom-out").click(),
       "f": () => this.find("fit").click(), "p": () => this.showPart(!this.picture.part), "a": turn(8, 0), "d": turn(-8, 0), "w": turn(0, 8), "s": turn(0, -8),
-      "?": () => this.help(), "Escape": () => this.find("keys").hidden || this.help(),
+      "m": () => this.measure.turn(), "?": () => this.help(),
+      "Escape": () => this.find("keys").hidden ? this.measure.on && this.measure.escape() : this.help(),
     };
     for (const [k, name] of this.viewNames.entries()) acts[k + 1] = () => this.view(name);
     const second = event.shiftKey && {"ArrowRight": "PageDown", "ArrowLeft": "PageUp"}[key];
@@ -367,6 +372,7 @@ class PlayerPage {
       const [x, y] = place(event), alone = held.size === 1;
       held.delete(event.pointerId);
       if (!alone || travelled > 4) return;
+      if (this.measure.on) return this.measure.click(x, y, event.pointerType === "touch");
       const row = this.picture.strokes.pick(x, y, this.picture.camera, event.pointerType === "touch" ? 18 : 9);
       if (row >= 0) this.goRow(row, x, y);
     });

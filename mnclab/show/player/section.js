@@ -11,19 +11,28 @@ class ShownSection {
     this.rows = columns[section.rows];
     [this.which, this.cuts] = ["which", "cuts"].map(name => new Log(columns, section[name]));
     let at = 0;
-    this.areas = Array.from(columns[section.count], count => {
-      const path = new Path2D();
-      for (let k = 0; k < count; k++, at++) path[k ? "lineTo" : "moveTo"](z[at], r[at]);
+    this.areas = [];
+    this.rings = [];  // their corners, and after them those of the bar
+    for (const count of columns[section.count]) {
+      const path = new Path2D(), own = {z: z.subarray(at, at + count), r: r.subarray(at, at + count), box: [Infinity, Infinity, -Infinity, -Infinity]};
+      for (let k = 0; k < count; k++, at++) {
+        path[k ? "lineTo" : "moveTo"](z[at], r[at]);
+        own.box = [Math.min(own.box[0], z[at]), Math.min(own.box[1], r[at]), Math.max(own.box[2], z[at]), Math.max(own.box[3], r[at])];
+      }
       path.closePath();
-      return path;
-    });
-    this.bar = outline(section.bar);
+      this.areas.push(path);
+      this.rings.push(own);
+    }
+    this.bar = new Path2D();
+    section.bar.forEach(loop => this.bar.addPath(outline(loop)));
+    this.rings.push(...section.bar.map(loop => ({z: loop.map(([z]) => z), r: loop.map(([, r]) => r)})));
+    this.rims = new Rims(this);
     this.layer = document.createElement("canvas");
     this.kept = [];  // [areas taken, canvas]
     this.done = -1;  // areas that the layer has lost
     this.key = "";
     this.crashed = new Set(run.header.collisions.filter(each => each.kind === "rapid").map(each => each.row));
-    this.radius = Math.max(...section.bar.map(([, radius]) => radius));
+    this.radius = Math.max(...section.bar.flat().map(([, radius]) => radius));
   }
   show(on) {
     this.picture.part = on ? this : null;
@@ -34,6 +43,12 @@ class ShownSection {
     const {camera, ratio} = this.picture, {axis} = this.section, zero = camera.project([axis, 0, 0]);
     const [z, x] = [camera.project([axis, 0, 1]), camera.project([axis + side, 0, 0])].map(end => end.map((v, k) => (v - zero[k]) * ratio));
     pen.setTransform(z[0], z[1], x[0], x[1], zero[0] * ratio, zero[1] * ratio);
+  }
+  // What of it can be measured at a place of the screen, and how far about.
+  measured(x, y, within) {
+    const {camera} = this.picture, under = this.rims.under(camera, x, y);
+    const found = under ? this.rims.near(under, within / camera.zoom) : [];
+    return {hit: found.length && found[0].at, found};
   }
   halves(pen, act) {
     const wide = 1e4;
@@ -48,7 +63,7 @@ class ShownSection {
     }
   }
   fresh(pen) {  // the bar, hatched
-    const {colours, camera} = this.picture, {bar, radius} = this, zs = this.section.bar.map(([z]) => z);
+    const {colours, camera} = this.picture, {bar, radius} = this, zs = this.section.bar.flat().map(([z]) => z);
     const [low, high] = [Math.min(...zs), Math.max(...zs)], gap = 9 / camera.zoom;
     this.halves(pen, () => {
       pen.fillStyle = colours.metal;

@@ -9,6 +9,7 @@ class ShownPart {
     this.picture = picture;
     this.drawn = -Infinity;
     this.carving = new Carving(run);
+    this.surface = new Surface(this.carving);
     const relief = new Relief(canvas, this.carving);
     this.drawing = relief.gl ? relief : new Shaded(canvas, this.carving);
     this.note = [run.header.part.note, relief.gl ? "" : "without WebGL: the part is shown from above only"].filter(Boolean).join("; ");
@@ -32,6 +33,21 @@ class ShownPart {
     clearTimeout(this.rest);
     if (this.drawing.slow) this.rest = setTimeout(() => draw(false), REST);
     return there;
+  }
+  // What of it can be measured at a place of the screen, at most so many pixels beside, and whether a place is in sight. An
+  // edge is also found from the side on which one looks past it.
+  measured(x, y, within) {
+    const {surface, picture: {camera}} = this, reach = within / camera.zoom;
+    if (this.drawing instanceof Shaded && camera.near[2] < 0.99999) return {found: []};
+    const aside = 0.7 * within, hits = [[0, 0], [aside, 0], [-aside, 0], [0, aside], [0, -aside]]
+      .map(([dx, dy]) => surface.hit(camera, x + dx, y + dy)), own = hits[0], some = hits.filter(Boolean);
+    surface.look(some.map(({at}) => at), reach);
+    const found = some.flatMap(hit => surface.near(hit, reach).filter(each => hit === own || each.cost !== FREE));
+    const depth = at => at.reduce((sum, v, k) => sum + v * camera.near[k], 0);
+    return {hit: own && own.at, found, sees: at => {
+      const front = surface.hit(camera, ...camera.project(at));
+      return !front || depth(front.at) - depth(at) < 4 * surface.grid.step;
+    }};
   }
   // Cut ahead while the page has nothing else to do.
   scout() {

@@ -16,7 +16,7 @@ from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, choice, shown
-from mnclab.text.records import written
+from mnclab.text.records import exactly
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 from mnclab.workpiece.design.features import FEATURES, Chamfer, Feature, Pocket, Site, Stud
 from mnclab.workpiece.design.removals import Flat, Removal, bounds_of
@@ -73,7 +73,7 @@ class Design:
         self.taken  # noqa: B018  every feature must fit
 
     def __repr__(self) -> str:
-        return written(self)
+        return exactly(self)
 
     # --- what it is made of ------------------------------------------------------------------------------------------
 
@@ -232,7 +232,7 @@ class Design:
         return load(path)
 
     def save(self, path: str | Path, **options: Any) -> Path:
-        """Write one file: toml the design; svg, pdf, png, dxf its drawing; stl, gltf, glb, vtk its body."""
+        """Write one file: toml the design; svg, pdf, png, dxf its drawing; stl, gltf, glb, vtk, csv its body."""
         from mnclab.workpiece.design.saving import save
 
         return save(self, path, **options)
@@ -253,7 +253,7 @@ class Design:
         return tuple(name_of(features, k) for k in range(len(features)))
 
 
-def name_of(features: tuple[Feature, ...], k: int) -> str:
+def name_of(features: tuple[Any, ...], k: int) -> str:
     """The name of a feature, else its kind, with a number where there are several."""
     each = features[k]
     same = [i for i, other in enumerate(features) if other.kind == each.kind and not other.name]

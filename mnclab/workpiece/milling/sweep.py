@@ -37,15 +37,23 @@ class Sweep:
 
     def left(self, x: Array, y: Array) -> Array:
         """The heights (m,) at points that lie close together."""
+        return self.sides(x, y)[0]
+
+    def sides(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The heights and the lower side (m,) at points that lie close together."""
         top, floor = self.faces(x, y)
-        return np.maximum(lowered(self.moves, self.boxes, x, y, top), floor)
+        return np.maximum(lowered(self.moves, self.boxes, x, y, top), floor), floor
 
     def at(self, x: Array, y: Array) -> Array:
         """The heights (m,) at points anywhere."""
-        found = np.empty(len(x))
+        return self.sides_at(x, y)[0]
+
+    def sides_at(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The heights and the lower side (m,) at points anywhere."""
+        found = np.empty((2, len(x)))
         for some in grouped(x, y, self.raster.tile):
-            found[some] = self.left(x[some], y[some])
-        return found
+            found[:, some] = self.sides(x[some], y[some])
+        return found[0], found[1]
 
     def in_order(self, x: Array, y: Array) -> Iterator[tuple[Index, Array, Array]]:
         """For some moves after the other, at points close together: which (k,), the heights before each and after (k, m)."""
@@ -65,17 +73,17 @@ class Mapped(Sweep):
 
     heights: Array
 
-    def left(self, x: Array, y: Array) -> Array:
+    def sides(self, x: Array, y: Array) -> tuple[Array, Array]:
         (ny, nx), z, raster = self.heights.shape, self.heights, self.raster
         u, v = np.clip((x - raster.x[0]) / raster.step, 0, nx - 1), np.clip((y - raster.y[0]) / raster.step, 0, ny - 1)
         i, j = (np.minimum(np.floor(at).astype(np.int64), max(n - 2, 0)) for at, n in ((u, nx), (v, ny)))
         right, above, u, v = np.minimum(i + 1, nx - 1), np.minimum(j + 1, ny - 1), u - i, v - j
         between = (z[j, i] * (1 - u) + z[j, right] * u) * (1 - v) + (z[above, i] * (1 - u) + z[above, right] * u) * v
         top, floor = self.faces(x, y)
-        return np.asarray(np.clip(between, floor, top))
+        return np.asarray(np.clip(between, floor, top)), floor
 
-    def at(self, x: Array, y: Array) -> Array:
-        return self.left(x, y)
+    def sides_at(self, x: Array, y: Array) -> tuple[Array, Array]:
+        return self.sides(x, y)
 
     def about(self, x: Array, y: Array) -> Sweep:
         return self

@@ -73,6 +73,41 @@ def _halves(start: Floats, end: Floats, sweep: float, centre: Floats, radius: fl
     return list(zip(zip(places, places[1:]), sides))
 
 
+def ends_at(section: Sequence[Contour], radius: Floats) -> tuple[Floats, Floats]:
+    """The lowest and the highest z of the material at each radius, in its shape; nan where there is none."""
+    low, high = np.full(radius.shape, np.inf), np.full(radius.shape, -np.inf)
+    for contour in section:
+        rows = zip(contour.starts, contour.ends, contour.sweeps, contour.centres, contour.radii)
+        for (z0, r0), (z1, r1), sweep, (zc, rc), size in rows:
+            places = [(np.full(radius.shape, z), radius == r) for z, r in ((z0, r0), (z1, r1))]
+            if sweep:
+                first = math.atan2(r0 - rc, z0 - zc)
+                half = np.sqrt(np.maximum(size**2 - (radius - rc) ** 2, 0.0))
+                for side in (half, -half):
+                    ahead = np.mod((np.arctan2(radius - rc, side) - first) * np.sign(sweep), 2 * np.pi)
+                    places.append((zc + side, (np.abs(radius - rc) <= size) & (ahead <= abs(sweep))))
+            elif r0 != r1:
+                share = (radius - r0) / (r1 - r0)
+                places.append((z0 + share * (z1 - z0), (share >= 0) & (share <= 1)))
+            for z, there in places:
+                low, high = np.where(there, np.minimum(low, z), low), np.where(there, np.maximum(high, z), high)
+    return np.where(np.isfinite(low), low, np.nan), np.where(np.isfinite(high), high, np.nan)
+
+
+def both_halves(section: Sequence[Contour]) -> tuple[Contour, ...]:
+    """The whole section through the axis, closed contours (z, x), x from the axis on."""
+    other = [Contour(loop.points * (1, -1), -loop.bulge).reversed() for loop in section]
+    return Region(tuple(section)).union(Region(tuple(other))).loops
+
+
+def overhangs(section: Sequence[Contour]) -> bool:
+    """Whether seen along the axis one part of the material stands over another, with air between them."""
+    corners = np.unique(np.concatenate([contour.points[:, 1] for contour in section] or [np.zeros(0)]))
+    middles = (corners[:-1] + corners[1:])[np.diff(corners) > AXIS] / 2
+    across = [Contour(contour.points[:, ::-1], -contour.bulge) for contour in section]
+    return any(len(places) > 2 for places in radii_at(across, middles))
+
+
 def volume(section: Sequence[Contour]) -> float:
     """mm³, by Pappus."""
     return 2 * math.pi * sum(moment(contour) for contour in section)
