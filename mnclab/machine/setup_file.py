@@ -12,8 +12,8 @@ from mnclab.path.limits import Limits
 from mnclab.path.tool import Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
-from mnclab.text.toml_file import File, check_names, parse
-from mnclab.workpiece.blank import Blank, Box, cylinder
+from mnclab.text.toml_file import File, as_table, as_tables, check_names, parse
+from mnclab.workpiece.blank_file import blank_of, point_of
 
 #: The format, as the help of the command line shows it.
 FORMAT = """\
@@ -68,17 +68,18 @@ def _setup(table: Mapping[str, Any], file: File) -> Setup:
     for name, value in table.items():
         with file.at(name):
             if name == "start":
-                found[name] = _point(value, name)
+                found[name] = point_of(value, name)
             elif name == "part":
                 found[name] = value
             elif name == "fixtures":
-                found[name] = tuple(_stock(_table(each, name), name, file) for each in _list(value, name))
+                each = enumerate(as_tables(value, name))
+                found[name] = tuple(blank_of(as_table(table, name), name, file, name, str(k)) for k, table in each)
             elif name in RECORDS:
                 found[name] = record(RECORDS[name], value, file, name)
             elif name in NOT_BUILT:
                 found[name] = value or True
             else:
-                found[name] = TABLES[name](_table(value, name), name, file)
+                found[name] = TABLES[name](as_table(value, name), name, file)
             Setup(**{name: found[name]})  # what is wrong with this part alone is shown at its place
     return Setup(**found, source=file)
 
@@ -101,39 +102,14 @@ def _rows(table: Mapping[str, Any], name: str, file: File) -> dict[int, Any]:
     return found
 
 
-def _stock(table: Mapping[str, Any], stock: str, file: File) -> Blank:
-    """The blank: a cylinder where it has a radius, else a box."""
-    if "radius" not in table:
-        check_names(table, ("low", "high"), f"{stock} without a radius", file, stock)
-        corners = []
-        for name in ("low", "high"):
-            with file.at(stock, name):
-                if name not in table:
-                    needs = "needs low and high, two corners [x, y, z], or a radius"
-                    raise Alarm(f"{stock} {needs}: {stock}.{name} is missing")
-                corners.append(_point(table[name], f"{stock}.{name}"))
-        return Box(*corners)
-    check_names(table, ("radius", "low", "high", "bore", "axis", "at"), stock, file, stock)
-    numbers = {name: table.get(name, 0.0) for name in ("radius", "low", "high", "bore")}
-    for name, number in numbers.items():
-        with file.at(stock, name):
-            check_number(number, f"{stock}.{name}")
-    with file.at(stock, "at"):
-        at = _point(table.get("at", [0.0, 0.0, 0.0]), f"{stock}.at")
-    try:
-        return cylinder(**numbers, axis=table.get("axis", "Z"), at=at)
-    except Alarm as fault:
-        raise Alarm(f"{stock}: {fault.message}") from None
-
-
 def record(kind: Any, value: Any, file: File, *keys: str) -> Any:
     """A Tool, Datum, Limits or Probe from a table of its fields, or a datum from a list; `keys` lead to it in the file."""
     where = ".".join(keys)
     with file.at(*keys):
         if kind is Datum and isinstance(value, list):
-            return Datum(*_point(value, where))
+            return Datum(*point_of(value, where))
         names = kind._fields if hasattr(kind, "_fields") else [field.name for field in fields(kind)]
-        check_names(_table(value, where), names, where, file, *keys)
+        check_names(as_table(value, where), names, where, file, *keys)
         found = {name: _field(item) for name, item in value.items()}
         for name, item in found.items():
             with file.at(*keys, name):
@@ -155,15 +131,6 @@ def _check_kind(value: Any, where: str, name: str) -> None:
             check_number(each, where, endless=True)
 
 
-def _point(value: Any, where: str) -> tuple[float, float, float]:
-    if not isinstance(value, list) or len(value) != 3:
-        raise Alarm(f"{where} must be three numbers [x, y, z], got {shown(value)}")
-    for item in value:
-        check_number(item, where)
-    x, y, z = map(float, value)
-    return x, y, z
-
-
 def _files(table: Mapping[str, Any], files: str, file: File) -> dict[str, Path]:
     """Files by name, seen from the one that names them."""
     for key, name in table.items():
@@ -175,18 +142,6 @@ def _files(table: Mapping[str, Any], files: str, file: File) -> dict[str, Path]:
 
 #: What reads a part of a setup that is a table in the file.
 TABLES: dict[str, Callable[[Mapping[str, Any], str, File], Any]] = {
-    **dict.fromkeys(ROWS, _rows), "stock": _stock, "files": _files,
+    **dict.fromkeys(ROWS, _rows), "files": _files, "stock": lambda table, name, file: blank_of(table, name, file, name),
     **dict.fromkeys(("settings", "variables"), lambda table, name, file: table),
 }  # fmt: skip
-
-
-def _table(value: Any, where: str) -> Mapping[str, Any]:
-    if not isinstance(value, dict):
-        raise Alarm(f"{where} must be a table, got {shown(value)}", hint=f"write [{where}] on a line of its own")
-    return value
-
-
-def _list(value: Any, where: str) -> list[Any]:
-    if not isinstance(value, list):
-        raise Alarm(f"{where} must be a list of tables, got {shown(value)}", hint=f"write [[{where}]] before each")
-    return value

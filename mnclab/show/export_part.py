@@ -8,7 +8,7 @@ that of a turned one the corners of its half section.
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -18,8 +18,7 @@ import numpy as np
 from mnclab.show.export_mesh import STOCK, Gltf, stl_of
 from mnclab.show.solids import Body
 from mnclab.text.alarm import Alarm
-from mnclab.text.file import replaced
-from mnclab.text.given import shown
+from mnclab.text.file import named, replaced
 from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
@@ -36,18 +35,6 @@ def save(workpiece: Workpiece, path: str | Path, **options: Any) -> Path:
     with replaced(path) as beside:
         writer(workpiece, beside, **options)
     return path
-
-
-def named(path: str | Path, known: Collection[str], refused: str) -> tuple[Path, str]:
-    """The path of a file and its suffix, which is one of the known ones; an Alarm where it is not, in `refused` words."""
-    if not isinstance(path, str | Path):
-        raise Alarm(f"a file is written to a path, got {shown(path)}")
-    path = Path(path)
-    suffix = path.suffix.lower()
-    if suffix not in known:
-        what = refused.format(suffix) if suffix else f"{path.name!r} has no suffix to say what to write"
-        raise Alarm(what, hint=f"known: {', '.join(known)}")
-    return path, suffix
 
 
 def write_stl(workpiece: Workpiece, path: Path) -> None:

@@ -9,11 +9,12 @@ from __future__ import annotations
 import os
 import secrets
 import stat
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from mnclab.text.alarm import Alarm
+from mnclab.text.given import shown
 
 LARGEST = 100_000_000  # bytes of a part program
 NO_FILE = "it is no file, but a folder, a device or a pipe"
@@ -70,3 +71,15 @@ def replaced(path: str | Path) -> Iterator[Path]:
         raise Alarm(f"{path} cannot be written: {reason(error)}") from None
     finally:
         beside.unlink(missing_ok=True)
+
+
+def named(path: str | Path, known: Collection[str], refused: str) -> tuple[Path, str]:
+    """The path of a file and its suffix, which is one of the known ones; an Alarm where it is not, in `refused` words."""
+    if not isinstance(path, str | Path):
+        raise Alarm(f"a file is written to a path, got {shown(path)}")
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix not in known:
+        what = refused.format(suffix) if suffix else f"{path.name!r} has no suffix to say what to write"
+        raise Alarm(what, hint=f"known: {', '.join(known)}")
+    return path, suffix

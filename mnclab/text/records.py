@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any
 
@@ -11,7 +11,16 @@ import numpy as np
 
 def written(record: Any) -> str:
     """A record as one would write it, without what is left at its default: `Tool(radius=5, kind='drill')`."""
-    said = [f"{name}={_value(value)}" for name, value, default in _fields(record) if not _same(value, default)]
+    return _written(record, _value)
+
+
+def exactly(record: Any) -> str:
+    """The same with all digits of its numbers and of the records in it: read back by Python it is equal."""
+    return _written(record, _exact)
+
+
+def _written(record: Any, value_of: Callable[[Any], str]) -> str:
+    said = [f"{name}={value_of(value)}" for name, value, default in _fields(record) if not _same(value, default)]
     return f"{type(record).__name__}({', '.join(said)})"
 
 
@@ -36,12 +45,21 @@ def _same(value: Any, default: Any) -> bool:
     return value is default or (type(value) in (int, float, str, bool, tuple, dict) and bool(value == default))
 
 
-def _value(value: Any) -> str:
-    """A value in short: whole numbers without a point, a mapping as a dict, a function by its name."""
+def _exact(value: Any) -> str:
+    """A value with all its digits, records in it too."""
+    if isinstance(value, float) and float(f"{value:.10g}") != value:
+        return repr(float(value))
+    nested = not isinstance(value, type) and (is_dataclass(value) or hasattr(value, "_fields"))
+    return exactly(value) if nested else _value(value, _exact)
+
+
+def _value(value: Any, inner: Callable[[Any], str] | None = None) -> str:
+    """A value in short: whole numbers without a point, a mapping as a dict, a function by its name; `inner` writes parts."""
+    inner = inner or _value
     if isinstance(value, float):
         return f"{value:.10g}"
     if isinstance(value, tuple) and not hasattr(value, "_fields"):
-        return f"({', '.join(map(_value, value))}{',' * (len(value) == 1)})"
+        return f"({', '.join(map(inner, value))}{',' * (len(value) == 1)})"
     if isinstance(value, Mapping):
-        return f"{{{', '.join(f'{_value(key)}: {_value(each)}' for key, each in value.items())}}}"
+        return f"{{{', '.join(f'{inner(key)}: {inner(each)}' for key, each in value.items())}}}"
     return getattr(value, "__name__", None) or repr(value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -42,21 +43,42 @@ class File:
         return max(found, key=lambda each: each[0])[1] if found else None
 
     def _written(self) -> Iterator[tuple[list[str], Span]]:
-        """The keys of every table and value, the outer ones before it, and the place of the last of them."""
+        """The keys of every table and value, the outer ones before it, and the place of the last of them.
+
+        A table of a list `[[name]]`, and a row of a list whose brackets stand on lines of their own, has its number in the
+        list, from "0", after the name; what is in a table is found with that number and without it.
+        """
+        count: Counter[str] = Counter()
         table: list[str] = []
+        item: tuple[list[str], list[str]] = ([], [])  # the table of a list without and with its number
+        rows: list[str] = []  # the list whose rows stand on the next lines
         for number, line in enumerate(self._lines, 1):
             outer = table
+            if rows and line.strip().startswith("]"):
+                rows = []
+            elif rows and line.strip().startswith(("[", "{")):
+                outer = [*rows, str(count[str(rows)])]
+                count[str(rows)] += 1
+                yield outer, Span(number, len(line) - len(line.lstrip()) + 1)
+            table_of_line = outer
             for found in WRITTEN.finditer(line):
                 header, key = found.groups()
                 keys = [*re.finditer(KEY, header or key)]
                 path = [each[0].strip("\"'") for each in keys]
+                place = Span(number, found.start(1 if header else 2) + keys[-1].start() + 1, len(keys[-1][0]))
                 if header:
                     table = path
+                    if line.lstrip().startswith("[["):
+                        item = path, [*path, str(count[str(path)])]
+                        count[str(path)] += 1
                 else:
                     path = [*outer, *path]
-                    outer = path if outer is table else outer  # keys after the first are those of a table in the line
-                column = found.start(1 if header else 2) + keys[-1].start() + 1
-                yield path, Span(number, column, len(keys[-1][0]))
+                    outer = path if outer is table_of_line and not rows else outer  # keys after the first are within it
+                yield path, place
+                if item[0] and path[: len(item[0])] == item[0]:
+                    yield [*item[1], *path[len(item[0]) :]], place
+                if not header and not rows and line.split("#")[0].rstrip().endswith("["):
+                    rows = path
 
     @contextmanager
     def at(self, *keys: str) -> Iterator[None]:
@@ -113,3 +135,17 @@ def check_names(table: Mapping[str, Any], known: Any, where: str, file: File, *k
             with file.at(*keys, name):
                 near = hint(name[:40], known, 1) or f"known: {', '.join(known)}"
                 raise Alarm(f"{where} has no {shown(name)}", hint=near)
+
+
+def as_table(value: Any, where: str) -> Mapping[str, Any]:
+    """A value as a table; an Alarm where it is none."""
+    if not isinstance(value, dict):
+        raise Alarm(f"{where} must be a table, got {shown(value)}", hint=f"write [{where}] on a line of its own")
+    return value
+
+
+def as_tables(value: Any, where: str) -> list[Any]:
+    """A value as a list of tables, which are not looked at; an Alarm where it is none."""
+    if not isinstance(value, list):
+        raise Alarm(f"{where} must be a list of tables, got {shown(value)}", hint=f"write [[{where}]] before each")
+    return value

@@ -80,8 +80,7 @@ def block(text: str, height: float = HEIGHT) -> Block:
 def value_block(value: Value, height: float = HEIGHT) -> Block:
     """A dimension's value: its text, its tolerance behind it, its deviations one above the other."""
     opening, closing = ("(", ")") if value.reference else ("", "")
-    space = "" if value.tolerance[:1].isalpha() else "\N{THIN SPACE}"
-    behind = f"{space}{value.tolerance}" if value.tolerance else ""
+    behind = f"\N{THIN SPACE}{value.tolerance}" if value.tolerance else ""
     if value.limits is None:
         return block(f"{opening}{value.text}{behind}{closing}", height)
     small = height * SMALL / HEIGHT

@@ -33,7 +33,7 @@ class Rims {
     };
     const {edges, corners} = snaps([...curves.values()], [z, r], reach, 4 * BESIDE, told);
     return [
-      ...edges.map(({curve, place: [pz, pr]}) => ({what: nameOf(curve), cost: EDGE, at: [...space(pr), pz],
+      ...edges.map(({curve, place: [pz, pr]}) => ({what: nameOf(curve), cost: EDGE, at: [...space(pr), pz], along: !curve.r && [side * curve.uy, curve.ux],
         round: curve.r && {d: 2 * curve.r, centre: [...space(curve.y), curve.x], off: curve.off}})),
       ...corners.map(({place: [pz, pr]}) => ({what: "corner", cost: CORNER, at: [...space(pr), pz]})),
     ];

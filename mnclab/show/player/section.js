@@ -47,7 +47,8 @@ class ShownSection {
   // What of it can be measured at a place of the screen, and how far about.
   measured(x, y, within) {
     const {camera} = this.picture, under = this.rims.under(camera, x, y);
-    return {found: under ? this.rims.near(under, within / camera.zoom) : []};
+    const found = under ? this.rims.near(under, within / camera.zoom) : [];
+    return {hit: found.length && found[0].at, found};
   }
   halves(pen, act) {
     const wide = 1e4;

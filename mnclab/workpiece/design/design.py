@@ -12,14 +12,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.filling import filled
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, choice, shown
-from mnclab.text.records import written
+from mnclab.text.records import exactly
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 from mnclab.workpiece.design.features import FEATURES, Chamfer, Feature, Pocket, Site, Stud
-from mnclab.workpiece.design.removals import Flat, Removal, bounds_of
+from mnclab.workpiece.design.removals import Flat, Removal
 from mnclab.workpiece.design.slabs import Stack
 from mnclab.workpiece.part import Part
 
@@ -73,7 +74,7 @@ class Design:
         self.taken  # noqa: B018  every feature must fit
 
     def __repr__(self) -> str:
-        return written(self)
+        return exactly(self)
 
     # --- what it is made of ------------------------------------------------------------------------------------------
 
@@ -181,6 +182,20 @@ class Design:
         floor[gone] = top[gone] = np.nan
         return floor, top
 
+    def faces_over(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The same over a lattice x (nx,), y (ny,) of many points: two arrays (ny, nx)."""
+        floor, top = (side.reshape(len(y), len(x)) for side in self.blank.faces(*(each.ravel() for each in np.meshgrid(x, y))))
+        for each in self.taken:
+            rows, columns, inside = filled(each.body.reach, x, y)
+            some = np.nonzero(inside)
+            level = each.body.level_within(x[columns][some[1]], y[rows][some[0]])
+            side, deeper = (top, np.minimum) if each.body.up else (floor, np.maximum)
+            here = side[rows, columns]
+            here[inside] = deeper(here[inside], level)
+        gone = ~(top > floor)
+        floor[gone] = top[gone] = np.nan
+        return floor, top
+
     def section(self, z: float) -> Region:
         """What a level plane cuts, exact; at the height of a step what is below it."""
         check_number(z, "the height of a section (mm)")
@@ -232,7 +247,7 @@ class Design:
         return load(path)
 
     def save(self, path: str | Path, **options: Any) -> Path:
-        """Write one file: toml the design; svg, pdf, png, dxf its drawing; stl, gltf, glb, vtk its body."""
+        """Write one file: toml the design; svg, pdf, png, dxf its drawing; stl, gltf, glb, vtk, csv its body."""
         from mnclab.workpiece.design.saving import save
 
         return save(self, path, **options)
@@ -253,7 +268,7 @@ class Design:
         return tuple(name_of(features, k) for k in range(len(features)))
 
 
-def name_of(features: tuple[Feature, ...], k: int) -> str:
+def name_of(features: tuple[Any, ...], k: int) -> str:
     """The name of a feature, else its kind, with a number where there are several."""
     each = features[k]
     same = [i for i, other in enumerate(features) if other.kind == each.kind and not other.name]
@@ -268,7 +283,7 @@ def _stands_in(stud: Feature, pocket: Feature) -> bool:
     """Whether a stud is an island of a pocket: of one top and depth, all of it within."""
     if not isinstance(stud, Stud) or not isinstance(pocket, Pocket) or not _same_floor(stud, pocket):
         return False
-    (low, high), (least, most) = bounds_of(stud.area), bounds_of(pocket.area)
+    (low, high), (least, most) = stud.area.bounds, pocket.area.bounds
     return bool((low >= least).all() and (high <= most).all() and pocket.area.contains(stud.contour.contour.points).all())
 
 

@@ -89,7 +89,7 @@ def with_tolerances(measures: list[Measure], tolerances: Mapping[str, Tolerance]
     """Measures with the tolerances given by their names; an Alarm for a name that none of them has."""
     names = [each.name for each in measures]
     if unknown := [name for name in tolerances if name not in names]:
-        raise Alarm(f"{where} has no {shown(unknown[0])} to tolerate", hint=f"it has {', '.join(names)}")
+        raise Alarm(f"{where} has no {shown(unknown[0])} for a tolerance", hint=f"it has {', '.join(names)}")
     found = []
     for each in measures:
         if each.name in tolerances:

@@ -13,7 +13,7 @@ from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, faults_as_alarms, plain, shown
-from mnclab.text.records import written
+from mnclab.text.records import exactly
 from mnclab.workpiece.design.measures import Measure
 
 ROUND = 1e-9  # mm, within which two halves are one circle
@@ -36,7 +36,7 @@ class Rectangle:
         with faults_as_alarms():
             self.contour  # noqa: B018  it must exist
 
-    __repr__ = written
+    __repr__ = exactly
 
     @cached_property
     def contour(self) -> Contour:
@@ -71,7 +71,7 @@ class Circle:
             check_number(getattr(self, name), f"the {name} of a circle")
         check_number(self.diameter, "the diameter of a circle (mm)", above=0)
 
-    __repr__ = written
+    __repr__ = exactly
 
     @cached_property
     def contour(self) -> Contour:
@@ -99,7 +99,7 @@ class Outline:
         with faults_as_alarms():
             self.contour  # noqa: B018  it must exist
 
-    __repr__ = written
+    __repr__ = exactly
 
     @cached_property
     def contour(self) -> Contour:

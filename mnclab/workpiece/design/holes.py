@@ -1,0 +1,115 @@
+"""Holes: drilled, tapped, countersunk and counterbored, one by one or in patterns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Self
+
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown
+from mnclab.workpiece.design.feature import Feature, Site, check_positive
+from mnclab.workpiece.design.measures import Measure
+from mnclab.workpiece.design.removals import Flat, Removal, Slanting
+from mnclab.workpiece.design.threads import core_of
+
+BEYOND = 1.0  # mm, by which what goes through goes beyond the lower side
+
+
+@dataclass(frozen=True, repr=False)
+class Hole(Feature):
+    """A hole about (x, y). `depth` is that of the cylinder, to its shoulder; the point comes on top; None: through.
+
+    `point` is the included angle of the bottom, degrees, 180 for a flat one. `counterbore` (diameter, depth);
+    `countersink` (diameter, included angle). `thread` is a designation ("M8", "M8x1"), `thread_depth` how far it goes
+    (None: as deep as the hole); the hole then is that for the tap: `diameter` may be None, and is the nominal
+    diameter less the pitch.
+    """
+
+    kind = "hole"
+    x: float
+    y: float
+    diameter: float | None
+    depth: float | None = None
+    point: float = 118.0
+    counterbore: tuple[float, float] | None = None
+    countersink: tuple[float, float] | None = None
+    thread: str = ""
+    thread_depth: float | None = None
+
+    def _check(self) -> None:
+        for name in ("x", "y"):
+            check_number(getattr(self, name), f"the {name} of a hole (mm)")
+        if self.diameter is None and self.thread:
+            object.__setattr__(self, "diameter", core_of(self.thread))
+        check_positive(self, "diameter", *([] if self.depth is None else ["depth"]))
+        check_number(self.point, "the point of a hole (degrees)", above=0, at_most=180)
+        for name, second, most in (("counterbore", "depth (mm)", None), ("countersink", "angle (degrees)", 179.0)):
+            given = getattr(self, name)
+            if given is None:
+                continue
+            if not isinstance(given, tuple | list) or len(given) != 2:
+                raise Alarm(f"the {name} of a hole must be its diameter (mm) and {second}, got {shown(given)}")
+            check_number(given[0], f"the diameter of a {name} (mm)", above=self.wide)
+            check_number(given[1], f"the {second} of a {name}", above=0, at_most=most)
+            object.__setattr__(self, name, tuple(float(each) for each in given))
+        if self.counterbore and self.depth is not None and self.counterbore[1] >= self.depth:
+            raise Alarm(f"a counterbore must be less deep than its hole, {self.depth:g}, got {self.counterbore[1]:g}")
+        if self.thread and core_of(self.thread) <= 0:
+            raise Alarm(f"the thread {self.thread} leaves no core")
+        if self.thread_depth is not None:
+            check_positive(self, "thread_depth")
+            if not self.thread:
+                raise Alarm("a thread_depth needs a thread", hint='thread="M8"')
+            if self.depth is not None and self.thread_depth > self.depth:
+                raise Alarm(f"a thread goes at most as deep as its hole, {self.depth:g}, got {self.thread_depth:g}")
+
+    @property
+    def wide(self) -> float:
+        """The diameter, mm."""
+        return float(self.diameter or 0.0)
+
+    @property
+    def tip(self) -> float:
+        """How far the point goes beyond the shoulder, mm."""
+        return 0.0 if self.depth is None else self.wide / 2 / math.tan(math.radians(self.point / 2)) * (self.point < 180)
+
+    def _measures(self) -> Iterator[Measure]:
+        if self.thread:
+            yield Measure("thread", core_of(self.thread, 0.0), "thread", text=self.thread)
+            if self.thread_depth is not None:
+                yield Measure("thread depth", self.thread_depth, "depth")
+        yield Measure("diameter", self.wide, "diameter")
+        if self.depth is not None:
+            yield Measure("depth", self.depth, "depth")
+        if self.counterbore:
+            yield Measure("counterbore diameter", self.counterbore[0], "diameter")
+            yield Measure("counterbore depth", self.counterbore[1], "depth")
+        if self.countersink:
+            yield Measure("countersink diameter", self.countersink[0], "diameter")
+            yield Measure("countersink angle", self.countersink[1], "angle")
+        if self.depth is not None and self.point != 118:
+            yield Measure("point angle", self.point, "angle")
+        yield Measure("x", self.x, "place")
+        yield Measure("y", self.y, "place")
+
+    def removals(self, site: Site) -> Iterator[Removal]:
+        top, centre, r = self.from_top(site), (float(self.x), float(self.y)), self.wide / 2
+        shoulder = site.bottom - BEYOND if self.depth is None else top - self.depth
+        yield Flat(Region((Contour.circle(centre, r),)), shoulder)
+        if self.tip:
+            yield Slanting(centre, 0.0, r, shoulder - self.tip, shoulder)
+        if self.counterbore:
+            yield Flat(Region((Contour.circle(centre, self.counterbore[0] / 2),)), top - self.counterbore[1])
+        if self.countersink:
+            out = self.countersink[0] / 2
+            seat = top - (self.counterbore[1] if self.counterbore else 0.0)
+            deep = seat - (out - r) / math.tan(math.radians(self.countersink[1] / 2))
+            yield (cone := Slanting(centre, r, out, deep, seat))
+            yield cone.sky
+
+    def moved(self, dx: float, dy: float, dz: float) -> Self:
+        return replace(self, x=self.x + dx, y=self.y + dy, **self.raised(dz))
