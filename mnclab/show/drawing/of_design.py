@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from mnclab.show.drawing import milled
 from mnclab.show.drawing.drawing import Drawing, draw
 from mnclab.show.drawing.ledger import Dimensioned, Ledger
 from mnclab.show.drawing.sheet import Title
+from mnclab.show.plot.picture import Picture
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 from mnclab.workpiece.design.design import Design
@@ -43,3 +45,15 @@ def drawing(design: Any, *, size: str | None = None, scale: float | None = None)
             continue
         return DesignDrawing(found.title, found.scale, found.sheets, ledger.record(found))
     raise AssertionError("the last attempt returns or raises")
+
+
+def plot(design: Any, *, size: str | None = None, scale: float | None = None, sheet: int = 1) -> Picture:
+    """The drawing of a design as a figure in true size; `sheet` where there are several."""
+    return drawing(design, size=size, scale=scale).figure(sheet)
+
+
+def save(
+    design: Any, path: str | Path, *, size: str | None = None, scale: float | None = None, sheet: int | None = None
+) -> Path:
+    """Write the drawing of a design: pdf with all its sheets, or one sheet as svg, png or dxf."""
+    return drawing(design, size=size, scale=scale).save(path, sheet)
