@@ -5,7 +5,7 @@ from time import perf_counter
 
 import numpy as np
 import pytest
-from random_views import plate, shaft
+from drawn import plate, shaft
 from shapely import LineString, Polygon, STRtree
 
 from mnclab.show.drawing.drawing import draw

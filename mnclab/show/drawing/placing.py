@@ -13,19 +13,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.vectors import Floats
-from mnclab.show.drawing.ink import AIR, NEAR, Box, Mark, line_box, segment_boxes
+from mnclab.show.drawing.ink import AIR, NEAR, TIP, Box, Mark, line_box, segment_boxes
 
 OUTLINE, SOFT, TEXT, ARROW, DIMENSION, EXTENSION, LEADER = range(7)  # the parts of a drawing; soft: hidden and centre lines
 Whole = NDArray[np.intp]
 NEVER = 1e6
 PRICES = np.array([
     # OUTLINE SOFT TEXT ARROW DIMENSION EXTENSION LEADER: what lies there
-    [0.0, 0.0, NEVER, 0.5, 2.0, 0.3, 1.2],  # an outline
+    [0.0, 0.0, NEVER, 0.5, 2.0, 0.6, 1.2],  # an outline
     [0.0, 0.0, 7.0, 0.0, 0.3, 0.0, 0.8],  # a soft line
     [NEVER, 7.0, NEVER, NEVER, NEVER, NEVER, NEVER],  # a text
     [0.5, 0.0, NEVER, NEVER, NEVER, 6.0, NEVER],  # an arrowhead
     [2.0, 0.3, NEVER, NEVER, 15.0, 3.0, 10.0],  # a dimension line
-    [0.3, 0.0, NEVER, 6.0, 3.0, 0.2, 4.0],  # an extension line
+    [0.6, 0.0, NEVER, 6.0, 3.0, 0.2, 4.0],  # an extension line
     [1.2, 0.8, NEVER, NEVER, 10.0, 4.0, 20.0],  # a leader
 ])  # fmt: skip
 BODIES = {DIMENSION: (NEAR, 0.5), EXTENSION: (NEAR, 0.0), LEADER: (0.8, 0.5)}  # mm: how much shorter, half the width kept free
@@ -104,7 +104,7 @@ def boxes_of(mark: Mark) -> tuple[Floats, Whole]:
     """The boxes of a mark `(n, 6)` and their parts `(n,)`: texts with their air, lines and arrows a little short."""
     boxes: list[Box] = [label.box(AIR) for label in mark.labels]
     parts = [TEXT] * len(boxes)
-    boxes += [arrow.box(NEAR) for arrow in mark.arrows]
+    boxes += [arrow.box(TIP) for arrow in mark.arrows]
     parts += [ARROW] * len(mark.arrows)
     boxes += [line_box(a, b, *BODIES[part]) for part, a, b in mark.lines]
     parts += [part for part, _, _ in mark.lines]
