@@ -16,7 +16,7 @@ from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle
 
 SAME = 1e-6  # mm, within which two sizes are one
 ALIKE = 1e-6  # rad, of two directions
-SHORT = 1e-5  # mm, of an element that rounding has left
+SHORT = 1e-4  # mm, of an element that rounding has left
 FLAT = 1e-7  # mm, by which an arc rises that is a line
 DIGITS = 9  # of a size that is said, mm
 
@@ -72,7 +72,7 @@ def merged(loop: Contour) -> Contour:
     if len(found) > 1 and _on_one(found[-1], found[0]):
         found[0] = found[0]._replace(start=found.pop().start)
     if len(found) < 2:
-        return loop
+        return Contour.circle(found[0].centre, found[0].radius) if found and math.isfinite(found[0].radius) else loop
     corners = [_corner(a, b) for a, b in zip([found[-1], *found[:-1]], found)]
     points, bulge = [], []
     for each, start, end in zip(found, corners, [*corners[1:], corners[0]]):

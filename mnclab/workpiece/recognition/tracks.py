@@ -68,7 +68,8 @@ class Track:
     def key(self) -> tuple[Any, ...]:
         """What is the same of moves that sweep the same, there or back."""
         ends = sorted((_near(self.start), _near(self.end)))
-        return *ends, _near(self.centre), round(abs(self.sweep), 6), round(self.radius, 6)
+        middle = self.line.points[1] if abs(self.sweep) > np.pi else self.line.point_at(self.line.length / 2)[0] if self.sweep else ()
+        return *ends, _near(self.centre), round(abs(self.sweep), 6), round(self.radius, 6), *map(float, np.round(middle, 5))
 
     @property
     def touched(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
