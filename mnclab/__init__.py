@@ -77,8 +77,9 @@ blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…), a
     "mnclab.workpiece.blank": "Box, Revolved, chuck, cylinder",
 })  # fmt: skip
 
-design = Shelf("mnclab.design", "features of a part as drawn, for Design(blank, features)", {
-    "mnclab.workpiece.design": "Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud",
+design = Shelf("mnclab.design", "a part as drawn, Design(blank, features), and its features", {
+    "mnclab.workpiece.blank": "Box, Revolved",
+    "mnclab.workpiece.design": "Chamfer, Circle, Design, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud",
 })  # fmt: skip
 
 area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawing or a path", {
