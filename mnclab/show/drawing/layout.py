@@ -23,7 +23,8 @@ from mnclab.show.drawing.ink import Label, Mark, Stroke, segment_boxes
 from mnclab.show.drawing.lettering import block
 from mnclab.show.drawing.placing import OUTLINE, SOFT, Ground, boxes_of, spans
 from mnclab.show.drawing.sheet import scale_text
-from mnclab.show.drawing.view import Axis, Kind, View
+from mnclab.show.drawing.origin import origin
+from mnclab.show.drawing.view import Axis, Kind, Origin, View
 
 CHORD = 0.1  # mm on paper: as such chords lines stand in the way of texts
 WIDE = 0.3  # mm, of lines that others should not run along
@@ -92,6 +93,9 @@ def _strokes(view: View, scale: float) -> Iterator[Stroke]:
     for axis in view.axes:
         if isinstance(axis, Axis):
             yield centre_line(axis.a, axis.b, scale)
+            continue
+        if isinstance(axis, Origin):
+            yield from origin((axis.at[0] * scale, axis.at[1] * scale))
             continue
         x, y = axis.centre
         for angle in (axis.turned, axis.turned + math.pi / 2):

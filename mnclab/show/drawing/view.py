@@ -66,6 +66,12 @@ class Cross(NamedTuple):
     turned: float = 0.0
 
 
+class Origin(NamedTuple):
+    """The zero point of the workpiece: a circle with two filled quarters, of one size on every paper."""
+
+    at: Point
+
+
 class Cut(NamedTuple):
     """Where a section is taken: the way of the plane through the view (two points, or more where it steps), the letter
     and the direction in which one looks; on paper its ends stand outside the view with arrows and letters.
@@ -91,7 +97,7 @@ class View:
     lines: tuple[Line, ...]
     hatches: tuple[Region, ...] = ()
     dimensions: tuple[Dimension, ...] = ()
-    axes: tuple[Axis | Cross, ...] = ()
+    axes: tuple[Axis | Cross | Origin, ...] = ()
     cuts: tuple[Cut, ...] = ()
     title: str = ""
     cell: tuple[int, int] = (0, 0)
