@@ -22,9 +22,8 @@ from mnclab.workpiece.design.design import TEXTS, name_of
 from mnclab.workpiece.design.measures import Measure, Tolerance, with_tolerances
 from mnclab.workpiece.design.shapes import Outline
 from mnclab.workpiece.design.turned_body import SAME, TurnedBody
-from mnclab.workpiece.design.turned_features import TurnedFeature
+from mnclab.workpiece.design.turned_features import TURNED_FEATURES, Thread, TurnedFeature
 from mnclab.workpiece.design.turned_profile import Dimension, Profile
-from mnclab.workpiece.design.turned_threads import Thread
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning import revolved
 from mnclab.workpiece.turning.turned_blank import TurnedBlank
@@ -269,7 +268,7 @@ def _features(given: Any) -> tuple[TurnedFeature, ...]:
         raise Alarm(f"features of a turned design must be features, got {shown(given)}", hint="mnclab.design.Bore(12, 30)")
     for k, each in enumerate(given):
         if not isinstance(each, TurnedFeature):
-            known = "Bore, CentreHole, RingGroove, FaceGroove, Thread, Undercut"
+            known = ", ".join(cls.__name__ for cls in TURNED_FEATURES.values())
             raise Alarm(f"features[{k}] of a turned design must be one that turns, got {shown(each)}",
                         hint=f"mnclab.design has {known}")  # fmt: skip
     return tuple(given)

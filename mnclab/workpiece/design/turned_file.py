@@ -16,9 +16,7 @@ from mnclab.workpiece.blank_file import blank_of, table_of
 from mnclab.workpiece.design.design import TEXTS
 from mnclab.workpiece.design.feature_file import feature_of, pointing, table_of_feature, tuples
 from mnclab.workpiece.design.turned_design import TurnedDesign
-from mnclab.workpiece.design.turned_features import FaceGroove, RingGroove, TurnedFeature
-from mnclab.workpiece.design.turned_holes import Bore, CentreHole
-from mnclab.workpiece.design.turned_threads import Thread, Undercut
+from mnclab.workpiece.design.turned_features import TURNED_FEATURES
 
 #: The format, as the help of the command line shows it.
 FORMAT = """\
@@ -79,9 +77,6 @@ start = 0
 end = -27
 """
 
-KINDS: dict[str, type[TurnedFeature]] = {
-    each.kind: each for each in (Bore, CentreHole, RingGroove, FaceGroove, Undercut, Thread)
-}
 KNOWN = (*TEXTS, "profile", "closed", "blank", "tolerances", "features")
 ROW = ("z", "r", "rounding", "chamfer", "arc", "bulge")
 NAMED = re.compile(r"(?:corner|points?) (\d+)")  # what in an alarm says where the fault is
@@ -104,7 +99,7 @@ def design_of(table: Mapping[str, Any], file: File) -> TurnedDesign:
         more["tolerances"] = tuples(as_table(table.get("tolerances", {}), "tolerances"))
     with file.at("features"):
         features = as_tables(table.get("features", []), "features")
-        made = tuple(feature_of(each, KINDS, file, "features", str(k)) for k, each in enumerate(features))
+        made = tuple(feature_of(each, TURNED_FEATURES, file, "features", str(k)) for k, each in enumerate(features))
     try:
         return TurnedDesign(profile, made, **more)
     except Alarm as fault:

@@ -12,7 +12,7 @@ from mnclab.text.given import check_number
 from mnclab.workpiece.design.feature import check_positive
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.turned_body import BEYOND, SAME, TurnedBody
-from mnclab.workpiece.design.turned_features import FromEnd, Place, given, outline
+from mnclab.workpiece.design.turned_feature import FromEnd, Place, given, outline
 
 LEAST = 1e-3  # mm: how far a chamfer sticks out of the face that it breaks
 #: DIN 332-1, ISO 6411 form A: the diameter of the pilot, that of the countersink of 60°, and how deep the pilot goes, mm.
