@@ -146,11 +146,14 @@ class TurnedDesign:
         return DrawnTurned(self, step)
 
     def turned_over(self) -> TurnedDesign:
-        """The same end for end, in the same stretch of z."""
+        """The same end for end, in the same stretch of z. Tolerances of lengths from what was the front end are lost."""
         outline = self.outline_as_drawn
-        middle = sum(outline.ends)
+        over, middle = outline.turned_over(), sum(outline.ends)
+        names = {_place(each): each.measure.name for each in over.dimensions()}
+        stays = {each.measure.name: names.get(_place(each, middle)) for each in outline.dimensions()}
+        tolerances = {name: each for old, each in self.tolerances.items() if (name := stays[old])}
         return replace(
-            self, profile=outline.turned_over().contour, blank=_turned_over(self.blank, middle), tolerances={},
+            self, profile=over.contour, blank=_turned_over(self.blank, middle), tolerances=tolerances,
             features=tuple(each.turned_over(middle) for each in self.features),
         )  # fmt: skip
 
@@ -228,6 +231,12 @@ class TurnedDesign:
         ):  # fmt: skip
             if not inside:
                 raise Alarm(f"the design does not lie within its blank, whose {name} is {allowed:g}: it has {has:g}")
+
+
+def _place(dimension: Dimension, middle: float | None = None) -> tuple[Any, ...]:
+    """What a dimension is of, to tell it again; that of its mirror image where z becomes `middle` less z."""
+    ends = (dimension.start, dimension.end)
+    return dimension.measure.kind, *sorted((round(z if middle is None else middle - z, 6), round(r, 6)) for z, r in ends)
 
 
 def _cylinder(given: Revolved) -> tuple[tuple[float, float], float, float]:
