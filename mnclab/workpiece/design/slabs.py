@@ -137,8 +137,12 @@ class Stack:
 
 
 def _less(outline: Region, gone: list[Region]) -> Region:
-    """An outline less some regions."""
+    """An outline less some regions: those of one loop all at once, the others one after the other."""
     found = outline
+    single = [each.loops[0] for each in gone if len(each.loops) == 1]
+    if len(outline.loops) == 1 and len(single) > 1:
+        found = Region.of(outline.loops[0], holes=single)
+        gone = [each for each in gone if len(each.loops) > 1]
     for each in gone:
         if found.loops and each.loops:
             found = found.difference(each)

@@ -15,7 +15,7 @@ from mnclab.geometry.vectors import at_angle, left
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.workpiece.design.design import Design
 from mnclab.workpiece.design.measures import Measure
-from mnclab.workpiece.design.removals import Flat, Slanting, signed
+from mnclab.workpiece.design.removals import Flat, Slanting, signed, within
 from mnclab.workpiece.difference.target import BLANK, Grid, Owner, Slopes, Walls
 from mnclab.workpiece.milling.raster import Raster
 
@@ -105,26 +105,46 @@ class DrawnTarget:
                 owners.append(np.full(int(near.sum()), number))
         place, normal, middle = (np.concatenate(column) for column in zip(*found, strict=True))
         owner = np.concatenate(owners)
-        behind, before = place - ASIDE * normal, place + ASIDE * normal
-        stands: dict[int, Mask] = {}
+        spots = np.concatenate([place - ASIDE * normal, place + ASIDE * normal])
         spot, heights, talls, tallest = [], [], [], np.zeros(len(place))
-        for slab in self.design.stack.slabs:
-            if id(slab.region) not in stands:
-                there = slab.region.contains(np.concatenate([behind, before]))
-                stands[id(slab.region)] = there[: len(place)] & ~there[len(place) :]
-            on = stands[id(slab.region)] & self._reached(owner, (slab.low + slab.high) / 2)
-            tall = slab.high - slab.low
-            hair = min(EDGE, tall / 4)
-            for z, height in ((slab.low + hair, 0.0), ((slab.low + slab.high) / 2, tall), (slab.high - hair, 0.0)):
+        levels = self._levels
+        for low, high in zip(levels, levels[1:]):
+            tall, hair = high - low, min(EDGE, (high - low) / 4)
+            stands = self._material(spots, (low + high) / 2)
+            on = stands[: len(place)] & ~stands[len(place) :] & self._reached(owner, (low + high) / 2)
+            for z, height in ((low + hair, 0.0), ((low + high) / 2, tall), (high - hair, 0.0)):
                 here = np.flatnonzero(on)
-                for each in slab.slants:
-                    here = here[each.taken(behind[here, 0], behind[here, 1], np.full(len(here), z)) > ASIDE]
+                for body in self._slants:
+                    if body.low < z < body.high:
+                        here = here[body.taken(spots[here, 0], spots[here, 1], np.full(len(here), z)) > ASIDE]
                 spot.append(here)
                 heights.append(np.full(len(here), z))
                 talls.append(np.full(len(here), height))
                 tallest[here] = np.maximum(tallest[here], height)
         index, height = np.concatenate(spot), np.concatenate(talls)
         return Walls(place, normal, owner, middle, index, np.concatenate(heights), (height > 0) & (height == tallest[index]))
+
+    @cached_property
+    def _levels(self) -> list[float]:
+        """The heights at which what stands upright may change."""
+        low, high = self.bounds[:, 2].tolist()
+        heights = [low, high, *(each.body.floor for each in self.design.taken if isinstance(each.body, Flat))]
+        heights += [z for body in self._slants for z in (body.low, body.high)]
+        inside = sorted(z for z in heights if low <= z <= high)
+        return [z for k, z in enumerate(inside) if k == 0 or z - inside[k - 1] > SAME]
+
+    @cached_property
+    def _slants(self) -> list[Slanting]:
+        return [each.body for each in self.design.taken if isinstance(each.body, Slanting)]
+
+    def _material(self, spots: Array, z: float) -> Mask:
+        """Whether upright material stands at places (m, 2) in a height, with what slants off."""
+        found = self.design.outline_of_blank.contains(spots)
+        for each in self.design.taken:
+            if isinstance(each.body, Flat) and each.body.reaches(z):
+                some = np.flatnonzero(found)
+                found[some[within(each.body.region, *spots[some].T)]] = False
+        return found
 
     def _reached(self, owner: Index, z: float) -> Mask:
         """Whether the feature that a wall belongs to (m,) goes as far as a height."""

@@ -166,7 +166,7 @@ class _Room:
         yield from found.items()
         if hole.tip:
             wide = found["diameter"].actual
-            yield from self._point(hole, hole.wide if math.isnan(wide) else wide)
+            yield from self._point(hole, *((hole.wide, None) if math.isnan(wide) else (wide, (found["x"].actual, found["y"].actual))))
         elif hole.depth is not None:
             yield "depth", self._depth(self._of_role(""), self.top - hole.depth)
         if hole.counterbore:
@@ -176,9 +176,9 @@ class _Room:
         if hole.countersink:
             yield from self._slant("countersink", "countersink diameter", "countersink angle", 2.0)
 
-    def _point(self, hole: Hole, wide: float) -> Iterator[tuple[str, Found]]:
-        """Depth to the shoulder and point angle, from the cone."""
-        s, z, index, body = self._cone("point")
+    def _point(self, hole: Hole, wide: float, centre: tuple[float, float] | None) -> Iterator[tuple[str, Found]]:
+        """Depth to the shoulder and point angle, from the cone about the centre found."""
+        s, z, index, body = self._cone("point", centre)
         if body is None or not len(s):
             yield "depth", Found(math.nan, NONE, GONE)
             return
@@ -209,14 +209,19 @@ class _Room:
         yield size, Found(sides * (edge - start) / slope, index)
         yield angle, Found(steep if sides == 1 else 2 * (90 - steep), index)
 
-    def _cone(self, role: str) -> tuple[Array, Array, Index, Slanting | None]:
+    def _cone(self, role: str, centre: tuple[float, float] | None = None) -> tuple[Array, Array, Index, Slanting | None]:
         """Distances from the base of a slant and the heights found there, seen from the side of the feature."""
         owners, slopes = self._of_role(role), self.seen.slopes
         body = self.target.design.taken[owners[0]].body if owners else None
         index = np.flatnonzero(np.isin(slopes.owner, owners) & slopes.middle)
         level = self.turned - slopes.z[index] if self.back else slopes.z[index]
         found = level + self.seen.rise[index]
-        return slopes.out[index], found, index + self.seen.of_slopes.start, body if isinstance(body, Slanting) else None
+        out = slopes.out[index]
+        if centre is not None:
+            place = slopes.place[index]
+            place = place @ self.flip[:2, :2].T + self.flip[:2, 2] if self.back else place
+            out = np.hypot(*(place - np.array(centre)).T)
+        return out, found, index + self.seen.of_slopes.start, body if isinstance(body, Slanting) else None
 
     def _allowed(self, measure: Measure) -> float:
         """How far a measure may be off where the drawing gives no limits: as far as faces may, each by the tolerance."""
