@@ -1,52 +1,59 @@
-"""Which middles of a raster's cells lie in a region: row by row, from where the boundary crosses the row. Exact."""
+"""Which of many points on a lattice lie in an area: row by row, from where its edge crosses the rows. Lengths in mm."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
+from numpy.typing import NDArray
 
 from mnclab.geometry.contours import Contour, Floats
 from mnclab.geometry.regions import Region
 
-Box = tuple[slice, slice]
+Mask = NDArray[np.bool_]
 
 
-def filled(region: Region, x: Floats, y: Floats) -> tuple[Box, np.ndarray]:
-    """The rows and columns of the box about a region, and which cells of it lie within: ascending places x (nx,), y (ny,).
+def filled(region: Region, x: Floats, y: Floats) -> tuple[slice, slice, Mask]:
+    """Rows and columns of the box about a region in a lattice x (nx,), y (ny,), ascending, and which points there lie in it.
 
-    A place on the boundary may count either way.
+    A point on the edge may count either way.
     """
     if not region.loops:
-        return (slice(0, 0), slice(0, 0)), np.zeros((0, 0), dtype=bool)
-    corners = np.array([loop.bounds for loop in region.loops])
-    (x0, y0), (x1, y1) = corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)
-    i, j = np.searchsorted(x, [x0, x1]), np.searchsorted(y, [y0, y1])
-    box = slice(int(j[0]), int(j[1])), slice(int(i[0]), int(i[1]))
-    across, along = x[box[1]], y[box[0]]
-    rounds = np.zeros((len(along), len(across) + 1), dtype=np.int16)
+        return slice(0, 0), slice(0, 0), np.zeros((0, 0), dtype=bool)
+    (x0, y0), (x1, y1) = region.bounds
+    rows, columns = (slice(*np.searchsorted(at, ends)) for at, ends in ((y, (y0, y1)), (x, (x0, x1))))
+    across, up = x[columns], y[rows]
+    turns = np.zeros((len(up), len(across) + 1), dtype=np.int16)
     for loop in region.loops:
-        for start, end, at in _pieces(loop):
-            first, last = np.searchsorted(along, sorted((start, end)))
-            rows = np.arange(first, last)
-            rounds[rows, np.searchsorted(across, at(along[first:last]))] += 1 if end < start else -1
-    return box, np.cumsum(rounds, axis=1, dtype=np.int16)[:, :-1] > 0
+        for row, place, sense in _crossings(loop, up):
+            np.add.at(turns, (row, np.searchsorted(across, place)), sense)
+    return rows, columns, np.cumsum(turns, axis=1, dtype=np.int16)[:, :-1] > 0
 
 
-def _pieces(loop: Contour) -> Iterator[tuple[float, float, object]]:
-    """Pieces of a loop that rise or fall all along: y at their ends, and x at any y between."""
-    elements = zip(loop.starts, loop.ends, loop.sweeps.tolist(), loop.centres, loop.radii.tolist(), strict=True)
-    for (x0, y0), (x1, y1), sweep, (cx, cy), radius in elements:
-        if sweep == 0:
-            if y0 != y1:
-                yield y0, y1, lambda y, x0=x0, y0=y0, slope=(x1 - x0) / (y1 - y0): x0 + (y - y0) * slope
-            continue
-        begin = np.arctan2(y0 - cy, x0 - cx)
-        low, high = sorted((begin, begin + sweep))
-        turns = np.pi / 2 + np.pi * np.arange(np.ceil((low - np.pi / 2) / np.pi), np.floor((high - np.pi / 2) / np.pi) + 1)
-        angles = np.concatenate([[low], turns[(turns > low) & (turns < high)], [high]])
-        ends = np.concatenate([[y0 if sweep > 0 else y1], cy + radius * np.sin(angles[1:-1]), [y1 if sweep > 0 else y0]])
-        for k in range(len(angles) - 1):
-            side = radius * np.sign(np.cos((angles[k] + angles[k + 1]) / 2))
-            a, b = ends[k : k + 2] if sweep > 0 else ends[k : k + 2][::-1]
-            yield a, b, lambda y, cx=cx, cy=cy, r=radius, side=side: cx + side * np.sqrt(np.maximum(1 - ((y - cy) / r) ** 2, 0.0))
+def _crossings(loop: Contour, y: Floats) -> list[tuple[NDArray[np.intp], Floats, NDArray[np.int16]]]:
+    """Where elements cross rows: the rows, the places along them, +1 where they cross downwards and the area begins."""
+    found = []
+    for start, end, sweep, centre, radius in zip(loop.starts, loop.ends, loop.sweeps, loop.centres, loop.radii):
+        for (xa, ya), (xb, yb) in _rising(start, end, sweep, centre, radius):
+            low, high = np.searchsorted(y, (min(ya, yb), max(ya, yb)))
+            if low == high:
+                continue
+            row = np.arange(low, high)
+            if sweep:
+                half = np.sqrt(np.maximum(radius * radius - (y[row] - centre[1]) ** 2, 0.0))
+                place = centre[0] + (half if xa + xb > 2 * centre[0] else -half)
+            else:
+                place = xa + (y[row] - ya) / (yb - ya) * (xb - xa)
+            found.append((row, place, np.full(len(row), 1 if yb < ya else -1, dtype=np.int16)))
+    return found
+
+
+def _rising(start: Floats, end: Floats, sweep: float, centre: Floats, radius: float) -> list[tuple[Floats, Floats]]:
+    """An element in pieces that only rise or only fall."""
+    if not sweep:
+        return [(start, end)]
+    first = np.arctan2(*(start - centre)[::-1])
+    tops = np.pi * np.arange(-3, 4) + np.pi / 2
+    ahead = (tops - first) * np.sign(sweep)
+    ahead = np.sort(ahead[(ahead > 0) & (ahead < abs(sweep))])
+    places = [centre + (0.0, radius * np.sign(np.sin(first + each * np.sign(sweep)))) for each in ahead]
+    corners = [start, *places, end]
+    return list(zip(corners, corners[1:]))

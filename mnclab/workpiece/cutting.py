@@ -20,6 +20,7 @@ from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.part import Part
 
 CUTS = (Kind.LINE, Kind.ARC)  # what moves at feed; a probe cuts nothing
+OF_BLANK = "of the blank: "
 SHOWN = 3  # lines that a sentence names
 
 
@@ -109,13 +110,19 @@ class Cutting:
         bodies = np.array([tool.kind == "probe" or tool_exists(tool) for tool in self.tools], dtype=bool)
         return np.asarray(inside & np.isin(path.kind, CUTS) & (~bodies[self.which] if len(bodies) else True))
 
+    def of_rows(self, column: Any, rows: Index) -> Any:
+        """The values of a column (n,) in some rows, as large as these; of -1, no row, any value."""
+        return np.asarray(column)[rows] if len(self) else rows
+
     def lines(self, rows: Mask) -> str:
         """The first lines of some rows (n,), in words."""
         found = list(dict.fromkeys(zip(self.path.line[rows].tolist(), self.path.program[rows].tolist())))
         return ", ".join(self.name(*each) for each in found[:SHOWN]) + (", …" if len(found) > SHOWN else "")
 
     def notes(self) -> Iterator[str]:
-        """What of the path is not in a part, whatever turns or mills it."""
+        """What of the blank and of the path is not in a part, whatever turns or mills it."""
+        for note in getattr(self.stock, "notes", ()):
+            yield note if note.startswith(OF_BLANK) else OF_BLANK + note
         if (bare := self.bare).any():
             yield f"rows without a tool cut nothing ({self.lines(bare)})"
 

@@ -20,7 +20,8 @@ from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import Floats
-from mnclab.workpiece.design.slabs import Slab, Stack
+from mnclab.show.drawing.levels import Levels
+from mnclab.workpiece.design.slabs import Slab
 
 SAME = 1e-6  # mm, within which two places are one
 LEAN = 1e-3  # within which two slopes are one
@@ -56,6 +57,11 @@ class Seen(NamedTuple):
         bend[1:-1] = _lean(first, inner) - _lean(last, inner)
         face = (before == 0) & (after == 0) & ((np.abs(jump) > SAME) | (np.abs(bend) > LEAN))
         return [float(u) for u in self.places[(before != after) | face]]
+
+    def ends(self) -> Floats:
+        """The depths of the pieces at their left and right ends, (n, 2); infinite where there is no face."""
+        depths = np.stack([_depth(self.pieces, self.places[:-1]), _depth(self.pieces, self.places[1:])], axis=1)
+        return np.where(self.labels[:, None] >= 0, depths, np.inf)
 
     def cuts(self) -> list[tuple[float, float]]:
         """Stretches of u that are cut."""
@@ -146,7 +152,7 @@ def _crossings(pieces: Floats, step: Step) -> list[float]:
 class Elevation:
     """A stack as it is seen in the direction of w: (x, y) of the part are turned into (u, w) by `turn` (3, 3)."""
 
-    stack: Stack
+    levels: Levels
     turn: Floats
     steps: tuple[Step, ...] = ()
 
@@ -154,7 +160,7 @@ class Elevation:
     def _layers(self) -> list[Layer]:
         """The heights at which each slab is looked at, from below, and what is seen there."""
         found = []
-        for slab in self.stack.slabs:
+        for slab in self.levels.slabs:
             middle = (slab.low + slab.high) / 2
             if not slab.slants:
                 found.append((np.array([slab.low, slab.high]), [self._look(slab, middle)] * 2))
@@ -170,7 +176,7 @@ class Elevation:
         return found
 
     def _look(self, slab: Slab, z: float) -> Seen:
-        region = slab.section(z)
+        region = self.levels.section(slab, z)
         return look(Region(tuple(loop.transformed(self.turn) for loop in region.loops)), self.steps)
 
     def lines(self) -> list[Contour]:
@@ -178,7 +184,7 @@ class Elevation:
         upright: dict[float, list[tuple[float, float]]] = {}
         level: list[tuple[float, float, float]] = []
         found: list[Contour] = []
-        for slab, (heights, seen) in zip(self.stack.slabs, self._layers, strict=True):
+        for slab, (heights, seen) in zip(self.levels.slabs, self._layers, strict=True):
             if not slab.slants:
                 for u in seen[0].edges():
                     near = next((known for known in upright if abs(known - u) < SAME), u)
@@ -186,10 +192,10 @@ class Elevation:
             else:
                 found += _slanting(slab, heights, seen)
         before: Layer | None = None
-        for slab, layer in zip(self.stack.slabs, self._layers, strict=True):
+        for slab, layer in zip(self.levels.slabs, self._layers, strict=True):
             level += [(slab.low, *stretch) for stretch in _differing(before, layer, slab.low)]
             before = layer
-        level += [(self.stack.slabs[-1].high, *stretch) for stretch in _differing(before, None, self.stack.slabs[-1].high)]
+        level += [(self.levels.slabs[-1].high, *stretch) for stretch in _differing(before, None, self.levels.slabs[-1].high)]
         found += [Contour([(u, a), (u, b)], closed=False) for u, spans in upright.items() for a, b in _joined(spans)]
         found += [Contour([(a, z), (b, z)], closed=False) for z, a, b in level]
         return found
@@ -197,7 +203,7 @@ class Elevation:
     def faces(self) -> tuple[Region, ...]:
         """The cut faces, in (u, z)."""
         areas = []
-        for slab, (heights, seen) in zip(self.stack.slabs, self._layers, strict=True):
+        for slab, (heights, seen) in zip(self.levels.slabs, self._layers, strict=True):
             z = heights.copy()
             z[0], z[-1] = slab.low, slab.high
             rows = [np.array(each.cuts()).reshape(-1, 2) for each in seen]

@@ -23,7 +23,7 @@ ARROW_HALF = ARROW * math.tan(math.radians(7.5))
 GAP, OVERSHOOT = 1.0, 2.0  # of extension lines: from the edge, beyond the dimension line
 ABOVE = 1.0  # mm from a dimension line to the baseline of its text
 AIR = 0.5  # mm around a text, kept free of all else
-NEAR = 0.2  # mm by which lines and arrowheads may touch at their ends
+NEAR, TIP = 0.2, 0.05  # mm by which lines, and arrowheads, may touch others at their ends
 
 Box = tuple[float, float, float, float, float, float]
 

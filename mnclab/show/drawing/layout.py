@@ -2,7 +2,7 @@
 
 Dimensions are placed one after the other, the short ones first, each at the best place that is free. Where one finds no
 room, those that stand in its way go and look for another place, the less willingly the oftener they had to. In the end
-each that crosses others looks once more.
+each looks once more.
 """
 
 from __future__ import annotations
@@ -23,15 +23,16 @@ from mnclab.show.drawing.ink import Label, Mark, Stroke, segment_boxes
 from mnclab.show.drawing.lettering import block
 from mnclab.show.drawing.placing import OUTLINE, SOFT, Ground, boxes_of, spans
 from mnclab.show.drawing.sheet import scale_text
-from mnclab.show.drawing.view import Axis, Kind, View
+from mnclab.show.drawing.origin import origin
+from mnclab.show.drawing.view import Axis, Kind, Origin, View
 
 CHORD = 0.1  # mm on paper: as such chords lines stand in the way of texts
 WIDE = 0.3  # mm, of lines that others should not run along
 BEYOND = 3.0  # mm by which centre lines go beyond what they are the middle of
 PLAIN = 9.0  # mm: a shorter centre line has no dots
 TITLE = 5.0  # mm, letters of sections
-MOVES, ROOM = 12, 3  # how often marks may be placed, for each of them; how much more room one may get
-CROSSED = 2.0  # the price of crossings at which a mark looks once more
+MOVES, ROOM = 6, 3  # how often marks may be placed, for each of them; how much more room one may get
+LOOKS = 2  # how often each looks for a better place in the end
 LAYERS = {Kind.VISIBLE: "OUTLINE", Kind.HIDDEN: "HIDDEN", Kind.CENTRE: "CENTRE", Kind.THIN: "THIN", Kind.PHANTOM: "PHANTOM"}
 Written = Dimension | cuts.End
 
@@ -92,6 +93,9 @@ def _strokes(view: View, scale: float) -> Iterator[Stroke]:
     for axis in view.axes:
         if isinstance(axis, Axis):
             yield centre_line(axis.a, axis.b, scale)
+            continue
+        if isinstance(axis, Origin):
+            yield from origin((axis.at[0] * scale, axis.at[1] * scale))
             continue
         x, y = axis.centre
         for angle in (axis.turned, axis.turned + math.pi / 2):
@@ -155,10 +159,10 @@ def _placed(things: Sequence[Written], scale: float, outline: Floats, ground: Gr
         marks[k] = found
     if waiting:
         raise NoRoom(things[waiting[0]])
-    for k in range(len(things)):  # those that cross others look once more, now that all stand
+    for k in sorted(marks, key=lambda k: (*_rank(things[k], scale), k)) * LOOKS:  # now that all stand
         ground.take(k)
-        if ground.prices([marks[k]])[0][0] > marks[k].cost + CROSSED:
-            marks[k] = ground.best(_offers(things[k], scale, outline, room[k]))[0] or marks[k]
+        price = float(ground.prices([marks[k]])[0][0])
+        marks[k] = ground.best(_offers(things[k], scale, outline, room[k]), least=price)[0] or marks[k]
         ground.put(marks[k], k)
     return [marks[k] for k in range(len(things))]
 

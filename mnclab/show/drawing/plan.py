@@ -10,59 +10,73 @@ from numpy.typing import NDArray
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import Floats
-from mnclab.workpiece.design.slabs import Stack
+from mnclab.show.drawing.levels import Levels
+from mnclab.workpiece.design.removals import Slanting
 
 NEAR = 1e-6  # mm, within which a line lies on another
 SPOTS = np.array([0.02, 0.25, 0.5, 0.75, 0.98])  # of an element, by which is told whether all of it does
+SHARP = 1e-3  # rad, of a corner
+LONGEST = 4.0  # a mitre line against the width of its chamfer
 EMPTY = Region(())
 
 
-def edges(stack: Stack) -> list[Contour]:
-    """Visible edges in (x, y), lines and arcs as they are: whole loops where all of one is seen."""
-    return [line for z, loop in _seen(stack) for line in _not_within(stack, z, loop)]
+def edges(levels: Levels, below: bool = False) -> list[Contour]:
+    """Visible edges in (x, y), lines and arcs as they are: whole loops where all of one is seen; or those seen from below."""
+    found = [line for z, loop in _seen(levels, below) for line in _not_within(levels, z, loop)]
+    return [*found, *_mitres(levels, below)]
 
 
-def outline(stack: Stack) -> Region:
-    """All that the part takes up, seen from above."""
-    covered = EMPTY
-    for _, section in _levels(stack):
-        covered = _more(covered, section)
-    return covered
+def _sections(levels: Levels, below: bool) -> Iterator[tuple[float, Region]]:
+    """Sections from above down, or from below up."""
+    for slab in levels.slabs if below else reversed(levels.slabs):
+        ends = (slab.low, slab.high) if below else (slab.high, slab.low)
+        for z in ends if slab.slants else ends[:1]:
+            yield z, levels.section(slab, z)
 
 
-def _levels(stack: Stack) -> Iterator[tuple[float, Region]]:
-    """Sections from above down, each where it differs from that before."""
-    for slab in reversed(stack.slabs):
-        if slab.slants:
-            yield slab.high, slab.section(slab.high)
-            yield slab.low, slab.section(slab.low)
-        else:
-            yield slab.high, slab.region
-
-
-def _more(covered: Region, section: Region) -> Region:
+def _more(levels: Levels, covered: Region, section: Region) -> Region:
     if not covered.loops or not section.loops:
         return section if section.loops else covered
-    return covered.union(section)
+    return section if levels.nested else covered.union(section)
 
 
-def _seen(stack: Stack) -> Iterator[tuple[float, Contour]]:
+def _seen(levels: Levels, below: bool) -> Iterator[tuple[float, Contour]]:
     covered = EMPTY
-    for z, section in _levels(stack):
+    for z, section in _sections(levels, below):
         if not section.loops:
             continue
         if not covered.loops:
             yield from ((z, loop) for loop in section.loops)
             covered = section
             continue
-        for loop in section.difference(covered).loops:
+        for loop in (section if levels.nested else section.difference(covered)).loops:
             yield from ((z, line) for line in _off(loop, covered))
-        covered = _more(covered, section)
+        covered = _more(levels, covered, section)
 
 
-def _not_within(stack: Stack, z: float, line: Contour) -> Iterator[Contour]:
+def _mitres(levels: Levels, below: bool) -> Iterator[Contour]:
+    """Where two slanting faces meet: lines from the corners of the upper edge to those of the lower one."""
+    for slab in levels.slabs:
+        for each in slab.slants:
+            if isinstance(each.base, Region) and each.up != below:
+                upper, lower = (_corners(levels.section(slab, z), each, z) for z in (slab.high, slab.low))
+                wide = abs(each.at(slab.high) - each.at(slab.low))
+                for corner in upper:
+                    off = np.hypot(*(lower - corner).T)
+                    if len(off) and off.min() < LONGEST * wide:
+                        yield Contour([corner, lower[off.argmin()]], closed=False)
+
+
+def _corners(section: Region, slant: Slanting, z: float) -> Floats:
+    """Sharp corners (n, 2) of a section that lie on a slanting face."""
+    spots = [loop.starts[np.abs(loop.turns()) > SHARP] for loop in section.loops]
+    found = np.concatenate([np.zeros((0, 2)), *spots])
+    return np.asarray(found[np.abs(slant.away(*found.T) - slant.at(z)) < NEAR])
+
+
+def _not_within(levels: Levels, z: float, line: Contour) -> Iterator[Contour]:
     """The stretches of a line at a height that are edges: not those in the middle of a slanting face."""
-    slants = {id(each): each for slab in stack.slabs for each in slab.slants if each.low + NEAR < z < each.high - NEAR}
+    slants = {id(each): each for slab in levels.slabs for each in slab.slants if each.low + NEAR < z < each.high - NEAR}
     if not slants:
         yield line
         return

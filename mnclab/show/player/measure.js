@@ -2,7 +2,6 @@
 // of a round wall or an arc {d, centre, off}, of a straight edge its direction `along` in the plane.
 
 const SNAP = 12, FINGER = 22;  // pixels about the pointer that are looked at
-const SVG = "http://www.w3.org/2000/svg";
 
 class Measure {
   constructor(page) {
@@ -38,7 +37,8 @@ class Measure {
     this.write();
     this.draw();
   }
-  // The place that is meant; of those nearly equally near the one nearest to the surface there, else to the eye.
+  // The place that is meant; of those nearly equally near the one nearest to the surface there, else to the eye; of circles that
+  // touch there the larger one.
   place(x, y, finger) {
     const within = finger ? FINGER : SNAP, {camera, picture} = this, near = camera.near;
     const {hit, found, sees} = picture.part ? picture.part.measured(x, y, within) : {found: []};
@@ -46,7 +46,7 @@ class Measure {
     const ranked = found.map(each => {
       const [px, py] = camera.project(each.at), away = Math.hypot(px - x, py - y);
       const behind = each.at.reduce((sum, v, k) => sum + (hit ? Math.abs(v - hit[k]) : -v * near[k]), 0);
-      return {each, away, score: away * SNAP / within + each.cost + Math.atan(behind) / 10};
+      return {each, away, score: away * SNAP / within + each.cost + Math.atan(behind) / 10 + (each.round ? 0.3 / each.round.d : 0)};
     }).filter(({away, each}) => away <= within || each.cost === FREE);
     const best = ranked.sort((a, b) => a.score - b.score).find(({each}) => !sees || sees(each.at));
     return best ? best.each : null;
@@ -139,7 +139,7 @@ class Measure {
     const {on, points, hover, pointer, camera} = this, marks = [];
     if (!on) return;
     const add = (name, kind, values, text = "") => {
-      const mark = document.createElementNS(SVG, name);
+      const mark = document.createElementNS(this.find("marks").namespaceURI, name);
       mark.setAttribute("class", kind);
       for (const [key, value] of Object.entries(values)) mark.setAttribute(key, value);
       mark.textContent = text;

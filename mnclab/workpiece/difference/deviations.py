@@ -75,6 +75,13 @@ class Seen:
         own[away] = self.target.owners(self.place[away], off_[away])
         return own
 
+    @cached_property
+    def sizes(self) -> tuple[Index, Index]:
+        """How many cells are the upper side of each owner, and how many the lower; the first is that of none."""
+        most = int(max(self.grid.owner.max(), self.grid.under.max())) + 2
+        above, below = (np.bincount(each.ravel() + 1, minlength=most + 1) for each in (self.grid.owner, self.grid.under))
+        return above, below
+
     def with_places(self, place: Array, off_: Array, owner: Index) -> Seen:
         """The same with more places (n, 3) that were looked at, off by `off_` (n,); they count for no size."""
         there = [np.concatenate(pair) for pair in ((self.off, off_), (self.place, place), (self.void, place + [0, 0, FIRST]))]

@@ -53,12 +53,14 @@ class DrawnTarget:
         x, y, (low, high) = raster.x, raster.y, self.bounds[:, 2].tolist()
         floor, top = np.full(raster.shape, np.nan), np.full(raster.shape, np.nan)
         owner, under = (np.full(raster.shape, BLANK, dtype=np.int16) for _ in range(2))
-        box, inside = filled(self.design.outline_of_blank, x, y)
+        rows, columns, inside = filled(self.design.outline_of_blank, x, y)
+        box = rows, columns
         floor[box][inside], top[box][inside] = low, high
         for k, (_, _, body) in enumerate(self.design.taken):
             side, whose = (top, owner) if body.up else (floor, under)
             region = body.region if isinstance(body, Flat) else self._reach(k, body)
-            box, inside = filled(region, x, y)
+            rows, columns, inside = filled(region, x, y)
+            box = rows, columns
             here = side[box]
             if isinstance(body, Flat):
                 level = body.floor

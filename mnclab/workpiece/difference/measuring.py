@@ -134,7 +134,7 @@ class _Room:
         slopes = np.flatnonzero(np.isin(seen.slopes.owner, owners))
         rise = np.concatenate([above[off], seen.rise[slopes]])
         index = np.concatenate([off + seen.of_cells.start, slopes + seen.of_slopes.start])
-        cells_of_it = int(np.isin(grid, owners).sum())
+        cells_of_it = int(seen.sizes[int(self.back)][np.array(owners) + 1].sum())
         if not len(slopes) and not cells_of_it:
             return Found(math.nan, NONE, GONE)
         rise = np.nan_to_num(rise, nan=self.bottom - floor)  # gone right through

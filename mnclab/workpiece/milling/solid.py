@@ -1,8 +1,8 @@
 """A milled part as a closed surface: both sides with their walls upright, and what stands between their rims.
 
-The lattice of nodes is one sheet above and one below, each with the walls of its side; both are joined at the rim of the blank
-and where something goes through. Cells that lie in one plane and were cut by one row are taken together in squares, each a fan about its middle
-that meets every node of its neighbours, so that the surface is closed without a gap.
+The lattice of nodes is one sheet above and one below, each with the walls of its side; both are joined at the rim of the
+blank and where something goes through. Cells that lie in one plane and were cut by one row are taken together in squares,
+each a fan about its middle that meets every node of its neighbours, so that the surface is closed without a gap.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def solid_of(workpiece: Milled, step: float | None = None) -> Solid:
     points = [_points(above, 1.0), _points(below, -1.0)]
     upper, lower = np.arange(len(points[0])), len(points[0]) + np.arange(len(points[1]))
     _join(above, below, upper, lower)
-    over, row = _sheet_of(above, upper, rows_at(workpiece, *above.nodes.T, above.z))
+    over, row = _sheet_of(above, upper, rows_at(workpiece, above.nodes[:, 0], above.nodes[:, 1], above.z))
     under, _ = _sheet_of(below, lower, np.full(len(below.z), -1))
     every = np.concatenate(points)
     round_ = _rim(above, below, upper, lower, every)

@@ -53,8 +53,9 @@ def plate(seed, size=None):
     cuts = (Cut(((0, high / 2), (wide, high / 2)), "A", (0, 1)),) if some.random() < 0.6 else ()
     plan = View("from above", tuple(lines), (), tuple(dims), tuple(axes), cuts, cell=(0, 1))
     depth = round(thick * 0.6, 1)
-    cut = Region.of(Contour([(0, 0), (wide, 0), (wide, thick), (x1, thick), (x1, thick - depth), (x0, thick - depth), (x0, thick), (0, thick)]))
-    step = Contour([(x0, thick), (x0, thick - depth), (x1, thick - depth), (x1, thick)], closed=False)
+    floor = [(x1, thick), (x1, thick - depth), (x0, thick - depth), (x0, thick)]
+    cut = Region.of(Contour([(0, 0), (wide, 0), (wide, thick), *floor, (0, thick)]))
+    step = Contour(floor, closed=False)
     front_dims = [Linear((0, 0), (0, thick), value(thick), "y"), Linear((x1, thick - depth), (x1, thick), value(depth), "y")]
     front = View(
         "A–A", (Line(rectangle(0, 0, wide, thick)), Line(step)), (cut,) if cuts else (), tuple(front_dims),
@@ -84,15 +85,17 @@ def shaft(seed):
         if k < count - 1:
             start = 0.0 if some.random() < 0.5 else a
             if start != 0.0 or k == 0:
-                dims.append(Linear((a, -d / 2), (b, -d / 2), value(b - a, tolerance=tolerance(some)), side=some.choice(["", "below"])))
+                length = value(b - a, tolerance=tolerance(some))
+                dims.append(Linear((a, -d / 2), (b, -d / 2), length, side=some.choice(["", "below"])))
             else:
                 dims.append(Linear((0, -steps[0][2] / 2), (b, -d / 2), value(b)))
         lines.append(Line(Contour([(b, -d / 2), (b, d / 2)], closed=False)))
-        dims.append(Linear((a, -d / 2), (a, d / 2) if some.random() < 0.5 else (b, d / 2), value(d, "⌀", tolerance(some)), "y"))
+        dims.append(Linear((a, -d / 2), (b, d / 2), value(d, "⌀", tolerance(some)), "y", inside=True))
         if some.random() < 0.3:
             dims.append(Note((b, d / 2), ("1×45°",)))
     cone = round(some.uniform(5, 15), 1)
     way = 10 * math.tan(math.radians(cone))
     lines.append(Line(Contour([(z, -5), (z + 10, -5 + way), (z + 10, 5 - way), (z, 5)], closed=False)))
-    dims.append(Angle((z + 5 / math.tan(math.radians(cone)), 0), (z, 5), (z, -5), value(2 * cone, after="°")))
+    z_near = (5 - way) / math.sin(math.radians(cone))
+    dims.append(Angle((z + 5 / math.tan(math.radians(cone)), 0), (z, 5), (z, -5), value(2 * cone, after="°"), z_near))
     return [View("front", tuple(lines), (), tuple(dims), (Axis((0, 0), (z + 10, 0)),))]
