@@ -161,5 +161,5 @@ def _slopes(workpiece: Milled, target: Target, slopes: Slopes) -> tuple[Array, A
     rise = np.where(slopes.up, 1.0, -1.0) * (ours - slopes.z)
     value, height = np.zeros(len(x)), ours.copy()
     differ = at.differ(NOISE)
-    value[differ], height[differ] = off(target, at[differ])
+    value[differ], height[differ] = off(target, at.some(differ))
     return rise, value, np.stack([x, y, height], axis=1)
