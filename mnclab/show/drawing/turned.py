@@ -18,6 +18,7 @@ from mnclab.show.drawing.ledger import Draft, Ledger
 from mnclab.show.drawing.turned_dimensions import Turning
 from mnclab.show.drawing.view import Axis, Kind, Origin
 from mnclab.workpiece.design.turned_design import TurnedDesign
+from mnclab.workpiece.design.turned_features import Bore, FaceGroove
 from mnclab.workpiece.design.turned_threads import Thread
 
 FAR = 1e6  # mm
@@ -25,10 +26,11 @@ SKY = np.diag([1.0, -1.0, 1.0])  # depth grows from outside to the axis
 
 
 def drafts(design: TurnedDesign, ledger: Ledger) -> list[Draft]:
-    """The view with all that is written to it."""
+    """The view with all that is written to it; what is solid but for centre holes is not cut."""
     region = Region(tuple(design.section))
     outside, inside = look(_turned(region)), look(region)
-    cut = _hollow(inside)
+    first = design.bodies[0].section
+    cut = _hollow(look(first)) or any(isinstance(each, Bore | FaceGroove) for each in design.features)
     draft = Draft("from the side", (0, 0))
     lower = list(_outside(outside))
     draft.draw([line.transformed(np.diag([1.0, -1.0, 1.0])) for line in lower])

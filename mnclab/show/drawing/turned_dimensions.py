@@ -176,9 +176,12 @@ class Turning:
             if abs(z - self.high) < SAME:
                 self.ledger.at_zero(self.draft, (self.high, 0.0), claims)
                 continue
-            r = max((each[1] for each in found), default=0.0)
-            r = r if self._inside(z, r) and not any(self._outer(z) <= each[1] + SAME for each in found) else self._outer(z)
-            told = Linear((z, -r), (self.high, -front), valued(measure, "", self.high - z), "x", "below")
+            inner = [each[1] for each in found if self._inside(z, each[1])]
+            said = valued(measure, "", self.high - z)
+            if len(inner) == len(found):
+                told = Linear((z, max(inner)), (self.high, front), said, "x", "above")
+            else:
+                told = Linear((z, -self._outer(z)), (self.high, -front), said, "x", "below")
             self.ledger.say(self.draft, told, claims)
 
     def _claims(self, k: int, *names: str) -> list[Claim]:
