@@ -54,6 +54,7 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.show.forms import profile_panel as profile_panel
     from mnclab.show.magic import load_ipython_extension as load_ipython_extension
     from mnclab.workpiece.design import Design as Design
+    from mnclab.workpiece.design import TurnedDesign as TurnedDesign
 
 __version__ = "0.1.0"
 
@@ -66,7 +67,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.show.editor": "editor",
     "mnclab.show.forms": "compensation_panel, form, panel, profile_panel",
     "mnclab.show.magic": "load_ipython_extension",
-    "mnclab.workpiece.design": "Design",
+    "mnclab.workpiece.design": "Design, TurnedDesign",
 })  # fmt: skip
 
 part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts combine: a | b, a & b, a - b", {
@@ -77,8 +78,10 @@ blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…), a
     "mnclab.workpiece.blank": "Box, Revolved, chuck, cylinder",
 })  # fmt: skip
 
-design = Shelf("mnclab.design", "features of a part as drawn, for Design(blank, features)", {
-    "mnclab.workpiece.design": "Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud",
+design = Shelf("mnclab.design", "features of a part as drawn, for Design(blank, features) and TurnedDesign(profile, features)", {
+    "mnclab.workpiece.design":
+        "Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud, "
+        "Bore, CentreHole, FaceGroove, RingGroove, Thread, Undercut",
 })  # fmt: skip
 
 area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawing or a path", {
@@ -128,6 +131,7 @@ __all__ = [
     "Setup",
     "Tool",
     "Toolpath",
+    "TurnedDesign",
     "Workpiece",
     "area",
     "blank",

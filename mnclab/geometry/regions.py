@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import chain, pairwise
 from typing import Any
 
@@ -72,6 +73,16 @@ class Region:
     def difference(self, other: Region) -> Region:
         return self._with("difference", other)
 
+    def without(self, others: Sequence[Region]) -> Region:
+        """The difference from all of some others at once."""
+        drawing = _Drawing([*self.loops, *(loop for other in others for loop in other.loops)])
+        first, gone = len(self.loops), []
+        for other in others:
+            gone.append(drawing.area(other.loops, first))
+            first += len(other.loops)
+        whole = shapely.union_all(gone, grid_size=GRID)
+        return Region(drawing.traced(shapely.difference(drawing.area(self.loops, 0), whole, grid_size=GRID)))
+
     def intersection(self, other: Region) -> Region:
         return self._with("intersection", other)
 
@@ -91,7 +102,13 @@ class Region:
         """What is nearer than `distance` to the area: the inset outwards, corners rounded."""
         return self.inset(-distance)
 
-    @property
+    @cached_property
+    def bounds(self) -> Floats:
+        """Lower left and upper right corner `(2, 2)`, which an empty area has not."""
+        corners = np.array([loop.bounds for loop in self.loops])
+        return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+
+    @cached_property
     def area(self) -> float:
         return sum(loop.area for loop in self.loops)
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -98,7 +99,7 @@ class Clamped:
             turned = ""
         return f"a part cut before ({low} to {high}, {self.volume:.3f} mm³{over}{turned})"
 
-    @property
+    @cached_property
     def bounds(self) -> Array:
         """The corners with the least and the greatest coordinates (2, 3)."""
         corners = self.placement.there(np.array(np.meshgrid(*self.body.bounds.T)).reshape(3, -1).T)

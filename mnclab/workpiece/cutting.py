@@ -20,6 +20,7 @@ from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.part import Part
 
 CUTS = (Kind.LINE, Kind.ARC)  # what moves at feed; a probe cuts nothing
+OF_BLANK = "of the blank: "
 SHOWN = 3  # lines that a sentence names
 
 
@@ -115,7 +116,9 @@ class Cutting:
         return ", ".join(self.name(*each) for each in found[:SHOWN]) + (", …" if len(found) > SHOWN else "")
 
     def notes(self) -> Iterator[str]:
-        """What of the path is not in a part, whatever turns or mills it."""
+        """What of the blank and of the path is not in a part, whatever turns or mills it."""
+        for note in getattr(self.stock, "notes", ()):
+            yield note if note.startswith(OF_BLANK) else OF_BLANK + note
         if (bare := self.bare).any():
             yield f"rows without a tool cut nothing ({self.lines(bare)})"
 

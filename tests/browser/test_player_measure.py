@@ -238,6 +238,33 @@ def test_an_arc_of_a_lathe_has_its_radius(opened):
     assert "R 3.400" in values(page)[1][4]
 
 
+def test_where_a_circle_ends_it_is_measured_and_not_the_tool(opened):
+    """A bore of 28 by a helix; the tool of 8 touches its wall where the circles begin and end."""
+    down = "".join(f"G3 X60 Y50 I-10 J0 Z{-k}\n" for k in range(1, 7))
+    page = opened(mill(program=f"G17 G90 G54 T1 S3000 M3\nG0 X60 Y50 Z5\nG1 Z0 F500\n{down}G3 X60 Y50 I-10 J0\nG0 Z30\n"))
+    page.get_by_role("button", name="Top", exact=True).click()
+    (rim,) = clicked(page, (64, 50, 0))
+    assert rim["round"]["d"] == pytest.approx(28) and rim["round"]["centre"] == pytest.approx([50, 50, 0])
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="3D", exact=True).click()
+    (wall,) = clicked(page, (50, 64, -3))
+    assert wall["what"] == "wall" and wall["round"]["d"] == pytest.approx(28)
+
+
+@pytest.mark.deep
+def test_among_many_moves_a_place_is_found_while_the_pointer_moves(opened):
+    k = range(6000)
+    lines = "\n".join(f"X{(k % 200 if k // 200 % 2 == 0 else 199 - k % 200) / 2} Y{k // 200} Z{-4 + 3 * math.sin(k / 90):.3f}" for k in k)
+    page = opened(mill(program=f"G17 G90 G54 T1 S3000 M3\nG0 X0 Y0 Z20\nG1 Z-3 F800\n{lines}\nG0 Z30\n", stock=((0, 0, -20), (100, 40, 0))))
+    page.get_by_role("button", name="Top", exact=True).click()
+    times = page.evaluate("""() => [0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65].map(share => {
+        const begin = performance.now(), [w, h] = player.picture.camera.size;
+        player.measure.place(w * share, h * 0.5);
+        return performance.now() - begin;
+    })""")
+    assert sorted(times)[3] < 400  # some ten ms on a quiet machine
+
+
 def test_keys_measure_too(opened):
     page = opened(mill())
     page.keyboard.press("1")  # from above; the pointer begins in the middle of the picture

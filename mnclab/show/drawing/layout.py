@@ -161,7 +161,8 @@ def _placed(things: Sequence[Written], scale: float, outline: Floats, ground: Gr
         raise NoRoom(things[waiting[0]])
     for k in sorted(marks, key=lambda k: (*_rank(things[k], scale), k)) * LOOKS:  # now that all stand
         ground.take(k)
-        marks[k] = ground.best(_offers(things[k], scale, outline, room[k]))[0] or marks[k]
+        price = float(ground.prices([marks[k]])[0][0])
+        marks[k] = ground.best(_offers(things[k], scale, outline, room[k]), least=price)[0] or marks[k]
         ground.put(marks[k], k)
     return [marks[k] for k in range(len(things))]
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -107,7 +108,7 @@ class View:
         if not self.lines:
             raise Alarm(f"the view {self.name!r} has no lines")
 
-    @property
+    @cached_property
     def bounds(self) -> Floats:
         """Lower left and upper right corner of the lines, `(2, 2)` mm."""
         corners = np.concatenate([line.contour.bounds for line in self.lines])

@@ -38,7 +38,8 @@ class Measure {
     this.write();
     this.draw();
   }
-  // The place that is meant; of those nearly equally near the one nearest to the surface there, else to the eye.
+  // The place that is meant; of those nearly equally near the one nearest to the surface there, else to the eye; of circles that
+  // touch there the larger one.
   place(x, y, finger) {
     const within = finger ? FINGER : SNAP, {camera, picture} = this, near = camera.near;
     const {hit, found, sees} = picture.part ? picture.part.measured(x, y, within) : {found: []};
@@ -46,7 +47,7 @@ class Measure {
     const ranked = found.map(each => {
       const [px, py] = camera.project(each.at), away = Math.hypot(px - x, py - y);
       const behind = each.at.reduce((sum, v, k) => sum + (hit ? Math.abs(v - hit[k]) : -v * near[k]), 0);
-      return {each, away, score: away * SNAP / within + each.cost + Math.atan(behind) / 10};
+      return {each, away, score: away * SNAP / within + each.cost + Math.atan(behind) / 10 + (each.round ? 0.3 / each.round.d : 0)};
     }).filter(({away, each}) => away <= within || each.cost === FREE);
     const best = ranked.sort((a, b) => a.score - b.score).find(({each}) => !sees || sees(each.at));
     return best ? best.each : null;

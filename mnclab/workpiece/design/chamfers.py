@@ -49,8 +49,7 @@ class Chamfer(Feature):
     def removals(self, site: Site) -> Iterator[Removal]:
         top, area = self.from_top(site), area_of(self.contour, "the contour of a chamfer")
         inside = self._side(site, top - self.height / 2) if self.inside is None else self.inside
-        base = site.around.difference(area) if inside else area
-        yield (slant := Slanting(base, 0.0, self.width, top - self.height, top))
+        yield (slant := Slanting(area, 0.0, self.width, top - self.height, top, inside))
         yield slant.sky
 
     def _side(self, site: Site, z: float) -> bool:

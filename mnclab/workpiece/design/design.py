@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.filling import filled
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
@@ -19,7 +20,7 @@ from mnclab.text.given import check_number, check_point, choice, shown
 from mnclab.text.records import exactly
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 from mnclab.workpiece.design.features import FEATURES, Chamfer, Feature, Pocket, Site, Stud
-from mnclab.workpiece.design.removals import Flat, Removal, bounds_of
+from mnclab.workpiece.design.removals import Flat, Removal
 from mnclab.workpiece.design.slabs import Stack
 from mnclab.workpiece.part import Part
 
@@ -181,6 +182,20 @@ class Design:
         floor[gone] = top[gone] = np.nan
         return floor, top
 
+    def faces_over(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The same over a lattice x (nx,), y (ny,) of many points: two arrays (ny, nx)."""
+        floor, top = (side.reshape(len(y), len(x)) for side in self.blank.faces(*(each.ravel() for each in np.meshgrid(x, y))))
+        for each in self.taken:
+            rows, columns, inside = filled(each.body.reach, x, y)
+            some = np.nonzero(inside)
+            level = each.body.level_within(x[columns][some[1]], y[rows][some[0]])
+            side, deeper = (top, np.minimum) if each.body.up else (floor, np.maximum)
+            here = side[rows, columns]
+            here[inside] = deeper(here[inside], level)
+        gone = ~(top > floor)
+        floor[gone] = top[gone] = np.nan
+        return floor, top
+
     def section(self, z: float) -> Region:
         """What a level plane cuts, exact; at the height of a step what is below it."""
         check_number(z, "the height of a section (mm)")
@@ -268,7 +283,7 @@ def _stands_in(stud: Feature, pocket: Feature) -> bool:
     """Whether a stud is an island of a pocket: of one top and depth, all of it within."""
     if not isinstance(stud, Stud) or not isinstance(pocket, Pocket) or not _same_floor(stud, pocket):
         return False
-    (low, high), (least, most) = bounds_of(stud.area), bounds_of(pocket.area)
+    (low, high), (least, most) = stud.area.bounds, pocket.area.bounds
     return bool((low >= least).all() and (high <= most).all() and pocket.area.contains(stud.contour.contour.points).all())
 
 

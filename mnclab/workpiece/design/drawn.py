@@ -24,6 +24,21 @@ class Drawn(Milled):
         self.design = design
         self.method, self.error = "as drawn", 0.0
 
+    @cached_property
+    def sides(self) -> tuple[Array, Array]:
+        """The lower and the upper side at the middles of the cells (ny, nx); its lowest place where there is nothing."""
+        low = float(self.design.bounds[0, 2])
+        floor, top = (np.where(np.isnan(side), low, side) for side in self.design.faces_over(self.x, self.y))
+        return floor, top
+
+    @cached_property
+    def heights(self) -> Array:  # type: ignore[override]
+        return self.sides[1]
+
+    @cached_property
+    def floor(self) -> Array:  # type: ignore[override]
+        return self.sides[0]
+
     @property
     def volume(self) -> float:
         return self.design.volume

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
-from mnclab.text.given import check_number
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.turning.turned import Turned
 
@@ -22,29 +18,9 @@ class DrawnTurned(Turned):
     """A `Turned` part that nothing cut: its section is that of the design."""
 
     def __init__(self, design: TurnedDesign, step: float | None = None) -> None:
-        if step is not None:
-            check_number(step, "the step of a workpiece (mm)", above=0)
+        super().__init__(Cutting.of_nothing(design.as_blank(), lathe=True), step)
         self.design = design
-        self.cutting = Cutting.of_nothing(design.as_blank(), lathe=True)
-        self.blank, self.axis = design.section[0], design.axis_x
-        (self.low, _), (self.high, self.radius) = self.blank.bounds.tolist()
         self.method, self.error = "as drawn", 0.0
-
-    @cached_property
-    def section(self) -> list[Contour]:
-        return self.design.section
-
-    @cached_property
-    def rows(self) -> list[NDArray[np.int64]]:
-        return [np.full(len(loop.points), -1, dtype=np.int64) for loop in self.section]
-
-    @cached_property
-    def parted(self) -> list[Contour]:
-        return []
-
-    @property
-    def notes(self) -> tuple[str, ...]:  # type: ignore[override]
-        return ()
 
     @property
     def removed(self) -> float:

@@ -6,6 +6,7 @@ The lower side of a part has the same bodies upside down: what they take away li
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -32,6 +33,15 @@ class Flat:
         """How far down (up) it reaches at points (m,); infinite beside it."""
         return np.where(within(self.region, x, y), self.floor, np.inf if self.up else -np.inf)
 
+    @property
+    def reach(self) -> Region:
+        """All that it takes something of, from above."""
+        return self.region
+
+    def level_within(self, x: Array, y: Array) -> float | Array:
+        """The same at points (m,) within its reach."""
+        return self.floor
+
     def turned_over(self, flip: Array, z: float) -> Flat:
         """The same after the part was turned over: `flip` (3, 3) in the plane, heights count from `z` down."""
         return Flat(flipped(self.region, flip), z - self.floor, not self.up)
@@ -42,7 +52,7 @@ class Slanting:
     """A slanting face about a contour, or a cone about a point, and all between it and the feature that it stands on.
 
     At a distance `near` from `base`, mm, it is at the height `deep`, at `far` at the height `open`. The base is a region,
-    from whose edge distances count outwards, or a point.
+    from whose edge distances count outwards (`inside`: inwards), or a point.
     """
 
     base: Region | tuple[float, float]
@@ -50,6 +60,7 @@ class Slanting:
     far: float
     deep: float
     open: float
+    inside: bool = False
 
     @property
     def up(self) -> bool:
@@ -64,9 +75,9 @@ class Slanting:
         return max(self.deep, self.open)
 
     def away(self, x: Array, y: Array) -> Array:
-        """How far points (m,) are from the base; negative within."""
+        """How far points (m,) are from the base; negative before its edge."""
         if isinstance(self.base, Region):
-            return signed(self.base, np.stack([x, y], axis=1))
+            return signed(self.base, np.stack([x, y], axis=1)) * (-1.0 if self.inside else 1.0)
         return np.hypot(x - self.base[0], y - self.base[1])
 
     def at(self, z: float) -> float:
@@ -80,10 +91,23 @@ class Slanting:
         if out <= self.near:
             return NOTHING
         if isinstance(self.base, Region):
-            return self.base.offset(out).difference(self.base)
-        return Region((Contour.circle(self.base, out),))
+            grown = self.grown(out)
+            return self.base.difference(grown) if self.inside else grown.difference(self.base)
+        return self.grown(out)
 
     @property
+    def edges(self) -> tuple[Contour, ...]:
+        """The edge of its base, the slant to the right of it; none of a cone."""
+        loops = self.base.loops if isinstance(self.base, Region) else ()
+        return tuple(loop.reversed() for loop in loops) if self.inside else loops
+
+    def grown(self, out: float) -> Region:
+        """The base with its edge moved by a distance."""
+        if isinstance(self.base, Region):
+            return self.base.inset(out) if self.inside else self.base.offset(out)
+        return Region((Contour.circle(self.base, out),))
+
+    @cached_property
     def sky(self) -> Flat:
         """What is above it: no tool comes there without taking it away."""
         return Flat(self.section(self.open), self.open, self.up)
@@ -94,14 +118,28 @@ class Slanting:
         about = np.flatnonzero(self._box(x, y))
         out = self.away(x[about], y[about])
         least = self.near if isinstance(self.base, Region) else -np.inf
-        share = np.maximum(out - self.near, 0.0) / (self.far - self.near)
-        on = (out > least) & (share <= 1)
-        found[about[on]] = self.deep + share[on] * (self.open - self.deep)
+        on = (out > least) & (out <= self.far)
+        found[about[on]] = self._height(out[on])
         return found
+
+    @property
+    def reach(self) -> Region:
+        """All that it takes something of, from above."""
+        return self.sky.region
+
+    def level_within(self, x: Array, y: Array) -> Array:
+        """The same at points (m,) within its reach."""
+        if isinstance(self.base, Region):
+            return self._height(np.minimum(self.base.distance(np.stack([x, y], axis=1)), self.far))
+        return self._height(np.minimum(self.away(x, y), self.far))
+
+    def _height(self, out: Array) -> Array:
+        share = np.maximum(out - self.near, 0.0) / (self.far - self.near)
+        return np.asarray(self.deep + share * (self.open - self.deep))
 
     def _box(self, x: Array, y: Array) -> Mask:
         if isinstance(self.base, Region):
-            (x0, y0), (x1, y1) = bounds_of(self.base)
+            (x0, y0), (x1, y1) = self.base.bounds
         else:
             (x0, y0), (x1, y1) = self.base, self.base
         return (x >= x0 - self.far) & (x <= x1 + self.far) & (y >= y0 - self.far) & (y <= y1 + self.far)
@@ -146,16 +184,10 @@ def within(region: Region, x: Array, y: Array) -> Mask:
     """Which points (m,) lie in a region: only those in the box about it are looked at."""
     found = np.zeros(len(x), dtype=bool)
     if region.loops:
-        (x0, y0), (x1, y1) = bounds_of(region)
+        (x0, y0), (x1, y1) = region.bounds
         about = np.flatnonzero((x >= x0) & (x <= x1) & (y >= y0) & (y <= y1))
         found[about] = region.contains(np.stack([x[about], y[about]], axis=1))
     return found
-
-
-def bounds_of(region: Region) -> Array:
-    """Lower left and upper right corner (2, 2) of a region that is not empty."""
-    corners = np.array([loop.bounds for loop in region.loops])
-    return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
 
 
 def signed(region: Region, spots: Array) -> Array:

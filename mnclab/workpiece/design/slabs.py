@@ -7,19 +7,19 @@ slants off has a core that stands upright and, under each slant, a wedge.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from mnclab.geometry.apart import less
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
 from mnclab.workpiece.design.removals import NOTHING, Flat, Removal, Slanting, signed
+from mnclab.workpiece.design.slanted import slanted_off
 
 THIN = 1e-9  # mm, of a slab that is none
-EXACT = 1e-12  # of a slab's volume, by which two ways to integrate its sections may differ
-HALVINGS = 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,41 +32,17 @@ class Slab:
     slants: tuple[Slanting, ...] = ()
 
     def section(self, z: float) -> Region:
-        found = self.region
-        for each in self.slants:
-            if (gone := each.section(z)).loops and found.loops:
-                found = found.difference(gone)
-        return found
+        return less(self.region, [each.section(z) for each in self.slants])
 
     @cached_property
     def core(self) -> Region:
         """What stands all through the slab."""
-        found = self.region
-        for each in self.slants:
-            if (gone := each.section(self.high if each.up else self.low)).loops and found.loops:
-                found = found.difference(gone)
-        return found
+        return less(self.region, [each.section(self.high if each.up else self.low) for each in self.slants])
 
     @cached_property
     def volume(self) -> float:
-        """mm³; the sections of cones and chamfers are quadratic in the height, where nothing else meets them."""
-        if not self.slants:
-            return self.region.area * (self.high - self.low)
-        return _integral(lambda z: self.section(z).area, self.low, self.high)
-
-
-def _integral(area: Callable[[float], float], low: float, high: float) -> float:
-    """By Simpson's rule, exact up to cubic functions, in halves until they agree."""
-
-    def whole(a: float, fa: float, fm: float, b: float, fb: float, deep: int) -> float:
-        m = (a + b) / 2
-        fl, fr = area((a + m) / 2), area((m + b) / 2)
-        one, two = (b - a) / 6 * (fa + 4 * fm + fb), (b - a) / 12 * (fa + 4 * fl + 2 * fm + 4 * fr + fb)
-        if deep == 0 or abs(two - one) <= EXACT * max(abs(two), 1.0):
-            return two + (two - one) / 15
-        return whole(a, fa, fl, m, fm, deep - 1) + whole(m, fm, fr, b, fb, deep - 1)
-
-    return whole(low, area(low), area((low + high) / 2), high, area(high), HALVINGS)
+        """mm³."""
+        return self.region.area * (self.high - self.low) - slanted_off(self.region, self.slants, self.low, self.high)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +65,7 @@ class Stack:
             middle = (a + b) / 2
             gone = tuple(k for k, each in enumerate(flats) if each.reaches(middle))
             if gone not in known:
-                known[gone] = _less(outline, [flats[k].region for k in gone])
+                known[gone] = less(outline, [flats[k].region for k in gone])
             here = tuple(each for each in slants if each.low < middle < each.high)
             slabs.append(Slab(a, b, known[gone], here))
         return cls(tuple(slabs))
@@ -134,12 +110,3 @@ class Stack:
                 if id(region) not in found:
                     found[id(region)] = signed(region, spots)
         return found
-
-
-def _less(outline: Region, gone: list[Region]) -> Region:
-    """An outline less some regions."""
-    found = outline
-    for each in gone:
-        if found.loops and each.loops:
-            found = found.difference(each)
-    return found

@@ -81,10 +81,9 @@ class TurnedBody(NamedTuple):
 
     def without(self, cut: Contour) -> TurnedBody:
         """What is left; an Alarm where nothing is taken away, or more than a feature may."""
-        area = Region((cut,))
-        if self.section.intersection(area).area < NOTHING:
+        rest = TurnedBody(self.section.difference(Region((cut,))))
+        if self.section.area - rest.section.area < NOTHING:
             raise Alarm("it takes nothing away")
-        rest = TurnedBody(self.section.difference(area))
         if not rest.section.loops:
             raise Alarm("it takes the whole part away")
         if len(rest.section.parts) > 1:

@@ -15,7 +15,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_point, faults_as_alarms, plain, shown
-from mnclab.text.records import written
+from mnclab.text.records import exactly
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Revolved, blank
 from mnclab.workpiece.design.design import TEXTS, name_of
@@ -52,9 +52,9 @@ class TurnedDesign:
     profile: Any
     features: tuple[TurnedFeature, ...] = ()
     blank: Any = field(default=None, kw_only=True)
-    roundings: Mapping[int, float] = field(default_factory=dict, kw_only=True)
-    chamfers: Mapping[int, Any] = field(default_factory=dict, kw_only=True)
-    tolerances: Mapping[str, Tolerance] = field(default_factory=dict, kw_only=True)
+    roundings: Mapping[int, float] = field(default_factory=dict, kw_only=True, hash=False)
+    chamfers: Mapping[int, Any] = field(default_factory=dict, kw_only=True, hash=False)
+    tolerances: Mapping[str, Tolerance] = field(default_factory=dict, kw_only=True, hash=False)
     title: str = field(default="", kw_only=True)
     number: str = field(default="", kw_only=True)
     material: str = field(default="", kw_only=True)
@@ -69,8 +69,10 @@ class TurnedDesign:
         if not isinstance(self.tolerances, Mapping):
             raise Alarm(f"tolerances of a design are names and values, got {shown(self.tolerances)}",
                         hint='tolerances={"diameter 1": "h6"}')  # fmt: skip
+        given = {name: tuple(each) if isinstance(each, list) else each for name, each in self.tolerances.items()}
+        object.__setattr__(self, "tolerances", given)
         object.__setattr__(self, "profile", _profile(self.profile))
-        outline = Profile(self.profile.contour, self.roundings, self.chamfers)
+        outline = self.outline_as_drawn
         object.__setattr__(self, "roundings", outline.roundings)
         object.__setattr__(self, "chamfers", outline.chamfers)
         object.__setattr__(self, "features", _features(self.features))
@@ -80,7 +82,7 @@ class TurnedDesign:
         self._check_blank()
 
     def __repr__(self) -> str:
-        return written(self)
+        return exactly(self)
 
     def _repr_html_(self) -> str:
         return html_table(("what", "measure", "value", "tolerance"), _rows(self), numbers=(2, 3))
@@ -213,7 +215,7 @@ class TurnedDesign:
     def _check_blank(self) -> None:
         if self.blank is None:
             return
-        (low, radius, bore), body = cylinder_of(self.blank), self.bodies[-1]
+        (low, radius, bore), body = _cylinder(self.blank), self.bodies[-1]
         for name, has, allowed, inside in (
             ("Z from", body.low, low[0], body.low >= low[0] - SAME),
             ("Z to", body.high, low[1], body.high <= low[1] + SAME),
@@ -225,7 +227,7 @@ class TurnedDesign:
                 raise Alarm(f"the design does not lie within its blank, whose {name} is {allowed:g}: it has {has:g}")
 
 
-def cylinder_of(given: Revolved) -> tuple[tuple[float, float], float, float]:
+def _cylinder(given: Revolved) -> tuple[tuple[float, float], float, float]:
     """From where to where in z a cylinder goes, its radius and its bore."""
     (radius, low), (_, high) = given.profile
     return (low + given.at[2], high + given.at[2]), radius, given.bore
@@ -234,7 +236,7 @@ def cylinder_of(given: Revolved) -> tuple[tuple[float, float], float, float]:
 def _turned_over(given: Revolved | None, middle: float) -> Revolved | None:
     if given is None:
         return None
-    (low, high), radius, _ = cylinder_of(given)
+    (low, high), radius, _ = _cylinder(given)
     return given._replace(profile=((radius, middle - high), (radius, middle - low)), at=(0.0, 0.0, 0.0))
 
 

@@ -9,20 +9,19 @@ class of ISO 286, `{"diameter": "H7"}`.
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import ClassVar, Self
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, choice, shown
-from mnclab.text.records import written
+from mnclab.text.given import check_number, choice
 from mnclab.workpiece.design.corners import joined, pieces
-from mnclab.workpiece.design.features import EXAMPLE
-from mnclab.workpiece.design.measures import Measure, Tolerance, with_tolerances
+from mnclab.workpiece.design.feature import Named, check_flag, check_positive
+from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.turned_body import BEYOND, SAME, TurnedBody
 
 ENDS = ("front", "back")
@@ -35,31 +34,8 @@ CENTRES = {
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
-class TurnedFeature(ABC):
+class TurnedFeature(Named):
     """What all features of a turned part have."""
-
-    kind: ClassVar[str]
-
-    name: str = ""
-    tolerances: Mapping[str, Tolerance] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.name, str):
-            raise Alarm(f"the name of a {self.kind} must be a text, got {shown(self.name)}")
-        if not isinstance(self.tolerances, Mapping):
-            raise Alarm(f"tolerances of a {self.kind} are names and values, got {shown(self.tolerances)}", hint=EXAMPLE)
-        self._check()
-        self.measures()
-
-    def __repr__(self) -> str:
-        return written(self)
-
-    @abstractmethod
-    def _check(self) -> None:
-        """Raises an Alarm for sizes that cannot be."""
-
-    @abstractmethod
-    def _measures(self) -> Iterator[Measure]: ...
 
     @abstractmethod
     def cut(self, body: TurnedBody) -> Contour | None:
@@ -73,18 +49,10 @@ class TurnedFeature(ABC):
     def moved(self, dz: float) -> Self:
         """The same farther along the axis."""
 
-    def measures(self) -> tuple[Measure, ...]:
-        """What a drawing says of it and a measuring room measures, with its tolerances."""
-        return with_tolerances(list(self._measures()), self.tolerances, self.name or f"a {self.kind}")
 
-    def _positive(self, *names: str) -> None:
-        for name in names:
-            if getattr(self, name) is not None:
-                check_number(getattr(self, name), f"the {name} of a {self.kind} (mm)", above=0)
-
-    def _flag(self, name: str) -> None:
-        if not isinstance(getattr(self, name), bool):
-            raise Alarm(f"{name} of a {self.kind} must be True or False, got {shown(getattr(self, name))}")
+def given(feature: TurnedFeature, *names: str) -> list[str]:
+    """Those of some sizes that are not None."""
+    return [name for name in names if getattr(feature, name) is not None]
 
 
 def outline(points: Sequence[tuple[float, float]], roundings: Mapping[int, float], what: str) -> Contour:
@@ -100,7 +68,7 @@ class _FromEnd(TurnedFeature):
     from_end: str = "front"
 
     def __post_init__(self) -> None:
-        end = choice(self.from_end, f"the end that a {self.kind} is made from", ENDS)
+        end = choice(self.from_end, f"the from_end of a {self.kind}", ENDS)
         object.__setattr__(self, "from_end", end)
         super().__post_init__()
 
@@ -136,7 +104,7 @@ class Bore(_FromEnd):
     corner: float = 0.0
 
     def _check(self) -> None:
-        self._positive("diameter", "depth")
+        check_positive(self, "diameter", *given(self, "depth"))
         check_number(self.point, "the point of a bore (degrees)", above=0, at_most=180)
         check_number(self.chamfer, "the chamfer of a bore (mm)", at_least=0)
         check_number(self.corner, "the corner of a bore (mm)", at_least=0, at_most=self.diameter / 2)
@@ -201,7 +169,7 @@ class CentreHole(_FromEnd):
     depth: float | None = None
 
     def _check(self) -> None:
-        self._positive("pilot", "diameter", "depth")
+        check_positive(self, "pilot", *given(self, "diameter", "depth"))
         if (self.diameter is None or self.depth is None) and float(self.pilot) not in CENTRES:
             known = ", ".join(f"{each:g}" for each in CENTRES)
             raise Alarm(f"a centre hole has a pilot of {known} by DIN 332-1, or its diameter and depth given, got {self.pilot:g}")
@@ -255,12 +223,12 @@ class RingGroove(TurnedFeature):
 
     def _check(self) -> None:
         check_number(self.z, "the z of a ring groove (mm)")
-        self._positive("width", "depth", "diameter")
-        self._flag("inside")
+        check_positive(self, "width", *given(self, "depth", "diameter"))
+        check_flag(self, "inside")
         check_number(self.corner, "the corner of a ring groove (mm)", at_least=0, at_most=self.width / 2)
         if (self.depth is None) == (self.diameter is None):
-            given = "neither" if self.depth is None else "both"
-            raise Alarm(f"a ring groove has either a depth or the diameter of its bottom, got {given}")
+            told = "neither" if self.depth is None else "both"
+            raise Alarm(f"a ring groove has either a depth or the diameter of its bottom, got {told}")
 
     def _measures(self) -> Iterator[Measure]:
         yield Measure("width", self.width)
@@ -313,7 +281,7 @@ class FaceGroove(_FromEnd):
     corner: float = 0.0
 
     def _check(self) -> None:
-        self._positive("inner", "outer", "depth")
+        check_positive(self, "inner", "outer", "depth")
         check_number(self.outer, "the outer diameter of a face groove (mm)", above=self.inner)
         most = min((self.outer - self.inner) / 4, self.depth)
         check_number(self.corner, "the corner of a face groove (mm)", at_least=0, at_most=most)

@@ -24,17 +24,17 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import MISSING, fields
 from typing import Any
 
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, choice, faults_as_alarms, shown
-from mnclab.text.toml_file import File, check_names
+from mnclab.text.given import check_number, faults_as_alarms, shown
+from mnclab.text.toml_file import File, as_table, as_tables, check_names
 from mnclab.text.toml_text import toml
-from mnclab.workpiece.blank import cylinder
+from mnclab.workpiece.blank_file import blank_of, table_of
 from mnclab.workpiece.design.design import TEXTS
-from mnclab.workpiece.design.turned_design import TurnedDesign, cylinder_of
+from mnclab.workpiece.design.feature_file import feature_of, pointing, table_of_feature, tuples
+from mnclab.workpiece.design.turned_design import TurnedDesign
 from mnclab.workpiece.design.turned_features import Bore, CentreHole, FaceGroove, RingGroove, TurnedFeature
 from mnclab.workpiece.design.turned_threads import Thread, Undercut
 
@@ -43,8 +43,7 @@ KINDS: dict[str, type[TurnedFeature]] = {
 }
 KNOWN = (*TEXTS, "profile", "closed", "blank", "tolerances", "features")
 ROW = ("z", "r", "rounding", "chamfer", "arc", "bulge")
-BLANK = ("radius", "low", "high", "bore")
-NAMED = re.compile(r"(features)\[(\d+)\]|(?:corner|points?) (\d+)")  # what in an alarm says where the fault is
+NAMED = re.compile(r"(?:corner|points?) (\d+)")  # what in an alarm says where the fault is
 
 
 def design_of(table: Mapping[str, Any], file: File) -> TurnedDesign:
@@ -58,18 +57,20 @@ def design_of(table: Mapping[str, Any], file: File) -> TurnedDesign:
     profile, corners = _profile(table, file)
     more |= corners
     if "blank" in table:
-        more["blank"] = _blank(table["blank"], file)
+        with file.at("blank"):
+            more["blank"] = blank_of(as_table(table["blank"], "blank"), "blank", file, "blank")
     with file.at("tolerances"):
-        more["tolerances"] = tolerances_of(table.get("tolerances", {}), "tolerances")
-    features = table.get("features", [])
+        more["tolerances"] = tuples(as_table(table.get("tolerances", {}), "tolerances"))
     with file.at("features"):
-        if not isinstance(features, list) or not all(isinstance(each, dict) for each in features):
-            raise Alarm(f"features must be a list of tables, got {shown(features)}", hint="write [[features]] before each")
-    made = tuple(_feature(each, k, file) for k, each in enumerate(features))
+        features = as_tables(table.get("features", []), "features")
+        made = tuple(feature_of(each, KINDS, file, "features", str(k)) for k, each in enumerate(features))
     try:
         return TurnedDesign(profile, made, **more)
     except Alarm as fault:
-        fault.span = fault.span or _place(fault.message, features, file)
+        if found := re.search(r"\(features\[(\d+)\]\): (.*)", fault.message, re.DOTALL):
+            with pointing(file, {name: None for name in features[int(found[1])] if name != "kind"}, "features", found[1]):
+                raise
+        fault.span = fault.span or _place(fault.message, file)
         raise
 
 
@@ -81,12 +82,11 @@ def text_of(design: TurnedDesign) -> str:
         table["closed"] = True
     table["profile"] = list(_rows(design))
     if design.blank is not None:
-        (low, high), radius, bore = cylinder_of(design.blank)
-        table["blank"] = {"radius": radius, "low": low, "high": high} | ({"bore": bore} if bore else {})
+        table["blank"] = table_of(design.blank)
     if design.tolerances:
         table["tolerances"] = dict(design.tolerances)
     if design.features:
-        table["features"] = [_written(each) for each in design.features]
+        table["features"] = [table_of_feature(each) for each in design.features]
     return toml(table, rows=("profile",))
 
 
@@ -155,64 +155,13 @@ def _bulge(row: Mapping[str, Any], start: tuple[float, float], end: tuple[float,
     return math.copysign(math.tan(math.asin(chord / 2 / abs(radius)) / 2), radius)
 
 
-def _blank(given: Any, file: File) -> Any:
-    with file.at("blank"):
-        if not isinstance(given, dict):
-            raise Alarm(f"blank must be a table, got {shown(given)}", hint="blank = { radius = 22, low = -60, high = 1 }")
-        check_names(given, BLANK, "blank", file, "blank")
-        for name in BLANK[:3]:
-            if name not in given:
-                raise Alarm(f"blank needs radius, low and high: blank.{name} is missing")
-        for name, value in given.items():
-            with file.at("blank", name):
-                check_number(value, f"blank.{name}")
-        return cylinder(**{"bore": 0.0} | {name: float(value) for name, value in given.items()})
-
-
-def _feature(given: Mapping[str, Any], k: int, file: File) -> TurnedFeature:
-    at = ("features", str(k))
-    with file.at(*at, "kind"):
-        if "kind" not in given:
-            raise Alarm(f"features[{k}] has no kind", hint=f"one of {', '.join(KINDS)}")
-        kind = KINDS[choice(given["kind"], f"the kind of features[{k}]", KINDS)]
-    values = {name: value for name, value in given.items() if name != "kind"}
-    known = [each.name for each in fields(kind)]
-    check_names(values, known, f"a {kind.kind}", file, *at)
-    with file.at(*at):
-        for each in fields(kind):
-            if each.default is MISSING and each.default_factory is MISSING and each.name not in values:
-                raise Alarm(f"a {kind.kind} needs its {each.name}: it is missing in features[{k}]")
-    with file.at(*at, "tolerances"):
-        values["tolerances"] = tolerances_of(values.get("tolerances", {}), f"tolerances of features[{k}]")
-    try:
-        return kind(**values)
-    except Alarm as fault:
-        fault.span = fault.span or file.place_of(*at, *_named(values, fault.message))
-        raise
-
-
-def _named(values: Mapping[str, Any], message: str) -> list[str]:
-    """The first of some keys that a sentence speaks of, if any."""
-    return [name for name in values if re.search(rf"\b{name}\b", message)][:1]
-
-
-def tolerances_of(given: Any, where: str) -> dict[str, Any]:
-    """Tolerances by the names of measures: numbers, pairs and classes."""
-    if not isinstance(given, dict):
-        raise Alarm(f"{where} must be a table, got {shown(given)}", hint='tolerances = { diameter = "H7" }')
-    return {name: tuple(value) if isinstance(value, list) else value for name, value in given.items()}
-
-
-def _place(message: str, features: list[Mapping[str, Any]], file: File) -> Any:
+def _place(message: str, file: File) -> Any:
     """Where a fault stands that the design itself found."""
     found = NAMED.search(message)
     if not found:
         tables = [name for word, name in (("tolera", "tolerances"), ("blank", "blank")) if word in message]
         return file.place_of(*(tables or ["profile"])[:1])
-    if not found[1]:
-        return file.place_of("profile", found[3])
-    values = {name: value for name, value in features[int(found[2])].items() if name != "kind"}
-    return file.place_of("features", found[2], *_named(values, message[found.end() :]))
+    return file.place_of("profile", found[1])
 
 
 # ---- writing ----
@@ -232,14 +181,3 @@ def _rows(design: TurnedDesign) -> Iterator[dict[str, Any]]:
             if k in given:
                 row[name] = given[k]
         yield row
-
-
-def _written(feature: TurnedFeature) -> dict[str, Any]:
-    """A feature without what is left at its default."""
-    found: dict[str, Any] = {"kind": feature.kind}
-    for each in sorted(fields(feature), key=lambda each: bool(each.kw_only)):
-        value = getattr(feature, each.name)
-        default = each.default_factory() if each.default_factory is not MISSING else each.default
-        if default is MISSING or value != default:
-            found[each.name] = value
-    return found

@@ -16,10 +16,11 @@ import numpy as np
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice
+from mnclab.workpiece.design.feature import check_flag, check_positive
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.threads import metric
 from mnclab.workpiece.design.turned_body import BEYOND, SAME, TurnedBody
-from mnclab.workpiece.design.turned_features import ENDS, TurnedFeature, outline
+from mnclab.workpiece.design.turned_features import ENDS, TurnedFeature, given, outline
 
 SHARP = math.sqrt(3) / 2  # of the pitch: the depth of a thread with sharp teeth
 INNER, PITCH, OUTER = 5 / 4 * SHARP, 3 / 4 * SHARP, 17 / 12 * SHARP  # by which core, flanks and core of a bolt are narrower
@@ -52,7 +53,7 @@ class Thread(TurnedFeature):
         metric(self.thread)
         check_number(self.start, "the start of a thread (mm)")
         check_number(self.end, "the end of a thread (mm)")
-        self._flag("inside")
+        check_flag(self, "inside")
         if not self.end < self.start:
             raise Alarm(f"a thread goes from its start backwards, its end is less than {self.start:g}, got {self.end:g}")
 
@@ -140,8 +141,8 @@ class Undercut(TurnedFeature):
     def _check(self) -> None:
         _, pitch = metric(self.thread)
         check_number(self.z, "the z of an undercut (mm)")
-        self._flag("inside")
-        self._positive("diameter", "width")
+        check_flag(self, "inside")
+        check_positive(self, *given(self, "diameter", "width"))
         check_number(self.angle, "the angle of an undercut (degrees)", above=0, at_most=90)
         choice(self.thread_at, "the thread_at of an undercut", ENDS)
         if None in (self.diameter, self.width, self.corner) and pitch not in UNDERCUTS:
@@ -157,8 +158,8 @@ class Undercut(TurnedFeature):
         wide, pitch = metric(self.thread)
         less, width, corner = UNDERCUTS.get(pitch, (0.0, 0.0, 0.0))
         usual = (wide + (0.5 if pitch >= 1 else 0.3), 4 * pitch, corner) if self.inside else (wide - less, width, corner)
-        given = (self.diameter, self.width, self.corner)
-        diameter, width, corner = (float(u if g is None else g) for g, u in zip(given, usual))
+        own = (self.diameter, self.width, self.corner)
+        diameter, width, corner = (float(u if o is None else o) for o, u in zip(own, usual))
         return diameter, width, corner
 
     def _measures(self) -> Iterator[Measure]:

@@ -56,6 +56,7 @@ class Milled(Workpiece):
         self.method, self.error = "exact sweep", CHORD if self.moves.chords else NOISE
         if self.many:
             self.method, self.error = "erosion of the height raster", ERROR * self.step
+        self.error = max(self.error, getattr(cutting.stock, "error", 0.0))
 
     @property
     def x(self) -> Array:
@@ -75,14 +76,15 @@ class Milled(Workpiece):
         if self.many:
             return self.many.heights
         found = np.empty(self.raster.shape)
+        top, floor = self.sweep.blank
         for tile in self.raster.tiles():
-            found[tile] = self.sweep.left(*self.raster.middles(tile)).reshape(found[tile].shape)
+            x, y = self.raster.middles(tile)
+            found[tile] = self.sweep.within(x, y, top[tile].ravel(), floor[tile].ravel()).reshape(found[tile].shape)
         return found
 
-    @cached_property
+    @property
     def floor(self) -> Array:
-        y, x = np.meshgrid(self.y, self.x, indexing="ij")
-        return self.blank_at(x.ravel(), y.ravel())[1].reshape(self.raster.shape)
+        return self.sweep.blank[1]
 
     def blank_at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Upper and lower side of the blank at points (m,); beside it both are its lowest place."""
@@ -160,7 +162,7 @@ class Milled(Workpiece):
     def _around(self) -> tuple[Array, Array]:
         """The middles of the cells, and of one more on every side."""
         edges = (self.step * (np.arange(-1, n + 1) + 0.5) for n in reversed(self.raster.shape))
-        x, y = (low + places for low, places in zip(self.raster.low, edges))
+        x, y = (np.asarray(low + places) for low, places in zip(self.raster.low, edges))
         return x, y
 
     @cached_property

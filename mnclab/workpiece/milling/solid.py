@@ -32,7 +32,7 @@ def solid_of(workpiece: Milled, step: float | None = None) -> Solid:
     points = [_points(above, 1.0), _points(below, -1.0)]
     upper, lower = np.arange(len(points[0])), len(points[0]) + np.arange(len(points[1]))
     _join(above, below, upper, lower)
-    over, row = _sheet_of(above, upper, rows_at(workpiece, *above.nodes.T, above.z))
+    over, row = _sheet_of(above, upper, rows_at(workpiece, above.nodes[:, 0], above.nodes[:, 1], above.z))
     under, _ = _sheet_of(below, lower, np.full(len(below.z), -1))
     every = np.concatenate(points)
     round_ = _rim(above, below, upper, lower, every)

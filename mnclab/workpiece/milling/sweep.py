@@ -35,6 +35,15 @@ class Sweep:
         """Rows and columns of tiles to go through in order: the more moves, the smaller."""
         return self.raster.tiles(TILE if len(self.moves) <= MANY else SMALL)
 
+    @cached_property
+    def blank(self) -> tuple[Array, Array]:
+        """The upper and lower side of the blank (ny, nx) at the middles of the cells."""
+        top, floor = np.empty(self.raster.shape), np.empty(self.raster.shape)
+        for tile in self.raster.tiles():
+            for whole, side in zip((top, floor), self.faces(*self.raster.middles(tile))):
+                whole[tile] = side.reshape(whole[tile].shape)
+        return top, floor
+
     def left(self, x: Array, y: Array) -> Array:
         """The heights (m,) at points that lie close together."""
         return self.sides(x, y)[0]
@@ -42,7 +51,16 @@ class Sweep:
     def sides(self, x: Array, y: Array) -> tuple[Array, Array]:
         """The heights and the lower side (m,) at points that lie close together."""
         top, floor = self.faces(x, y)
-        return np.maximum(lowered(self.moves, self.boxes, x, y, top), floor), floor
+        return self.within(x, y, top, floor), floor
+
+    def within(self, x: Array, y: Array, top: Array, floor: Array) -> Array:
+        """The heights (m,) at points that lie close together, of a blank between two sides there."""
+        return np.maximum(lowered(self.moves, self.boxes, x, y, top), floor)
+
+    def taken(self, x: Array, y: Array) -> Array:
+        """How much of the blank is gone (m,), mm, at points that lie close together."""
+        top, floor = self.faces(x, y)
+        return np.asarray(top - self.within(x, y, top, floor))
 
     def at(self, x: Array, y: Array) -> Array:
         """The heights (m,) at points anywhere."""

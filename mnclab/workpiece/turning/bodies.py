@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.geometry import shapely
 from mnclab.geometry.contours import Floats
 from mnclab.path.inserts import EDGE, cutting_part, mirror_of, turns
 from mnclab.path.tool import LATHE, Tool
