@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from mnclab.geometry.contours import Contour
+    from mnclab.workpiece.difference.difference import Difference
     from mnclab.workpiece.milling.moves import Moves
     from mnclab.workpiece.part import Part
 
@@ -155,6 +156,12 @@ class Workpiece(ABC):
         known, index = np.unique(keys, return_inverse=True)
         sums = np.bincount(index, volumes, minlength=len(known))
         return {int(key): float(total) for key, total in zip(known, sums) if total != 0}
+
+    def compare(self, target: Any, tolerance: float = 0.05) -> Difference:
+        """How it differs from a design, or from that of a TOML file; see `workpiece.difference`. `tolerance` in mm."""
+        from mnclab.workpiece.difference.comparing import compare
+
+        return compare(self, target, tolerance)
 
     # --- doors -------------------------------------------------------------------------------------------------------
 

@@ -20,11 +20,12 @@ from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import at_angle
 
 ROUND = 1e-7  # mm, within which places are one
+THIN = 0.01  # mm, of half a strip that does not matter
 FEW = 30  # pieces that are joined at once, without a look at which matter
 COARSE = 32  # chords of a quarter circle
-NEAR = 0.002  # of a radius, from the rim of the coarse union: what comes so near matters
+NEAR = 0.0007  # of a radius, from the rim of the coarse union: what comes so near matters
 SPLIT = 1e-8  # rad, between places where bands touch a disc
-ALONG = 0.07  # rad, in which a disc leaves a band that it touches by more than that
+ALONG = 0.036  # rad, in which a disc leaves a band that it touches by more than that
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,8 @@ class Track:
     def key(self) -> tuple[Any, ...]:
         """What is the same of moves that sweep the same, there or back."""
         ends = sorted((_near(self.start), _near(self.end)))
-        return *ends, _near(self.centre), round(abs(self.sweep), 6), round(self.radius, 6)
+        middle = self.line.points[1] if abs(self.sweep) > np.pi else self.line.point_at(self.line.length / 2)[0] if self.sweep else ()
+        return *ends, _near(self.centre), round(abs(self.sweep), 6), round(self.radius, 6), *map(float, np.round(middle, 5))
 
     @property
     def touched(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -88,7 +90,7 @@ class Track:
     @property
     def places(self) -> Any:
         """Points along its way (m, 2)."""
-        return self.line.points_within(0.002 * self.radius) if self.sweep else [self.start, self.end]
+        return self.line.points_within(0.0003 * self.radius) if self.sweep else [self.start, self.end]
 
 
 def _near(point: Any) -> tuple[float, float]:
@@ -127,7 +129,15 @@ def swept(tracks: list[Track]) -> Region:
     near = shapely.dwithin(rim, arcs, [NEAR * radius for radius, _ in discs])
     chosen += [piece for (_, piece), matters in zip(discs, near) if matters]
     loops = (loop for loop in Region.of(*chosen).loops if loop.area > 0 or not whole.contains(_within(loop)))
-    return Region(tuple(loops))
+    found = Region(tuple(loops))
+    if differ(whole, polygon(found)):  # a piece that matters was not seen to
+        return Region.of(*bands, *(piece for _, piece in discs))
+    return found
+
+
+def differ(one: Any, other: Any) -> bool:
+    """Whether two areas differ by more than thin strips."""
+    return not one.symmetric_difference(other).buffer(-THIN).is_empty
 
 
 def _arc_of(piece: Contour) -> Any:
