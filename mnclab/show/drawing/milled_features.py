@@ -26,6 +26,9 @@ MOST_HOLES = 10  # with dimensions of their own; more stand in a table
 MOST_PLACES = 9  # coordinates in one direction
 
 
+Place = tuple[Measure, Point, Claim | None]  # a coordinate, whose it is, and the measure that it says, if it is one
+
+
 @dataclass
 class Level:
     """A depth in the section: from a height to a height, at the wall u."""
@@ -48,7 +51,7 @@ class Side:
     shows: frozenset[tuple[bool, int]]
     side_shows: frozenset[tuple[bool, int]]
     tabled: int
-    places: dict[str, list[tuple[Measure, Point, Claim]]] = field(default_factory=lambda: {"x": [], "y": []})
+    places: dict[str, list[Place]] = field(default_factory=lambda: {"x": [], "y": []})
     levels: list[Level] = field(default_factory=list)
     side_levels: list[Level] = field(default_factory=list)
 
@@ -128,6 +131,20 @@ class Side:
             self._shape(shape, first.measures(), numbers, (written(known["depth"]),) if deep else ())
             if not deep:
                 self._deep(numbers, shape.contour)
+            for n, island in enumerate(first.islands if isinstance(first, Pocket) else (), 1):
+                self._island(island, numbers, n)
+
+    def _island(self, shape: Shape, numbers: list[int], n: int) -> None:
+        """What stays in a pocket is no measure of it, and is dimensioned all the same."""
+        if isinstance(shape, Outline):
+            self._corners(shape, (), numbers[0], f"island {n} of {self.names()[numbers[0]]}")
+            return
+        said, known = len(self.ledger.said), {each.name: each for each in shape.measures()}
+        self._shape(shape, tuple(known.values()), numbers)
+        del self.ledger.said[said:]
+        self._shape_marks(shape)
+        for axis in "xy":
+            self.places[axis].append((known[axis], (shape.x, shape.y), None))
 
     def _shape(self, shape: Shape, measures: Sequence[Measure], numbers: list[int], more: tuple[str, ...] = ()) -> None:
         known = {each.name: each for each in reversed(measures)}
@@ -265,14 +282,17 @@ class Side:
             half, length = feature.width / 2, math.dist(feature.start, feature.end)
             self.draft.axes.append(Axis(at(-half, 0), at(length + half, 0)))
             self.draft.axes += [Axis(at(u, -half), at(u, half)) for u in (0.0, length / 2, length)]
-        elif isinstance(shape, Circle):
-            wide = shape.diameter + (feature.width if isinstance(feature, Groove) else 0.0)
-            self.draft.axes.append(Cross((shape.x, shape.y), wide / 2))
-        elif isinstance(shape, Rectangle) and not isinstance(feature, Chamfer):
-            at, a, b = _frame((shape.x, shape.y), shape.turned), shape.length / 2, shape.width / 2
-            self.draft.axes += [Axis(at(-a, 0), at(a, 0)), Axis(at(0, -b), at(0, b))]
+        elif shape is not None and not isinstance(feature, Chamfer):
+            self._shape_marks(shape, feature.width if isinstance(feature, Groove) else 0.0)
         if isinstance(feature, Groove):
             self.draft.lines.append(Line(feature.contour.contour, Kind.CENTRE))
+
+    def _shape_marks(self, shape: Shape, wider: float = 0.0) -> None:
+        if isinstance(shape, Circle):
+            self.draft.axes.append(Cross((shape.x, shape.y), (shape.diameter + wider) / 2))
+        elif isinstance(shape, Rectangle):
+            at, a, b = _frame((shape.x, shape.y), shape.turned), shape.length / 2, shape.width / 2
+            self.draft.axes += [Axis(at(-a, 0), at(a, 0)), Axis(at(0, -b), at(0, b))]
 
     def _place(self, k: int) -> None:
         shape = _shape(self.features[k])
@@ -288,11 +308,11 @@ class Side:
         x, y = self.datum
         self.draft.axes.append(Origin((x, y)))
         for axis, (name, datum) in enumerate((("x", x), ("y", y))):
-            same: dict[Any, list[tuple[Measure, Point, Claim]]] = {}
+            same: dict[Any, list[Place]] = {}
             for each in self.places[name]:
                 same.setdefault((round(each[0].nominal, 6), each[0].limits, each[0].fit), []).append(each)
             for found in same.values():
-                claims = [claim for *_, claim in found]
+                claims = [claim for *_, claim in found if claim]
                 measure = found[0][0]
                 if abs(measure.nominal - datum) < SAME:
                     self.ledger.at_zero(self.draft, (x, y), claims)
@@ -345,10 +365,10 @@ class Side:
                 self._corners(shape, (), k)
         self.ledger.tables.append(Table(title, ("No.", "X", "Y", "feature"), tuple(rows)))
 
-    def _corners(self, shape: Outline, measures: Sequence[Measure], k: int) -> None:
+    def _corners(self, shape: Outline, measures: Sequence[Measure], k: int, title: str = "") -> None:
         """Numbered corners, and a table of them; with `measures` its middle and sizes below."""
-        title, line = f"contour of {self.names()[k]}", shape.contour
-        letter = f"{chr(97 + k % 26)}"
+        title, line = title or f"contour of {self.names()[k]}", shape.contour
+        letter = chr(97 + len(self.ledger.tables) % 26)
         x, y = self.datum
         rows = []
         radii = line.radii.tolist()
