@@ -99,7 +99,7 @@ class Ink:
                 self.ends[record] = self._next(), self._next()
                 block = Block(f"*D{len(self.blocks) + 1}", record, self._mark(mark, at, record))
                 self.blocks.append(block)
-                self.entities.append(self._dimension(mark, block, at, laid.scale))
+                self.entities.append(self._dimension(mark, block, at, laid))
             else:
                 self.entities += self._mark(mark, at, self.model)
 
@@ -162,7 +162,7 @@ class Ink:
             found += self._label(label, at, owner)
         return found
 
-    def _dimension(self, mark: Mark, block: Block, at: Point, scale: float) -> Entity:
+    def _dimension(self, mark: Mark, block: Block, at: Point, laid: Laid) -> Entity:
         """The entity that knows what is measured: points on the part, where its line lies, and its text."""
         of, kind = mark.of, TYPES[type(mark.of)]
         places = [self._at(place, at) for place in mark.places]
@@ -178,17 +178,21 @@ class Ink:
             size = (math.atan2(b[1] - vertex[1], b[0] - vertex[0]) - math.atan2(a[1] - vertex[1], a[0] - vertex[0])) % math.tau
             own = [(100, "AcDb3PointAngularDimension"), *point(a, 13), *point(b, 14), *point(vertex, 15)]
         else:
-            centre = self._at((of.centre[0] * scale, of.centre[1] * scale), at)
+            centre = self._at((of.centre[0] * laid.scale, of.centre[1] * laid.scale), at)
             tip = places[0]
             opposite = 2 * centre[0] - tip[0], 2 * centre[1] - tip[1]
-            where, subclass = (opposite, "AcDbDiametricDimension") if isinstance(of, Diameter) else (centre, "AcDbRadialDimension")
+            round_view = isinstance(of, Diameter)
+            where, subclass = (opposite, "AcDbDiametricDimension") if round_view else (centre, "AcDbRadialDimension")
             size = math.dist(where, tip)
             own = [(100, subclass), *point(tip, 15), (40, 0.0)]
         x, y, *_ = mark.labels[0].box()
-        measured = math.degrees(size) if isinstance(of, Angle) else size
+        larger = laid.scale * self.size  # than the part: 1, but in a detail
+        measured = math.degrees(size) if isinstance(of, Angle) else size / larger
         row = self._head("DIMENSION", "DIMENSIONS", self.model, "AcDbDimension")
         row += [(2, block.name), *point(where), *point(self._at((x, y), at), 11), (70, kind + OWN_BLOCK + TEXT_PLACED), (71, 5)]
-        return [*row, (42, size), (1, _said(of, measured)), (3, "Standard"), *own]
+        detail = [(1001, "ACAD"), (1000, "DSTYLE"), (1002, "{"), (1070, 144), (1040, 1 / larger), (1002, "}")]
+        row += [(42, size if isinstance(of, Angle) else measured), (1, _said(of, measured)), (3, "Standard"), *own]
+        return row + (detail if abs(larger - 1) > 1e-9 else [])
 
 
 def _said(of: Linear | Diameter | Radius | Angle, measured: float) -> str:
