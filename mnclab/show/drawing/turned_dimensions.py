@@ -134,7 +134,8 @@ class Turning:
             assert isinstance(feature, FaceGroove)
             at = self._face_groove(feature, front)
             across = f"{written(known['inner diameter'])} / {written(known['outer diameter'])}"
-            lines = [f"{across} {written(known['depth'])}", *([written(known["corner radius"])] if "corner radius" in known else [])]
+            lines = [f"{across} {written(known['depth'])}"]
+            lines += [written(known["corner radius"])] if "corner radius" in known else []
         self.ledger.say(self.draft, Note(at, tuple(lines)), self._claims(k))
 
     def _bore(self, bore: Bore, front: bool) -> Point:
@@ -222,7 +223,8 @@ def _met(loops: Sequence[Contour], w: float) -> list[float]:
     """Where a level line meets contours, of the first coordinate."""
     found = []
     for loop in loops:
-        for (u0, w0), (u1, w1), sweep, (cu, cw), radius in zip(loop.starts, loop.ends, loop.sweeps, loop.centres, loop.radii, strict=True):
+        rows = zip(loop.starts, loop.ends, loop.sweeps, loop.centres, loop.radii, strict=True)
+        for (u0, w0), (u1, w1), sweep, (cu, cw), radius in rows:
             if sweep == 0:
                 if (w0 - w) * (w1 - w) <= 0 and w0 != w1:
                     found.append(float(u0 + (w - w0) / (w1 - w0) * (u1 - u0)))
