@@ -110,6 +110,10 @@ class Cutting:
         bodies = np.array([tool.kind == "probe" or tool_exists(tool) for tool in self.tools], dtype=bool)
         return np.asarray(inside & np.isin(path.kind, CUTS) & (~bodies[self.which] if len(bodies) else True))
 
+    def of_rows(self, column: Any, rows: Index) -> Any:
+        """The values of a column (n,) in some rows, as large as these; of -1, no row, any value."""
+        return np.asarray(column)[rows] if len(self) else rows
+
     def lines(self, rows: Mask) -> str:
         """The first lines of some rows (n,), in words."""
         found = list(dict.fromkeys(zip(self.path.line[rows].tolist(), self.path.program[rows].tolist())))

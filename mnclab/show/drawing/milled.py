@@ -55,9 +55,9 @@ def drafts(design: Design, ledger: Ledger, tabled: int = 0) -> list[Draft]:
         top.cuts.append(Cut(tuple((depth, -u) for u, depth in second.way(-y1, -y0)), "B", (1.0, 0.0)))
     sides = [Side(design, False, top, ledger, shows, second.shows if second else frozenset(), tabled)]
     if design.back:
-        over = design.turned_over()
         below = Draft("from below", (0, -1), "from below" + (" (turned over about Y)" if design.turn == "y" else ""), free=design.turn == "y")
-        below.draw(plan.edges(Levels(over.stack)))
+        below.draw([line.transformed(design.flip[0]) for line in plan.edges(levels, below=True)])
+        below.axes += _through(design)
         found.append(below)
         sides.append(Side(design, True, below, ledger, shows, second.shows if second else frozenset(), tabled))
     for each in sides:
@@ -183,6 +183,14 @@ def _above_thread(hole: Hole, half: float) -> float:
 def _extent(draft: Draft) -> Floats:
     corners = np.array([line.contour.bounds for line in draft.lines])
     return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+
+
+def _through(design: Design) -> Iterator[Cross]:
+    """The centre lines of holes that go through, seen from below."""
+    for each in design.features:
+        if isinstance(each, Hole) and each.depth is None:
+            x, y, _ = (design.flip[0] @ [each.x, each.y, 1.0]).tolist()
+            yield Cross((x, y), each.wide / 2)
 
 
 # ---- the blank, depths and heights ----

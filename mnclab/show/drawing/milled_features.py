@@ -13,7 +13,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.show.drawing.dimensions import Angle, Diameter, Linear, Note, Point, Radius, Value
 from mnclab.show.drawing.ledger import Claim, Draft, Ledger
 from mnclab.show.drawing.sheet import Table
-from mnclab.show.drawing.view import Axis, Cross, Kind, Line, thread_circle
+from mnclab.show.drawing.view import Axis, Cross, Kind, Line, Origin, thread_circle
 from mnclab.show.drawing.wording import DIAMETER, at_place, chamfer_text, hole_lines, plain, times, valued, written
 from mnclab.workpiece.design.design import Design
 from mnclab.workpiece.design.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slot, Stud
@@ -286,6 +286,7 @@ class Side:
     def _coordinates(self) -> None:
         """One dimension for each distance from the datum."""
         x, y = self.datum
+        self.draft.axes.append(Origin((x, y)))
         for axis, (name, datum) in enumerate((("x", x), ("y", y))):
             same: dict[Any, list[tuple[Measure, Point, Claim]]] = {}
             for each in self.places[name]:

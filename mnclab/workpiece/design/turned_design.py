@@ -175,6 +175,10 @@ class TurnedDesign:
         named = with_tolerances([each.measure for each in found], self.tolerances, "the profile")
         return tuple(each._replace(measure=measure) for each, measure in zip(found, named))
 
+    def dimensions_of_features(self) -> tuple[tuple[Dimension, ...], ...]:
+        """The same of each feature."""
+        return tuple(each.dimensions(body) for each, body in zip(self.features, self.bodies))
+
     def measures(self) -> tuple[Measure, ...]:
         """Length, diameters, lengths from the front end, angles, radii and chamfers of the profile, with their tolerances."""
         return tuple(each.measure for each in self.dimensions())

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Self
 
 import numpy as np
@@ -23,8 +23,10 @@ from mnclab.workpiece.design.corners import joined, pieces
 from mnclab.workpiece.design.feature import Named, check_flag, check_positive
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.turned_body import BEYOND, SAME, TurnedBody
+from mnclab.workpiece.design.turned_profile import Dimension
 
 ENDS = ("front", "back")
+LARGEST = 1e6  # mm, of any size or place
 LEAST = 1e-3  # mm: how far a chamfer sticks out of the face that it breaks
 #: DIN 332-1, ISO 6411 form A: the diameter of the pilot, that of the countersink of 60°, and how deep the pilot goes, mm.
 CENTRES = {
@@ -33,9 +35,28 @@ CENTRES = {
 }  # fmt: skip
 
 
+Point = tuple[float, float]
+Place = tuple[Point, Point, Point | None]  # from where to where, (z, r), and the centre of a radius
+
+
 @dataclass(frozen=True, repr=False, kw_only=True)
 class TurnedFeature(Named):
     """What all features of a turned part have."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for each in fields(self):
+            if isinstance(value := getattr(self, each.name), int | float):
+                check_number(value + 0.0, f"the {each.name} of a {self.kind}", at_least=-LARGEST, at_most=LARGEST)
+
+    @abstractmethod
+    def places(self, body: TurnedBody) -> dict[str, Place]:
+        """Where its measures are on the body that it is cut into."""
+
+    def dimensions(self, body: TurnedBody) -> tuple[Dimension, ...]:
+        """What a drawing says of it, and where, on the body that it is cut into."""
+        places = self.places(body)
+        return tuple(Dimension(each, *places[each.name]) for each in self.measures())
 
     @abstractmethod
     def cut(self, body: TurnedBody) -> Contour | None:
@@ -48,6 +69,10 @@ class TurnedFeature(Named):
     @abstractmethod
     def moved(self, dz: float) -> Self:
         """The same farther along the axis."""
+
+
+def _back(point: Point) -> Point:
+    return -point[0], point[1]
 
 
 def given(feature: TurnedFeature, *names: str) -> list[str]:
@@ -78,8 +103,17 @@ class _FromEnd(TurnedFeature):
         found = self._from_front(body.mirrored())
         return None if found is None else Contour(found.points * (-1, 1), -found.bulge).reversed()
 
+    def places(self, body: TurnedBody) -> dict[str, Place]:
+        if self.from_end == "front":
+            return self._places(body)
+        found = self._places(body.mirrored())
+        return {name: (_back(a), _back(b), c and _back(c)) for name, (a, b, c) in found.items()}
+
     @abstractmethod
     def _from_front(self, body: TurnedBody) -> Contour: ...
+
+    @abstractmethod
+    def _places(self, body: TurnedBody) -> dict[str, Place]: ...
 
     def turned_over(self, middle: float) -> Self:
         return replace(self, from_end=ENDS[self.from_end == "front"])
@@ -128,6 +162,17 @@ class Bore(_FromEnd):
             yield Measure("chamfer", self.chamfer, "chamfer", text=f"{self.chamfer:g}×45°")
         if self.corner:
             yield Measure("corner radius", self.corner, "radius")
+
+    def _places(self, body: TurnedBody) -> dict[str, Place]:
+        r, c, high = self.diameter / 2, self.corner, body.high
+        mouth, shoulder = body.ends_at(r)[1], body.low if self.depth is None else high - self.depth
+        return {
+            "diameter": ((mouth, r), (shoulder, r), None),
+            "depth": ((high, r), (shoulder, r), None),
+            "point angle": ((shoulder, r), (shoulder - self.tip, 0.0), None),
+            "chamfer": ((mouth, r + self.chamfer), (mouth - self.chamfer, r), None),
+            "corner radius": ((shoulder + c, r), (shoulder, r - c), (shoulder + c, r - c)),
+        }
 
     def _from_front(self, body: TurnedBody) -> Contour:
         r, low, high = self.diameter / 2, body.low, body.high
@@ -194,6 +239,14 @@ class CentreHole(_FromEnd):
         yield Measure("pilot diameter", self.pilot, "diameter")
         yield Measure("depth", deep, "depth")
 
+    def _places(self, body: TurnedBody) -> dict[str, Place]:
+        (wide, deep), r, high = self.sizes, self.pilot / 2, body.high
+        return {
+            "diameter": ((high, wide / 2), (high, wide / 2), None),
+            "pilot diameter": ((high - self.sunk, r), (high - deep, r), None),
+            "depth": ((high, r), (high - deep, r), None),
+        }
+
     def _from_front(self, body: TurnedBody) -> Contour:
         (wide, deep), pilot, high = self.sizes, self.pilot / 2, body.high
         wide = wide / 2
@@ -240,18 +293,33 @@ class RingGroove(TurnedFeature):
             yield Measure("corner radius", self.corner, "radius")
         yield Measure("z", self.z, "place")
 
+    def _bottom(self, walls: tuple[float, float]) -> float:
+        """The radius of the bottom between two edges."""
+        if self.diameter is not None:
+            return self.diameter / 2
+        if abs(walls[0] - walls[1]) > SAME:
+            told = f"its two edges stand at diameters {2 * walls[0]:g} and {2 * walls[1]:g}"
+            raise Alarm(f"{told}: say the diameter of its bottom instead of a depth")
+        return walls[0] + float(self.depth or 0.0) * (1 if self.inside else -1)
+
+    def places(self, body: TurnedBody) -> dict[str, Place]:
+        z, back, c = self.z, self.z - self.width, self.corner
+        walls = body.walls(z, back, self.inside)
+        bottom = self._bottom(walls)
+        up = bottom + (-c if self.inside else c)
+        return {
+            "width": ((z, walls[0]), (back, walls[1]), None),
+            "depth": ((back, walls[1]), (back, bottom), None),
+            "diameter": ((z, bottom), (back, bottom), None),
+            "corner radius": ((back, up), (back + c, bottom), (back + c, up)),
+            "z": ((z, walls[0]), (z, walls[0]), None),
+        }
+
     def cut(self, body: TurnedBody) -> Contour:
         back = self.z - self.width
         body.check_within(self.z, back, ends=False)
         walls = body.walls(self.z, back, self.inside)
-        out = -1 if self.inside else 1  # where it comes from
-        if self.diameter is not None:
-            bottom = self.diameter / 2
-        else:
-            if abs(walls[0] - walls[1]) > SAME:
-                told = f"its two edges stand at diameters {2 * walls[0]:g} and {2 * walls[1]:g}"
-                raise Alarm(f"{told}: say the diameter of its bottom instead of a depth")
-            bottom = walls[0] - out * float(self.depth or 0.0)
+        bottom, out = self._bottom(walls), -1 if self.inside else 1  # where it comes from
         deep = min(out * (wall - bottom) for wall in walls)
         if bottom < SAME or deep < SAME:
             limit = f"greater than the bore, {2 * max(walls):g}" if self.inside else f"less than the part, {2 * min(walls):g}"
@@ -292,6 +360,17 @@ class FaceGroove(_FromEnd):
         yield Measure("depth", self.depth, "depth")
         if self.corner:
             yield Measure("corner radius", self.corner, "radius")
+
+    def _places(self, body: TurnedBody) -> dict[str, Place]:
+        inner, outer, c = self.inner / 2, self.outer / 2, self.corner
+        face = body.ends_at(inner)[1]
+        bottom = face - self.depth
+        return {
+            "inner diameter": ((face, inner), (bottom, inner), None),
+            "outer diameter": ((face, outer), (bottom, outer), None),
+            "depth": ((face, outer), (bottom, outer), None),
+            "corner radius": ((bottom + c, outer), (bottom, outer - c), (bottom + c, outer - c)),
+        }
 
     def _from_front(self, body: TurnedBody) -> Contour:
         inner, outer = self.inner / 2, self.outer / 2

@@ -12,8 +12,9 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.filling import filled
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import at_angle, left
-from mnclab.path.columns import Array, Index
+from mnclab.path.columns import Array, Index, Mask
 from mnclab.workpiece.design.design import Design
+from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Flat, Slanting, signed
 from mnclab.workpiece.difference.target import BLANK, Grid, Owner, Slopes, Walls
 from mnclab.workpiece.milling.raster import Raster
@@ -27,8 +28,8 @@ TURN = np.radians(5)  # of an arc, between two places
 EDGE = 1e-3  # mm, from an end or an edge: places lie a hair beside them
 ASIDE = 1e-6  # mm, on either side of a face
 SAME = 1e-7  # mm: heights of one face
-WIDE = 2.0  # mm, from a wall: floors are looked at there besides the cells
-SHARES = (0.02, 0.25, 0.5, 0.75, 0.98)  # of a slant, from its foot to its edge
+SMALL = 6  # cells: floors that are not wider are looked at between them, too
+SHARES = (0.02, 0.15, 0.35, 0.5, 0.65, 0.85, 0.98)  # of a slant, from its foot to its edge
 
 
 class DrawnTarget:
@@ -97,61 +98,67 @@ class DrawnTarget:
 
     def walls(self, spacing: float) -> Walls:
         (x0, y0), (x1, y1) = self.bounds[:, :2].tolist()
-        found, owners = [], []
-        for owner, region, void in self._upright:
+        found, owners, wide = [], [], EDGE * np.ones(2)
+        for number, region, void in self._upright:
             for loop in region.loops:
-                spots, aside, middle = _along(loop, spacing)
-                near = (np.abs(spots - [(x0 + x1) / 2, (y0 + y1) / 2]) <= [(x1 - x0) / 2 + EDGE, (y1 - y0) / 2 + EDGE]).all(axis=1)
-                found.append((spots[near], void * aside[near], middle[near]))
-                owners.append(np.full(int(near.sum()), owner))
+                spots, aside, mid = _along(loop, spacing)
+                near = ((spots >= (x0, y0) - wide) & (spots <= (x1, y1) + wide)).all(axis=1)
+                found.append((spots[near], void * aside[near], mid[near]))
+                owners.append(np.full(int(near.sum()), number))
         place, normal, middle = (np.concatenate(column) for column in zip(*found, strict=True))
         owner = np.concatenate(owners)
         behind, before = place - ASIDE * normal, place + ASIDE * normal
-        stands: dict[int, Array] = {}
-        spot, heights = [], []
+        stands: dict[int, Mask] = {}
+        spot, heights, talls, tallest = [], [], [], np.zeros(len(place))
         for slab in self.design.stack.slabs:
             if id(slab.region) not in stands:
                 there = slab.region.contains(np.concatenate([behind, before]))
                 stands[id(slab.region)] = there[: len(place)] & ~there[len(place) :]
             on = stands[id(slab.region)] & self._reached(owner, (slab.low + slab.high) / 2)
-            hair = min(EDGE, (slab.high - slab.low) / 4)
-            for z in (slab.low + hair, (slab.low + slab.high) / 2, slab.high - hair):
+            tall = slab.high - slab.low
+            hair = min(EDGE, tall / 4)
+            for z, height in ((slab.low + hair, 0.0), ((slab.low + slab.high) / 2, tall), (slab.high - hair, 0.0)):
                 here = np.flatnonzero(on)
                 for each in slab.slants:
-                    here = here[each.taken(*behind[here].T, np.full(len(here), z)) > ASIDE]
+                    here = here[each.taken(behind[here, 0], behind[here, 1], np.full(len(here), z)) > ASIDE]
                 spot.append(here)
                 heights.append(np.full(len(here), z))
-        return Walls(place, normal, owner, middle, np.concatenate(spot), np.concatenate(heights))
+                talls.append(np.full(len(here), height))
+                tallest[here] = np.maximum(tallest[here], height)
+        index, height = np.concatenate(spot), np.concatenate(talls)
+        return Walls(place, normal, owner, middle, index, np.concatenate(heights), (height > 0) & (height == tallest[index]))
 
-    def _reached(self, owner: Index, z: float) -> Array:
+    def _reached(self, owner: Index, z: float) -> Mask:
         """Whether the feature that a wall belongs to (m,) goes as far as a height."""
         taken = self.design.taken
         reaches = [bool(each.body.reaches(z)) if isinstance(each.body, Flat) else False for each in taken]
         return np.array([*reaches, True])[owner]
 
-    def slopes(self, spacing: float) -> Slopes:
+    def slopes(self, spacing: float, step: float) -> Slopes:
         found = []
         for k, (_, _, body) in enumerate(self.design.taken):
             if isinstance(body, Flat):
-                for spots in self._inside(body, spacing):
-                    found.append((spots, *(np.full(len(spots), value) for value in (body.floor, 0.0, k, body.up))))
+                for spots in self._inside(body, spacing, step) if self.role(k) != "sky" else ():
+                    found.append((spots, *(np.full(len(spots), value) for value in (body.floor, 0.0, k, body.up, True))))
                 continue
             for share in SHARES:
                 out = body.near + share * (body.far - body.near)
                 z = body.deep + share * (body.open - body.deep)
                 for spots in self._rings(body, out, spacing):
-                    found.append((spots, *(np.full(len(spots), value) for value in (z, out, k, body.up))))
+                    found.append((spots, *(np.full(len(spots), value) for value in (z, out, k, body.up, share not in (SHARES[0], SHARES[-1])))))
         if not found:
             none = np.zeros(0)
-            return Slopes(np.zeros((0, 2)), none, none, none.astype(np.int64), none.astype(bool))
-        place, z, out, owner, up = (np.concatenate(column) for column in zip(*found, strict=True))
+            return Slopes(np.zeros((0, 2)), none, none, none.astype(np.int64), none.astype(bool), none.astype(bool))
+        place, z, out_of, owner, up, middle = (np.concatenate(column) for column in zip(*found, strict=True))
         floor, top = self.faces(*place.T)
         on = np.abs(np.where(up, top, floor) - z) <= SAME
-        return Slopes(place[on], z[on], out[on], owner[on].astype(np.int64), up[on].astype(bool))
+        return Slopes(place[on], z[on], out_of[on], owner[on].astype(np.int64), up[on].astype(bool), middle[on].astype(bool))
 
-    def _inside(self, body: Flat, spacing: float) -> Iterator[Array]:
-        """Places within a region, beside its edge: a small one may have no middle of a cell."""
-        wide = min(2 * body.region.area / max(sum(loop.length for loop in body.region.loops), EDGE), WIDE)
+    def _inside(self, body: Flat, spacing: float, step: float) -> Iterator[Array]:
+        """Places within a small region, in which few middles of cells lie."""
+        wide = 2 * body.region.area / max(sum(loop.length for loop in body.region.loops), EDGE)
+        if wide > SMALL * step:
+            return
         low, high = self.bounds[:, :2]
         for loop in body.region.loops:
             spots, aside, _ = _along(loop, spacing)
@@ -180,21 +187,30 @@ class DrawnTarget:
         if number == BLANK:
             return Owner("top", "blank")
         feature, back, _ = self.design.taken[number]
-        given = (self.design.back if back else self.design.features)[feature].measures()
+        given = self._measures[back][feature]
         wide = {kind: max((abs(each) for m in given if m.limits and m.kind == kind for each in m.limits), default=0.0)
                 for kind in ("length", "diameter", "radius", "place", "depth", "chamfer")}  # fmt: skip
         walls = max(wide["length"] / 2, wide["diameter"] / 2, wide["radius"], wide["place"], wide["chamfer"])
-        return Owner("back" if back else "top", self.design.drawn_names(back)[feature], walls, wide["depth"])
+        return Owner("back" if back else "top", self.names[back][feature], walls, wide["depth"])
+
+    @cached_property
+    def names(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Of the features, and of those of the back."""
+        return self.design.drawn_names(), self.design.drawn_names(back=True)
+
+    @cached_property
+    def _measures(self) -> tuple[list[tuple[Measure, ...]], ...]:
+        return tuple([each.measures() for each in side] for side in (self.design.features, self.design.back))
 
     def role(self, number: int) -> str:
         """What of its feature a body is: "", "point", "counterbore", "countersink", "slant" (of a chamfer) or "sky"."""
         feature, back, body = self.design.taken[number]
-        mine = [k for k, each in enumerate(self.design.taken) if each.feature == feature and each.back == back]
         if isinstance(body, Slanting):
             return "slant" if isinstance(body.base, Region) else ("point" if body.near == 0 else "countersink")
-        if number == mine[0]:
+        if number == 0 or self.design.taken[number - 1][:2] != (feature, back):
             return ""
-        return "sky" if isinstance(self.design.taken[number - 1].body, Slanting) and self.role(number - 1) != "point" else "counterbore"
+        before = self.design.taken[number - 1].body
+        return "sky" if isinstance(before, Slanting) and self.role(number - 1) != "point" else "counterbore"
 
     def owners(self, points: Array, off: Array) -> Index:
         low, high = self.bounds[:, 2].tolist()
@@ -203,6 +219,8 @@ class DrawnTarget:
         best = np.abs(np.minimum(np.minimum(side, np.abs(z - low)), np.abs(high - z)) - off)
         found = np.full(len(points), BLANK)
         for k, (_, _, body) in enumerate(self.design.taken):
+            if not len(points) or self.role(k) == "sky":
+                continue
             miss = np.abs(_from_faces(body, x, y, z) - off)
             better = miss <= best + SAME
             found[better], best = k, np.minimum(best, miss)

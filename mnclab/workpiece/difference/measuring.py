@@ -39,8 +39,8 @@ def _form(target: DrawnTarget, seen: Seen, side: str, name: str, owners: list[in
     among = np.flatnonzero(np.isin(seen.owner, owners))
     worst = among[np.abs(seen.off[among]).argmax()] if len(among) else None
     allowed = max(target.tolerance, *(max(target.owner(each)[2:]) for each in owners))
-    value = float(seen.off[worst]) if worst is not None else math.nan
-    return Reading(side, name, Measure(FORM, 0.0, "form"), value, allowed, among, "" if len(among) else UNMEASURED)
+    value = float(seen.off[worst]) if worst is not None else 0.0
+    return Reading(side, name, Measure(FORM, 0.0, "form"), value, allowed, among)
 
 
 class _Room:
@@ -48,7 +48,7 @@ class _Room:
 
     def __init__(self, target: DrawnTarget, seen: Seen, feature: Feature, number: int, back: bool) -> None:
         self.target, self.seen, self.feature, self.back = target, seen, feature, back
-        self.name = target.design.drawn_names(back)[number]
+        self.name = target.names[back][number]
         self.flip, self.turned = target.design.flip
         taken = target.design.taken
         self.mine = [k for k, each in enumerate(taken) if each.feature == number and each.back == back]
@@ -65,6 +65,8 @@ class _Room:
         found = list(self._found())
         side = "back" if self.back else "top"
         for measure in self.feature.measures():
+            if measure.name == "top":  # only says from where depths count
+                continue
             k = next((k for k, (name, _) in enumerate(found) if name == measure.name), None)
             value = found.pop(k)[1] if k is not None else Found(math.nan, NONE, UNMEASURED)
             yield Reading(side, self.name, measure, value.actual, self._allowed(measure), value.among, value.said)
@@ -105,7 +107,7 @@ class _Room:
 
     def _walls(self, role: str) -> Faces:
         walls, owners = self.seen.walls, self._of_role(role)
-        index = np.flatnonzero(np.isin(walls.owner[walls.spot], owners))
+        index = np.flatnonzero(np.isin(walls.owner[walls.spot], owners) & walls.mid)
         spot = walls.spot[index]
         place, moved = walls.place[spot], self.seen.moved[index, None] * walls.normal[spot]
         if self.back:
@@ -126,20 +128,21 @@ class _Room:
             off = np.flatnonzero(np.isin(whose, owners) & np.isnan(cells.at.its_top))
             left = (cells.at.floor if self.back else cells.at.top)[off]
             level = self.turned - left if self.back else left
-            rise, mine, index = level - floor, np.ones(len(off), dtype=bool), off + seen.of_cells.start
-            return Found(self.top - (floor if not len(off) else float(level.max())), index)
+            return Found(self.top - (floor if not len(off) else float(level.max())), off + seen.of_cells.start)
         off = np.flatnonzero(np.isin(whose, owners) & np.isfinite(cells.at.its_top))
         above = cells.at.its_floor - cells.at.floor if self.back else cells.at.top - cells.at.its_top
         slopes = np.flatnonzero(np.isin(seen.slopes.owner, owners))
         rise = np.concatenate([above[off], seen.rise[slopes]])
         index = np.concatenate([off + seen.of_cells.start, slopes + seen.of_slopes.start])
-        untouched = len(slopes) > 0 or bool(np.isin(grid, owners).any())
-        if not untouched:
+        cells_of_it = int(np.isin(grid, owners).sum())
+        if not len(slopes) and not cells_of_it:
             return Found(math.nan, NONE, GONE)
         rise = np.nan_to_num(rise, nan=self.bottom - floor)  # gone right through
-        mine = np.abs(np.abs(rise) - np.abs(seen.off[index])) <= max(NOISE, seen.error)
-        mine = mine if mine.any() else ~mine
-        best = float(rise[mine][np.abs(rise[mine]).argmax()]) if len(rise) else 0.0
+        nearest = np.abs(np.abs(rise) - np.abs(seen.off[index])) <= max(NOISE, seen.error)
+        mine = nearest & np.append(cells.plain[off], np.ones(len(slopes), dtype=bool))
+        if not mine.any() and cells_of_it == len(off):
+            mine = nearest if nearest.any() else ~nearest
+        best = float(rise[mine][np.abs(rise[mine]).argmax()]) if mine.any() else 0.0
         best = best if abs(best) > seen.error else 0.0
         return Found(self.top - floor - best, index[mine])
 
@@ -195,10 +198,13 @@ class _Room:
             return
         edge = self.turned - body.open if self.back else body.open
         cut = z < edge - ON
-        start, slope = line(s[cut], z[cut]) if cut.sum() > 1 else (0.0, 0.0)
-        if not slope > 0:
+        if not cut.any():
             yield from ((name, Found(math.nan, index, NOT_CUT)) for name in (size, angle))
             return
+        start, slope = line(s[cut], z[cut])
+        if not slope > 0:  # of one ring alone: as steep as it is drawn
+            slope = abs((body.open - body.deep) / (body.far - body.near))
+            start = float((z[cut] - slope * s[cut]).mean())
         steep = math.degrees(math.atan(slope))
         yield size, Found(sides * (edge - start) / slope, index)
         yield angle, Found(steep if sides == 1 else 2 * (90 - steep), index)
@@ -207,7 +213,7 @@ class _Room:
         """Distances from the base of a slant and the heights found there, seen from the side of the feature."""
         owners, slopes = self._of_role(role), self.seen.slopes
         body = self.target.design.taken[owners[0]].body if owners else None
-        index = np.flatnonzero(np.isin(slopes.owner, owners))
+        index = np.flatnonzero(np.isin(slopes.owner, owners) & slopes.middle)
         level = self.turned - slopes.z[index] if self.back else slopes.z[index]
         found = level + self.seen.rise[index]
         return slopes.out[index], found, index + self.seen.of_slopes.start, body if isinstance(body, Slanting) else None

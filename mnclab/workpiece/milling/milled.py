@@ -111,7 +111,7 @@ class Milled(Workpiece):
             move = self.many.in_order[0]
             return np.where(move < 0, -1, self.moves.row[move])
         found = np.full(self.raster.shape, -1, dtype=np.int64)
-        for tile in self.sweep.tiles:
+        for tile in self.sweep.tiles if len(self.moves) else ():
             x, y = self.raster.middles(tile)
             last = np.full(len(x), -1)
             for which, before, after in self.sweep.in_order(x, y):

@@ -1,8 +1,8 @@
 """A milled part as a closed surface: both sides with their walls upright, and what stands between their rims.
 
-The lattice of nodes is one sheet above and one below, each with the walls of its side; both are joined at the rim of the blank
-and where something goes through. Cells that lie in one plane and were cut by one row are taken together in squares, each a fan about its middle
-that meets every node of its neighbours, so that the surface is closed without a gap.
+The lattice of nodes is one sheet above and one below, each with the walls of its side; both are joined at the rim of the
+blank and where something goes through. Cells that lie in one plane and were cut by one row are taken together in squares,
+each a fan about its middle that meets every node of its neighbours, so that the surface is closed without a gap.
 """
 
 from __future__ import annotations

@@ -68,10 +68,10 @@ class Sweep:
 
     def sides_at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """The heights and the lower side (m,) at points anywhere."""
-        found = np.empty((2, len(x)))
+        (top, floor), found = self.faces(x, y), np.empty(len(x))
         for some in grouped(x, y, self.raster.tile):
-            found[:, some] = self.sides(x[some], y[some])
-        return found[0], found[1]
+            found[some] = self.within(x[some], y[some], top[some], floor[some])
+        return found, floor
 
     def in_order(self, x: Array, y: Array) -> Iterator[tuple[Index, Array, Array]]:
         """For some moves after the other, at points close together: which (k,), the heights before each and after (k, m)."""
