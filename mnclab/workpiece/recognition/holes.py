@@ -8,7 +8,7 @@ from typing import Any
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.workpiece.design.features import Hole, Pocket
+from mnclab.workpiece.design.features import Groove, Hole, Pocket
 from mnclab.workpiece.design.shapes import Circle
 from mnclab.workpiece.design.threads import core_of
 from mnclab.workpiece.recognition.areas import ON_EDGE
@@ -127,7 +127,8 @@ def _thread(thread: Threaded, found: list[Found], top: float, bottom: float) -> 
     name, here = designation(thread.diameter, thread.pitch), [each for each in found if _on_axis(each, thread)]
     if not name:
         return [f"a thread {thread.diameter:g} at ({thread.x:g}, {thread.y:g}) has no pitch that is known"]
-    fitting = [each for each in here if core_of(name, 2) - ON_EDGE <= _round_of(each)[1] < thread.diameter + ON_EDGE]
+    holes = [each for each in here if not isinstance(each.feature, Groove)]
+    fitting = [each for each in holes if core_of(name, 2) - ON_EDGE <= _round_of(each)[1] < thread.diameter + ON_EDGE]
     if fitting:
         each = max(fitting, key=lambda each: _round_of(each)[1])
         axis, wide = _round_of(each)
@@ -148,20 +149,26 @@ def _thread(thread: Threaded, found: list[Found], top: float, bottom: float) -> 
     more: dict[str, Any] = {} if above == top else {"top": number(above)}
     depth = None if through else number(above - thread.tip)
     hole = Hole(thread.x, thread.y, None, depth, FLAT, thread=name, **more)
+    for ring in here:  # what was milled about the hole before it, or after
+        if isinstance(ring.feature, Groove) and _round_of(ring)[1] - 2 * ring.feature.width < hole.wide and ring.top == above:
+            hole = replace(hole, counterbore=(_round_of(ring)[1], number(above - ring.floor)))
+            found[:] = [each for each in found if each is not ring]
     region = Region((Contour.circle((thread.x, thread.y), hole.wide / 2),))
     found.append(Found(hole, thread.row, region, above, max(thread.tip, bottom)))
     return []
 
 
 def _round_of(each: Found) -> tuple[Hole | Circle, float]:
-    """Axis and diameter of a hole or a round pocket."""
+    """Axis and outer diameter of a hole, a round pocket or a ring."""
     feature = each.feature
-    return (feature, feature.wide) if isinstance(feature, Hole) else (feature.contour, feature.contour.diameter)
+    if isinstance(feature, Hole):
+        return feature, feature.wide
+    return feature.contour, feature.contour.diameter + (feature.width if isinstance(feature, Groove) else 0.0)
 
 
 def _on_axis(each: Found, thread: Threaded) -> bool:
     feature = each.feature
-    if isinstance(feature, Pocket) and not isinstance(feature.contour, Circle) or not isinstance(feature, Hole | Pocket):
+    if not isinstance(feature, Hole) and not (isinstance(feature, Pocket | Groove) and isinstance(feature.contour, Circle)):
         return False
     axis = _round_of(each)[0]
     return math.hypot(axis.x - thread.x, axis.y - thread.y) < ON_EDGE
