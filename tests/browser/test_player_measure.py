@@ -1,4 +1,4 @@
-"""Two clicks in the player measure what arithmetic says: on the part exactly where moves or the blank tell, else within a cell."""
+"""Two clicks in the player measure what arithmetic says: exactly where moves or the blank tell, else within a cell."""
 
 import math
 import re
@@ -125,7 +125,9 @@ def closer(page, at, times=6):
     """The same view, some steps nearer about a place."""
     for _ in range(times):
         page.keyboard.press("+")
-    page.evaluate("at => { const {picture} = player; picture.camera.target = at; picture.stale = true; player.draw(); }", list(at))
+    page.evaluate(
+        "at => { const {picture} = player; picture.camera.target = at; picture.stale = true; player.draw(); }", list(at)
+    )
 
 
 def values(page):
@@ -241,7 +243,8 @@ def test_an_arc_of_a_lathe_has_its_radius(opened):
 def test_where_a_circle_ends_it_is_measured_and_not_the_tool(opened):
     """A bore of 28 by a helix; the tool of 8 touches its wall where the circles begin and end."""
     down = "".join(f"G3 X60 Y50 I-10 J0 Z{-k}\n" for k in range(1, 7))
-    page = opened(mill(program=f"G17 G90 G54 T1 S3000 M3\nG0 X60 Y50 Z5\nG1 Z0 F500\n{down}G3 X60 Y50 I-10 J0\nG0 Z30\n"))
+    head = "G17 G90 G54 T1 S3000 M3\nG0 X60 Y50 Z5\nG1 Z0 F500\n"
+    page = opened(mill(program=f"{head}{down}G3 X60 Y50 I-10 J0\nG0 Z30\n"))
     page.get_by_role("button", name="Top", exact=True).click()
     (rim,) = clicked(page, (64, 50, 0))
     assert rim["round"]["d"] == pytest.approx(28) and rim["round"]["centre"] == pytest.approx([50, 50, 0])
@@ -253,9 +256,10 @@ def test_where_a_circle_ends_it_is_measured_and_not_the_tool(opened):
 
 @pytest.mark.deep
 def test_among_many_moves_a_place_is_found_while_the_pointer_moves(opened):
-    k = range(6000)
-    lines = "\n".join(f"X{(k % 200 if k // 200 % 2 == 0 else 199 - k % 200) / 2} Y{k // 200} Z{-4 + 3 * math.sin(k / 90):.3f}" for k in k)
-    page = opened(mill(program=f"G17 G90 G54 T1 S3000 M3\nG0 X0 Y0 Z20\nG1 Z-3 F800\n{lines}\nG0 Z30\n", stock=((0, 0, -20), (100, 40, 0))))
+    x = [(k % 200 if k // 200 % 2 == 0 else 199 - k % 200) / 2 for k in range(6000)]
+    lines = "\n".join(f"X{a} Y{k // 200} Z{-4 + 3 * math.sin(k / 90):.3f}" for k, a in enumerate(x))
+    head = "G17 G90 G54 T1 S3000 M3\nG0 X0 Y0 Z20\nG1 Z-3 F800\n"
+    page = opened(mill(((0, 0, -20), (100, 40, 0)), f"{head}{lines}\nG0 Z30\n"))
     page.get_by_role("button", name="Top", exact=True).click()
     times = page.evaluate("""() => [0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65].map(share => {
         const begin = performance.now(), [w, h] = player.picture.camera.size;
@@ -329,5 +333,5 @@ def test_the_values_stand_beside_the_picture_and_cover_nothing(opened, width, he
     board = boxes[0]
     for other in boxes[1:]:
         assert board["y"] >= other["y"] + other["height"] - 0.5 or other["y"] >= board["y"] + board["height"] - 0.5
-    wide = page.evaluate("() => [document.getElementById('measured').scrollWidth, document.getElementById('measured').clientWidth]")
-    assert wide[0] <= wide[1]
+    wide, room = page.evaluate("() => ['scrollWidth', 'clientWidth'].map(name => player.find('measured')[name])")
+    assert wide <= room

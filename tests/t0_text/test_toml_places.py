@@ -49,5 +49,10 @@ def test_places(keys, line, word):
     assert file.line_text(line)[place.column - 1 :][: place.length] == word
 
 
+def test_a_table_that_only_its_parts_name():
+    place = File("design.toml", "a = 1\n[limits.rapid]\nx = 2\n").place_of("limits")
+    assert (place.line, place.column) == (2, 9)
+
+
 def test_what_is_not_there():
     assert File("design.toml", TEXT).place_of("nothing") is None

@@ -58,6 +58,11 @@ class Seen(NamedTuple):
         face = (before == 0) & (after == 0) & ((np.abs(jump) > SAME) | (np.abs(bend) > LEAN))
         return [float(u) for u in self.places[(before != after) | face]]
 
+    def ends(self) -> Floats:
+        """The depths of the pieces at their left and right ends, (n, 2); infinite where there is no face."""
+        depths = np.stack([_depth(self.pieces, self.places[:-1]), _depth(self.pieces, self.places[1:])], axis=1)
+        return np.where(self.labels[:, None] >= 0, depths, np.inf)
+
     def cuts(self) -> list[tuple[float, float]]:
         """Stretches of u that are cut."""
         found: list[tuple[float, float]] = []

@@ -26,7 +26,7 @@ WIDTH, FOOT, HEAD, BESIDE = 180.0, 10.0, 24.0, 60.0  # mm: of the title block, i
 TINY = 1.8  # mm, letters of the names of fields
 LETTERS = (5.0, HEIGHT, SMALL, TINY)
 NAME = 3.2  # mm above a field's text, for the name of the field
-CENTRING = 5.0  # mm by which centring marks reach into the frame
+CENTRING = 3.0  # mm by which centring marks reach into the frame: less than anything else keeps away from it
 CELL, TALL = 4.0, 2.0  # mm of a table: room beside a text, above and below it
 
 

@@ -21,9 +21,10 @@ from mnclab.show.drawing.dimensions import Angle, Dimension, Linear, Note, Point
 from mnclab.show.drawing.hatching import hatching
 from mnclab.show.drawing.ink import Label, Mark, Stroke, segment_boxes
 from mnclab.show.drawing.lettering import block
+from mnclab.show.drawing.origin import origin
 from mnclab.show.drawing.placing import OUTLINE, SOFT, Ground, boxes_of, spans
 from mnclab.show.drawing.sheet import scale_text
-from mnclab.show.drawing.view import Axis, Kind, View
+from mnclab.show.drawing.view import Axis, Kind, Origin, View
 
 CHORD = 0.1  # mm on paper: as such chords lines stand in the way of texts
 WIDE = 0.3  # mm, of lines that others should not run along
@@ -93,6 +94,9 @@ def _strokes(view: View, scale: float) -> Iterator[Stroke]:
         if isinstance(axis, Axis):
             yield centre_line(axis.a, axis.b, scale)
             continue
+        if isinstance(axis, Origin):
+            yield from origin((axis.at[0] * scale, axis.at[1] * scale))
+            continue
         x, y = axis.centre
         for angle in (axis.turned, axis.turned + math.pi / 2):
             dx, dy = axis.radius * math.cos(angle), axis.radius * math.sin(angle)
@@ -157,7 +161,8 @@ def _placed(things: Sequence[Written], scale: float, outline: Floats, ground: Gr
         raise NoRoom(things[waiting[0]])
     for k in sorted(marks, key=lambda k: (*_rank(things[k], scale), k)) * LOOKS:  # now that all stand
         ground.take(k)
-        marks[k] = ground.best(_offers(things[k], scale, outline, room[k]))[0] or marks[k]
+        price = float(ground.prices([marks[k]])[0][0])
+        marks[k] = ground.best(_offers(things[k], scale, outline, room[k]), least=price)[0] or marks[k]
         ground.put(marks[k], k)
     return [marks[k] for k in range(len(things))]
 

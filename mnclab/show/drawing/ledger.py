@@ -14,10 +14,11 @@ from mnclab.geometry.vectors import Floats
 from mnclab.show.drawing.dimensions import Dimension, Point
 from mnclab.show.drawing.drawing import Drawing
 from mnclab.show.drawing.frame import Printed
+from mnclab.show.drawing.origin import RADIUS
 from mnclab.show.drawing.sheet import Table
-from mnclab.show.drawing.view import Axis, Cross, Cut, Kind, Line, View
+from mnclab.show.drawing.view import Axis, Cross, Cut, Kind, Line, Origin, View
 
-ORIGIN_BOX = 2.2 * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])  # mm about the zero point
+ORIGIN_BOX = RADIUS * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])  # mm about the zero point
 BLANK = -1  # the number of the blank among the features
 
 
@@ -53,7 +54,7 @@ class Draft:
     lines: list[Line] = field(default_factory=list)
     hatches: tuple[Region, ...] = ()
     dimensions: list[Dimension] = field(default_factory=list)
-    axes: list[Axis | Cross] = field(default_factory=list)
+    axes: list[Axis | Cross | Origin] = field(default_factory=list)
     cuts: list[Cut] = field(default_factory=list)
 
     def draw(self, contours: Sequence[Contour], kind: Kind = Kind.VISIBLE) -> None:

@@ -28,7 +28,7 @@ PRICES = np.array([
     [0.6, 0.0, NEVER, 6.0, 3.0, 0.2, 4.0],  # an extension line
     [1.2, 0.8, NEVER, NEVER, 10.0, 4.0, 20.0],  # a leader
 ])  # fmt: skip
-BODIES = {DIMENSION: (NEAR, 0.5), EXTENSION: (NEAR, 0.0), LEADER: (0.8, 0.5)}  # mm: how much shorter, half the width kept free
+BODIES = {DIMENSION: (0.45, 0.5), EXTENSION: (NEAR, 0.0), LEADER: (0.45, 0.5)}  # mm: shorter by less than AIR, half the width
 BATCH = 32  # places tried at once
 
 
@@ -39,11 +39,13 @@ class Ground:
         self.boxes: Floats = np.zeros((0, 6))
         self.parts: Whole = np.zeros(0, dtype=np.intp)
         self.marks: Whole = np.zeros(0, dtype=np.intp)
+        self.spans: Floats = np.zeros((0, 2, 2))
 
     def add(self, boxes: Floats, parts: Whole, mark: int = -1) -> None:
         """Lay boxes `(n, 6)` down."""
         self.boxes, self.parts = np.vstack([self.boxes, boxes]), np.concatenate([self.parts, parts])
         self.marks = np.concatenate([self.marks, np.full(len(parts), mark)])
+        self.spans = np.concatenate([self.spans, np.stack(spans(boxes), axis=1)])
 
     def put(self, mark: Mark, number: int) -> None:
         """Lay a mark down under a number."""
@@ -53,6 +55,7 @@ class Ground:
         """Take a mark away."""
         kept = self.marks != number
         self.boxes, self.parts, self.marks = self.boxes[kept], self.parts[kept], self.marks[kept]
+        self.spans = self.spans[kept]
 
     def prices(self, marks: Sequence[Mark]) -> tuple[Floats, NDArray[np.bool_]]:
         """What each of n marks would cost where it is `(n,)`, and which of the others it can not stand with `(n, m + 1)`,
@@ -61,7 +64,7 @@ class Ground:
         boxes, parts = np.concatenate([b for b, _ in found]), np.concatenate([p for _, p in found])
         owner = np.repeat(np.arange(len(marks)), [len(p) for _, p in found])
         low, high = spans(boxes)
-        there_low, there_high = spans(self.boxes)
+        there_low, there_high = self.spans[:, 0], self.spans[:, 1]
         near = (low[:, None, 0] <= there_high[:, 0]) & (high[:, None, 0] >= there_low[:, 0])
         near &= (low[:, None, 1] <= there_high[:, 1]) & (high[:, None, 1] >= there_low[:, 1])
         i, k = np.nonzero(near)
@@ -77,10 +80,12 @@ class Ground:
         barred[owner[i[never]], self.marks[k[never]]] = True
         return costs, barred
 
-    def best(self, offers: Iterable[Mark], standing: Floats | None = None) -> tuple[Mark | None, list[int]]:
+    def best(
+        self, offers: Iterable[Mark], standing: Floats | None = None, least: float = NEVER
+    ) -> tuple[Mark | None, list[int]]:
         """The cheapest of the marks, which come in the order of their own costs, and the numbers of those that must give
-        way: they cost what `standing` says of them; without it none gives way. None where none has room."""
-        best, least, away = None, NEVER, list[int]()
+        way: they cost what `standing` says of them; without it none gives way. None where none is cheaper than `least`."""
+        best, away = None, list[int]()
         for batch in _batches(iter(offers)):
             if batch[0].cost >= least:
                 break

@@ -20,28 +20,18 @@ LONGEST = 4.0  # a mitre line against the width of its chamfer
 EMPTY = Region(())
 
 
-def edges(levels: Levels) -> list[Contour]:
-    """Visible edges in (x, y), lines and arcs as they are: whole loops where all of one is seen."""
-    found = [line for z, loop in _seen(levels) for line in _not_within(levels, z, loop)]
-    return [*found, *_mitres(levels)]
+def edges(levels: Levels, below: bool = False) -> list[Contour]:
+    """Visible edges in (x, y), lines and arcs as they are: whole loops where all of one is seen; or those seen from below."""
+    found = [line for z, loop in _seen(levels, below) for line in _not_within(levels, z, loop)]
+    return [*found, *_mitres(levels, below)]
 
 
-def outline(levels: Levels) -> Region:
-    """All that the part takes up, seen from above."""
-    covered = EMPTY
-    for _, section in _sections(levels):
-        covered = _more(levels, covered, section)
-    return covered
-
-
-def _sections(levels: Levels) -> Iterator[tuple[float, Region]]:
-    """Sections from above down, each where it differs from that before."""
-    for slab in reversed(levels.slabs):
-        if slab.slants:
-            yield slab.high, levels.section(slab, slab.high)
-            yield slab.low, levels.section(slab, slab.low)
-        else:
-            yield slab.high, slab.region
+def _sections(levels: Levels, below: bool) -> Iterator[tuple[float, Region]]:
+    """Sections from above down, or from below up."""
+    for slab in levels.slabs if below else reversed(levels.slabs):
+        ends = (slab.low, slab.high) if below else (slab.high, slab.low)
+        for z in ends if slab.slants else ends[:1]:
+            yield z, levels.section(slab, z)
 
 
 def _more(levels: Levels, covered: Region, section: Region) -> Region:
@@ -50,9 +40,9 @@ def _more(levels: Levels, covered: Region, section: Region) -> Region:
     return section if levels.nested else covered.union(section)
 
 
-def _seen(levels: Levels) -> Iterator[tuple[float, Contour]]:
+def _seen(levels: Levels, below: bool) -> Iterator[tuple[float, Contour]]:
     covered = EMPTY
-    for z, section in _sections(levels):
+    for z, section in _sections(levels, below):
         if not section.loops:
             continue
         if not covered.loops:
@@ -64,11 +54,11 @@ def _seen(levels: Levels) -> Iterator[tuple[float, Contour]]:
         covered = _more(levels, covered, section)
 
 
-def _mitres(levels: Levels) -> Iterator[Contour]:
+def _mitres(levels: Levels, below: bool) -> Iterator[Contour]:
     """Where two slanting faces meet: lines from the corners of the upper edge to those of the lower one."""
     for slab in levels.slabs:
         for each in slab.slants:
-            if isinstance(each.base, Region):
+            if isinstance(each.base, Region) and each.up != below:
                 upper, lower = (_corners(levels.section(slab, z), each, z) for z in (slab.high, slab.low))
                 wide = abs(each.at(slab.high) - each.at(slab.low))
                 for corner in upper:
@@ -94,13 +84,13 @@ def _not_within(levels: Levels, z: float, line: Contour) -> Iterator[Contour]:
     within = np.zeros(len(x), dtype=bool)
     for each in slants.values():
         within |= np.abs(each.away(x, y) - each.at(z)) < NEAR
-    yield from _stretches(line, ~within.reshape(-1, len(SPOTS)).all(axis=1))
+    yield from _stretches(line, np.logical_not(within).reshape(-1, len(SPOTS)).any(axis=1))
 
 
 def _off(loop: Contour, covered: Region) -> Iterator[Contour]:
     """The stretches of a loop that are not on the edge of what is above: that is drawn already."""
     lies = covered.distance(_spots(loop)) < NEAR
-    return _stretches(loop, ~lies.reshape(-1, len(SPOTS)).all(axis=1))
+    return _stretches(loop, np.logical_not(lies).reshape(-1, len(SPOTS)).any(axis=1))
 
 
 def _spots(line: Contour) -> Floats:

@@ -2,7 +2,6 @@
 // of a round wall or an arc {d, centre, off}, of a straight edge its direction `along` in the plane.
 
 const SNAP = 12, FINGER = 22;  // pixels about the pointer that are looked at
-const SVG = "http://www.w3.org/2000/svg";
 
 class Measure {
   constructor(page) {
@@ -140,7 +139,7 @@ class Measure {
     const {on, points, hover, pointer, camera} = this, marks = [];
     if (!on) return;
     const add = (name, kind, values, text = "") => {
-      const mark = document.createElementNS(SVG, name);
+      const mark = document.createElementNS(this.find("marks").namespaceURI, name);
       mark.setAttribute("class", kind);
       for (const [key, value] of Object.entries(values)) mark.setAttribute(key, value);
       mark.textContent = text;

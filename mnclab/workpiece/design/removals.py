@@ -15,6 +15,7 @@ from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array, Mask
 
 NOTHING = Region(())
+TINY = 1e-6  # mm, by which a section is wide that is none
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +67,10 @@ class Slanting:
     def up(self) -> bool:
         return self.open > self.deep
 
+    def reaches(self, z: float) -> bool:
+        """Whether material at a height, or at one beyond it, is taken away."""
+        return z > self.deep if self.up else z < self.deep
+
     @property
     def low(self) -> float:
         return min(self.deep, self.open)
@@ -88,7 +93,7 @@ class Slanting:
     def section(self, z: float) -> Region:
         """What it takes away at a height between both ends."""
         out = self.at(z)
-        if out <= self.near:
+        if out <= self.near + TINY:
             return NOTHING
         if isinstance(self.base, Region):
             grown = self.grown(out)

@@ -19,8 +19,8 @@ from mnclab.text.given import check_number, choice
 from mnclab.workpiece.design.feature import check_flag, check_positive
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.threads import metric
-from mnclab.workpiece.design.turned_body import BEYOND, SAME, TurnedBody
-from mnclab.workpiece.design.turned_features import ENDS, TurnedFeature, given, outline
+from mnclab.workpiece.design.turned_body import BESIDE, BEYOND, SAME, TurnedBody
+from mnclab.workpiece.design.turned_feature import ENDS, Place, Point, TurnedFeature, given, outline
 
 SHARP = math.sqrt(3) / 2  # of the pitch: the depth of a thread with sharp teeth
 INNER, PITCH, OUTER = 5 / 4 * SHARP, 3 / 4 * SHARP, 17 / 12 * SHARP  # by which core, flanks and core of a bolt are narrower
@@ -37,7 +37,7 @@ UNDERCUTS = {
 
 @dataclass(frozen=True, repr=False)
 class Thread(TurnedFeature):
-    """A metric thread ("M30x1.5", "M30" with its coarse pitch) on a cylinder, or `inside` a bore, from z `start` back to `end`.
+    """A metric thread ("M30x1.5", "M30" with its coarse pitch) from z `start` back to `end`, `inside` a bore or outside.
 
     Outside the profile has its cylinder, of the nominal diameter (or less, down to that of the flanks). Inside it opens its
     bore to the core, D₁ = d - 1.0825 P, where that is narrower.
@@ -87,6 +87,11 @@ class Thread(TurnedFeature):
         yield Measure("length", self.start - self.end)
         yield Measure("z", self.start, "place")
 
+    def places(self, body: TurnedBody) -> dict[str, Place]:
+        r = self.band[0 if self.inside else 1]
+        along = ((self.start, r), (self.end, r), None)
+        return {"thread": along, "length": along, "z": ((self.start, r), (self.start, r), None)}
+
     def cut(self, body: TurnedBody) -> Contour | None:
         body.check_within(self.start, self.end)
         middles, lengths = body.places(self.start, self.end)
@@ -122,7 +127,7 @@ class Thread(TurnedFeature):
 
 @dataclass(frozen=True, repr=False)
 class Undercut(TurnedFeature):
-    """The undercut at the end of a thread, simple form: from a shoulder at `z` towards the thread, up its 30° to the surface.
+    """The undercut at the end of a thread: from a shoulder at `z` towards the thread, up a slope of 30° to the surface.
 
     `diameter`, `width` of the bottom, to where the slope begins, and `corner` radii are those of DIN 76-1 for the pitch unless
     given (outside form A, inside form C). `thread_at`: the thread lies to the "front" or the "back" of it.
@@ -171,26 +176,47 @@ class Undercut(TurnedFeature):
         yield Measure("angle", self.angle, "angle")
         yield Measure("z", self.z, "place")
 
-    def cut(self, body: TurnedBody) -> Contour:
-        ahead = 1.0 if self.thread_at == "front" else -1.0
-        diameter, width, corner = self.sizes
-        bottom, out, foot = diameter / 2, -1.0 if self.inside else 1.0, self.z + ahead * width
+    def _slope(self, body: TurnedBody) -> tuple[Point, Point]:
+        """Where the slope begins at the bottom and ends at the surface."""
+        (diameter, width, _), ahead = self.sizes, self._ahead
+        bottom, foot = diameter / 2, self.z + ahead * width
         body.check_within(max(self.z, foot), min(self.z, foot))
-        beside = foot + ahead * 1e-6
-        wall = float((body.inner if self.inside else body.outer)(np.array([beside]))[0])
+        wall = self._surface(body, foot + ahead * BESIDE)
+        lean = abs(wall - bottom) / math.tan(math.radians(self.angle)) if self.angle < 90 else 0.0
+        return (foot, bottom), (foot + ahead * lean, wall)
+
+    @property
+    def _ahead(self) -> float:
+        return 1.0 if self.thread_at == "front" else -1.0
+
+    def _surface(self, body: TurnedBody, z: float) -> float:
+        return float((body.inner if self.inside else body.outer)(np.array([z]))[0])
+
+    def places(self, body: TurnedBody) -> dict[str, Place]:
+        (foot, bottom), top = self._slope(body)
+        c, up = self.sizes[2] * self._ahead, bottom + self.sizes[2] * (-1 if self.inside else 1)
+        return {
+            "diameter": ((self.z, bottom), (foot, bottom), None),
+            "width": ((self.z, bottom), (foot, bottom), None),
+            "corner radius": ((self.z, up), (self.z + c, bottom), (self.z + c, up)),
+            "angle": ((foot, bottom), top, None),
+            "z": ((self.z, bottom), (self.z, bottom), None),
+        }
+
+    def cut(self, body: TurnedBody) -> Contour:
+        ((foot, bottom), (end, wall)), ahead, corner = self._slope(body), self._ahead, self.sizes[2]
+        out = -1.0 if self.inside else 1.0
         if not wall * out > bottom * out + SAME:
             limit = "greater" if self.inside else "less"
             raise Alarm(f"its diameter must be {limit} than that of the surface there, {2 * wall:g}, got {2 * bottom:g}")
-        behind = float((body.inner if self.inside else body.outer)(np.array([self.z - ahead * 1e-6]))[0])
+        behind = self._surface(body, self.z - ahead * BESIDE)
         if not behind * out > bottom * out + SAME or behind < SAME:
             raise Alarm(f"there is no shoulder at Z {self.z:g}: the surface behind it has {2 * behind:g}")
-        high = out * (wall - bottom)
-        if corner > high + SAME:
-            raise Alarm(f"its corner must be at most its depth, {high:g}, got {corner:g}")
-        lean = ahead / math.tan(math.radians(self.angle)) if self.angle < 90 else 0.0
-        end = foot + lean * high
+        if corner > abs(wall - bottom) + SAME:
+            raise Alarm(f"its corner must be at most its depth, {abs(wall - bottom):g}, got {corner:g}")
         body.check_within(max(self.z, end), min(self.z, end))
         sky = -BEYOND if self.inside else body.radius + BEYOND
+        lean = (end - foot) / abs(wall - bottom)
         rise = min(abs(sky - wall), 1e-3)  # it goes out of the surface by so much, then straight up
         points = [(self.z, sky), (self.z, bottom), (foot, bottom), (end + lean * rise, wall + out * rise)]
         points.append((end + lean * rise, sky))

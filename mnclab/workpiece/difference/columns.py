@@ -18,7 +18,6 @@ from mnclab.workpiece.milling.raster import NOISE
 
 LEVELS = (0.5, 0.1, 0.3, 0.7, 0.9)  # of a column that is gone
 CHUNK = 20_000  # points whose distances are looked at together
-FEW = 2_000  # cells that are not told apart before
 
 
 class Columns(NamedTuple):
@@ -31,8 +30,9 @@ class Columns(NamedTuple):
     its_floor: Array
     its_top: Array
 
-    def __getitem__(self, which: Mask) -> Columns:  # type: ignore[override]
-        return Columns(*(column[which] for column in tuple(self)))
+    def some(self, which: Mask) -> Columns:
+        """Those of some points."""
+        return Columns(*(column[which] for column in self))
 
     def differ(self, error: float) -> Mask:
         here, there = np.isfinite(self.top), np.isfinite(self.its_top)
@@ -52,40 +52,39 @@ def off(target: Target, at: Columns) -> tuple[Array, Array]:
     """How far columns are off (m,), + what is too much, - what is gone, and at which height (m,)."""
     value, height = np.zeros(len(at.x)), np.where(np.isfinite(at.top), at.top, at.its_top)
     here, there = np.isfinite(at.top), np.isfinite(at.its_top)
-
-    def look(which: Mask, z: Array, sign: float) -> None:
-        k = np.flatnonzero(which)
-        if len(k):
-            found = sign * np.maximum(sign * distances(target, at.x[k], at.y[k], z[k]), 0.0)
-            more = np.abs(found) > np.abs(value[k])
-            value[k[more]], height[k[more]] = found[more], z[k[more]]
-
     with np.errstate(invalid="ignore"):
         apart = here & there & ((at.top < at.its_floor) | (at.floor > at.its_top))
-        look(here & (~there | apart | (at.top > at.its_top)), at.top, 1.0)
-        look(here & (~there | apart | (at.floor < at.its_floor)), at.floor, 1.0)
-        look(here & there & ~apart & (at.top < at.its_top), at.top, -1.0)
-        look(here & there & ~apart & (at.floor > at.its_floor), at.floor, -1.0)
-    for level in LEVELS:
-        look(there & (~here | apart), at.its_floor + level * (at.its_top - at.its_floor), -1.0)
+        both, much, gone = here & there & ~apart, here & (~there | apart), there & (~here | apart)
+        looked = [(much | here & (at.top > at.its_top), at.top, 1.0), (much | here & (at.floor < at.its_floor), at.floor, 1.0)]
+        looked += [(both & (at.top < at.its_top), at.top, -1.0), (both & (at.floor > at.its_floor), at.floor, -1.0)]
+    looked += [(gone, at.its_floor + level * (at.its_top - at.its_floor), -1.0) for level in LEVELS]
+    index = np.concatenate([np.flatnonzero(which) for which, _, _ in looked])
+    z = np.concatenate([z[which] for which, z, _ in looked])
+    sign = np.repeat([sign for _, _, sign in looked], [int(which.sum()) for which, _, _ in looked])
+    found = sign * np.maximum(sign * distances(target, at.x[index], at.y[index], z), 0.0)
+    order = np.argsort(np.abs(found), kind="stable")  # the last one that is written is the greatest
+    value[index[order]], height[index[order]] = found[order], z[order]
     return value, height
 
 
 def distances(target: Target, x: Array, y: Array, z: Array) -> Array:
+    """Signed distances of points (m,) from a target."""
     points = np.stack([x, y, z], axis=1)
     return np.concatenate([target.distance(points[k : k + CHUNK]) for k in range(0, max(len(points), 1), CHUNK)])
 
 
 class Cells(NamedTuple):
     """Cells that differ: row and column (c,), their columns, how far they are off (c,) and at which height. `side` is 1
-    where they are off the upper side of the target, -1 the lower, 0 where another face is nearer."""
+    where they are off the upper side of the target, -1 the lower, 0 where another face is nearer; `plain`: edges are
+    farther away."""
 
-    row: Array
-    column: Array
+    row: Index
+    column: Index
     at: Columns
     value: Array
     z: Array
     side: Index
+    plain: Mask
 
 
 def cells(workpiece: Milled, target: Target, grid: Grid, error: float) -> Cells:
@@ -99,17 +98,17 @@ def cells(workpiece: Milled, target: Target, grid: Grid, error: float) -> Cells:
     sides = (each[row, column] for each in (floor, top, grid.floor, grid.top))
     at = Columns(raster.x[column], raster.y[row], *sides)
     value, z = np.zeros(len(row)), np.zeros(len(row))
-    plain = _plain(workpiece, grid, at, row, column) if len(row) > FEW else np.zeros(len(row), dtype=bool)
+    plain = _plain(workpiece, grid, at, row, column) if len(row) else np.zeros(0, dtype=bool)
     rise = at.top - at.its_top
     value[plain] = np.where(rise > 0, rise, -np.minimum(-rise, at.top - at.its_floor))[plain]
     z[plain] = at.top[plain]
-    value[~plain], z[~plain] = off(target, at[~plain])
+    value[~plain], z[~plain] = off(target, at.some(~plain))
     with np.errstate(invalid="ignore"):
         above, below = (np.abs(np.abs(way) - np.abs(value)) <= NOISE for way in (rise, at.its_floor - at.floor))
-    return Cells(row, column, at, value, z, np.where(above, 1, np.where(below, -1, 0)))
+    return Cells(row, column, at, value, z, np.where(above, 1, np.where(below, -1, 0)), plain)
 
 
-def _plain(workpiece: Milled, grid: Grid, at: Columns, row: Array, column: Array) -> Mask:
+def _plain(workpiece: Milled, grid: Grid, at: Columns, row: Index, column: Index) -> Mask:
     """Cells (c,) about which the target is as flat as they are off, and with one side right: their height tells all."""
     shape, step = grid.top.shape, workpiece.raster.step
     edge = np.ones((shape[0] + 2, shape[1] + 2), dtype=bool)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +25,8 @@ from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.raster import NOISE
 
 CANDIDATES = 4  # places from which the worst is followed
+MOST = 24  # places that are as bad, whose rows are looked for
+ALIKE = 1e-7  # mm, by which they may differ
 
 
 def compare(workpiece: Any, target: Any, tolerance: float = 0.05) -> Difference:
@@ -51,7 +52,7 @@ def target_of(given: Any, tolerance: float) -> Target:
 
 def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Difference:
     """A milled part against a target."""
-    found = seen(workpiece, target)
+    found = _followed(seen(workpiece, target))
     signed = np.where(np.isfinite(found.grid.top) | (workpiece.heights > workpiece.floor), 0.0, np.nan)
     cells = found.cells
     signed[cells.row, cells.column] = found.off[found.of_cells]
@@ -64,24 +65,40 @@ def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Differ
 
 
 def _worst(found: Seen, sign: float) -> Worst:
-    """The worst place of one sign, followed from some that look worst."""
+    """The worst place of one sign."""
     off = sign * found.off
     if not len(off) or not off.max() > 0:
         return Worst()
-    order = np.argsort(-off, kind="stable")[:CANDIDATES * CANDIDATES : CANDIDATES]
-    order = order[off[order] > 0]
-    follow = partial(followed, found.workpiece, found.target)
-    ends = [follow(found.place[k], float(found.off[k])) for k in order]
-    best = int(np.argmax([abs(value) for _, value in ends]))
-    k, (place, value) = order[best], ends[best]
-    if abs(value) - off[order[0]] <= found.error:
-        k, place, value = order[0], found.place[order[0]], found.off[order[0]]
-        void, owner = found.void[k], int(found.owner[k])
-    else:
-        void, owner = place + [0, 0, 1e-6], int(found.target.owners(place[None], np.array([abs(value)]))[0])
-    row = guilty(found.workpiece, found.target, place, void, value)
-    x, y, z = place.tolist()
-    return Worst(abs(float(value)), (x, y, z), *_line(found, row), found.target.owner(owner).name, _where(found, row))
+    k, row = _first(found, np.flatnonzero(off >= off.max() - ALIKE))
+    x, y, z = found.place[k].tolist()
+    name = found.target.owner(int(found.owner[k])).name
+    return Worst(float(off.max()), (x, y, z), *_line(found, row), name, _where(found, row))
+
+
+def _followed(found: Seen) -> Seen:
+    """With the places at which it is worst, if they lie between those that were looked at."""
+    places, values = [], []
+    for sign in (-1.0, 1.0):
+        order = np.argsort(-sign * found.off, kind="stable")[: CANDIDATES**2 : CANDIDATES]
+        order = order[sign * found.off[order] > 0]
+        if len(order):
+            place, value = followed(found.workpiece, found.target, found.place[order], found.off[order])
+            if abs(value) - abs(found.off[order[0]]) > max(found.error, ALIKE):
+                places.append(place)
+                values.append(value)
+    if not places:
+        return found
+    at, off = np.array(places), np.array(values)
+    return found.with_places(at, off, found.target.owners(at, np.abs(off)))
+
+
+def _first(found: Seen, among: Index) -> tuple[int, int]:
+    """Of places that are as bad the one that was made first, as far as they are looked at, and the row that made it."""
+    some = among[:: len(among) // MOST + 1]
+    rows = [guilty(found.workpiece, found.target, found.place[k], found.void[k], float(found.off[k])) for k in some]
+    made = [(row, int(k)) for row, k in zip(rows, some) if row >= 0]
+    row, k = min(made, default=(-1, int(some[0])))
+    return k, row
 
 
 def _line(found: Seen, row: int) -> tuple[int, int, int]:
@@ -106,22 +123,22 @@ def _row(found: Seen, reading: Reading) -> Row:
         verdict = OK if lower - found.error <= deviation <= upper + found.error else OUT
     row, place = -1, None
     worst = _worst_of(found, reading.among)
-    if worst >= 0:
-        row = guilty(found.workpiece, found.target, found.place[worst], found.void[worst], float(found.off[worst]))
-        x, y, z = found.place[worst].tolist()
+    if len(worst):
+        first, row = _first(found, worst)
+        x, y, z = found.place[first].tolist()
         place = x, y, z
     line, row, program = _line(found, row)
     where = _where(found, row) if row >= 0 else ("nothing cut here" if place else "")
     return Row(
-        reading.side, reading.feature, measure.name, measure.nominal, measure.nominal + deviation, deviation, lower, upper, verdict,
-        line, row, place, program, where,
+        reading.side, reading.feature, measure.name, measure.nominal, measure.nominal + deviation, deviation, lower, upper,
+        verdict, line, row, place, program, where,
     )  # fmt: skip
 
 
-def _worst_of(found: Seen, among: Index) -> int:
-    """The number of the place that is worst off among some, -1 where none is off."""
-    worst = int(among[np.abs(found.off[among]).argmax()]) if len(among) else -1
-    return worst if worst >= 0 and found.off[worst] else -1
+def _worst_of(found: Seen, among: Index) -> Index:
+    """The places that are worst off among some, none where nothing is off."""
+    off = np.abs(found.off[among])
+    return among[(off > 0) & (off >= off.max(initial=0.0) - ALIKE)]
 
 
 def _notes(workpiece: Milled, rows: Features) -> Iterator[str]:

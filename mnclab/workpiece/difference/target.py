@@ -39,7 +39,8 @@ class Grid(NamedTuple):
 
 class Walls(NamedTuple):
     """Places (m, 2) of upright faces, with unit normals (m, 2) away from the material, whose they are (m,), and whether
-    they are far from the ends of their element (m,). Each is looked at in one or more heights: `spot` (k,), `z` (k,)."""
+    they are far from the ends of their element (m,). Each is looked at in one or more heights: `spot` (k,), `z` (k,); `mid` (k,)
+    are those in the middle of the tallest piece, by which sizes are measured."""
 
     place: Array
     normal: Array
@@ -47,17 +48,19 @@ class Walls(NamedTuple):
     middle: Mask
     spot: Index
     z: Array
+    mid: Mask
 
 
 class Slopes(NamedTuple):
     """Places (m, 2) of slanting faces and of floors, their heights (m,), how far they are from the base of the slant (m,),
-    whose they are (m,), and whether they face upwards (m,)."""
+    whose they are (m,), whether they face upwards (m,), and whether they are far from the ends of the slant (m,)."""
 
     place: Array
     z: Array
     out: Array
     owner: Index
     up: Mask
+    middle: Mask
 
 
 class Target(Protocol):
@@ -86,8 +89,8 @@ class Target(Protocol):
     def walls(self, spacing: float) -> Walls:
         """Places on its upright faces, about so many mm apart."""
 
-    def slopes(self, spacing: float) -> Slopes:
-        """Places on its slanting faces, and on its floors beside their walls."""
+    def slopes(self, spacing: float, step: float) -> Slopes:
+        """Places on its slanting faces, and on floors that are small beside a cell of `step` mm."""
 
     def owners(self, points: Array, off: Array) -> Index:
         """Whose faces are the nearest (m,) to points (m, 3) at distances `off` (m,)."""

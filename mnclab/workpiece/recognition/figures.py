@@ -15,7 +15,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.workpiece.design.features import Face, Feature, Groove, Hole, Pocket, Slot, Stud
 from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle
 from mnclab.workpiece.recognition.areas import ON_EDGE, THIN, Area
-from mnclab.workpiece.recognition.outlines import Stadium, named, number
+from mnclab.workpiece.recognition.outlines import Bow, Stadium, named, number, outline_of
 from mnclab.workpiece.recognition.sorting import Plunge, Work
 from mnclab.workpiece.recognition.tracks import Track, coarse, distinct, polygon
 
@@ -27,7 +27,7 @@ MOST = 100  # pieces of a line that a groove goes along
 class Found:
     """A feature, the row that first cut it, and what of it others need: the region, and how high it begins and ends, mm."""
 
-    feature: Feature
+    feature: Any  # one of `mnclab.design`
     row: int
     region: Region
     top: float
@@ -53,6 +53,9 @@ def figures(area: Area, blank: Region, work: Work, top: float, bottom: float) ->
         yield found(hole)
     elif not area.islands and isinstance(area.shape, Stadium):
         yield found(Slot(area.shape.start, area.shape.end, area.shape.width, depth, **more))
+    elif not area.islands and isinstance(area.shape, Bow):
+        line = Outline((area.shape.start, area.shape.end), (area.shape.bulge, 0.0), closed=False)
+        yield found(Groove(line, area.shape.width, depth, **more))
     elif not area.islands and isinstance(area.shape, Circle | Rectangle):
         yield found(Pocket(area.shape, depth, **more))
     elif groove := _groove(area, blank, depth, more):
@@ -70,8 +73,9 @@ def drawn(loop: Contour) -> Circle | Rectangle | Outline:
         long, wide = long + shape.width, shape.width
         if abs(turned) > 45 + 1e-9:
             long, wide, turned = wide, long, turned - math.copysign(90, turned)
-        return Rectangle(number((x0 + x1) / 2), number((y0 + y1) / 2), number(long), number(wide), shape.width / 2, number(turned))
-    return shape
+        middle = number((x0 + x1) / 2), number((y0 + y1) / 2)
+        return Rectangle(*middle, number(long), number(wide), shape.width / 2, number(turned))
+    return outline_of(loop) if isinstance(shape, Bow) else shape
 
 
 def _hole(area: Area, work: Work, depth: float, bottom: float, more: dict[str, Any]) -> Hole | None:
@@ -103,7 +107,7 @@ def _groove(area: Area, blank: Region, depth: float, more: dict[str, Any]) -> Gr
         line = _joined(chain)
         shape = named(line) if line.closed else line
         try:
-            groove = Groove(line if isinstance(shape, Stadium) else shape, width, depth, **more)
+            groove = Groove(line if isinstance(shape, Stadium | Bow) else shape, width, depth, **more)
         except Alarm:  # it crosses itself: no groove of a drawing
             continue
         if len(chain) == len(tracks) or _covers(chain, area, blank):

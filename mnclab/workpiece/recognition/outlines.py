@@ -16,7 +16,7 @@ from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle
 
 SAME = 1e-6  # mm, within which two sizes are one
 ALIKE = 1e-6  # rad, of two directions
-SHORT = 1e-5  # mm, of an element that rounding has left
+SHORT = 5e-3  # mm, of an element that rounding has left where arcs touch
 FLAT = 1e-7  # mm, by which an arc rises that is a line
 DIGITS = 9  # of a size that is said, mm
 
@@ -27,6 +27,16 @@ class Stadium:
 
     start: tuple[float, float]
     end: tuple[float, float]
+    width: float
+
+
+@dataclass(frozen=True)
+class Bow:
+    """A slot along an arc, with round ends: the ends of the arc, its bulge, the width, mm."""
+
+    start: tuple[float, float]
+    end: tuple[float, float]
+    bulge: float
     width: float
 
 
@@ -62,7 +72,7 @@ def merged(loop: Contour) -> Contour:
     if len(found) > 1 and _on_one(found[-1], found[0]):
         found[0] = found[0]._replace(start=found.pop().start)
     if len(found) < 2:
-        return loop
+        return Contour.circle(found[0].centre, found[0].radius) if found and math.isfinite(found[0].radius) else loop
     corners = [_corner(a, b) for a, b in zip([found[-1], *found[:-1]], found)]
     points, bulge = [], []
     for each, start, end in zip(found, corners, [*corners[1:], corners[0]]):
@@ -123,10 +133,13 @@ def _corner(one: Stretch, other: Stretch) -> Array:
     return np.asarray((one.end + other.start) / 2)
 
 
-def named(loop: Contour) -> Circle | Stadium | Rectangle | Outline:
+Figure = Circle | Stadium | Bow | Rectangle | Outline
+
+
+def named(loop: Contour) -> Figure:
     """What a loop is, walked either way."""
     loop = merged(loop)
-    return _circle(loop) or _stadium(loop) or _rectangle(loop) or _outline(loop)
+    return _circle(loop) or _stadium(loop) or _bow(loop) or _rectangle(loop) or outline_of(loop)
 
 
 def _circle(loop: Contour) -> Circle | None:
@@ -147,6 +160,24 @@ def _stadium(loop: Contour) -> Stadium | None:
         return None
     (x0, y0), (x1, y1) = sorted(loop.centres[bent].round(DIGITS).tolist())
     return Stadium((x0 + 0.0, y0 + 0.0), (x1 + 0.0, y1 + 0.0), number(2 * radii.mean()))
+
+
+def _bow(loop: Contour) -> Bow | None:
+    """Two arcs about one centre, joined by two half circles."""
+    if len(loop.points) != 4 or not loop.bulge.all():
+        return None
+    hollow = np.flatnonzero(loop.bulge < 0)
+    if len(hollow) != 1:
+        return None
+    inner = int(hollow[0])
+    out, ends = (inner + 2) % 4, [(inner + 1) % 4, (inner + 3) % 4]
+    radii, centres = loop.radii, loop.centres
+    width = float(radii[out] - radii[inner])
+    bent = max(np.abs(loop.sweeps[ends] - np.pi).max(), np.abs(2 * radii[ends] - width).max())
+    if bent > 10 * SAME or math.dist(centres[inner], centres[out]) > 10 * SAME:
+        return None
+    (x0, y0), (x1, y1) = centres[ends].tolist()
+    return Bow((number(x0), number(y0)), (number(x1), number(y1)), number(loop.bulge[out]), number(width))
 
 
 def _rectangle(loop: Contour) -> Rectangle | None:
@@ -175,6 +206,8 @@ def _rectangle(loop: Contour) -> Rectangle | None:
     return Rectangle(number(x), number(y), number(sizes[0]), number(sizes[1]), number(corner), round(turned, 8) + 0.0)
 
 
-def _outline(loop: Contour) -> Outline:
+def outline_of(loop: Contour) -> Outline:
+    """A loop by its points."""
+    loop = merged(loop)
     bulge = tuple(round(each, 12) + 0.0 for each in loop.bulge.tolist()) if loop.bulge.any() else ()
     return Outline(tuple((number(x), number(y)) for x, y in loop.points.tolist()), bulge)

@@ -20,11 +20,12 @@ from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import at_angle
 
 ROUND = 1e-7  # mm, within which places are one
+THIN = 0.01  # mm, of half a strip that does not matter
 FEW = 30  # pieces that are joined at once, without a look at which matter
 COARSE = 32  # chords of a quarter circle
-NEAR = 0.002  # of a radius, from the rim of the coarse union: what comes so near matters
+NEAR = 0.0007  # of a radius, from the rim of the coarse union: what comes so near matters
 SPLIT = 1e-8  # rad, between places where bands touch a disc
-ALONG = 0.07  # rad, in which a disc leaves a band that it touches by more than that
+ALONG = 0.036  # rad, in which a disc leaves a band that it touches by more than that
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,8 @@ class Track:
     def key(self) -> tuple[Any, ...]:
         """What is the same of moves that sweep the same, there or back."""
         ends = sorted((_near(self.start), _near(self.end)))
-        return *ends, _near(self.centre), round(abs(self.sweep), 6), round(self.radius, 6)
+        middle = self.line.point_at(self.line.length / 2)[0] if self.sweep else self.start
+        return *ends, _near(self.centre), _near(middle) if self.sweep else (), round(self.radius, 6)
 
     @property
     def touched(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -88,7 +90,7 @@ class Track:
     @property
     def places(self) -> Any:
         """Points along its way (m, 2)."""
-        return self.line.points_within(0.002 * self.radius) if self.sweep else [self.start, self.end]
+        return self.line.points_within(0.0003 * self.radius) if self.sweep else [self.start, self.end]
 
 
 def _near(point: Any) -> tuple[float, float]:
@@ -101,7 +103,8 @@ def distinct(tracks: list[Track]) -> list[Track]:
     found: dict[tuple[Any, ...], Track] = {}
     for each in tracks:
         found.setdefault(each.key, each)
-    ends = {(_near(place), round(each.radius, 6)) for each in found.values() if not each.stands for place in (each.start, each.end)}
+    moving = [each for each in found.values() if not each.stands]
+    ends = {(_near(place), round(each.radius, 6)) for each in moving for place in (each.start, each.end)}
     return [each for each in found.values() if not each.stands or (_near(each.start), round(each.radius, 6)) not in ends]
 
 
@@ -127,7 +130,15 @@ def swept(tracks: list[Track]) -> Region:
     near = shapely.dwithin(rim, arcs, [NEAR * radius for radius, _ in discs])
     chosen += [piece for (_, piece), matters in zip(discs, near) if matters]
     loops = (loop for loop in Region.of(*chosen).loops if loop.area > 0 or not whole.contains(_within(loop)))
-    return Region(tuple(loops))
+    found = Region(tuple(loops))
+    if differ(whole, polygon(found)):  # a piece that matters was not seen to
+        return Region.of(*bands, *(piece for _, piece in discs))
+    return found
+
+
+def differ(one: Any, other: Any) -> bool:
+    """Whether two areas differ by more than thin strips."""
+    return not one.symmetric_difference(other).buffer(-THIN).is_empty
 
 
 def _arc_of(piece: Contour) -> Any:
@@ -180,8 +191,8 @@ def _discs(tracks: list[Track]) -> Iterator[tuple[float, Contour]]:
         if not found:
             yield radius, Contour.circle(place, radius)
             continue
-        angles = sorted(angle % FULL_TURN for angle in found)
-        turned = [b for a, b in zip([angles[-1] - FULL_TURN, *angles], angles) if b - a > SPLIT] or angles[:1]
+        around = sorted(angle % FULL_TURN for angle in found)
+        turned = [b for a, b in zip([around[-1] - FULL_TURN, *around], around) if b - a > SPLIT] or around[:1]
         gaps = [b - a for a, b in zip(turned, [*turned[1:], turned[0] + FULL_TURN])]
         for first, gap in zip(turned, gaps):
             (x, y), last = place, first + gap
