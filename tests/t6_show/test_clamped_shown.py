@@ -59,7 +59,8 @@ def test_the_player_begins_with_the_part_as_it_is():
     cutting = second().workpiece().cutting
     found = part(pack, cutting, cutting.path)
     top, floor = (pack.columns[found[name]].reshape(found["shape"]) / PARTS for name in ("top", "floor"))
-    y, x = np.meshgrid(*(low + found["step"] * (np.arange(n) + 0.5) for low, n in zip(found["low"][::-1], found["shape"])), indexing="ij")
+    middles = (low + found["step"] * (np.arange(n) + 0.5) for low, n in zip(found["low"][::-1], found["shape"]))
+    y, x = np.meshgrid(*middles, indexing="ij")
     hole = np.hypot(x - 15, y - 30) < 5
     assert np.array_equal(top - floor == 0, hole) and (floor == -20).all() and (top[~hole] == 0).all()
     assert len(second().stock.edges()) >= 14
