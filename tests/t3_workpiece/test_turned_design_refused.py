@@ -21,7 +21,7 @@ STEP = [(0, 12), (-30, 12), (-30, 20), (-50, 20)]
         ([(0, 1, 2)], {}, "points .z, r. or a contour"),
         ([(0, 20)], {}, "at least two points"),
         ([(0, math.nan), (-5, 3)], {}, "finite"),
-        ([(0, 20), (-1e6, 20)], {}, "point 1 of the profile must lie within 100000 mm"),
+        ([(0, 20), (-1e6, 20)], {}, "point 1 of an outline .mm. must be at least -100000"),
         ([(0, 20), (-30, -2)], {}, "point 1 of the profile must have a radius of at least 0, got -2"),
         ([(0, 20), (0, 20), (-30, 20)], {}, "points 0 and 1 of the profile are the same place"),
         ([(0, 10), (-20, 10), (-10, 5), (-10, 20), (-30, 20)], {}, "the profile crosses or touches itself near"),
