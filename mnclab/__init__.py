@@ -54,6 +54,7 @@ if TYPE_CHECKING:  # what OPENED says, for editors and for mypy
     from mnclab.show.forms import profile_panel as profile_panel
     from mnclab.show.magic import load_ipython_extension as load_ipython_extension
     from mnclab.workpiece.design import Design as Design
+    from mnclab.workpiece.design import TurnedDesign as TurnedDesign
 
 __version__ = "0.1.0"
 
@@ -66,7 +67,7 @@ OPENED = Shelf("mnclab", "the names that need more than numpy", {
     "mnclab.show.editor": "editor",
     "mnclab.show.forms": "compensation_panel, form, panel, profile_panel",
     "mnclab.show.magic": "load_ipython_extension",
-    "mnclab.workpiece.design": "Design",
+    "mnclab.workpiece.design": "Design, TurnedDesign",
 })  # fmt: skip
 
 part = Shelf("mnclab.part", "what a probe touches, for Setup(part=…); parts combine: a | b, a & b, a - b", {
@@ -77,9 +78,11 @@ blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…), a
     "mnclab.workpiece.blank": "Box, Revolved, chuck, cylinder",
 })  # fmt: skip
 
-design = Shelf("mnclab.design", "a part as drawn, Design(blank, features), and its features", {
+design = Shelf("mnclab.design", "a part as drawn, Design(blank, features) or TurnedDesign(profile, features), and features", {
     "mnclab.workpiece.blank": "Box, Revolved",
-    "mnclab.workpiece.design": "Chamfer, Circle, Design, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud",
+    "mnclab.workpiece.design":
+        "Design, Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud, "
+        "TurnedDesign, Bore, CentreHole, FaceGroove, RingGroove, Thread, Undercut",
 })  # fmt: skip
 
 area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawing or a path", {
@@ -129,6 +132,7 @@ __all__ = [
     "Setup",
     "Tool",
     "Toolpath",
+    "TurnedDesign",
     "Workpiece",
     "area",
     "blank",

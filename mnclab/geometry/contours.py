@@ -251,17 +251,22 @@ class Contour:
 
     def _winding(self, spots: Floats) -> NDArray[np.int_]:
         """Rounds of the chords and of the pieces between arcs and chords; a spot on a chord counts as a little farther in x."""
-        to, chord, sweep = spots[:, None] - self.starts, self.ends - self.starts, self.sweeps
-        side, y = cross(chord, to), spots[:, 1, None]
-        low, high = self.starts[:, 1], self.ends[:, 1]
+        ends, chord, sweep, centres, radii, _ = self._elements
+        side, y = cross(chord, spots[:, None] - self.starts), spots[:, 1, None]
+        low, high = self.starts[:, 1], ends[:, 1]
         up, down = (low <= y) & (y < high), (high <= y) & (y < low)
         rounds = (up & (side > 0)).sum(axis=1) - (down & (side < 0)).sum(axis=1)
         k = np.flatnonzero(sweep)
         dx, dy = chord[k, 0], chord[k, 1]
         on_right = np.where(side[:, k] == 0, (dy > 0) | ((dy == 0) & (dx < 0)), side[:, k] < 0)
-        within = length_of(spots[:, None] - self.centres[k]) < self.radii[k]
+        within = length_of(spots[:, None] - centres[k]) < radii[k]
         pieces = (within & (on_right == (sweep[k] > 0))) * np.sign(sweep[k])
         return np.asarray(rounds + pieces.sum(axis=1), dtype=int)
+
+    @cached_property
+    def _elements(self) -> tuple[Floats, ...]:
+        """Ends, chords, sweeps, centres, radii and first angles of the m elements, worked out once."""
+        return self.ends, self.ends - self.starts, self.sweeps, self.centres, self.radii, self._first_angles()
 
     def _first_angles(self) -> Floats:
         """Direction from the centre to the start of every element; nan for lines."""
@@ -293,18 +298,18 @@ class Contour:
 
     def _feet(self, spots: Floats) -> tuple[Floats, Floats]:
         """Distance and fraction of the foot on each of m elements for each of k spots, `(k, m)` each."""
-        chord, s = self.ends - self.starts, self.sweeps
+        ends, chord, s, centres, radii, first = self._elements
         to_start = spots[:, None] - self.starts
         size2 = np.where((chord**2).sum(axis=1) > 0, (chord**2).sum(axis=1), 1.0)
         u = np.clip((to_start * chord).sum(axis=2) / size2, 0.0, 1.0)
         off = length_of(to_start - u[..., None] * chord)
         k = np.flatnonzero(s)
         if len(k):
-            arm = spots[:, None] - self.centres[k]
-            ahead = _ahead(np.arctan2(arm[..., 1], arm[..., 0]), self._first_angles()[k], s[k])
+            arm = spots[:, None] - centres[k]
+            ahead = _ahead(np.arctan2(arm[..., 1], arm[..., 0]), first[k], s[k])
             inside = ahead <= np.abs(s[k])
-            at_start, at_end = length_of(to_start[:, k]), length_of(spots[:, None] - self.ends[k])
-            off[:, k] = np.where(inside, np.abs(length_of(arm) - self.radii[k]), np.minimum(at_start, at_end))
+            at_start, at_end = length_of(to_start[:, k]), length_of(spots[:, None] - ends[k])
+            off[:, k] = np.where(inside, np.abs(length_of(arm) - radii[k]), np.minimum(at_start, at_end))
             u[:, k] = np.where(inside, ahead / np.abs(s[k]), np.where(at_start <= at_end, 0.0, 1.0))
         return off, u
 

@@ -23,6 +23,8 @@ from mnclab.workpiece.workpiece import Workpiece, no_blank
 
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
+    from mnclab.workpiece.design.design import Design
+    from mnclab.workpiece.design.turned_design import TurnedDesign
 
 Made = TypeVar("Made")
 KEPT = 6  # parts and lists of collisions that a run keeps
@@ -42,7 +44,7 @@ def cutting_of(run: Run, stock: Any = None) -> Cutting:
     start, tilted = run.setup.start, tilted_rows(path.step, run.history.changed(TILT))
     known = start_known(path, start, *(() if any(start) else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
-    return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, name=run.place_of_line)
+    return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, run.place_of_line, tuple(origin.tolist()))
 
 
 def tools_that_cut(run: Run) -> tuple[dict[int, Tool], Index]:
@@ -137,6 +139,18 @@ def _workpiece(run: Run, last: int | None, step: float | None, stock: Any) -> Wo
     from mnclab.workpiece.milling.milled import Milled
 
     return Milled(cutting, step)
+
+
+def design(run: Run, stock: Any = None) -> Design | TurnedDesign:
+    """The design that a run makes."""
+    cutting = cutting_of(run, stock)
+    if cutting.lathe:
+        from mnclab.workpiece.recognition.turned import proposed as turned
+
+        return turned(cutting)
+    from mnclab.workpiece.recognition.proposal import proposed
+
+    return proposed(cutting)
 
 
 def collisions(run: Run, stock: Any = None, step: float | None = None) -> Collisions:

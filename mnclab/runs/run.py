@@ -53,6 +53,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from mnclab.show.player import Player
+    from mnclab.workpiece.design.design import Design
+    from mnclab.workpiece.design.turned_design import TurnedDesign
 
 
 EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
@@ -209,6 +211,15 @@ class Run:
         The kinds are those of `workpiece.collision.KINDS`; `stock` and `step` as in `workpiece`.
         """
         return material.collisions(self, stock, step)
+
+    def design(self, stock: Any = None) -> Design | TurnedDesign:
+        """The design that the program makes of its blank: holes, pockets, slots, studs, contours, faces, chamfers, threads in
+        the order of cutting, named by cycle and line; of a lathe the profile with its threads.
+
+        They are found in the geometry of the moves, for any control. What has no name (slopes, surfaces, engraving) is not in
+        the design but in its `notes`. `stock` as in `workpiece`; an Alarm without a blank, or above 20,000 moves.
+        """
+        return material.design(self, stock)
 
     @property
     def tools_that_cut(self) -> tuple[dict[int, Tool], Index]:

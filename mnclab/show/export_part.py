@@ -54,15 +54,15 @@ def write_gltf(workpiece: Workpiece, path: Path) -> None:
 def write_vtk(workpiece: Workpiece, path: Path) -> None:
     """A legacy VTK file of triangles; row, line and tool are -1 where the blank is untouched."""
     points, triangles, row = workpiece.solid()
-    rows = workpiece.cutting.path
+    cutting = workpiece.cutting
     cells = np.insert(triangles, 0, 3, axis=1)
     head = "# vtk DataFile Version 3.0\npart of mnclab, millimetres\nBINARY\nDATASET POLYDATA\n"
     with path.open("wb") as file:
         file.write(f"{head}POINTS {len(points)} double\n".encode() + points.astype(">f8").tobytes())
         file.write(f"\nPOLYGONS {len(cells)} {cells.size}\n".encode() + cells.astype(">i4").tobytes())
         file.write(f"\nCELL_DATA {len(cells)}\n".encode())
-        for name, column in (("row", row), ("line", rows.line[row]), ("tool", workpiece.cutting.numbers[row])):
-            values = np.where(row >= 0, column, -1)
+        for name, column in (("row", np.arange(len(cutting))), ("line", cutting.path.line), ("tool", cutting.numbers)):
+            values = np.where(row >= 0, cutting.of_rows(column, row), -1)
             file.write(f"SCALARS {name} int 1\nLOOKUP_TABLE default\n".encode() + values.astype(">i4").tobytes() + b"\n")
 
 

@@ -64,7 +64,7 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
     mesh = pyvista.PolyData.from_regular_faces(solid.points, solid.triangles)
     edges = mesh.extract_feature_edges(feature_angle=ANGLE, boundary_edges=False, non_manifold_edges=False, manifold_edges=False)
     plain = tuple(STOCK)
-    if colour == "none":
+    if colour == "none" or not (solid.row >= 0).any():
         plotter.add_mesh(mesh, color=plain, **LOOK)
     elif colour == "depth":
         mesh, uncut = _apart(solid)
@@ -76,7 +76,7 @@ def add_part(plotter: Any, workpiece: Workpiece, solid: Solid, colour: str) -> N
         bar = scenes.BAR | BESIDE | {"title": title + "\n", "fmt": "%.3g"}
         plotter.add_mesh(mesh, scalars=title, cmap=DEPTHS, clim=limits, nan_color=plain, scalar_bar_args=bar, **LOOK)
     else:
-        values = getattr(workpiece.cutting.path, colour)[solid.row].astype(np.float64)
+        values = workpiece.cutting.of_rows(getattr(workpiece.cutting.path, colour), solid.row).astype(np.float64)
         mesh.cell_data[colour] = np.where(solid.row >= 0, values, np.nan)
         bar = scenes.bar_of(colour, values[solid.row >= 0]) | BESIDE
         plotter.add_mesh(mesh, scalars=colour, cmap=scenes.MAP, nan_color=plain, scalar_bar_args=bar, **LOOK)

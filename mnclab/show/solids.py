@@ -14,7 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.path.kinds import Kind
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Toolpath
-from mnclab.workpiece.blank import Box
+from mnclab.workpiece.blank import Box, Revolved
+from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.milling.milled import Milled
 
 SIDES = 48  # of a tool
 TUBE_SIDES = 6
@@ -130,6 +132,9 @@ def body_of(stock: Any) -> Body:
     """A blank as a body."""
     if isinstance(stock, Box):
         return box(*stock.bounds)
+    if not isinstance(stock, Revolved):  # a part that was cut before, a design
+        solid = stock.solid() if hasattr(stock, "solid") else Milled(Cutting.of_nothing(stock)).solid()
+        return Body(solid.points, solid.triangles)
     profile = np.array(stock.profile, dtype=np.float64)
     points, triangles = revolved(profile if profile[-1, 1] > profile[0, 1] else profile[::-1], 2 * SIDES, stock.bore)
     along = stock.along  # Z, X, Y of the body in turn lie there

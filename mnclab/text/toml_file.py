@@ -38,8 +38,10 @@ class File:
         return self._lines[line - 1] if 0 < line <= len(self._lines) else ""
 
     def place_of(self, *keys: str) -> Span | None:
-        """Where a value is written that keys lead to, else the table that it is in; None if neither is found."""
-        found = [(len(path), span) for path, span in self._written() if path == list(keys[: len(path)])]
+        """Where a value is written that keys lead to, or something in it, else the table that it is in; None if nowhere."""
+        written = list(self._written())
+        found = [(len(path), span) for path, span in written if path == list(keys[: len(path)])]
+        found += [(len(keys), span) for path, span in written if path[: len(keys)] == list(keys)]
         return max(found, key=lambda each: each[0])[1] if found else None
 
     def _written(self) -> Iterator[tuple[list[str], Span]]:

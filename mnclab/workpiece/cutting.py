@@ -20,6 +20,7 @@ from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.part import Part
 
 CUTS = (Kind.LINE, Kind.ARC)  # what moves at feed; a probe cuts nothing
+OF_BLANK = "of the blank: "
 SHOWN = 3  # lines that a sentence names
 
 
@@ -34,7 +35,7 @@ class Cutting:
     `tools[which[row]]` is the tool of a row. From row `arrived` on the tool's height is known at the end of a row, from
     `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `tilted` rows
     are made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line
-    stands ("FILE:LINE").
+    stands ("FILE:LINE"). `origin` (3,) is where the zero of the path stands on the machine.
     """
 
     path: Toolpath
@@ -46,6 +47,7 @@ class Cutting:
     tilted: Mask | None = None
     fixtures: Sequence[Blank | Part] = ()
     name: Any = field(default=_lines)
+    origin: Sequence[float] = (0.0, 0.0, 0.0)
 
     def __len__(self) -> int:
         return len(self.path)
@@ -60,6 +62,10 @@ class Cutting:
         """The same up to a row and with it."""
         tilted = None if self.tilted is None else self.tilted[: row + 1]
         return replace(self, path=self.path[: row + 1], which=self.which[: row + 1], tilted=tilted)
+
+    def uncut(self, stock: Blank) -> Cutting:
+        """Another blank on the same machine, before the first row."""
+        return replace(Cutting.of_nothing(stock, self.lathe), origin=self.origin)
 
     def tool(self, row: int) -> Tool:
         return self.tools[int(self.which[row])]
@@ -104,13 +110,19 @@ class Cutting:
         bodies = np.array([tool.kind == "probe" or tool_exists(tool) for tool in self.tools], dtype=bool)
         return np.asarray(inside & np.isin(path.kind, CUTS) & (~bodies[self.which] if len(bodies) else True))
 
+    def of_rows(self, column: Any, rows: Index) -> Any:
+        """The values of a column (n,) in some rows, as large as these; of -1, no row, any value."""
+        return np.asarray(column)[rows] if len(self) else rows
+
     def lines(self, rows: Mask) -> str:
         """The first lines of some rows (n,), in words."""
         found = list(dict.fromkeys(zip(self.path.line[rows].tolist(), self.path.program[rows].tolist())))
         return ", ".join(self.name(*each) for each in found[:SHOWN]) + (", …" if len(found) > SHOWN else "")
 
     def notes(self) -> Iterator[str]:
-        """What of the path is not in a part, whatever turns or mills it."""
+        """What of the blank and of the path is not in a part, whatever turns or mills it."""
+        for note in getattr(self.stock, "notes", ()):
+            yield note if note.startswith(OF_BLANK) else OF_BLANK + note
         if (bare := self.bare).any():
             yield f"rows without a tool cut nothing ({self.lines(bare)})"
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import choice
+from mnclab.text.given import check_point, choice
+from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.clamped import Clamped, Placement
 from mnclab.workpiece.cutting import Cutting
 
 if TYPE_CHECKING:
@@ -19,6 +22,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from mnclab.geometry.contours import Contour
+    from mnclab.workpiece.difference.difference import Difference
+    from mnclab.workpiece.milling.moves import Moves
     from mnclab.workpiece.part import Part
 
 SHARES = ("line", "tool", "row")
@@ -42,10 +47,11 @@ class Solid(NamedTuple):
 
 
 class Workpiece(ABC):
-    """What is left of `cutting.stock`, in the coordinates of the path.
+    """What is left of `cutting.stock`, in the coordinates of the path. It does not change; a copy is itself.
 
     `method` says how it was found, `error` (mm) how far a surface may be off, `notes` what this picture of the part
-    cannot hold and which rows it leaves out.
+    cannot hold and which rows it leaves out. It is the next blank where a Setup is given it as its stock: as it stands, or
+    `turned_over`, `turned` about Z, `moved`.
     """
 
     cutting: Cutting
@@ -80,6 +86,66 @@ class Workpiece(ABC):
     def solid(self) -> Solid:
         """The part as a closed surface."""
 
+    # --- as the next blank -------------------------------------------------------------------------------------------
+
+    @property
+    def bounds(self) -> Array:
+        """The box of the blank (2, 3): what is left lies within it."""
+        return np.asarray(self.cutting.stock.bounds)
+
+    @abstractmethod
+    def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """How low and how high the material reaches at points (m,), exact; nan where there is none."""
+
+    @abstractmethod
+    def outline(self, right: int, up: int) -> list[Array]:
+        """What a view along an axis shows: closed lines (k, 2) in the coordinates `right` and `up` (0 to 2)."""
+
+    @abstractmethod
+    def edges(self) -> list[Array]:
+        """Lines (k, 3) that show it in space."""
+
+    def half_section(self) -> tuple[list[Contour], float] | None:
+        """Of a turned part: closed contours (z, r), mm, and where its axis stands in x."""
+        return None
+
+    @abstractmethod
+    def made_by(self) -> Iterator[tuple[Moves, Placement]]:
+        """The moves of a mill that cut it, the last clamping first, and where each of these clampings stands now."""
+
+    @abstractmethod
+    def _uncut(self, stock: Blank) -> Self:
+        """Another blank on the same machine, before anything cuts it."""
+
+    def __deepcopy__(self, memo: Any) -> Self:
+        return self
+
+    def _clamped(self) -> Clamped:
+        """As a blank, in the coordinates of the path."""
+        stock = self.cutting.stock
+        return stock if isinstance(stock, Clamped) and not len(self.cutting) else Clamped(self)
+
+    def as_blank(self) -> Blank:
+        """As a blank, in machine coordinates: where the part stood when it was cut."""
+        return self._clamped().moved(self.cutting.origin)
+
+    def turned_over(self, axis: str = "x") -> Self:
+        """The part turned by half a turn about X or Y, through the middle of the box of its blank.
+
+        It takes up the same box as before, so that a program with the same datum reaches its other side; on a lathe it is
+        turned end for end.
+        """
+        return self._uncut(self._clamped().turned_over(axis))
+
+    def turned(self, degrees: float) -> Self:
+        """The part turned about Z, counter-clockwise seen from above, about the middle of the box of its blank."""
+        return self._uncut(self._clamped().turned(degrees))
+
+    def moved(self, by: ArrayLike) -> Self:
+        """The part clamped elsewhere, (3,) mm away."""
+        check_point(by, "how far a part is moved (mm)")
+        return self._uncut(self._clamped().moved(by))
+
     def removed_by(self, what: str = "line") -> dict[int, float]:
         """mm³ by "line" (of the main program or a called one), "tool" or "row"; the values sum to `removed`."""
         choice(what, "what removed_by sums over", SHARES)
@@ -90,6 +156,12 @@ class Workpiece(ABC):
         known, index = np.unique(keys, return_inverse=True)
         sums = np.bincount(index, volumes, minlength=len(known))
         return {int(key): float(total) for key, total in zip(known, sums) if total != 0}
+
+    def compare(self, target: Any, tolerance: float = 0.05) -> Difference:
+        """How it differs from a design, or from that of a TOML file; see `workpiece.difference`. `tolerance` in mm."""
+        from mnclab.workpiece.difference.comparing import compare
+
+        return compare(self, target, tolerance)
 
     # --- doors -------------------------------------------------------------------------------------------------------
 

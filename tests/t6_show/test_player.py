@@ -419,6 +419,18 @@ def test_a_page_has_the_part_where_there_is_a_blank(control, stock, cut):
     assert [name for name in ("part", "section") if header[name]] == ([cut] if cut else [])
 
 
+def test_a_mill_shows_what_holds_the_blank():
+    """A box has twelve edges; in the frame of the path, whose origin is the datum."""
+    setup = Setup(stock=((0, 0, -20), (60, 40, 0)), fixtures=(((-10, 0, -20), (0, 40, -5)),), datums={1: (100, 0, 0)})
+    run = mnclab.run("T1 S800 M3\nG0 X10 Y10 Z5\nG1 Z-5 F100\n", "mnc", setup)
+    player = run.player()
+    lines = Data(payload(run, player.profile, player.cutting, player.collisions)).header["fixtures"]
+    corners = np.array(lines).reshape(-1, 3)
+    assert len(lines) == 12
+    assert corners.max(axis=0) - corners.min(axis=0) == pytest.approx([10, 40, 15])
+    assert corners.min(axis=0) == pytest.approx(np.array([-10, 0, -20]) - run.toolpath.origin)
+
+
 def test_collisions_are_said_with_their_rows():
     run = mnclab.run("T1 S800 M3\nG0 X10 Y10 Z5\nG0 Z-5\nG0 Z5\n", "mnc", Setup(stock=((0, 0, -20), (60, 40, 0))))
     player = run.player()

@@ -1,6 +1,6 @@
 """Technical drawings: views with their dimensions on sheets, by the ISO standards of drawing practice.
 
-Nothing here knows what a design is. `view` and `dimensions` are the plain data that a drawing is made of, `sheet` the paper
+`of_design` draws designs, `milled` and `turned` make their views; the rest knows nothing of designs. `view` and `dimensions` are the plain data that a drawing is made of, `sheet` the paper
 with its frame and title block. `draw(views, title)` in `drawing` lays them out: `linear`, `leaders` and `angles` offer the
 places where a dimension may stand, `placing` takes the best that is free, `arrangement` puts the views on a sheet, at the
 largest scale that fits. What comes out are strokes, arrowheads and labels in millimetres of the paper (`ink`), which
@@ -10,3 +10,7 @@ largest scale that fits. What comes out are strokes, arrowheads and labels in mi
 from mnclab.text.extras import require
 
 require("matplotlib", "drawings")  # which measure their text with it, before they draw
+
+from mnclab.show.drawing.of_design import drawing, plot, save  # noqa: E402
+
+__all__ = ["drawing", "plot", "save"]

@@ -26,10 +26,10 @@ def places(angle: Angle, scale: float, room: int) -> Iterator[Mark]:
     sweep = (end - start) % math.tau
     if min(lengths) < 1e-9 or sweep < 1e-6:
         raise Alarm(f"the angle {angle.value.text} at {angle.vertex} has no opening from {angle.a} to {angle.b}")
-    text = value_block(angle.value)
+    text, near = value_block(angle.value), angle.near * scale
     offers = []
     for radius in RADII + LONGER[: 2 * room]:
-        beyond = sum(max(0.0, radius - length) for length in lengths)
+        beyond = sum(max(0.0, radius - length, near - radius) for length in lengths)
         inside = radius * sweep > 2 * ARROW + 3
         for share, out in ((0.5, 1), (0.3, 1), (0.7, 1), (0.5, -1), (-0.3, 1), (1.3, 1)):
             if inside or not 0 < share < 1:
@@ -45,18 +45,21 @@ def places(angle: Angle, scale: float, room: int) -> Iterator[Mark]:
         reach = radius + out * (ABOVE + abs(text.width / 2 * math.cos(at)) + abs(text.high / 2 * math.sin(at)) + 0.6)
         middle = x + reach * math.cos(at), y + reach * math.sin(at)
         mark.labels = [Label(text, (middle[0] - text.width / 2, middle[1] - (text.low + text.high) / 2))]
-        first, last = min(start - tail, at if far < 0 else start - tail), max(start + sweep + tail, at if far > sweep else 0.0)
-        mark.arc = _arc((x, y), radius, first, last)
+        mark.arc = _arc((x, y), radius, min(start - tail, at), max(start + sweep + tail, at))
         for place, sense in ((start, -1.0), (start + sweep, 1.0)):
             tip = x + radius * math.cos(place), y + radius * math.sin(place)
             # the back of the arrowhead lies on the arc: it leans by half of the angle that it takes up there
             lean = sense * (math.pi / 2 - ARROW / radius / 2) if inside else -sense * (math.pi / 2 - ARROW / radius / 2)
             mark.arrows.append(Arrow(tip, place + lean))
         for (dx, dy), length in zip(legs, lengths, strict=True):
+            reaches = []
             if radius > length + GAP:
-                unit = dx / length, dy / length
-                ends = [(x + r * unit[0], y + r * unit[1]) for r in (length + GAP, radius + OVERSHOOT)]
-                mark.lines.append((EXTENSION, ends[0], ends[1]))
+                reaches = [length + GAP, radius + OVERSHOOT]
+            elif radius < near - GAP:
+                reaches = [near - GAP, max(0.0, radius - OVERSHOOT)]
+            if reaches:
+                first, last = ((x + r * dx / length, y + r * dy / length) for r in reaches)
+                mark.lines.append((EXTENSION, first, last))
         mark.places = ((x, y), *((x + dx, y + dy) for dx, dy in legs), (x + radius * math.cos(at), y + radius * math.sin(at)))
         yield mark
 

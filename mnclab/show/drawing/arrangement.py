@@ -10,7 +10,7 @@ import numpy as np
 
 from mnclab.geometry.vectors import Floats
 from mnclab.show.drawing.dimensions import Point
-from mnclab.show.drawing.frame import CENTRING, Printed, inside
+from mnclab.show.drawing.frame import Printed, inside
 from mnclab.show.drawing.layout import Laid
 from mnclab.show.drawing.sheet import Size
 
@@ -62,8 +62,8 @@ def arranged(laid: Sequence[Laid], tables: Sequence[Printed], size: Size, block:
         start = x0 + right * (x1 - x0 - whole[0]), y1 - up * (y1 - low - whole[1])
         places = list(_placed(laid, columns, rows, start, gaps))
         boxes = [_moved(each.bounds, place) for each, place in zip(laid, places, strict=True)]
-        taken_up = [block, *_marks(size), *boxes]
-        if any(_meet(box, other) for box in boxes for other in taken_up[: 1 + len(_marks(size))]):
+        taken_up = [block, *boxes]
+        if any(_meet(box, block) for box in boxes):
             continue
         for table in tables:
             spot = _free((x0, y0, x1, y1), table.box, taken_up)
@@ -101,13 +101,6 @@ def _placed(
             yield lefts[column] + across.size / 2 - float(middle[0]), tops[row] - down.size / 2 - float(middle[1])
         else:
             yield lefts[column] + across.before, tops[row] - down.behind
-
-
-def _marks(size: Size) -> list[Rectangle]:
-    """The centring marks within the frame."""
-    x0, y0, x1, y1 = inside(size)
-    x, y, d = size.width / 2, size.height / 2, CENTRING + 1
-    return [(x - 1, y1 - d, x + 1, y1), (x0, y - 1, x0 + d, y + 1), (x1 - d, y - 1, x1, y + 1)]
 
 
 def _moved(bounds: Floats, place: Point) -> Rectangle:

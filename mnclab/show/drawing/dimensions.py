@@ -16,7 +16,7 @@ from mnclab.text.given import check_number
 Point = tuple[float, float]
 Tolerance = float | tuple[float, float] | str | None  # ±, (lower, upper) or a class of ISO 286
 
-MINUS, BEFORE_TOLERANCE = "\N{MINUS SIGN}", "\N{THIN SPACE}"
+MINUS = "\N{MINUS SIGN}"
 DIGITS = 3  # decimals of a millimetre
 
 
@@ -67,7 +67,8 @@ class Linear:
     `side` is where it should stand: "above" or "below" (along x), "left" or "right" (along y; of the way from a to b for
     "ab"); without one the nearer side is taken. Dimensions on one side get rows, 10 mm from the view and 7 mm from each
     other, the shorter nearer; those that fit into one row stand in it as a chain. A diameter across a profile is a Linear
-    with the sign ⌀ in its value.
+    with the sign ⌀ in its value. `inside` says that edges run from a and from b to where the other one lies, as those of a
+    step of a shaft do: then the dimension line may stand between them.
     """
 
     a: Point
@@ -75,6 +76,7 @@ class Linear:
     value: Value
     along: str = "x"
     side: str = ""
+    inside: bool = False
 
 
 @dataclass(frozen=True)
@@ -106,13 +108,15 @@ class Radius:
 class Angle:
     """The angle at `vertex` from the leg through `a` counter-clockwise to the leg through `b`.
 
-    `a` and `b` are the ends of the edges: beyond them the legs are continued by thin lines.
+    `a` and `b` are the far ends of the edges, which begin `near` mm from the vertex: beyond them the legs are continued by
+    thin lines.
     """
 
     vertex: Point
     a: Point
     b: Point
     value: Value
+    near: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ import numpy as np
 from matplotlib.backends.backend_pdf import PdfPages
 
 from mnclab.geometry.vectors import Floats
-from mnclab.show.drawing import figure, frame
+from mnclab.show.drawing import dxf, figure, frame
 from mnclab.show.drawing.arrangement import arranged
 from mnclab.show.drawing.dimensions import Point
 from mnclab.show.drawing.frame import Printed
@@ -36,7 +36,7 @@ from mnclab.text.given import check_number, choice
 
 A4, A3 = ("A4", "A4 landscape"), ("A3",)
 SEEN = 90.0  # mm: a part that is as large on A4, or true size there, needs no A3
-FILES = (".svg", ".pdf", ".png")
+FILES = (".svg", ".pdf", ".png", ".dxf")
 
 
 class Boxed(NamedTuple):
@@ -86,11 +86,15 @@ class Drawing:
         return [_figure(sheet, repr(self)[1:-1]) for sheet in self.sheets]
 
     def save(self, path: str | Path, sheet: int | None = None) -> Path:
-        """Write a pdf with all sheets, or one sheet as svg, pdf or png; lines and letters in true size.
+        """Write a pdf or a dxf with all sheets, or one sheet as svg, pdf or png; lines and letters in true size.
 
-        Of several sheets an svg and a png want to know which.
+        Of several sheets an svg and a png want to know which. A dxf has the part 1:1.
         """
         path, suffix = named(path, FILES, "cannot write a drawing as {}")
+        if suffix == ".dxf":
+            with replaced(path) as beside:
+                beside.write_bytes(dxf.content(self))
+            return path
         if sheet is None and suffix != ".pdf" and len(self.sheets) > 1:
             raise Alarm(f"a {suffix} file holds one of the {len(self.sheets)} sheets", hint="sheet=1 writes the first")
         pages = self._figures if sheet is None else [self.figure(sheet)]
@@ -141,32 +145,34 @@ class _Attempt:
         self.laid: dict[tuple[int, float], Laid | NoRoom] = {}
 
     def drawn(self, size: str | None, scale: float | None) -> Drawing:
-        if size or scale:
-            found = self._one(((size,) if size else A4), scale) or (None if size else self._one(A3, scale))
-        else:
-            found = self._one(A4, None)
-            part = max(float(np.ptp(view.bounds, axis=0).max()) for view in self.views)
-            if found is None or (found.scale < 1 and found.scale * part < SEEN):
-                larger = self._one(A3, None, above=found.scale if found else 0.0)
-                found = larger or found
-        found = found or self._several((size,) if size else A3, scale)
+        part = max(float(np.ptp(view.bounds, axis=0).max()) for view in self.views)
+        scales = [scale] if scale else SCALES
+        seen = [each for each in scales if scale or each >= 1 or each * part >= SEEN]
+        found = None if size else self._one(self._a4(), seen)
+        found = found or self._one((size,) if size else A3, scales)
+        found = found or self._several((size,) if size else A3, scales)
         if found is None:
             raise self._refused()
         return found
 
-    def _one(self, sizes: Sequence[str], scale: float | None, above: float = 0.0) -> Drawing | None:
+    def _a4(self) -> tuple[str, ...]:
+        """A4 upright and across, first as the views are."""
+        wide, high = (sum(self._sizes(self.views, axis).values()) for axis in (0, 1))
+        return A4 if high > wide else A4[::-1]
+
+    def _one(self, sizes: Sequence[str], scales: Sequence[float]) -> Drawing | None:
         """The drawing on one sheet at the largest scale."""
-        for each in (scale,) if scale else SCALES:
+        for each in scales:
             for size in (SIZES[name] for name in sizes):
-                if each > above and self._might(self.views, size, each):
+                if self._might(self.views, size, each):
                     sheet = self._sheet(range(len(self.views)), self.tables, size, each)
                     if sheet:
                         return self._finished([sheet], each)
         return None
 
-    def _several(self, sizes: Sequence[str], scale: float | None) -> Drawing | None:
+    def _several(self, sizes: Sequence[str], scales: Sequence[float]) -> Drawing | None:
         """The drawing on as many sheets as it takes, at the largest scale at which each view goes on one."""
-        for each in (scale,) if scale else SCALES:
+        for each in scales:
             for size in (SIZES[name] for name in sizes):
                 if all(self._might([view], size, each) for view in self.views):
                     sheets = self._spread(size, each)
@@ -195,14 +201,15 @@ class _Attempt:
     def _might(self, views: Sequence[View], size: Size, scale: float) -> bool:
         """Whether the bare views would have room: what is written to them takes more."""
         x0, y0, x1, y1 = frame.inside(size)
-        for axis, room in ((0, x1 - x0), (1, y1 - y0)):
-            sizes = dict[int, float]()
-            for view in views:
-                length = float(np.ptp(view.bounds[:, axis])) * scale * view.enlarged
-                sizes[view.cell[axis]] = max(sizes.get(view.cell[axis], 0.0), length)
-            if sum(sizes.values()) > room:
-                return False
-        return True
+        return all(sum(self._sizes(views, axis).values()) * scale <= room for axis, room in ((0, x1 - x0), (1, y1 - y0)))
+
+    def _sizes(self, views: Sequence[View], axis: int) -> dict[int, float]:
+        """The columns (axis 0) or rows (axis 1) of the bare views: how large they are, mm of the part."""
+        sizes = dict[int, float]()
+        for view in views:
+            length = float(np.ptp(view.bounds[:, axis])) * view.enlarged
+            sizes[view.cell[axis]] = max(sizes.get(view.cell[axis], 0.0), length)
+        return sizes
 
     def _sheet(
         self, which: range, tables: tuple[Printed, ...], size: Size, scale: float

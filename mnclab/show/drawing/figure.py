@@ -29,7 +29,7 @@ INK = "black"
 def curve(contours: Iterable[Contour]) -> Path:
     """Contours as one path of matplotlib, whose arcs are curves of the third degree, of at most an eighth of a turn each."""
     points: list[Any] = []
-    codes: list[int] = []
+    codes: list[Any] = []
     for contour in contours:
         points.append(tuple(contour.points[0].tolist()))
         codes.append(Path.MOVETO)
@@ -67,26 +67,28 @@ def draw_strokes(ax: Axes, strokes: Sequence[Stroke], at: Point = (0.0, 0.0)) ->
         dashes = stroke.kind.dashes if stroke.dashes is None else stroke.dashes
         width = stroke.kind.width * MM
         style: Any = (0, [each * MM / width for each in dashes]) if dashes else "-"
-        ax.add_patch(
-            PathPatch(
-                curve([stroke.contour]), fill=False, edgecolor=INK, linewidth=width, linestyle=style, capstyle="butt" if dashes else "round",
-                joinstyle="round", transform=move, zorder=2 + stroke.kind.width, gid=stroke.layer,
-            )
+        ends: Any = "butt" if dashes else "round"
+        path = PathPatch(
+            curve([stroke.contour]), fill=False, edgecolor=INK, linewidth=width, linestyle=style, capstyle=ends,
+            joinstyle="round", transform=move, zorder=2 + stroke.kind.width, gid=stroke.layer,
         )  # fmt: skip
+        ax.add_patch(path)
 
 
 def draw_thin(ax: Axes, segments: Floats, layer: str, at: Point = (0.0, 0.0), zorder: float = 2.1) -> None:
     """Thin straight lines `(n, 2, 2)`."""
     if len(segments):
         width = Kind.THIN.width * MM
-        ax.add_collection(LineCollection(list(segments + at), colors=INK, linewidths=width, capstyle="butt", zorder=zorder, gid=layer), autolim=False)
+        lines = LineCollection(list(segments + at), colors=INK, linewidths=width, zorder=zorder, gid=layer)
+        ax.add_collection(lines, autolim=False)
 
 
 def draw_arrows(ax: Axes, arrows: Sequence[Arrow], at: Point = (0.0, 0.0)) -> None:
     """Filled arrowheads."""
     if arrows:
         heads = [Polygon(arrow.corners + at, closed=True) for arrow in arrows]
-        ax.add_collection(PatchCollection(heads, facecolor=INK, edgecolor="none", zorder=3, gid="DIMENSIONS"), autolim=False)
+        filled = PatchCollection(heads, facecolor=INK, edgecolor="none", zorder=3, gid="DIMENSIONS")
+        ax.add_collection(filled, autolim=False)
 
 
 def draw_label(ax: Axes, label: Label, at: Point = (0.0, 0.0)) -> None:

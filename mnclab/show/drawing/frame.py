@@ -25,7 +25,8 @@ from mnclab.show.given_away import whole
 WIDTH, FOOT, HEAD, BESIDE = 180.0, 10.0, 24.0, 60.0  # mm: of the title block, its lower and upper row, the field on the left
 TINY = 1.8  # mm, letters of the names of fields
 LETTERS = (5.0, HEIGHT, SMALL, TINY)
-CENTRING = 5.0  # mm by which centring marks reach into the frame
+NAME = 3.2  # mm above a field's text, for the name of the field
+CENTRING = 3.0  # mm by which centring marks reach into the frame: less than anything else keeps away from it
 CELL, TALL = 4.0, 2.0  # mm of a table: room beside a text, above and below it
 
 
@@ -49,10 +50,12 @@ class Field(NamedTuple):
 
 
 def line(x0: float, y0: float, x1: float, y1: float, kind: Kind = Kind.THIN) -> Stroke:
+    """A straight line of the frame."""
     return Stroke(Contour([(x0, y0), (x1, y1)], closed=False), kind, "FRAME")
 
 
 def rectangle(x0: float, y0: float, x1: float, y1: float, kind: Kind = Kind.FRAME) -> Stroke:
+    """A rectangle of the frame."""
     return Stroke(Contour([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]), kind, "FRAME")
 
 
@@ -82,7 +85,7 @@ def title_block(title: Title, size: Size, scale: float, number: int, of: int) ->
         strokes.append(rectangle(field.x, field.y, field.x + field.width, field.y + field.height, kind))
         labels += _written(field)
         if field.name == "projection":
-            strokes += first_angle(field.x + field.width / 2, field.y + field.height / 2)
+            strokes += first_angle(field.x + field.width / 2, field.y + (FOOT - NAME) / 2)
     return Printed(strokes, labels, (x, y, right, y + FOOT + HEAD))
 
 
@@ -119,22 +122,22 @@ def _written(field: Field) -> Iterator[Label]:
     """The name of a field small in its corner, and its text as large as there is room, in several lines if need be."""
     x, y, name = field.x + 1.2, field.y, block(field.name, TINY)
     yield Label(name, (x, y + field.height - 0.8 - TINY * ASCENT))
-    top = field.height - 3.4
-    lines, height = fitted(field.text, field.width - 2.4, top - 0.6)
-    below = 1.3 if field.height <= FOOT else (top - PITCH * height * len(lines)) / 2 + 0.3 * height
+    top = field.height - NAME
+    lines, height = fitted(field.text, field.width - 2.4, top, LETTERS if field.height > FOOT else LETTERS[1:])
+    below = (top - height * (PITCH * len(lines) + 1 - PITCH)) / 2
     for k, text in enumerate(reversed(lines)):
         yield Label(block(text, height), (x, y + below + k * PITCH * height))
 
 
-def fitted(text: str, width: float, height: float) -> tuple[list[str], float]:
+def fitted(text: str, width: float, height: float, sizes: tuple[float, ...] = LETTERS) -> tuple[list[str], float]:
     """The lines of a text in a box, and the height of the letters; what does not fit into the smallest ends with "…"."""
     words = whole(text).split()
     if not words:
         return [], TINY
-    for letters in LETTERS:
+    for letters in sizes:
         lines = _lines(words, width, letters)
-        most = max(1, int((height - letters * (ASCENT + 0.24)) / (PITCH * letters) + 1 + 1e-9))
-        if letters * ASCENT <= height and len(lines) <= most and all(width_of(each, letters) <= width for each in lines):
+        most = max(1, int((height - 1.5 * letters) / (PITCH * letters) + 1 + 1e-9))
+        if 1.5 * letters <= height and len(lines) <= most and all(width_of(each, letters) <= width for each in lines):
             return lines, letters
     kept = _lines(words, width, TINY)[: max(1, int(height / (PITCH * TINY)))]
     last = kept[-1]

@@ -36,7 +36,7 @@ def hatching(faces: Sequence[Region], scale: float, boxes: Floats) -> Floats:
     # a line x - y = c for every multiple of the step: those of all views of a part fit each other
     pitch = step * math.sqrt(2)
     offsets = np.arange(math.ceil((x0 - y1) / pitch), math.floor((x1 - y0) / pitch) + 1) * pitch
-    ends = np.stack([np.stack([offsets + y0, np.full_like(offsets, y0)], -1), np.stack([offsets + y1, np.full_like(offsets, y1)], -1)], 1)
+    ends = np.stack([np.stack([offsets + y, np.full_like(offsets, y)], axis=-1) for y in (y0, y1)], axis=1)
     lines = shapely.intersection(shapely.linestrings(ends), area)
     parts = shapely.get_parts(shapely.get_parts(lines))
     parts = parts[shapely.get_type_id(parts) == 1]

@@ -23,7 +23,7 @@ ARROW_HALF = ARROW * math.tan(math.radians(7.5))
 GAP, OVERSHOOT = 1.0, 2.0  # of extension lines: from the edge, beyond the dimension line
 ABOVE = 1.0  # mm from a dimension line to the baseline of its text
 AIR = 0.5  # mm around a text, kept free of all else
-NEAR = 0.2  # mm by which lines and arrowheads may touch at their ends
+NEAR, TIP = 0.2, 0.05  # mm by which lines, and arrowheads, may touch others at their ends
 
 Box = tuple[float, float, float, float, float, float]
 
@@ -90,20 +90,20 @@ class Mark:
     places: tuple[Point, ...] = ()
 
 
-def line_box(a: Point, b: Point, less: float = 0.0) -> Box:
-    """A straight line as a box without width, shortened at both ends."""
+def line_box(a: Point, b: Point, less: float = 0.0, half: float = 0.0) -> Box:
+    """A straight line as a box, shortened at both ends and widened to both sides."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     length = math.hypot(dx, dy)
     c, s = (dx / length, dy / length) if length > 0 else (1.0, 0.0)
-    return (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, max(length / 2 - less, 0.0), 0.0, c, s
+    return (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, max(length / 2 - less, 0.0), half, c, s
 
 
-def segment_boxes(segments: Floats) -> Floats:
-    """Straight lines `(n, 2, 2)` as boxes `(n, 6)`."""
+def segment_boxes(segments: Floats, width: float = 0.0) -> Floats:
+    """Straight lines `(n, 2, 2)` of a width as boxes `(n, 6)`."""
     way = segments[:, 1] - segments[:, 0]
     length = np.hypot(way[:, 0], way[:, 1])
     unit = way / np.maximum(length, 1e-12)[:, None]
-    return np.column_stack([segments.mean(axis=1), length / 2, np.zeros(len(way)), unit])
+    return np.column_stack([segments.mean(axis=1), length / 2, np.full(len(way), width / 2), unit])
 
 
 def corners_of(boxes: Floats) -> Floats:

@@ -1,12 +1,14 @@
 """One view on paper: its lines in a scale, and a place for everything that is written to it.
 
 Dimensions are placed one after the other, the short ones first, each at the best place that is free. Where one finds no
-room, all begin again with that one first and with more room; afterwards each that crosses others looks once more.
+room, those that stand in its way go and look for another place, the less willingly the oftener they had to. In the end
+each looks once more.
 """
 
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -14,28 +16,31 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.vectors import Floats
-from mnclab.show.drawing import angles, leaders, linear
+from mnclab.show.drawing import angles, cuts, leaders, linear
 from mnclab.show.drawing.dimensions import Angle, Dimension, Linear, Note, Point
 from mnclab.show.drawing.hatching import hatching
-from mnclab.show.drawing.ink import Arrow, Label, Mark, Stroke, segment_boxes
+from mnclab.show.drawing.ink import Label, Mark, Stroke, segment_boxes
 from mnclab.show.drawing.lettering import block
-from mnclab.show.drawing.placing import DIMENSION, EXTENSION, LEADER, NEVER, OUTLINE, SOFT, Ground, boxes_of, spans
+from mnclab.show.drawing.origin import origin
+from mnclab.show.drawing.placing import OUTLINE, SOFT, Ground, boxes_of, spans
 from mnclab.show.drawing.sheet import scale_text
-from mnclab.show.drawing.view import Axis, Cut, Kind, View
+from mnclab.show.drawing.view import Axis, Kind, Origin, View
 
 CHORD = 0.1  # mm on paper: as such chords lines stand in the way of texts
+WIDE = 0.3  # mm, of lines that others should not run along
 BEYOND = 3.0  # mm by which centre lines go beyond what they are the middle of
 PLAIN = 9.0  # mm: a shorter centre line has no dots
-CUT_OUT, CUT_END, CUT_ARROW = 6.0, 6.0, 8.0  # mm: the line of a cut beyond the view, its thick ends, its arrows
 TITLE = 5.0  # mm, letters of sections
-TRIES = 6
+MOVES, ROOM = 6, 3  # how often marks may be placed, for each of them; how much more room one may get
+LOOKS = 2  # how often each looks for a better place in the end
 LAYERS = {Kind.VISIBLE: "OUTLINE", Kind.HIDDEN: "HIDDEN", Kind.CENTRE: "CENTRE", Kind.THIN: "THIN", Kind.PHANTOM: "PHANTOM"}
+Written = Dimension | cuts.End
 
 
 class NoRoom(Exception):
     """A dimension for which a view has no place in this scale."""
 
-    def __init__(self, what: Dimension) -> None:
+    def __init__(self, what: Written) -> None:
         super().__init__(what)
         self.what = what
 
@@ -58,13 +63,13 @@ def lay_out(view: View, scale: float) -> Laid:
     strokes = list(_strokes(view, scale))
     ground = _ground(strokes)
     outline = view.bounds * scale
-    cuts = []
     for cut in view.cuts:
-        ends, mark = _cut(cut, scale, outline)
-        strokes += ends
-        ground.put(mark)
-        cuts.append(mark)
-    marks = [*cuts, *_placed(view.dimensions, scale, outline, ground)]
+        way = np.array(cut.points) * scale
+        ground.add(segment_boxes(np.stack([way[:-1], way[1:]], axis=1), WIDE), np.full(len(way) - 1, SOFT))
+    ends = [end for cut in view.cuts for end in cuts.ends_of(cut, scale, outline)]
+    marks = _placed([*ends, *view.dimensions], scale, outline, ground)
+    for k, cut in enumerate(view.cuts):
+        strokes += cuts.strokes(cut, scale, marks[2 * k], marks[2 * k + 1])
     rows = [boxes_of(mark)[0] for mark in marks]
     ink = segment_boxes(np.concatenate([_chords(stroke.contour) for stroke in strokes]))
     low, high = spans(np.concatenate([ink, *rows]))
@@ -88,6 +93,9 @@ def _strokes(view: View, scale: float) -> Iterator[Stroke]:
     for axis in view.axes:
         if isinstance(axis, Axis):
             yield centre_line(axis.a, axis.b, scale)
+            continue
+        if isinstance(axis, Origin):
+            yield from origin((axis.at[0] * scale, axis.at[1] * scale))
             continue
         x, y = axis.centre
         for angle in (axis.turned, axis.turned + math.pi / 2):
@@ -120,77 +128,56 @@ def _ground(strokes: Sequence[Stroke]) -> Ground:
     for stroke in strokes:
         chords = _chords(stroke.contour)
         part = OUTLINE if stroke.kind is Kind.VISIBLE else SOFT
-        ground.add(segment_boxes(chords), np.full(len(chords), part))
+        ground.add(segment_boxes(chords, WIDE), np.full(len(chords), part))
     return ground
 
 
-def _cut(cut: Cut, scale: float, outline: Floats) -> tuple[list[Stroke], Mark]:
-    """The line of a section: thick at its ends outside the view, arrows towards it as one looks, letters."""
-    points = np.array(cut.points) * scale
-    looks = np.array(cut.looks, dtype=float) / np.hypot(*cut.looks)
-    strokes, mark = list[Stroke](), Mark(cut)
-    ends = []
-    for corner, inner in ((points[0], points[1]), (points[-1], points[-2])):
-        out = (corner - inner) / np.hypot(*(corner - inner))
-        with np.errstate(divide="ignore"):
-            ways = (np.where(out > 0, outline[1], outline[0]) - corner) / out
-        end = corner + (max(0.0, float(ways[np.abs(out) > 1e-9].min())) + CUT_OUT) * out
-        ends.append(end)
-        strokes.append(Stroke(Contour([end, end - CUT_END * out], closed=False), Kind.VISIBLE, "OUTLINE"))
-        tail = end - CUT_ARROW * looks
-        letter = block(cut.letter, TITLE)
-        middle = tail - (1.5 + abs(looks[0]) * letter.width / 2 + abs(looks[1]) * TITLE / 2) * looks
-        tip = float(end[0]), float(end[1])
-        mark.lines += [(LEADER, tip, (float(tail[0]), float(tail[1]))), (LEADER, tip, tuple((end - CUT_END * out).tolist()))]
-        mark.arrows.append(Arrow(tip, math.atan2(looks[1], looks[0])))
-        mark.labels.append(Label(letter, (float(middle[0]) - letter.width / 2, float(middle[1]) - TITLE / 2)))
-    way = np.array([ends[0], *points[1:-1], ends[1]])
-    strokes.append(Stroke(Contour(way, closed=False), Kind.CENTRE, "CENTRE"))
-    for corner, before, after in zip(way[1:-1], way[:-2], way[2:], strict=True):  # where it steps it is thick again
-        arms = [corner + 3.0 * (far - corner) / np.hypot(*(far - corner)) for far in (before, after)]
-        strokes.append(Stroke(Contour([arms[0], corner, arms[1]], closed=False), Kind.VISIBLE, "OUTLINE"))
-    return strokes, mark
-
-
-def _placed(dimensions: Sequence[Dimension], scale: float, outline: Floats, empty: Ground) -> list[Mark]:
-    """A mark for each dimension, in some order."""
-    order = sorted(range(len(dimensions)), key=lambda k: (*_rank(dimensions[k], scale), k))
-    for room in range(TRIES):
-        ground, marks = empty.copy(), dict[int, Mark]()
-        for k in order:
-            found = ground.best(_offers(dimensions[k], scale, outline, room))
+def _placed(things: Sequence[Written], scale: float, outline: Floats, ground: Ground) -> list[Mark]:
+    """A mark for each of them, in their order; they are laid on the ground."""
+    marks = dict[int, Mark]()
+    standing, room = np.full(len(things), 4.0), [0] * len(things)
+    waiting = deque(sorted(range(len(things)), key=lambda k: (*_rank(things[k], scale), k)))
+    for _ in range(MOVES * len(things) + MOVES):
+        if not waiting:
+            break
+        k = waiting.popleft()
+        found, away = ground.best(_offers(things[k], scale, outline, room[k]))
+        if found is None:
+            found, away = ground.best(_offers(things[k], scale, outline, room[k]), standing)
+            standing[k] += 5.0
+            room[k] = min(room[k] + 1, ROOM)
             if found is None:
-                order.remove(k)
-                order.insert(0, k)
-                break
-            ground.put(found)
-            marks[k] = found
-        else:
-            return _improved(marks, order, scale, outline, empty, room)
-    raise NoRoom(dimensions[order[0]])
+                if room[k] == ROOM:
+                    raise NoRoom(things[k])
+                waiting.appendleft(k)
+                continue
+            for other in away:
+                ground.take(other)
+                del marks[other]
+                waiting.append(other)
+        ground.put(found, k)
+        marks[k] = found
+    if waiting:
+        raise NoRoom(things[waiting[0]])
+    for k in sorted(marks, key=lambda k: (*_rank(things[k], scale), k)) * LOOKS:  # now that all stand
+        ground.take(k)
+        price = float(ground.prices([marks[k]])[0][0])
+        marks[k] = ground.best(_offers(things[k], scale, outline, room[k]), least=price)[0] or marks[k]
+        ground.put(marks[k], k)
+    return [marks[k] for k in range(len(things))]
 
 
-def _improved(
-    marks: dict[int, Mark], order: Sequence[int], scale: float, outline: Floats, empty: Ground, room: int
-) -> list[Mark]:
-    """Each mark that crosses others is taken up and placed again, now that all the others stand."""
-    for k in order:
-        others = empty.copy()
-        for i, mark in marks.items():
-            if i != k:
-                others.put(mark)
-        if others.prices([marks[k]])[0] > marks[k].cost + 2.0:
-            marks[k] = others.best(_offers(marks[k].of, scale, outline, room)) or marks[k]
-    return [marks[k] for k in order]
-
-
-def _rank(dimension: Dimension, scale: float) -> tuple[int, float]:
+def _rank(dimension: Written, scale: float) -> tuple[int, float]:
     if isinstance(dimension, Linear):
         return 0, linear.length_of(dimension, scale)
-    return (1, 0.0) if isinstance(dimension, Angle) else (2 + isinstance(dimension, Note), 0.0)
+    if isinstance(dimension, cuts.End):
+        return 1, 0.0
+    return (2, 0.0) if isinstance(dimension, Angle) else (3 + isinstance(dimension, Note), 0.0)
 
 
-def _offers(dimension: Dimension, scale: float, outline: Floats, room: int) -> Iterator[Mark]:
+def _offers(dimension: Written, scale: float, outline: Floats, room: int) -> Iterator[Mark]:
+    if isinstance(dimension, cuts.End):
+        return cuts.places(dimension)
     if isinstance(dimension, Linear):
         return linear.places(dimension, scale, outline, 4 * room)
     if isinstance(dimension, Angle):

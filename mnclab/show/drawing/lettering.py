@@ -27,6 +27,11 @@ STACKED = 3.3  # mm, from the lower deviation to the upper one
 SIGNS: dict[str, tuple[Contour, ...]] = {  # strokes in a square of 1, as high as a capital
     "\N{COUNTERBORE}": (Contour([(0.08, 0.85), (0.08, 0.05), (1.02, 0.05), (1.02, 0.85)], closed=False),),
     "\N{COUNTERSINK}": (Contour([(0.05, 0.9), (0.55, 0.05), (1.05, 0.9)], closed=False),),
+    "\N{DOWNWARDS ARROW FROM BAR}": (
+        Contour([(0.1, 1.0), (0.9, 1.0)], closed=False),
+        Contour([(0.5, 1.0), (0.5, 0.02)], closed=False),
+        Contour([(0.2, 0.4), (0.5, 0.02), (0.8, 0.4)], closed=False),
+    ),
 }
 SIGN_WIDTH = 1.2  # with the room to the next letter
 _RUNS = re.compile(f"([{''.join(SIGNS)}])")
@@ -80,8 +85,7 @@ def block(text: str, height: float = HEIGHT) -> Block:
 def value_block(value: Value, height: float = HEIGHT) -> Block:
     """A dimension's value: its text, its tolerance behind it, its deviations one above the other."""
     opening, closing = ("(", ")") if value.reference else ("", "")
-    space = "" if value.tolerance[:1].isalpha() else "\N{THIN SPACE}"
-    behind = f"{space}{value.tolerance}" if value.tolerance else ""
+    behind = f"\N{THIN SPACE}{value.tolerance}" if value.tolerance else ""
     if value.limits is None:
         return block(f"{opening}{value.text}{behind}{closing}", height)
     small = height * SMALL / HEIGHT

@@ -29,6 +29,7 @@ ROWS = 14
 NARROW = 2 * ARROW + 3.0  # a shorter dimension has its arrowheads outside
 STUB = ARROW + 3.0  # the line behind an arrowhead that stands outside
 SLIDES = (0.0, 0.5, -0.5, 0.25, -0.25, 0.75, -0.75, 1.0, -1.0)  # of the room to slide, from the middle
+INSIDE, SHARES = 4.0, (0.5, 0.35, 0.65, 0.2, 0.8)  # the cost of a line between the points, and where it may be
 SIDES = {"above": 1, "left": 1, "below": -1, "right": -1}
 ALONG = {"x": ("above", "below"), "y": ("left", "right"), "ab": ("left", "right")}
 
@@ -37,14 +38,14 @@ class Frame(NamedTuple):
     """Axes u and v of a dimension, and its ends in them, u from left to right."""
 
     angle: float
-    along: Floats
-    across: Floats
+    along: Point
+    across: Point
     left: Point
     right: Point
 
     def place(self, u: float, v: float) -> Point:
-        x, y = u * self.along + v * self.across
-        return float(x), float(y)
+        (c, s), (d, t) = self.along, self.across
+        return u * c + v * d, u * s + v * t
 
 
 def frame_of(dimension: Linear, scale: float) -> Frame:
@@ -52,15 +53,15 @@ def frame_of(dimension: Linear, scale: float) -> Frame:
     along = choice(dimension.along, "along", ALONG)
     if dimension.side:
         choice(dimension.side, f"side along {along}", ALONG[along])
-    a, b = np.array(dimension.a) * scale, np.array(dimension.b) * scale
-    angle = {"x": 0.0, "y": math.pi / 2, "ab": math.atan2(b[1] - a[1], b[0] - a[0])}[along]
+    (ax, ay), (bx, by) = dimension.a, dimension.b
+    angle = {"x": 0.0, "y": math.pi / 2, "ab": math.atan2(by - ay, bx - ax)}[along]
     if not -math.pi / 2 + 1e-9 < angle <= math.pi / 2 + 1e-9:
         angle -= math.copysign(math.pi, angle)
-    u, v = np.array([math.cos(angle), math.sin(angle)]), np.array([-math.sin(angle), math.cos(angle)])
-    ends = sorted((float(p @ u), float(p @ v)) for p in (a, b))
+    c, s = {"x": (1.0, 0.0), "y": (0.0, 1.0), "ab": (math.cos(angle), math.sin(angle))}[along]
+    ends = sorted((scale * (x * c + y * s), scale * (y * c - x * s)) for x, y in (dimension.a, dimension.b))
     if ends[1][0] - ends[0][0] < 1e-6 * scale:
         raise Alarm(f"the dimension {dimension.value.text} from {dimension.a} to {dimension.b} has no length along {along}")
-    return Frame(angle, u, v, *ends)
+    return Frame(angle, (c, s), (-s, c), *ends)
 
 
 def length_of(dimension: Linear, scale: float) -> float:
@@ -73,7 +74,7 @@ def places(dimension: Linear, scale: float, outline: Floats, room: int) -> Itera
     """Marks in the order of their costs; `outline` (2, 2) are the bounds of the view on paper, `room` more rows than usual."""
     frame, text = frame_of(dimension, scale), value_block(dimension.value)
     corners = np.array([(x, y) for x in outline[:, 0] for y in outline[:, 1]])
-    reach = corners @ frame.across
+    reach = corners @ np.array(frame.across)
     if dimension.along == "ab":
         reach = np.array([frame.left[1], frame.right[1]])
     middle = (frame.left[1] + frame.right[1]) / 2
@@ -87,16 +88,23 @@ def places(dimension: Linear, scale: float, outline: Floats, room: int) -> Itera
         for sign, edge, cost in beside
         for row in range(ROWS + room)
     ]
+    if dimension.inside:
+        offers += [(INSIDE + abs(share - 0.5), 0, _between(frame, share)) for share in SHARES]
     for cost, sign, v in sorted(offers, key=lambda offer: offer[0]):
         for extra, start, inside in _texts(frame, text):
             yield _mark(dimension, frame, text, sign, v, start, inside, cost + extra)
+
+
+def _between(frame: Frame, share: float) -> float:
+    return frame.left[1] + share * (frame.right[1] - frame.left[1])
 
 
 def _sign(dimension: Linear, frame: Frame) -> int:
     """The side that is asked for: 1 to the left of u, -1 to the right, 0 where either will do."""
     if not dimension.side:
         return 0
-    turned = dimension.along == "ab" and float((np.array(dimension.b) - dimension.a) @ frame.along) < 0
+    way = dimension.b[0] - dimension.a[0], dimension.b[1] - dimension.a[1]
+    turned = dimension.along == "ab" and way[0] * frame.along[0] + way[1] * frame.along[1] < 0
     return SIDES[dimension.side] * (-1 if turned else 1)
 
 
@@ -124,7 +132,7 @@ def _mark(
         Arrow(frame.place(left, v), frame.angle + math.pi + turn),
         Arrow(frame.place(right, v), frame.angle + turn),
     ]
-    for u, edge in (frame.left, frame.right):
+    for u, edge in (frame.left, frame.right) if sign else ():
         away = sign if sign * (v - edge) > GAP else -sign  # where the line passes between the points it looks back
         if abs(v - edge) > GAP:
             mark.lines.append((EXTENSION, frame.place(u, edge + away * GAP), frame.place(u, v + away * OVERSHOOT)))

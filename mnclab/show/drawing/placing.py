@@ -6,82 +6,98 @@ a dimension line through an extension line is worse than a longer way to the tex
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry.vectors import Floats
-from mnclab.show.drawing.ink import AIR, NEAR, Box, Mark, line_box, segment_boxes
+from mnclab.show.drawing.ink import AIR, NEAR, TIP, Box, Mark, line_box, segment_boxes
 
 OUTLINE, SOFT, TEXT, ARROW, DIMENSION, EXTENSION, LEADER = range(7)  # the parts of a drawing; soft: hidden and centre lines
+Whole = NDArray[np.intp]
 NEVER = 1e6
 PRICES = np.array([
     # OUTLINE SOFT TEXT ARROW DIMENSION EXTENSION LEADER: what lies there
-    [0.0, 0.0, NEVER, 0.5, 2.0, 0.3, 1.2],  # an outline
-    [0.0, 0.0, 4.0, 0.0, 0.3, 0.0, 0.3],  # a soft line
-    [NEVER, 4.0, NEVER, NEVER, NEVER, NEVER, NEVER],  # a text
+    [0.0, 0.0, NEVER, 0.5, 2.0, 0.6, 1.2],  # an outline
+    [0.0, 0.0, 7.0, 0.0, 0.3, 0.0, 0.8],  # a soft line
+    [NEVER, 7.0, NEVER, NEVER, NEVER, NEVER, NEVER],  # a text
     [0.5, 0.0, NEVER, NEVER, NEVER, 6.0, NEVER],  # an arrowhead
     [2.0, 0.3, NEVER, NEVER, 15.0, 3.0, 10.0],  # a dimension line
-    [0.3, 0.0, NEVER, 6.0, 3.0, 0.2, 4.0],  # an extension line
-    [1.2, 0.3, NEVER, NEVER, 10.0, 4.0, 20.0],  # a leader
+    [0.6, 0.0, NEVER, 6.0, 3.0, 0.2, 4.0],  # an extension line
+    [1.2, 0.8, NEVER, NEVER, 10.0, 4.0, 20.0],  # a leader
 ])  # fmt: skip
+BODIES = {DIMENSION: (0.45, 0.5), EXTENSION: (NEAR, 0.0), LEADER: (0.45, 0.5)}  # mm: shorter by less than AIR, half the width
 BATCH = 32  # places tried at once
 
 
 class Ground:
-    """What lies on the paper, as boxes with the part that each is."""
+    """What lies on the paper, as boxes with the part that each is and the number of its mark, -1 for lines of the view."""
 
     def __init__(self) -> None:
         self.boxes: Floats = np.zeros((0, 6))
-        self.parts: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
-        self.low: Floats = np.zeros((0, 2))
-        self.high: Floats = np.zeros((0, 2))
+        self.parts: Whole = np.zeros(0, dtype=np.intp)
+        self.marks: Whole = np.zeros(0, dtype=np.intp)
+        self.spans: Floats = np.zeros((0, 2, 2))
 
-    def copy(self) -> Ground:
-        other = Ground()
-        other.boxes, other.parts, other.low, other.high = self.boxes, self.parts, self.low, self.high
-        return other
-
-    def add(self, boxes: Floats, parts: NDArray[np.intp]) -> None:
+    def add(self, boxes: Floats, parts: Whole, mark: int = -1) -> None:
         """Lay boxes `(n, 6)` down."""
-        low, high = spans(boxes)
         self.boxes, self.parts = np.vstack([self.boxes, boxes]), np.concatenate([self.parts, parts])
-        self.low, self.high = np.vstack([self.low, low]), np.vstack([self.high, high])
+        self.marks = np.concatenate([self.marks, np.full(len(parts), mark)])
+        self.spans = np.concatenate([self.spans, np.stack(spans(boxes), axis=1)])
 
-    def put(self, mark: Mark) -> None:
-        """Lay a mark down."""
-        self.add(*boxes_of(mark))
+    def put(self, mark: Mark, number: int) -> None:
+        """Lay a mark down under a number."""
+        self.add(*boxes_of(mark), number)
 
-    def prices(self, marks: list[Mark]) -> Floats:
-        """What each of the marks would cost where it is."""
+    def take(self, number: int) -> None:
+        """Take a mark away."""
+        kept = self.marks != number
+        self.boxes, self.parts, self.marks = self.boxes[kept], self.parts[kept], self.marks[kept]
+        self.spans = self.spans[kept]
+
+    def prices(self, marks: Sequence[Mark]) -> tuple[Floats, NDArray[np.bool_]]:
+        """What each of n marks would cost where it is `(n,)`, and which of the others it can not stand with `(n, m + 1)`,
+        by their numbers; lines of the view are the last column."""
         found = [boxes_of(mark) for mark in marks]
         boxes, parts = np.concatenate([b for b, _ in found]), np.concatenate([p for _, p in found])
         owner = np.repeat(np.arange(len(marks)), [len(p) for _, p in found])
         low, high = spans(boxes)
-        near = (low[:, None, 0] <= self.high[:, 0]) & (high[:, None, 0] >= self.low[:, 0])
-        near &= (low[:, None, 1] <= self.high[:, 1]) & (high[:, None, 1] >= self.low[:, 1])
+        there_low, there_high = self.spans[:, 0], self.spans[:, 1]
+        near = (low[:, None, 0] <= there_high[:, 0]) & (high[:, None, 0] >= there_low[:, 0])
+        near &= (low[:, None, 1] <= there_high[:, 1]) & (high[:, None, 1] >= there_low[:, 1])
         i, k = np.nonzero(near)
         price = PRICES[parts[i], self.parts[k]]
         some = price > 0
         i, k, price = i[some], k[some], price[some]
         meet = overlap(boxes[i], self.boxes[k])
+        i, k, price = i[meet], k[meet], price[meet]
+        never = price >= NEVER
         costs = np.array([mark.cost for mark in marks])
-        np.add.at(costs, owner[i[meet]], price[meet])
-        return costs
+        np.add.at(costs, owner[i[~never]], price[~never])
+        barred = np.zeros((len(marks), int(self.marks.max(initial=-1)) + 2), dtype=bool)
+        barred[owner[i[never]], self.marks[k[never]]] = True
+        return costs, barred
 
-    def best(self, offers: Iterable[Mark]) -> Mark | None:
-        """The cheapest of the marks, which come in the order of their own costs; None where none has room."""
-        best, least = None, NEVER
+    def best(
+        self, offers: Iterable[Mark], standing: Floats | None = None, least: float = NEVER
+    ) -> tuple[Mark | None, list[int]]:
+        """The cheapest of the marks, which come in the order of their own costs, and the numbers of those that must give
+        way: they cost what `standing` says of them; without it none gives way. None where none is cheaper than `least`."""
+        best, away = None, list[int]()
         for batch in _batches(iter(offers)):
             if batch[0].cost >= least:
                 break
-            costs = self.prices(batch)
+            costs, barred = self.prices(batch)
+            weights = np.full(barred.shape[1], NEVER)
+            if standing is not None:
+                weights[:-1] = standing[: len(weights) - 1]
+            costs = costs + barred @ weights
             k = int(costs.argmin())
             if costs[k] < least:
-                best, least = batch[k], float(costs[k])
-        return best
+                best, least, away = batch[k], float(costs[k]), np.flatnonzero(barred[k]).tolist()
+        return best, away
 
 
 def _batches(offers: Iterator[Mark]) -> Iterator[list[Mark]]:
@@ -89,13 +105,13 @@ def _batches(offers: Iterator[Mark]) -> Iterator[list[Mark]]:
         yield batch
 
 
-def boxes_of(mark: Mark) -> tuple[Floats, NDArray[np.intp]]:
+def boxes_of(mark: Mark) -> tuple[Floats, Whole]:
     """The boxes of a mark `(n, 6)` and their parts `(n,)`: texts with their air, lines and arrows a little short."""
     boxes: list[Box] = [label.box(AIR) for label in mark.labels]
     parts = [TEXT] * len(boxes)
-    boxes += [arrow.box(NEAR) for arrow in mark.arrows]
+    boxes += [arrow.box(TIP) for arrow in mark.arrows]
     parts += [ARROW] * len(mark.arrows)
-    boxes += [line_box(a, b, NEAR) for _, a, b in mark.lines]
+    boxes += [line_box(a, b, *BODIES[part]) for part, a, b in mark.lines]
     parts += [part for part, _, _ in mark.lines]
     rows = np.array(boxes, dtype=float).reshape(-1, 6)
     if mark.arc is not None:

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -65,6 +66,12 @@ class Cross(NamedTuple):
     turned: float = 0.0
 
 
+class Origin(NamedTuple):
+    """The zero point of the workpiece: a circle with two filled quarters, of one size on every paper."""
+
+    at: Point
+
+
 class Cut(NamedTuple):
     """Where a section is taken: the way of the plane through the view (two points, or more where it steps), the letter
     and the direction in which one looks; on paper its ends stand outside the view with arrows and letters.
@@ -90,7 +97,7 @@ class View:
     lines: tuple[Line, ...]
     hatches: tuple[Region, ...] = ()
     dimensions: tuple[Dimension, ...] = ()
-    axes: tuple[Axis | Cross, ...] = ()
+    axes: tuple[Axis | Cross | Origin, ...] = ()
     cuts: tuple[Cut, ...] = ()
     title: str = ""
     cell: tuple[int, int] = (0, 0)
@@ -101,7 +108,7 @@ class View:
         if not self.lines:
             raise Alarm(f"the view {self.name!r} has no lines")
 
-    @property
+    @cached_property
     def bounds(self) -> Floats:
         """Lower left and upper right corner of the lines, `(2, 2)` mm."""
         corners = np.concatenate([line.contour.bounds for line in self.lines])

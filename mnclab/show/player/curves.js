@@ -2,15 +2,21 @@
 
 const CORNER = 0, POINT = 2, MIDDLE = 3, EDGE = 5, WALL = 8, FREE = 12;  // pixels that a place may be nearer for it
 
+const LOOKED = 24, PAIRED = 8;  // curves about a place that are looked at, and that may end at a corner with others
+
 // The places nearest to another one on curves where `told` knows an edge, and the corners where two of them end there.
 function snaps(curves, [x, y], reach, along, told) {
-  const close = ([px, py]) => Math.hypot(px - x, py - y) <= reach, corners = [];
-  const touched = curves.map(curve => ({curve, place: footOn(curve, x, y)})).filter(({place}) => close(place));
-  touched.forEach(({curve: one}, k) => touched.slice(k + 1).forEach(({curve: other}) => crossings(one, other).filter(close).forEach(place => {
-    const both = [one, other].map(curve => [-along, along].map(s => told(curve, moved(curve, place, s))).find(Boolean));
-    if (both[0] && both[1]) corners.push({place, told: both});
-  })));
-  return {edges: touched.map(each => ({...each, told: told(each.curve, each.place)})).filter(each => each.told), corners};
+  const away = ([px, py]) => Math.hypot(px - x, py - y), corners = [];
+  const near = curves.map(curve => ({curve, place: footOn(curve, x, y)})).filter(({place}) => away(place) <= reach)
+    .sort((a, b) => away(a.place) - away(b.place)).slice(0, LOOKED).map(each => ({...each, told: told(each.curve, each.place)}));
+  const edges = near.filter(each => each.told), some = [...edges, ...near.filter(each => !each.told)].slice(0, PAIRED);
+  edges.slice(0, PAIRED).forEach(({curve: one}, k) => some.slice(k + 1).forEach(({curve: other}) => {
+    for (const place of crossings(one, other).filter(place => away(place) <= reach)) {
+      const both = [one, other].map(curve => [-along, along].map(s => told(curve, moved(curve, place, s))).find(Boolean));
+      if (both[0] && both[1]) corners.push({place, told: both});
+    }
+  }));
+  return {edges, corners};
 }
 
 function footOn({x, y, r, ux, uy}, px, py) {  // the nearest place

@@ -1,8 +1,7 @@
 // Two clicks measure. A found place is {what, at, off, round}: its name, the point, how exact it is where it is not (mm), and
-// of a round wall or an arc {d, centre, off}.
+// of a round wall or an arc {d, centre, off}, of a straight edge its direction `along` in the plane.
 
 const SNAP = 12, FINGER = 22;  // pixels about the pointer that are looked at
-const SVG = "http://www.w3.org/2000/svg";
 
 class Measure {
   constructor(page) {
@@ -27,7 +26,7 @@ class Measure {
     this.points = [];
     this.find("measure").setAttribute("aria-pressed", on);
     for (const [id, shown] of [["measured", on], ["marks", on], ["modal", !on]]) this.find(id).toggleAttribute("hidden", !shown);
-    this.canvas.classList.toggle("crosshair", on);
+    for (const id of ["picture", "measured"]) this.find(id).parentElement.classList.toggle("measuring", on);
     if (on) this.canvas.focus();
     this.point();
     this.write();
@@ -38,15 +37,16 @@ class Measure {
     this.write();
     this.draw();
   }
-  // The place that is meant; of those nearly equally near the one nearest to the surface there, else to the eye.
+  // The place that is meant; of those nearly equally near the one nearest to the surface there, else to the eye; of circles that
+  // touch there the larger one.
   place(x, y, finger) {
     const within = finger ? FINGER : SNAP, {camera, picture} = this, near = camera.near;
     const {hit, found, sees} = picture.part ? picture.part.measured(x, y, within) : {found: []};
-    found.push(...this.path.near(x, y, hit ? within / 2 : within));
+    for (const each of this.path.near(x, y, hit ? within / 2 : within)) found.push({...each, cost: each.cost + (hit ? 2 : 0)});  // the part first
     const ranked = found.map(each => {
       const [px, py] = camera.project(each.at), away = Math.hypot(px - x, py - y);
       const behind = each.at.reduce((sum, v, k) => sum + (hit ? Math.abs(v - hit[k]) : -v * near[k]), 0);
-      return {each, away, score: away * SNAP / within + each.cost + Math.atan(behind) / 10};
+      return {each, away, score: away * SNAP / within + each.cost + Math.atan(behind) / 10 + (each.round ? 0.3 / each.round.d : 0)};
     }).filter(({away, each}) => away <= within || each.cost === FREE);
     const best = ranked.sort((a, b) => a.score - b.score).find(({each}) => !sees || sees(each.at));
     return best ? best.each : null;
@@ -98,7 +98,15 @@ class Measure {
     const [a, b] = this.points, apart = (p, q) => number(Math.hypot(...p.map((v, k) => q[k] - v)), 3), off = (a.off || 0) + (b.off || 0);
     const flat = ([x, y, z]) => this.run.lathe ? [x, z] : [x, y];
     const text = `distance ${apart(a.at, b.at)}${off ? ` ± ${short(off)}` : ""} mm`;
-    return a.round && b.round ? `${text}, centres ${apart(flat(a.round.centre), flat(b.round.centre))} mm apart` : text;
+    if (a.round && b.round) return `${text}, centres ${apart(flat(a.round.centre), flat(b.round.centre))} mm apart`;
+    const gap = this.gap();
+    return gap && gap !== apart(a.at, b.at) ? `${text}, ${gap} mm between the edges` : text;
+  }
+  gap() {  // between two straight edges that are parallel in the plane
+    const [a, b] = this.points, [dx, dy] = [0, this.run.lathe ? 2 : 1].map(k => b.at[k] - a.at[k]);
+    if (!a.along || !b.along || Math.abs(a.along[0] * b.along[1] - a.along[1] * b.along[0]) > 1e-6) return "";
+    const gap = Math.abs(dx * a.along[1] - dy * a.along[0]);
+    return gap > 1e-6 ? number(gap, 3) : "";
   }
   write() {
     const {points, run} = this, [a, b] = points.map(({at}) => this.columns(at));
@@ -131,7 +139,7 @@ class Measure {
     const {on, points, hover, pointer, camera} = this, marks = [];
     if (!on) return;
     const add = (name, kind, values, text = "") => {
-      const mark = document.createElementNS(SVG, name);
+      const mark = document.createElementNS(this.find("marks").namespaceURI, name);
       mark.setAttribute("class", kind);
       for (const [key, value] of Object.entries(values)) mark.setAttribute(key, value);
       mark.textContent = text;
@@ -147,13 +155,18 @@ class Measure {
       cross("mark", place, 6);
       add("text", "", {x: place[0] + 9, y: place[1] - 8}, `${k + 1}`);
     });
-    if (places.length > 1) add("text", "length", {x: (places[0][0] + places[1][0]) / 2 + 8, y: (places[0][1] + places[1][1]) / 2 + 16}, this.summary().match(/[\d.]+/)[0]);
+    if (places.length > 1) this.lengths(places, add);
     if (hover) {
       const place = camera.project(hover.at), right = place[0] > camera.size[0] - 150;
       cross("aim", place, 7);
       add("text", right ? "left" : "", {x: place[0] + (right ? -12 : 12), y: place[1] + 20}, hover.round ? `${hover.what} ${this.round(hover.round).split(",")[0]}` : hover.what);
     }
     this.find("marks").replaceChildren(...marks);
+  }
+  lengths([[ax, ay], [bx, by]], add) {  // at the middle of the line, or below it where it is short
+    const long = Math.hypot(bx - ax, by - ay) > 110, x = Math.min(Math.max((ax + bx) / 2, 90), this.camera.size[0] - 90);
+    const y = Math.min((long ? (ay + by) / 2 : Math.max(ay, by) + 8) + 16, this.camera.size[1] - 28);
+    this.summary().split(", ").forEach((text, k) => add("text", k ? "more" : "length", {x, y: y + 16 * k}, text.replace(/^distance| mm/g, "").trim()));
   }
   ring({d, centre}, line) {
     const [a, b] = this.run.lathe ? [0, 2] : [0, 1], places = [];

@@ -26,6 +26,7 @@ from mnclab.text.alarm import Alarm, amounts, several
 from mnclab.text.program import Program
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import Cutting
+from mnclab.workpiece.part import Part
 
 SCALES = (1e3, 1e4, 1e6)  # parts of a millimetre
 ANGLES = 1e9  # parts of a radian
@@ -77,7 +78,8 @@ def payload(run: Any, profile: Profile, cutting: Cutting | None = None, collisio
         },
         "rotary": columns(pack, parted(turned, degrees)) if path.rotary.any() else None,
         "degrees": degrees,
-        "stock": [np.round(edge, 4).tolist() for edge in run.stock.edges()] if run.stock else [],
+        "stock": _edges([run.stock] if run.stock else []),
+        "fixtures": _edges(cutting.fixtures) if cutting and not path.lathe else [],
         "history": {name: changes(pack, *_parted(run, name)) for name in run.history if name != "position"},
         "profile": _profile(pack, profile, scale),
         "part": part(pack, cutting, path) if cutting and not path.lathe else None,
@@ -88,6 +90,11 @@ def payload(run: Any, profile: Profile, cutting: Cutting | None = None, collisio
         ],
     }
     return pack.text(header)
+
+
+def _edges(bodies: Sequence[Any]) -> list[list[list[float]]]:
+    """The lines that show bodies in space; one that only a probe knows has none."""
+    return [np.round(edge, 4).tolist() for body in bodies if not isinstance(body, Part) for edge in body.edges()]
 
 
 def more_than_first(alarms: Sequence[Alarm]) -> str:

@@ -120,13 +120,14 @@ class Picture {
     this.moment(this.pen(this.canvas), at);
   }
 
-  blank(pen) {
-    pen.strokeStyle = this.colours.blank;
+  blank(pen) {  // and what holds it
     pen.lineWidth = 1;
-    pen.beginPath();
-    for (const edge of this.run.stock)
-      edge.forEach((point, k) => pen[k ? "lineTo" : "moveTo"](...this.camera.project(point)));
-    pen.stroke();
+    for (const [lines, colour] of [[this.run.header.fixtures, "edge"], [this.run.stock, "blank"]]) {
+      pen.strokeStyle = this.colours[colour];
+      pen.beginPath();
+      for (const edge of lines) edge.forEach((point, k) => pen[k ? "lineTo" : "moveTo"](...this.camera.project(point)));
+      pen.stroke();
+    }
   }
 
   moment(pen, {row, tip, tool, side, at}) {

@@ -278,7 +278,7 @@ class PlayerPage {
     const legend = document.createElement("p");
     for (const [name, text, dashes] of [["cut", "cut", "solid"], ["rapid", "rapid", "dashed"], ["probing", "probing", "dotted"],
       ["contour", "programmed contour", "solid"], ["blank", "blank", "solid"], ["now", "this move", "solid"],
-      ...this.part ? [["crash", "rapid in material", "solid"]] : []]) {
+      ...run.header.fixtures.length ? [["edge", "fixture", "solid"]] : [], ...this.part ? [["crash", "rapid in material", "solid"]] : []]) {
       const word = document.createElement("span");
       word.textContent = text;
       word.style.cssText = `--colour: var(--${name}); --dashes: ${dashes}`;

@@ -21,7 +21,7 @@ class Rims {
     const meets = ({box}) => z > box[0] - reach && z < box[2] + reach && r > box[1] - reach && r < box[3] + reach;
     const taken = areas.filter((_, k) => k < done && meets(rings[k])), space = r => [axis + side * r, 0];
     const solid = (z, r) => pen.isPointInPath(bar, z, Math.abs(r)) && !taken.some(area => pen.isPointInPath(area, z, Math.abs(r)));
-    for (const ring of [rings[areas.length], ...rings.slice(0, done).filter(meets)])
+    for (const ring of [...rings.slice(areas.length), ...rings.slice(0, done).filter(meets)])
       ring.z.forEach((_, k) => {
         const curve = edgeOf(ring, k), [fz, fr] = footOn(curve, z, r);
         if (Math.hypot(fz - z, fr - r) < reach && distance(ring, k, z, r) < 2 * reach)
@@ -33,7 +33,7 @@ class Rims {
     };
     const {edges, corners} = snaps([...curves.values()], [z, r], reach, 4 * BESIDE, told);
     return [
-      ...edges.map(({curve, place: [pz, pr]}) => ({what: nameOf(curve), cost: EDGE, at: [...space(pr), pz],
+      ...edges.map(({curve, place: [pz, pr]}) => ({what: nameOf(curve), cost: EDGE, at: [...space(pr), pz], along: !curve.r && [side * curve.uy, curve.ux],
         round: curve.r && {d: 2 * curve.r, centre: [...space(curve.y), curve.x], off: curve.off}})),
       ...corners.map(({place: [pz, pr]}) => ({what: "corner", cost: CORNER, at: [...space(pr), pz]})),
     ];

@@ -23,15 +23,16 @@ class ShownSection {
       this.areas.push(path);
       this.rings.push(own);
     }
-    this.bar = outline(section.bar);
-    this.rings.push({z: section.bar.map(([z]) => z), r: section.bar.map(([, r]) => r)});
+    this.bar = new Path2D();
+    section.bar.forEach(loop => this.bar.addPath(outline(loop)));
+    this.rings.push(...section.bar.map(loop => ({z: loop.map(([z]) => z), r: loop.map(([, r]) => r)})));
     this.rims = new Rims(this);
     this.layer = document.createElement("canvas");
     this.kept = [];  // [areas taken, canvas]
     this.done = -1;  // areas that the layer has lost
     this.key = "";
     this.crashed = new Set(run.header.collisions.filter(each => each.kind === "rapid").map(each => each.row));
-    this.radius = Math.max(...section.bar.map(([, radius]) => radius));
+    this.radius = Math.max(...section.bar.flat().map(([, radius]) => radius));
   }
   show(on) {
     this.picture.part = on ? this : null;
@@ -46,7 +47,8 @@ class ShownSection {
   // What of it can be measured at a place of the screen, and how far about.
   measured(x, y, within) {
     const {camera} = this.picture, under = this.rims.under(camera, x, y);
-    return {found: under ? this.rims.near(under, within / camera.zoom) : []};
+    const found = under ? this.rims.near(under, within / camera.zoom) : [];
+    return {hit: found.length && found[0].at, found};
   }
   halves(pen, act) {
     const wide = 1e4;
@@ -61,7 +63,7 @@ class ShownSection {
     }
   }
   fresh(pen) {  // the bar, hatched
-    const {colours, camera} = this.picture, {bar, radius} = this, zs = this.section.bar.map(([z]) => z);
+    const {colours, camera} = this.picture, {bar, radius} = this, zs = this.section.bar.flat().map(([z]) => z);
     const [low, high] = [Math.min(...zs), Math.max(...zs)], gap = 9 / camera.zoom;
     this.halves(pen, () => {
       pen.fillStyle = colours.metal;

@@ -23,7 +23,7 @@ from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.turning.section import Drawing, cuts, held, left_of
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of
-from mnclab.workpiece.turning.turned import half_section
+from mnclab.workpiece.turning.turned import half_section, room_of
 
 OFF = 0.01  # mm
 PARTS = 1e4  # of a millimetre
@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
     """The section of a lathe's part; corners are (z, r), mm."""
     bar, axis, notes = half_section(cutting.stock)
-    (low, _), (high, radius) = bar.bounds.tolist()
+    low, high, radius = room_of(bar)
     strokes = strokes_of(cutting, low, high, radius, axis)
     rows, areas, fallen = _areas(strokes, bar, low)
     told = [*notes, *strokes.notes]
@@ -47,7 +47,7 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
     corners = np.concatenate(areas[:kept]) if kept else np.empty((0, 2))
     reach = high - low + radius
     return {
-        "bar": _corners(bar.points_within(OFF)),
+        "bar": [_corners(loop.points_within(OFF)) for loop in bar],
         "axis": axis,
         "parts": PARTS,
         "rows": pack.add(rows[:kept]),
@@ -57,16 +57,16 @@ def section(pack: Packer, cutting: Cutting) -> dict[str, Any]:
         "which": log(pack, cutting.which),
         "cuts": log(pack, cutting.cuts & ~cutting.from_home),
         "tools": [_tool(tool, reach, radius) for tool in cutting.tools],
-        "chuck": [_corners(half_section(each)[0].points) for each in cutting.fixtures if _turns(each)]
+        "chuck": [_corners(loop.points) for each in cutting.fixtures if _turns(each) for loop in half_section(each)[0]]
         or [[[low - BEHIND * radius, 0.0], [low, 0.0], [low, JAWS * radius], [low - BEHIND * radius, JAWS * radius]]],
         "note": "; ".join(told),
     }
 
 
-def _areas(strokes: Strokes, bar: Contour, low: float) -> tuple[list[int], list[Array], list[int]]:
+def _areas(strokes: Strokes, bar: Sequence[Contour], low: float) -> tuple[list[int], list[Array], list[int]]:
     """Rows and outlines of what goes, in order: of all strokes of a row, then of the pieces that fall; and which these are."""
     rows, areas = list(strokes.rows), _outlines(strokes.contours)
-    drawing = Drawing([bar, *strokes.contours], np.array([-1, *rows], dtype=np.int64))
+    drawing = Drawing.of(bar, strokes.contours, rows)
     fallen: list[int] = []
     if not areas or not held(left_of(drawing), low)[1]:
         return rows, areas, fallen

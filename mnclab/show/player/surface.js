@@ -11,6 +11,9 @@ class Surface {
     Object.assign(this, {carving, grid: carving.grid, blank: carving.frames[0].map});
     this.low = [...this.grid.low, carving.depths[0]];
     this.high = [...this.grid.high, carving.depths[1]];
+    const on = (axis, side) => carving.run.stock.some(edge => edge.some((point, k) => k && [edge[k - 1], point].every(each => Math.abs(each[axis] - side) < 1e-3)
+      && Math.abs(edge[k - 1][1 - axis] - point[1 - axis]) > this.grid.step));
+    this.sides = [this.low, this.high].flatMap(([x, y]) => [on(0, x) && {x, y, ux: 0, uy: 1}, on(1, y) && {x, y, ux: 1, uy: 0}]).filter(Boolean);
   }
   cell(x, axis) {
     return Math.min(Math.max(Math.floor((x - this.low[axis]) / this.grid.step), 0), (axis ? this.grid.ny : this.grid.nx) - 1);
@@ -75,7 +78,7 @@ class Surface {
           if (r > 1e-6) keep({x, y, r, ...rim});
         }
     }
-    for (const [x, y] of [this.low, this.high]) for (const ux of [0, 1]) keep({x, y, ux, uy: 1 - ux});
+    this.sides.forEach(keep);
   }
   // The height at any place near those looked at; a flag says that it is only that of a cell of the blank.
   height(x, y) {
@@ -96,13 +99,13 @@ class Surface {
   near({at: [x, y, z], wall, below}, reach) {
     const {edges, corners} = snaps([...this.curves.values()], [x, y], reach, ALONG, (curve, place) => this.levels(curve, place)), found = [];
     for (const {curve, place, told} of edges) {
-      const round = curve.r && {d: 2 * curve.r, centre: [curve.x, curve.y, told.z[0]]}, {off} = told;
-      for (const level of told.z) found.push({what: "edge", cost: EDGE, at: [...place, level], round, off});
-      if (wall) found.push({what: "wall", cost: WALL, at: [...place, Math.min(Math.max(z, told.z[1] ?? z), told.z[0])], round});
+      const round = curve.r && {d: 2 * curve.r, centre: [curve.x, curve.y, told.z[0]]}, along = !round && [curve.ux, curve.uy];
+      told.z.forEach((level, k) => found.push({what: "edge", cost: EDGE + k, at: [...place, level], round, along, off: told.off}));
+      if (wall) found.push({what: "wall", cost: WALL, at: [...place, Math.min(Math.max(z, told.z[1] ?? z), told.z[0])], round, along});
     }
     for (const {place, told} of corners) {
       const all = told.flatMap(({z}) => z), off = told[0].off || told[1].off;
-      for (const level of [Math.max(...all), Math.min(...all)]) found.push({what: "corner", cost: CORNER, at: [...place, level], off});
+      [Math.max(...all), Math.min(...all)].forEach((level, k) => found.push({what: "corner", cost: CORNER + k, at: [...place, level], off}));
     }
     if (!found.length) found.push(...this.wallOfCells([x, y, z], reach));
     const {z: exact, rough} = below ? {z} : this.height(x, y);

@@ -141,7 +141,7 @@ def _coloured(part: Milled, seen: Relief, colour: str) -> tuple[Array, list[tupl
         scale = ("depth, mm", 0.0, deepest, DEPTHS) if depth.any() else None  # nothing is deep where all holes go through
     else:
         row = seen.rows(part)
-        values = getattr(part.cutting.path, colour)[row]
+        values = part.cutting.of_rows(getattr(part.cutting.path, colour), row)
         known, index = np.unique(values[row >= 0], return_inverse=True)
         lively = LinearSegmentedColormap.from_list("lively", colormaps["viridis"](np.linspace(0.25, 0.98, 32)))
         shades = np.broadcast_to(np.array(to_rgb(UNCUT)), (*row.shape, 3)).copy()

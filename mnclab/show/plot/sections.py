@@ -19,7 +19,8 @@ from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SMALL, VIEWS, View
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, shown
-from mnclab.workpiece.blank import Blank, Box, Revolved
+from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.part import Part
 from mnclab.workpiece.workpiece import Workpiece
 
 ACROSS = {"XY": 2, "XZ": 1, "YZ": 0}  # the coordinate that a plane fixes
@@ -94,7 +95,7 @@ def draw_section(ax: Axes, workpiece: Workpiece, section: Section) -> None:
 
 def held(workpiece: Workpiece) -> list[Blank]:
     """The fixtures whose outline is known."""
-    return [each for each in workpiece.cutting.fixtures if isinstance(each, Box | Revolved)]
+    return [each for each in workpiece.cutting.fixtures if not isinstance(each, Part)]
 
 
 def draw_fixtures(ax: Axes, workpiece: Workpiece, view: View, at: float | None = None) -> None:

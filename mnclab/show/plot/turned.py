@@ -23,8 +23,8 @@ from mnclab.show.plot.insert import CARBIDE, insert_patches
 from mnclab.show.plot.part_words import in_words, told
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Foot, arrange, dress, write_legend
 from mnclab.show.plot.sections import CARD, CHORD, FACE, HATCH, outline_of
-from mnclab.workpiece.blank import Box, Revolved
 from mnclab.workpiece.cutting import CUTS
+from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning.turned import Turned, half_section
 
 CHUCK: dict[str, Any] = {"facecolor": "#c9ccd1", "edgecolor": colours.INK, "linewidth": 0.9}
@@ -43,9 +43,9 @@ def plot_turned(
     """Section and view of a turned part; `marks` (n, 3) are drawn as `mark`; `colour` "tool" or "line" on its outline."""
     radius, span = part.radius, part.high - part.low
     low, high = np.array([-radius, 0.0, part.low]), np.array([radius, 0.0, part.high])
-    chucks = [half_section(each)[0] for each in part.cutting.fixtures if isinstance(each, Box | Revolved)]
-    known = bool(chucks)
-    chucks = chucks or [_jaw(part)]
+    chucks = [loop for each in part.cutting.fixtures if not isinstance(each, Part) for loop in half_section(each)[0]]
+    known = bool(chucks) or not len(part.cutting)  # a part as drawn hangs in no chuck
+    chucks = chucks if known else [_jaw(part)]
     for each in chucks:
         (z0, _), (z1, r1) = each.bounds
         low, high = np.fmin(low, (-r1, 0, z0)), np.fmax(high, (r1, 0, z1))
@@ -54,10 +54,12 @@ def plot_turned(
         low, high = np.fmin(low, tip), np.fmax(high, tip + 2.5 * INSERT * max(span, 2 * radius) * np.array([1.0, 0.0, 1.0]))
     names = [] if colour == "depth" else _colours(part, colour)
     handles: list[Any] = [
-        Line2D([], [], **_BLANK), Patch(**CHUCK, label="chuck"), *([Patch(facecolor=CARBIDE, edgecolor=colours.INK,
-        linewidth=0.9, label="insert")] if tip is not None else []), *(Line2D([], [], color=shade, linewidth=2.2, label=name)
-        for name, shade, _ in names), *([Line2D([], [], **mark)] if len(marks) else []),
-    ]  # fmt: skip
+        Line2D([], [], **_BLANK),
+        *([Patch(**CHUCK, label="chuck")] if chucks else []),
+        *([Patch(facecolor=CARBIDE, edgecolor=colours.INK, linewidth=0.9, label="insert")] if tip is not None else []),
+        *(Line2D([], [], color=shade, linewidth=2.2, label=name) for name, shade, _ in names),
+        *([Line2D([], [], **mark)] if len(marks) else []),
+    ]
     if ax is None:
         labels = [str(each.get_label()) for each in handles]
         picture, (own,) = arrange([VIEW], low, high, labels, Foot(told(part)), in_words(part), size)
@@ -118,9 +120,10 @@ def _draw(ax: Axes, part: Turned, chucks: list[Contour], known: bool) -> None:
         [(stub, -part.radius), (part.low, -part.radius), (part.low, part.radius), (stub, part.radius)],
         facecolor="#e6e2d6", edgecolor="#8c8778", linewidth=0.7, zorder=1.2,
     ))  # fmt: skip
-    points = part.blank.points_within(CHORD)
-    ax.add_line(Line2D(*np.concatenate([points, points[:1]]).T, **{**_BLANK, "label": "_blank"}))
-    ax.add_line(Line2D(*(np.concatenate([points, points[:1]]) * (1, -1)).T, **{**_BLANK, "label": "_blank"}))
+    for loop in part.blank:
+        points = loop.points_within(CHORD)
+        for side in (1, -1):
+            ax.add_line(Line2D(*(np.concatenate([points, points[:1]]) * (1, side)).T, **{**_BLANK, "label": "_blank"}))
     if part.section:
         shape = outline_of(part.section)
         ax.add_patch(PathPatch(shape, **FACE, zorder=1.5, label="part"))

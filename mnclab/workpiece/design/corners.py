@@ -58,20 +58,21 @@ def pieces(
             raise Alarm(f"corner {k} of {what} is either rounded or chamfered, got both")
         cuts[k - first] = _chamfer(contour, k - first, chamfer, f"the chamfer at corner {k} of {what}")
     n, found = len(contour.points), list[Piece]()
-    for i in range(len(contour.starts)):
+    for i, (first_point, last_point, has, sweep) in enumerate(
+        zip(contour.starts, contour.ends, contour.lengths.tolist(), contour.sweeps.tolist())
+    ):
         before, after = cuts.get(i), cuts.get((i + 1) % n)
-        start = before.last if before else contour.starts[i]
-        end = after.first if after else contour.ends[i]
-        left = contour.lengths[i] - _way(contour, i, start, True) - _way(contour, i, end, False)
+        start = before.last if before else first_point
+        end = after.first if after else last_point
+        left = has - (_way(contour, i, start, True) if before else 0.0) - (_way(contour, i, end, False) if after else 0.0)
         if left < -SAME:
-            taken, has = contour.lengths[i] - left, contour.lengths[i]
+            taken = has - left
             corners = " and ".join(str(k + first) for k in (i, (i + 1) % n) if k in cuts)
             raise Alarm(f"what breaks corner {corners} of {what} takes {taken:.6g} mm of an element that has {has:.6g}")
         if before:
             found.append(Piece(_pair(before.first), _pair(before.last), before.bulge, i + first))
         if left > SAME:
-            sweep = float(contour.sweeps[i] * left / contour.lengths[i])
-            found.append(Piece(_pair(start), _pair(end), math.tan(sweep / 4)))
+            found.append(Piece(_pair(start), _pair(end), math.tan(sweep * left / has / 4)))
     return found
 
 

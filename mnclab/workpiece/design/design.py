@@ -277,7 +277,7 @@ class Design:
         return tuple(name_of(features, k) for k in range(len(features)))
 
 
-def name_of(features: tuple[Feature, ...], k: int) -> str:
+def name_of(features: tuple[Any, ...], k: int) -> str:
     """The name of a feature, else its kind, with a number where there are several."""
     each = features[k]
     same = [i for i, other in enumerate(features) if other.kind == each.kind and not other.name]

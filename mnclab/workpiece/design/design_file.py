@@ -12,9 +12,11 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 from mnclab.text.toml_file import File, as_table, as_tables, check_names, parse
 from mnclab.workpiece.blank_file import blank_of, table_of
+from mnclab.workpiece.design import turned_file
 from mnclab.workpiece.design.design import TEXTS, Design
 from mnclab.workpiece.design.feature_file import feature_of, pointing, table_of_feature
 from mnclab.workpiece.design.features import FEATURES
+from mnclab.workpiece.design.turned_design import TurnedDesign
 
 #: The format, as the help of the command line shows it.
 FORMAT = """\
@@ -82,14 +84,19 @@ KNOWN = (*TEXTS, "turn", "blank", *SIDES)
 
 def load(path: str | Path) -> Any:
     """The design of a file; an Alarm names what is wrong in it and shows the line."""
-    return parse(path, design_of, "design")
+    return parse(path, _either, "design")
+
+
+def _either(table: Mapping[str, Any], file: File) -> Any:
+    """A turned design has a profile."""
+    return turned_file.design_of(table, file) if "profile" in table else design_of(table, file)
 
 
 def design_of(table: Mapping[str, Any], file: File) -> Design:
     """The design that a table writes."""
     check_names(table, KNOWN, "a design", file)
     if "blank" not in table:
-        raise Alarm("a design has no blank", hint="[blank] with low and high, two corners [x, y, z]")
+        raise Alarm("a design has no blank", hint="[blank] with low and high, two corners [x, y, z]; a turned one: profile")
     given = {name: table[name] for name in (*TEXTS, "turn") if name in table}
     with file.at("blank"):
         blank = blank_of(as_table(table["blank"], "blank"), "blank", file, "blank")
@@ -110,8 +117,10 @@ def design_of(table: Mapping[str, Any], file: File) -> Design:
         raise
 
 
-def text_of(design: Design) -> str:
+def text_of(design: Any) -> str:
     """A design as it is written in a file."""
+    if isinstance(design, TurnedDesign):
+        return turned_file.text_of(design)
     if wrong := [each for each in (*design.features, *design.back) if type(each) not in FEATURES.values()]:
         raise Alarm(f"a file knows no feature such as {shown(wrong[0])}", hint=f"known: {', '.join(FEATURES)}")
     usual = Design.__dataclass_fields__

@@ -1,4 +1,4 @@
-"""What all features of a milled part share."""
+"""What all features of a drawing share, and those of a milled part."""
 
 from __future__ import annotations
 
@@ -32,18 +32,15 @@ class Site(NamedTuple):
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
-class Feature(ABC):
-    """What all features share; `kind` is its name in files."""
+class Named(ABC):
+    """What every feature of a drawing has, milled or turned; `kind` is its name in files."""
 
     kind: ClassVar[str]
 
-    top: float | None = None
     name: str = ""
     tolerances: Mapping[str, Tolerance] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
-        if self.top is not None:
-            check_place(self.top, f"the top of a {self.kind} (mm)")
         if not isinstance(self.name, str):
             raise Alarm(f"the name of a {self.kind} must be a text, got {shown(self.name)}")
         if not isinstance(self.tolerances, Mapping):
@@ -65,6 +62,22 @@ class Feature(ABC):
     @abstractmethod
     def _measures(self) -> Iterator[Measure]: ...
 
+    def measures(self) -> tuple[Measure, ...]:
+        """What a drawing says of it and a measuring room measures, with its tolerances."""
+        return with_tolerances(list(self._measures()), self.tolerances, self.name or f"a {self.kind}")
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class Feature(Named):
+    """What all features of a milled part share."""
+
+    top: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.top is not None:
+            check_place(self.top, f"the top of a {self.kind} (mm)")
+        super().__post_init__()
+
     @abstractmethod
     def removals(self, site: Site) -> Iterator[Removal]:
         """What it takes away."""
@@ -74,11 +87,10 @@ class Feature(ABC):
         """The same elsewhere; what counts from the top of the blank still does."""
 
     def measures(self) -> tuple[Measure, ...]:
-        """What a drawing says of it and a measuring room measures, with its tolerances."""
         found = list(self._measures())
         if self.top is not None:
             found.append(Measure("top", self.top, "place"))
-        return with_tolerances(found, self.tolerances, f"a {self.kind}" if not self.name else self.name)
+        return with_tolerances(found, self.tolerances, self.name or f"a {self.kind}")
 
     def from_top(self, site: Site) -> float:
         """The height that its depths count from."""
@@ -92,10 +104,16 @@ class Feature(ABC):
 EXAMPLE = 'tolerances={"depth": 0.1}'
 
 
-def check_positive(feature: Feature, *names: str) -> None:
+def check_positive(feature: Named, *names: str) -> None:
     """An Alarm unless sizes of a feature are greater than 0."""
     for name in names:
         check_number(getattr(feature, name), f"the {name} of a {feature.kind} (mm)", above=0, at_most=LARGEST)
+
+
+def check_flag(feature: Named, name: str) -> None:
+    """An Alarm unless something of a feature is True or False."""
+    if not isinstance(getattr(feature, name), bool):
+        raise Alarm(f"{name} of a {feature.kind} must be True or False, got {shown(getattr(feature, name))}")
 
 
 def take_shape(feature: Feature, closed: bool | None = True, name: str = "contour") -> None:

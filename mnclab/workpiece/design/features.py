@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Self
 
 from mnclab.geometry import shapes
@@ -22,7 +23,7 @@ from mnclab.workpiece.design.feature import BESIDE, EXAMPLE, Feature, Site, area
 from mnclab.workpiece.design.holes import Hole
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Flat, Removal
-from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle, shape_of
+from mnclab.workpiece.design.shapes import Circle, Rectangle, shape_of
 
 __all__ = ["EXAMPLE", "FEATURES", "Chamfer", "Face", "Feature", "Groove", "Hole", "Pocket", "Site", "Slot", "Stud", "area_of"]
 
@@ -72,7 +73,7 @@ class _Outlined(Feature):
         take_shape(self)
         self.area  # noqa: B018  it must exist
 
-    @property
+    @cached_property
     def area(self) -> Region:
         return area_of(self.contour, f"the contour of a {self.kind}")
 
@@ -173,17 +174,16 @@ class Groove(Feature):
         check_positive(self, "width", "depth")
         self.area  # noqa: B018  it must exist
 
-    @property
+    @cached_property
     def area(self) -> Region:
         """All within half the width of the contour."""
         line, half = self.contour.contour, self.width / 2
-        if not self.contour.closed if isinstance(self.contour, Outline) else False:
-            found = Region(())
+        if not line.closed:
+            pieces = []
             for start, end, bulge in zip(line.starts, line.ends, line.bulge):
                 with faults_as_alarms():
-                    piece = shapes.slot(Contour([start, end], [bulge, 0.0], closed=False), self.width)
-                found = found.union(Region.of(piece)) if found.loops else Region.of(piece)
-            return found
+                    pieces.append(shapes.slot(Contour([start, end], [bulge, 0.0], closed=False), self.width))
+            return Region.of(*pieces)
         whole = area_of(self.contour, "the contour of a groove")
         return whole.offset(half).difference(whole.inset(half))
 

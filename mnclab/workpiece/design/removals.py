@@ -15,6 +15,7 @@ from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array, Mask
 
 NOTHING = Region(())
+TINY = 1e-6  # mm, by which a section is wide that is none
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +93,7 @@ class Slanting:
     def section(self, z: float) -> Region:
         """What it takes away at a height between both ends."""
         out = self.at(z)
-        if out <= self.near:
+        if out <= self.near + TINY:
             return NOTHING
         if isinstance(self.base, Region):
             grown = self.grown(out)

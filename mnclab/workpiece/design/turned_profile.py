@@ -23,6 +23,7 @@ from mnclab.workpiece.design.measures import Measure
 
 WHAT = "the profile"
 SAME = 1e-9  # mm
+FARTHEST = 1e5  # mm, where a profile may stand
 
 
 class Dimension(NamedTuple):
@@ -55,9 +56,14 @@ class Profile:
     def _loop(self) -> tuple[Contour, int]:
         """The profile closed to the axis, counter-clockwise, and the number that its first point has as given."""
         line, points = self.contour, self.contour.points
+        for far in np.flatnonzero(np.abs(points).max(axis=1) > FARTHEST)[:1].tolist():
+            raise Alarm(f"point {far} of {WHAT} must lie within {FARTHEST:g} mm, got {shown(tuple(points[far].tolist()))}")
+        for below in np.flatnonzero(points[:, 1] < -SAME)[:1].tolist():
+            told = f"point {below} of {WHAT} must have a radius of at least 0, got {points[below, 1]:g}"
+            raise Alarm(told, hint="points are (z, r)")
         low = float(line.bounds[0, 1])
         if low < -SAME:
-            raise Alarm(f"{WHAT} has radii of at least 0, got {low:.6g}", hint="points are (z, r)")
+            raise Alarm(f"an arc of {WHAT} must stay at radii of at least 0, it goes to {low:.6g}")
         gaps = np.hypot(*(line.ends - line.starts).T)
         if (gaps < SAME).any():
             k, place = int(gaps.argmin()), shown(tuple(points[int(gaps.argmin())].tolist()))
@@ -73,8 +79,11 @@ class Profile:
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
         """The lines and arcs of the section, counter-clockwise from the front end on; `corner` counts as given."""
+        return self._pieces(self.roundings, self.chamfers)
+
+    def _pieces(self, roundings: Mapping[int, float], chamfers: Mapping[int, Any]) -> tuple[Piece, ...]:
         loop, first = self._loop
-        found = pieces(loop, self.roundings, self.chamfers, WHAT, first)
+        found = pieces(loop, roundings, chamfers, WHAT, first)
         if joined(found).area < 0:
             found = [Piece(each.end, each.start, -each.bulge, each.corner) for each in reversed(found)]
         begin = max(range(len(found)), key=lambda k: (found[k].start[0], -found[k].start[1]))
@@ -109,15 +118,11 @@ class Profile:
         """Length, diameters, lengths from the front end to every corner, radii, chamfers, angles of tapers; counted from 1."""
         low, high = self.ends
         yield Dimension(Measure("length", high - low), (high, 0.0), (low, 0.0))
-        sharp = self._sharp()
+        sharp = self._pieces({}, {})  # as given, before its corners are broken
         for name, found in (("diameter", _diameters(sharp)), ("length", _lengths(sharp, low, high)),
                             ("angle", _angles(sharp)), ("radius", self._radii()), ("chamfer", self._chamfers())):  # fmt: skip
             for k, each in enumerate(found, 1):
                 yield each._replace(measure=each.measure._replace(name=f"{name} {k}"))
-
-    def _sharp(self) -> list[Piece]:
-        """The elements as given, without what breaks their corners, in the order of the pieces."""
-        return list(Profile(self.contour).pieces)
 
     def _radii(self) -> Iterator[Dimension]:
         for each in self.pieces:
@@ -141,7 +146,7 @@ def _level(piece: Piece) -> bool:
     return not piece.bulge and abs(piece.start[1] - piece.end[1]) <= SAME
 
 
-def _diameters(sharp: list[Piece]) -> Iterator[Dimension]:
+def _diameters(sharp: tuple[Piece, ...]) -> Iterator[Dimension]:
     """Those of cylinders, and of corners where no cylinder begins or ends."""
     for k, each in enumerate(sharp):
         radius = each.start[1]
@@ -151,7 +156,7 @@ def _diameters(sharp: list[Piece]) -> Iterator[Dimension]:
             yield Dimension(Measure("", 2 * radius, "diameter"), each.start, each.end)
 
 
-def _lengths(sharp: list[Piece], low: float, high: float) -> Iterator[Dimension]:
+def _lengths(sharp: tuple[Piece, ...], low: float, high: float) -> Iterator[Dimension]:
     """From the front end to every other z of a corner."""
     places = {round(z, 9): (z, r) for each in sharp for z, r in (each.start, each.end)}
     for _, (z, r) in sorted(places.items(), reverse=True):
@@ -159,7 +164,7 @@ def _lengths(sharp: list[Piece], low: float, high: float) -> Iterator[Dimension]
             yield Dimension(Measure("", high - z), (high, r), (z, r))
 
 
-def _angles(sharp: list[Piece]) -> Iterator[Dimension]:
+def _angles(sharp: tuple[Piece, ...]) -> Iterator[Dimension]:
     """How far tapers lean from the axis, degrees."""
     for each in sharp:
         long, rise = abs(each.end[0] - each.start[0]), abs(each.end[1] - each.start[1])

@@ -1,11 +1,13 @@
 """The top of a milled part over a lattice of nodes, and where it falls off between two of them: the walls.
 
 A raster alone makes stairs of a round wall. Between two neighbouring nodes whose heights differ steeply the wall is
-found by halving with the exact sweep, and a wall point stands there, once for the height on either side of it.
+found by halving with the exact sweep, and a wall point stands there, once for the height on either side of it. The lower
+side, where it is one that was cut before, is a lattice of the same nodes seen from below.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -74,9 +76,10 @@ class Lattice:
         least = np.argsort(jump, axis=1)[:, 1]  # of three, the smallest does not divide
         dividing = np.where(count == 1, 0, walls)
         dividing = np.where(count == 3, walls & ~(1 << least), dividing)
-        dividing = np.where(~self.solid[corners].all(axis=1), (through * bits).sum(axis=1), dividing)
-        z = self.z[corners]
-        return walls, dividing, (np.abs(z[:, 0] - z[:, 2]) > np.abs(z[:, 1] - z[:, 3])).astype(np.int64)
+        full, z = self.solid[corners], self.z[corners]
+        dividing = np.where(~full.all(axis=1), (through * bits).sum(axis=1), dividing)
+        other = np.where(full.all(axis=1), np.abs(z[:, 0] - z[:, 2]) > np.abs(z[:, 1] - z[:, 3]), full[:, 0])
+        return walls, dividing, other.astype(np.int64)  # what is open stays joined, from above and from below
 
     def crests(self) -> tuple[Array, Array]:
         """The walls from above: lines (k, 2, 2), mm, and how high the wall is there (k,)."""
@@ -98,6 +101,9 @@ class Lattice:
         return self.place[chosen], np.abs(self.sides[chosen, 0] - self.sides[chosen, 1]).max(axis=1)
 
 
+Sides = Callable[[Array, Array], tuple[Array, Array]]  # a side of the material at points (m,), and the one behind it
+
+
 def lattice_of(workpiece: Milled, step: float | None = None) -> Lattice:
     """The lattice of a milled part, as fine as its map, or of about `step` mm."""
     (x0, y0), (x1, y1) = workpiece.cutting.stock.bounds[:, :2].tolist()
@@ -105,14 +111,21 @@ def lattice_of(workpiece: Milled, step: float | None = None) -> Lattice:
     rows, columns = (max(int(np.ceil((high - low) / step - 1e-9)), 1) for low, high in ((y0, y1), (x0, x1)))
     x, y = np.linspace(x0, x1, columns + 1), np.linspace(y0, y1, rows + 1)
     py, px = (each.ravel() for each in np.meshgrid(y, x, indexing="ij"))
-    floor = workpiece.blank_at(px, py)[1]
-    z = heights_at(workpiece, px, py)
+    z, floor = workpiece.surface.sides_at(px, py)
     number = np.arange(len(px)).reshape(rows + 1, columns + 1)
     right = np.stack([number[:, :-1].ravel(), number[:, 1:].ravel()], axis=1)
     up = np.stack([number[:-1].ravel(), number[1:].ravel()], axis=1)
-    edges = np.concatenate([right, up])
-    wall, place, sides, through = _walls(workpiece, np.stack([px, py], axis=1), z, floor, edges)
-    return Lattice(x, y, z, floor, edges, wall, place, sides, through)
+    return _walled(workpiece.surface.sides_at, x, y, z, floor, np.concatenate([right, up]))
+
+
+def from_below(workpiece: Milled, found: Lattice) -> Lattice:
+    """The lower side of a part over the nodes of its lattice, turned upside down: `z` and `floor` are negative."""
+
+    def sides(x: Array, y: Array) -> tuple[Array, Array]:
+        top, floor = workpiece.surface.sides_at(x, y)
+        return -floor, -top
+
+    return _walled(sides, found.x, found.y, -found.floor, -found.z, found.edges)
 
 
 def heights_at(workpiece: Milled, x: Array, y: Array) -> Array:
@@ -120,12 +133,11 @@ def heights_at(workpiece: Milled, x: Array, y: Array) -> Array:
     return workpiece.surface.at(x, y)
 
 
-def _walls(
-    workpiece: Milled, nodes: Array, z: Array, floor: Array, edges: Index
-) -> tuple[Index, Array, Array, Mask]:
-    """Number of the wall on each edge, and of the walls their place, heights on both sides, and what is through."""
+def _walled(at: Sides, x: Array, y: Array, z: Array, floor: Array, edges: Index) -> Lattice:
+    """A lattice of nodes with the walls between them."""
     solid = z - floor > THIN
     first, last = edges.T
+    nodes = np.stack([each.ravel() for each in np.meshgrid(x, y)], axis=1)
     long = np.abs(nodes[first] - nodes[last]).sum(axis=1)
     through = solid[first] != solid[last]
     some = np.flatnonzero(through | (solid[first] & solid[last] & (np.abs(z[first] - z[last]) > STEEP * long)))
@@ -136,15 +148,15 @@ def _walls(
     full = np.stack([solid[first[some]], solid[last[some]]])
     for _ in range(HALVINGS):
         middle = ends.mean(axis=0)
-        here = heights_at(workpiece, middle[:, 0], middle[:, 1])
-        there = here - workpiece.blank_at(*middle.T)[1] > THIN
+        here, behind_it = at(middle[:, 0], middle[:, 1])
+        there = here - behind_it > THIN
         behind = np.where(through, there != full[0], np.abs(heights[0] - here) >= np.abs(here - heights[1]))
         for end, moves in ((1, behind), (0, ~behind)):
             ends[end][moves], heights[end][moves], full[end][moves] = middle[moves], here[moves], there[moves]
     stands = through | (np.abs(heights[0] - heights[1]) > SUDDEN * rise)
     wall = np.full(len(edges), -1, dtype=np.int64)
     wall[some[stands]] = np.arange(int(stands.sum()))
-    return wall, ends.mean(axis=0)[stands], heights.T[stands], through[stands]
+    return Lattice(x, y, z, floor, edges, wall, ends.mean(axis=0)[stands], heights.T[stands], through[stands])
 
 
 def rows_at(workpiece: Milled, x: Array, y: Array, z: Array) -> Index:

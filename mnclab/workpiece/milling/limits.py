@@ -14,6 +14,7 @@ from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling.moves import STILL
 from mnclab.workpiece.milling.raster import NOISE
 from mnclab.workpiece.milling.sweep import Sweep
+from mnclab.workpiece.turning.revolved import overhangs
 
 MANY = 20_000  # moves, beyond which undercuts are not looked for
 THREADS = ("tap", "thread mill")
@@ -39,6 +40,9 @@ def notes_of(cutting: Cutting, sweep: Sweep) -> Iterator[str]:
         under[undercuts(necks, sweep)] = True
     if under.any():
         yield f"what overhangs an undercut is not shown: there the part is open upwards ({cutting.lines(under)})"
+    half = cutting.stock.half_section() if hasattr(cutting.stock, "half_section") else None
+    if half is not None and overhangs(half[0]):
+        yield "what overhangs in the turned blank is not shown: seen from above it is full down to its lowest place"
     if isinstance(cutting.stock, Revolved) and cutting.stock.axis != "Z" and cutting.stock.bore > 0:
         yield "the bore of a lying blank is not shown"
 

@@ -32,16 +32,8 @@ class ManyMoves:
     @cached_property
     def heights(self) -> Array:
         """The material at the middles of the cells; beside the blank its lowest place."""
-        top, floor = self._faces()
+        top, floor = self.sweep.blank
         return np.maximum(eroded(self.sweep.raster, self.sweep.moves, top).heights, floor)
-
-    def _faces(self) -> tuple[Array, Array]:
-        """Upper and lower side of the blank (ny, nx) at the middles of the cells."""
-        top, floor = (np.empty(self.sweep.raster.shape) for _ in range(2))
-        for strip in self._strips():
-            for whole, side in zip((top, floor), self.sweep.faces(*self.sweep.raster.middles(strip))):
-                whole[strip] = side.reshape(whole[strip].shape)
-        return top, floor
 
     def _strips(self) -> Iterator[tuple[slice, slice]]:
         ny, nx = self.sweep.raster.shape
@@ -50,19 +42,16 @@ class ManyMoves:
     @cached_property
     def _blank(self) -> tuple[Array, Array, Array]:
         """Upper side, lower side and share of each cell (ny, nx) that the blank fills; at its ends both sides as within it."""
-        top, floor, share = (np.empty(self.sweep.raster.shape) for _ in range(3))
+        top, floor = (side.copy() for side in self.sweep.blank)
+        share, partly = (top > floor).astype(np.float64), blank_ends(self.sweep)
         for strip in self._strips():
             x, y = self.sweep.raster.middles(strip)
-            high, low = self.sweep.faces(x, y)
-            filled = (high > low).astype(np.float64)
-            ends = np.flatnonzero(blank_ends(self.sweep, x, y))
-            if len(ends):
+            ends = partly[strip].ravel()
+            if ends.any():
                 sides = self.sweep.faces(*within(x[ends], y[ends], self.sweep.raster.step, ROUGH))
-                upper, lower = (side.reshape(len(ends), -1) for side in sides)
-                filled[ends] = (upper > lower).mean(axis=1)
-                high[ends], low[ends] = upper.max(axis=1), lower.min(axis=1)
-            for whole, part in ((top, high), (floor, low), (share, filled)):
-                whole[strip] = part.reshape(whole[strip].shape)
+                upper, lower = (side.reshape(int(ends.sum()), -1) for side in sides)
+                share[strip][partly[strip]] = (upper > lower).mean(axis=1)
+                top[strip][partly[strip]], floor[strip][partly[strip]] = upper.max(axis=1), lower.min(axis=1)
         return top, floor, share
 
     @cached_property
@@ -92,7 +81,7 @@ class ManyMoves:
                 shares = engaged(sweep.raster, moves, heights, margin)
                 taken[lot] = volume * (shares / shares.sum() if shares.any() else 1 / len(lot))
             heights = left
-        last[np.equal(*self._faces())] = -1
+        last[np.equal(*self.sweep.blank)] = -1
         total = taken.sum()
         return last, taken * (self.removed / total if total else 1.0)
 

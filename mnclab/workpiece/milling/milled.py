@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
@@ -11,13 +12,16 @@ from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, choice, shown
+from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.clamped import Clamped, Placement, from_side
+from mnclab.workpiece.creases import creases
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling import limits, volumes
 from mnclab.workpiece.milling.erosion import ERROR
 from mnclab.workpiece.milling.many import ManyMoves
 from mnclab.workpiece.milling.moves import CHORD, Moves, moves_of
 from mnclab.workpiece.milling.raster import NOISE, Raster
-from mnclab.workpiece.milling.sections import level, upright
+from mnclab.workpiece.milling.sections import Shadow, level, traced, upright
 from mnclab.workpiece.milling.sweep import Mapped, Sweep
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
@@ -26,6 +30,7 @@ from mnclab.workpiece.workpiece import Solid, Workpiece
 CELLS, FEWEST = 400, 4  # along the longer side by default, and across a strip
 EXACT = 20_000  # moves that are swept exactly
 PLANES = ("XY", "XZ", "YZ")
+COARSE = 150  # cells along the longer side, of the lines that show it in space
 ALONG = 4  # samples of an upright section for each cell, before it is looked at closer
 
 
@@ -51,6 +56,7 @@ class Milled(Workpiece):
         self.method, self.error = "exact sweep", CHORD if self.moves.chords else NOISE
         if self.many:
             self.method, self.error = "erosion of the height raster", ERROR * self.step
+        self.error = max(self.error, getattr(cutting.stock, "error", 0.0))
 
     @property
     def x(self) -> Array:
@@ -70,14 +76,15 @@ class Milled(Workpiece):
         if self.many:
             return self.many.heights
         found = np.empty(self.raster.shape)
+        top, floor = self.sweep.blank
         for tile in self.raster.tiles():
-            found[tile] = self.sweep.left(*self.raster.middles(tile)).reshape(found[tile].shape)
+            x, y = self.raster.middles(tile)
+            found[tile] = self.sweep.within(x, y, top[tile].ravel(), floor[tile].ravel()).reshape(found[tile].shape)
         return found
 
-    @cached_property
+    @property
     def floor(self) -> Array:
-        y, x = np.meshgrid(self.y, self.x, indexing="ij")
-        return self.blank_at(x.ravel(), y.ravel())[1].reshape(self.raster.shape)
+        return self.sweep.blank[1]
 
     def blank_at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Upper and lower side of the blank at points (m,); beside it both are its lowest place."""
@@ -104,7 +111,7 @@ class Milled(Workpiece):
             move = self.many.in_order[0]
             return np.where(move < 0, -1, self.moves.row[move])
         found = np.full(self.raster.shape, -1, dtype=np.int64)
-        for tile in self.sweep.tiles:
+        for tile in self.sweep.tiles if len(self.moves) else ():
             x, y = self.raster.middles(tile)
             last = np.full(len(x), -1)
             for which, before, after in self.sweep.in_order(x, y):
@@ -120,6 +127,8 @@ class Milled(Workpiece):
 
     @cached_property
     def removed(self) -> float:
+        if not len(self.moves):
+            return 0.0
         return self.many.removed if self.many else volumes.removed(self.sweep, self.heights)
 
     @cached_property
@@ -144,15 +153,51 @@ class Milled(Workpiece):
         check_number(at, f"where the section {plane} is (mm)")
         (x0, y0, _), (x1, y1, _) = self.cutting.stock.bounds.tolist()
         if plane == "XY":
-            edges = (self.step * (np.arange(-1, n + 1) + 0.5) for n in reversed(self.raster.shape))
-            return level(self.surface, at, *(low + places for low, places in zip((x0, y0), edges)))
+            return level(self.surface, at, *self._around)
         if plane == "XZ":
             return upright(lambda x: self._sides(x, np.full_like(x, at)), x0, x1, self.step / ALONG)
         return upright(lambda y: self._sides(np.full_like(y, at), y), y0, y1, self.step / ALONG)
 
+    @property
+    def _around(self) -> tuple[Array, Array]:
+        """The middles of the cells, and of one more on every side."""
+        edges = (self.step * (np.arange(-1, n + 1) + 0.5) for n in reversed(self.raster.shape))
+        x, y = (np.asarray(low + places) for low, places in zip(self.raster.low, edges))
+        return x, y
+
+    @cached_property
+    def _shadow(self) -> list[Contour]:
+        return traced(Shadow(self.surface, 0.0), *self._around)
+
+    def outline(self, right: int, up: int) -> list[Array]:
+        if {right, up} == {0, 1}:
+            return [each.points_within(CHORD)[:, [right, up]] for each in self._shadow]
+        gone = self.heights - self.floor <= NOISE
+        floor, top = (np.where(gone, np.nan, side) for side in (self.floor, self.heights))
+        return from_side(self.x, self.y, floor, top, right, up)
+
+    def edges(self) -> list[Array]:
+        from mnclab.workpiece.milling.solid import solid_of
+
+        return creases(solid_of(self, max(self.step, float(np.ptp(self.bounds[:, :2], axis=0).max()) / COARSE)))
+
     def _sides(self, x: Array, y: Array) -> tuple[Array, Array]:
         """The upper and the lower side of the material at points (m,)."""
-        return self.sweep.at(x, y), self.blank_at(x, y)[1]
+        return self.sweep.sides_at(x, y)
+
+    def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """Exact; of very many moves between the middles of the cells."""
+        top, floor = self.surface.sides_at(x, y)
+        solid = top - floor > NOISE
+        return np.where(solid, floor, np.nan), np.where(solid, top, np.nan)
+
+    def made_by(self) -> Iterator[tuple[Moves, Placement]]:
+        yield self.moves, Placement()
+        if isinstance(self.cutting.stock, Clamped):
+            yield from self.cutting.stock.made_by()
+
+    def _uncut(self, stock: Blank) -> Milled:
+        return Milled(self.cutting.uncut(stock), self.step)
 
     @property
     def part(self) -> Part:

@@ -101,17 +101,24 @@ class Level:
     height: float
 
     def __call__(self, x: Array, y: Array) -> Mask:
-        return self._among(x, y, self.sweep.at(x, y))
+        return self._among(*self.sweep.sides_at(x, y))
 
     def nearby(self, x: Array, y: Array) -> Mask:
         """The same, of points that lie close together."""
-        return self._among(x, y, self.sweep.left(x, y))
+        return self._among(*self.sweep.sides(x, y))
 
-    def _among(self, x: Array, y: Array, heights: Array) -> Mask:
-        return np.asarray((self.sweep.faces(x, y)[1] <= self.height) & (self.height < heights))
+    def _among(self, heights: Array, floor: Array) -> Mask:
+        return np.asarray((floor <= self.height) & (self.height < heights))
 
     def about(self, x: Array, y: Array) -> Level:
-        return Level(self.sweep.about(x, y), self.height)
+        return replace(self, sweep=self.sweep.about(x, y))
+
+
+class Shadow(Level):
+    """Whether there is material at points (m,) at any height."""
+
+    def _among(self, heights: Array, floor: Array) -> Mask:
+        return np.asarray(heights - floor > WALL)
 
 
 def level(sweep: Sweep, height: float, x: Array, y: Array) -> list[Contour]:
@@ -119,7 +126,11 @@ def level(sweep: Sweep, height: float, x: Array, y: Array) -> list[Contour]:
 
     Material lies to the left of a contour: outlines are counter-clockwise, holes clockwise.
     """
-    solid = Level(replace(sweep, moves=sweep.moves[sweep.moves.low < height]), height)
+    return traced(Level(replace(sweep, moves=sweep.moves[sweep.moves.low < height]), height), x, y)
+
+
+def traced(solid: Level, x: Array, y: Array) -> list[Contour]:
+    """The contours of where there is material; `x` and `y` as for `level`."""
     grid = solid(*(each.ravel() for each in np.meshgrid(x, y))).reshape(len(y), len(x))
     return [Contour(merged(line)) for line in _rounded(solid, _chains(*_crossings(solid, grid, x, y)))]
 

@@ -1,8 +1,8 @@
-"""A milled part as a closed surface: the top with its walls upright, the sides and the lower side of the blank.
+"""A milled part as a closed surface: both sides with their walls upright, and what stands between their rims.
 
-The lattice of nodes is one sheet above and one below; both are joined at the rim of the blank and where something goes
-through. Cells that lie in one plane and were cut by one row are taken together in squares, each a fan about its middle
-that meets every node of its neighbours, so that the surface is closed without a gap.
+The lattice of nodes is one sheet above and one below, each with the walls of its side; both are joined at the rim of the
+blank and where something goes through. Cells that lie in one plane and were cut by one row are taken together in squares,
+each a fan about its middle that meets every node of its neighbours, so that the surface is closed without a gap.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.workpiece.milling.divided import divided
-from mnclab.workpiece.milling.lattice import Lattice, lattice_of, rows_at
+from mnclab.workpiece.milling.lattice import Lattice, from_below, lattice_of, rows_at
 from mnclab.workpiece.workpiece import Solid
 
 if TYPE_CHECKING:
@@ -25,36 +25,37 @@ SAME = 1e-9  # mm, of heights in one plane
 Faces = tuple[Index, Index]  # triangles (t, 3) and their rows (t,)
 
 
-def solid_of(workpiece: Milled) -> Solid:
-    """The closed surface of a milled part."""
-    found = lattice_of(workpiece)
-    n, w = len(found.z), len(found.place)
-    beside = np.stack([n + 2 * np.arange(w), n + 2 * np.arange(w) + 1], axis=1)  # vertices of walls, before and behind
-    below = n + 2 * w  # where the lower side begins: nodes, then places of walls
-    foot = below + n + np.arange(w)
-    first, last = found.edges[found.wall >= 0].T
-    solid = found.solid
-    for side, node in ((0, first), (1, last)):
-        empty = found.through & ~solid[node]
-        beside[empty, side] = foot[empty]
-    row_of = rows_at(workpiece, found.nodes[:, 0], found.nodes[:, 1], found.z)
-    faces = [_top(found, beside, row_of), _bottom(found, foot, below), _rim(found, beside, foot, below)]
-    triangles, row = (np.concatenate(column) for column in zip(*faces))
-    points = _points(found)
+def solid_of(workpiece: Milled, step: float | None = None) -> Solid:
+    """The closed surface of a milled part, on a lattice as fine as its map, or of about `step` mm."""
+    above = lattice_of(workpiece, step)
+    below = from_below(workpiece, above)
+    points = [_points(above, 1.0), _points(below, -1.0)]
+    upper, lower = np.arange(len(points[0])), len(points[0]) + np.arange(len(points[1]))
+    _join(above, below, upper, lower)
+    over, row = _sheet_of(above, upper, rows_at(workpiece, above.nodes[:, 0], above.nodes[:, 1], above.z))
+    under, _ = _sheet_of(below, lower, np.full(len(below.z), -1))
+    every = np.concatenate(points)
+    round_ = _rim(above, below, upper, lower, every)
+    triangles = np.concatenate([over, under[:, ::-1], round_])
     used, index = np.unique(triangles, return_inverse=True)
-    return Solid(points[used], index.reshape(-1, 3), row)
+    return Solid(every[used], index.reshape(-1, 3), np.concatenate([row, np.full(len(under) + len(round_), -1)]))
 
 
-def _points(found: Lattice) -> Array:
-    nodes, place = found.nodes, found.place
-    first, last = found.edges[found.wall >= 0].T
-    foot = np.where(found.solid[first], found.floor[first], found.floor[last])
-    return np.concatenate([
-        np.column_stack([nodes, found.z]),
-        np.column_stack([np.repeat(place, 2, axis=0), found.sides.ravel()]),
-        np.column_stack([nodes, found.floor]),
-        np.column_stack([place, foot]),
-    ])  # fmt: skip
+def _join(above: Lattice, below: Lattice, upper: Index, lower: Index) -> None:
+    """Both sheets share a vertex wherever something goes through: the lower side there. The upper sheet has it on the side
+    without material, the lower one on both."""
+    edge = np.flatnonzero((above.wall >= 0) & (above.solid[above.edges[:, 0]] != above.solid[above.edges[:, 1]]))
+    full = np.where(above.solid[above.edges[edge, 0]], 0, 1)
+    n = len(above.z)
+    foot = lower[n + 2 * below.wall[edge] + full]
+    lower[n + 2 * below.wall[edge] + 1 - full] = foot
+    upper[n + 2 * above.wall[edge] + 1 - full] = foot
+
+
+def _points(found: Lattice, sign: float) -> Array:
+    """Nodes, then the walls, once for either side."""
+    walls = np.column_stack([np.repeat(found.place, 2, axis=0), sign * found.sides.ravel()])
+    return np.concatenate([np.column_stack([found.nodes, sign * found.z]), walls])
 
 
 def _divided(
@@ -83,7 +84,8 @@ def _sides(wall: Index, beside: Index) -> Index:
     return found
 
 
-def _top(found: Lattice, beside: Index, row_of: Index) -> Faces:
+def _sheet_of(found: Lattice, vertices: Index, row_of: Index) -> Faces:
+    """One side of the part, seen from above; `vertices`: those of the nodes, then two of each wall."""
     corners, edges = found.cells()
     wall = found.wall[edges]
     plain = (wall < 0).all(axis=1)
@@ -91,26 +93,13 @@ def _top(found: Lattice, beside: Index, row_of: Index) -> Faces:
     triangles, row = _sheet(found, found.z, corners, np.asarray(plain & solid.all(axis=1)), row_of)
     some = ~plain
     cases = found.dividing(corners[some], wall[some])
+    beside = len(found.z) + np.arange(2 * len(found.place)).reshape(-1, 2)
     cut, one, other = _divided(corners[some], _sides(wall[some], beside), *cases)
-    kept = (one != other) | found.solid[one]
+    cut = vertices[cut]
+    kept = ((one != other) | found.solid[one]) & (cut != np.roll(cut, 1, axis=1)).all(axis=1)
     cut, one, other = cut[kept], one[kept], other[kept]
     lower = np.where(found.z[one] <= found.z[other], one, other)
-    return np.concatenate([triangles, cut]), np.concatenate([row, row_of[lower]])
-
-
-def _bottom(found: Lattice, foot: Index, below: int) -> Faces:
-    """The lower side, divided only where something goes through; seen from below."""
-    corners, edges = found.cells()
-    wall = found.wall[edges]
-    some = ((wall >= 0) & found.through[wall]).any(axis=1) if len(foot) else np.zeros(len(wall), dtype=bool)
-    full = found.solid[corners].all(axis=1)
-    triangles, _ = _sheet(found, found.floor, corners, np.asarray(~some & full), np.full(len(found.z), -1))
-    _, dividing, diagonal = found.dividing(corners[some], wall[some])
-    sides = np.repeat(foot[wall[some]][:, :, None], 2, axis=2) - below if len(foot) else np.empty((0, 4, 2), int)
-    cut, one, other = _divided(corners[some], sides, dividing, dividing, diagonal)
-    cut = cut[(one == other) & found.solid[one]]
-    every = np.concatenate([triangles, cut])[:, ::-1] + below
-    return every, np.full(len(every), -1)
+    return np.concatenate([vertices[triangles], cut]), np.concatenate([row, row_of[lower]])
 
 
 def _sheet(found: Lattice, z: Array, corners: Index, which: Mask, row: Index) -> Faces:
@@ -184,37 +173,58 @@ def _fans(size: int, j: Index, i: Index, used: Mask) -> Index:
     return np.stack([middle[square], number, following], axis=1)
 
 
-def _rim(found: Lattice, beside: Index, foot: Index, below: int) -> Faces:
+def _rim(above: Lattice, below: Lattice, upper: Index, lower: Index, points: Array) -> Index:
     """The sides of the blank between the rims of both sheets, counter-clockwise around it."""
-    ny, nx = len(found.y) - 1, len(found.x) - 1
+    ny, nx = len(above.y) - 1, len(above.x) - 1
     number = np.arange((ny + 1) * (nx + 1)).reshape(ny + 1, nx + 1)
     round_ = np.concatenate([number[0, :-1], number[:-1, -1], number[-1, :0:-1], number[:0:-1, 0]])
     flat, up = np.arange((ny + 1) * nx).reshape(ny + 1, nx), (ny + 1) * nx + np.arange(ny * (nx + 1)).reshape(ny, nx + 1)
     edge = np.concatenate([flat[0], up[:, -1], flat[-1, ::-1], up[::-1, 0]])
     back = np.arange(len(edge)) >= nx + ny  # the edges of the lattice that are passed backwards
-    a, b, wall, solid = round_, np.roll(round_, -1), found.wall[edge], found.solid
-    plain = (wall < 0) & solid[a] & solid[b]
-    pieces = [_quads(a[plain] + below, b[plain] + below, b[plain], a[plain])]
-    k = wall[wall >= 0]
-    if len(k):
-        a, b, back = a[wall >= 0], b[wall >= 0], back[wall >= 0]
-        p, q = np.where(back[:, None], beside[k][:, ::-1], beside[k]).T
-        hp, hq = np.where(back[:, None], found.sides[k][:, ::-1], found.sides[k]).T
-        through, left, f = found.through[k], solid[a], foot[k]
-        one, other = through & left, through & ~left
-        pieces.append(_quads(a[one] + below, f[one], p[one], a[one]))
-        pieces.append(_quads(f[other], b[other] + below, b[other], q[other]))
-        down, rise = ~through & (hp > hq), ~through & (hp <= hq)
-        for some, lower in ((down, a + below), (rise, b + below)):
-            lower = lower[some]
-            pieces.append(np.stack([lower, q[some], p[some]], axis=1))
-        pieces.append(np.stack([a[down] + below, p[down], a[down]], axis=1))
-        pieces.append(_quads(a[down] + below, b[down] + below, b[down], q[down]))
-        pieces.append(np.stack([b[rise] + below, b[rise], q[rise]], axis=1))
-        pieces.append(_quads(a[rise] + below, b[rise] + below, p[rise], a[rise]))
-    triangles = np.concatenate(pieces)
-    return triangles, np.full(len(triangles), -1)
+    a, b, solid = round_, np.roll(round_, -1), above.solid
+    walls = np.stack([above.wall[edge], below.wall[edge]])
+    plain = (walls < 0).all(axis=0) & solid[a] & solid[b]
+    quads = lower[a[plain]], lower[b[plain]], upper[b[plain]], upper[a[plain]]
+    pieces = [np.stack([quads[k] for k in corners], axis=1) for corners in ((0, 1, 2), (0, 2, 3))]
+    n = len(above.z)
+    for k in np.flatnonzero((walls >= 0).any(axis=0)).tolist():
+        chains = []
+        for wall, vertices in zip(walls[:, k].tolist(), (upper, lower)):
+            here = vertices[n + 2 * wall : n + 2 * wall + 2].tolist() if wall >= 0 else []
+            ends = [vertices[[end]].tolist() if solid[end] else [] for end in (a[k], b[k])]
+            chains.append([*ends[0], *(here[::-1] if back[k] else here), *ends[1]])
+        polygon = list(dict.fromkeys([*chains[1], *chains[0][::-1]]))
+        along = np.abs(points[polygon, :2] - above.nodes[a[k]]).sum(axis=1)
+        sheet = np.isin(polygon, chains[0])
+        found = fewest(sheet, np.stack([along, points[polygon, 2]], axis=1))
+        pieces.append(np.array(polygon)[np.array(found, dtype=np.int64).reshape(-1, 3)])
+    return np.concatenate(pieces)
 
 
-def _quads(a: Index, b: Index, c: Index, d: Index) -> Index:
-    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+def fewest(sheet: Mask, places: Array) -> list[tuple[int, int, int]]:
+    """The triangles of a polygon of a few vertices, counter-clockwise at `places` (k, 2), with the fewest diagonals from one
+    vertex of a sheet (k,) to another of it, which may be an edge of its own already."""
+    n, best = len(sheet), dict[tuple[int, int], tuple[float, list[tuple[int, int, int]]]]()
+    for wide in range(1, n):
+        for i in range(n - wide):
+            j, found = i + wide, [(0.0, list[tuple[int, int, int]]())] if wide == 1 else []
+            own = float(wide > 1 and (i, j) != (0, n - 1) and sheet[i] == sheet[j])
+            for k in range(i + 1, j):
+                one, other = best[i, k], best[k, j]
+                bad = 0.0 if _is_free((i, k, j), places) else n
+                found.append((one[0] + other[0] + own + bad, [*one[1], *other[1], (i, k, j)]))
+            best[i, j] = min(found, key=lambda each: each[0])
+    return best[0, n - 1][1]
+
+
+def _is_free(corners: tuple[int, int, int], places: Array) -> bool:
+    """Whether three vertices turn left, with no other one in their triangle."""
+    a, b, c = places[list(corners)]
+    others = np.delete(places, corners, axis=0)
+
+    def turn(p: Array, q: Array, r: Array) -> Array:
+        return np.asarray((q[0] - p[0]) * (r[..., 1] - p[1]) - (q[1] - p[1]) * (r[..., 0] - p[0]))
+
+    if turn(a, b, c) <= 0:
+        return False
+    return not ((turn(a, b, others) >= 0) & (turn(b, c, others) >= 0) & (turn(c, a, others) >= 0)).any()

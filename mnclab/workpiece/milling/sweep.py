@@ -35,17 +35,43 @@ class Sweep:
         """Rows and columns of tiles to go through in order: the more moves, the smaller."""
         return self.raster.tiles(TILE if len(self.moves) <= MANY else SMALL)
 
+    @cached_property
+    def blank(self) -> tuple[Array, Array]:
+        """The upper and lower side of the blank (ny, nx) at the middles of the cells."""
+        top, floor = np.empty(self.raster.shape), np.empty(self.raster.shape)
+        for tile in self.raster.tiles():
+            for whole, side in zip((top, floor), self.faces(*self.raster.middles(tile))):
+                whole[tile] = side.reshape(whole[tile].shape)
+        return top, floor
+
     def left(self, x: Array, y: Array) -> Array:
         """The heights (m,) at points that lie close together."""
+        return self.sides(x, y)[0]
+
+    def sides(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The heights and the lower side (m,) at points that lie close together."""
         top, floor = self.faces(x, y)
+        return self.within(x, y, top, floor), floor
+
+    def within(self, x: Array, y: Array, top: Array, floor: Array) -> Array:
+        """The heights (m,) at points that lie close together, of a blank between two sides there."""
         return np.maximum(lowered(self.moves, self.boxes, x, y, top), floor)
+
+    def taken(self, x: Array, y: Array) -> Array:
+        """How much of the blank is gone (m,), mm, at points that lie close together."""
+        top, floor = self.faces(x, y)
+        return np.asarray(top - self.within(x, y, top, floor))
 
     def at(self, x: Array, y: Array) -> Array:
         """The heights (m,) at points anywhere."""
-        found = np.empty(len(x))
+        return self.sides_at(x, y)[0]
+
+    def sides_at(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The heights and the lower side (m,) at points anywhere."""
+        (top, floor), found = self.faces(x, y), np.empty(len(x))
         for some in grouped(x, y, self.raster.tile):
-            found[some] = self.left(x[some], y[some])
-        return found
+            found[some] = self.within(x[some], y[some], top[some], floor[some])
+        return found, floor
 
     def in_order(self, x: Array, y: Array) -> Iterator[tuple[Index, Array, Array]]:
         """For some moves after the other, at points close together: which (k,), the heights before each and after (k, m)."""
@@ -65,17 +91,17 @@ class Mapped(Sweep):
 
     heights: Array
 
-    def left(self, x: Array, y: Array) -> Array:
+    def sides(self, x: Array, y: Array) -> tuple[Array, Array]:
         (ny, nx), z, raster = self.heights.shape, self.heights, self.raster
         u, v = np.clip((x - raster.x[0]) / raster.step, 0, nx - 1), np.clip((y - raster.y[0]) / raster.step, 0, ny - 1)
         i, j = (np.minimum(np.floor(at).astype(np.int64), max(n - 2, 0)) for at, n in ((u, nx), (v, ny)))
         right, above, u, v = np.minimum(i + 1, nx - 1), np.minimum(j + 1, ny - 1), u - i, v - j
         between = (z[j, i] * (1 - u) + z[j, right] * u) * (1 - v) + (z[above, i] * (1 - u) + z[above, right] * u) * v
         top, floor = self.faces(x, y)
-        return np.asarray(np.clip(between, floor, top))
+        return np.asarray(np.clip(between, floor, top)), floor
 
-    def at(self, x: Array, y: Array) -> Array:
-        return self.left(x, y)
+    def sides_at(self, x: Array, y: Array) -> tuple[Array, Array]:
+        return self.sides(x, y)
 
     def about(self, x: Array, y: Array) -> Sweep:
         return self

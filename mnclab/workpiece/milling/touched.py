@@ -3,17 +3,21 @@
 A tool takes away its own body and all that stands above it. How deep a point lies in the body of a tool is told by the
 shape alone, and where the surface is that near: if material stands there, that is the distance, exactly. Where another
 move has taken it away (between two passes, at the rim of a step), the point looks round itself, over the true heights,
-for the nearest material: along rays, narrowed down to 1e-9 mm; what is thinner than a ray is wide, it may miss.
+for the nearest material: along rays, narrowed down to 1e-9 mm; what is thinner than a ray is wide, it may miss. Of a blank
+that was cut before, the tools of its former clampings tell as well, where they stand now.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
 from mnclab.path.columns import Array, Mask
 from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.clamped import Clamped
 from mnclab.workpiece.milling.moves import STILL, Moves
 from mnclab.workpiece.milling.raster import lowered
 from mnclab.workpiece.part import Part
@@ -47,22 +51,22 @@ class Touched:
         near = np.flatnonzero(found < FAR)
         if not len(near):
             return found
-        moves = self._about(points[near], FAR)
+        moves = _about(self.moves, points[near], FAR)
         found[near] = self._among(moves, points[near], found[near])
         return found
 
-    def _about(self, points: Array, reach: float) -> Moves:
-        """The moves that come within reach of some points."""
-        boxes = self.moves.boxes
-        low, high = points.min(axis=0) - reach, points.max(axis=0) + reach
-        keep = (boxes[:, 0] <= high[0]) & (boxes[:, 1] <= high[1]) & (boxes[:, 2] >= low[0]) & (boxes[:, 3] >= low[1])
-        return self.moves[keep & (self.moves.low <= high[2])]
+    def _before(self, points: Array) -> Iterator[tuple[Array, Array]]:
+        """As `depths` has it of the moves that cut the blank in former clampings."""
+        for moves, placement in self.stock.made_by() if isinstance(self.stock, Clamped) else ():
+            own = placement.back(points)
+            if len(moves := _about(moves, own, FAR)):
+                depth, feet = depths(moves, own)
+                yield depth, placement.there(feet)
 
     def _among(self, moves: Moves, points: Array, outside: Array) -> Array:
         """Distances from the blank less some moves; `outside` (m,) are those from the box about the blank."""
         found, feet, known = outside.copy(), np.clip(points, *self.stock.bounds)[None], outside[None] > 0
-        if len(moves):
-            depth, on_tools = depths(moves, points)
+        for depth, on_tools in chain([depths(moves, points)] if len(moves) else [], self._before(points)):
             found = np.maximum(found, depth.max(axis=0))
             feet, known = np.concatenate([feet, on_tools]), np.concatenate([known, depth > 0])
         free = ~self._material(moves, points) & (found < FAR)
@@ -126,6 +130,14 @@ class Touched:
         floor, top = (each.reshape(out.shape) for each in self._columns(moves, x.ravel(), y.ravel()))
         height = points[:, 2:, None]
         return np.hypot(out, np.maximum(np.maximum(height - top, floor - height), 0.0))
+
+
+def _about(moves: Moves, points: Array, reach: float) -> Moves:
+    """The moves that come within reach of some points."""
+    boxes = moves.boxes
+    low, high = points.min(axis=0) - reach, points.max(axis=0) + reach
+    keep = (boxes[:, 0] <= high[0]) & (boxes[:, 1] <= high[1]) & (boxes[:, 2] >= low[0]) & (boxes[:, 3] >= low[1])
+    return moves[keep & (moves.low <= high[2])]
 
 
 def depths(moves: Moves, points: Array) -> tuple[Array, Array]:

@@ -33,16 +33,14 @@ BENT = 1e-3  # of what was taken away about a cell, by which its middle may be o
 
 def removed(sweep: Sweep, heights: Array) -> float:
     """What all moves took away together, mm³; `heights` (ny, nx) are what they leave at the middles."""
-    rims, raster = Rims(sweep), sweep.raster
+    rims, raster, (top, _) = Rims(sweep), sweep.raster, sweep.blank
     walls, bends, pairs = np.zeros(raster.shape, dtype=bool), np.zeros(raster.shape, dtype=bool), np.zeros(2, dtype=np.int64)
-    taken = np.empty(raster.shape)
-    for tile in raster.tiles():
-        taken[tile] = sweep.faces(*raster.middles(tile))[0].reshape(taken[tile].shape) - heights[tile]
+    taken, ends = top - heights, blank_ends(sweep)
     bent = _bent(taken)
     for tile in raster.tiles():
         x, y = raster.middles(tile)
-        crossed, moves = rims.standing(x, y, _highest(heights, tile))
-        walls[tile] = (crossed | blank_ends(sweep, x, y)).reshape(walls[tile].shape)
+        crossed, moves = rims.standing(x, y, top[tile].ravel(), _highest(heights, tile))
+        walls[tile] = crossed.reshape(walls[tile].shape) | ends[tile]
         bends[tile] = bent[tile] & ~walls[tile]
         pairs += int(walls[tile].sum()) * moves, int(bends[tile].sum()) * moves
     total = float(taken[~walls & ~bends].sum()) * raster.step**2
@@ -52,7 +50,7 @@ def removed(sweep: Sweep, heights: Array) -> float:
             x, y = raster.middles(tile)
             x, y = within(x[some], y[some], raster.step, lattice)
             if len(x):
-                total += float((sweep.faces(x, y)[0] - sweep.left(x, y)).sum()) * raster.step**2 / lattice[0]
+                total += float(sweep.taken(x, y).sum()) * raster.step**2 / lattice[0]
     return total
 
 
@@ -86,12 +84,21 @@ def _lattice(pairs: int, finest: tuple[int, int]) -> tuple[int, int]:
     return next((each for each in LATTICES if each <= finest and each[0] * pairs <= EFFORT), LATTICES[-1])
 
 
-def blank_ends(sweep: Sweep, x: Array, y: Array) -> Mask:
-    """Cells (m,) that lie partly beside the blank."""
-    half = sweep.raster.step * (0.5 - 1e-9)
-    corners = ((0.0, 0.0), (half, half), (half, -half), (-half, half), (-half, -half))
-    inside = [np.greater(*sweep.faces(x + dx, y + dy)) for dx, dy in corners]
-    return np.asarray(np.any(inside, axis=0) & ~np.all(inside, axis=0))
+def blank_ends(sweep: Sweep) -> Mask:
+    """Cells (ny, nx) that may lie partly beside the blank: the middle of one of the eight beside them lies on the other side.
+
+    Those at the rim of the map are seen at their outer sides too: the last of a row or a column may stand over.
+    """
+    raster, inside = sweep.raster, np.greater(*sweep.blank)
+    wide, half = np.pad(inside, 1, mode="edge"), raster.step * (0.5 - 1e-9)
+    for end, way in ((0, -half), (-1, half)):
+        wide[end, 1:-1] = np.greater(*sweep.faces(raster.x, np.full(len(raster.x), raster.y[end] + way)))
+        wide[1:-1, end] = np.greater(*sweep.faces(np.full(len(raster.y), raster.x[end] + way), raster.y))
+    (ny, nx), found = inside.shape, np.zeros_like(inside)
+    for j in range(3):
+        for i in range(3):
+            found |= wide[j : j + ny, i : i + nx] != inside
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,9 +107,9 @@ class Rims:
 
     sweep: Sweep
 
-    def standing(self, x: Array, y: Array, material: Array) -> tuple[Mask, int]:
+    def standing(self, x: Array, y: Array, top: Array, material: Array) -> tuple[Mask, int]:
         """Cells (m,) where a rim has been lower than the material about them; how many moves come near."""
-        found, top = np.zeros(len(x), dtype=bool), self.sweep.faces(x, y)[0]
+        found = np.zeros(len(x), dtype=bool)
         moves = near(self.wide, self.boxes, x, y, float((top if self.within_cells.any() else material).max()))
         for which in chunks(moves, len(x)):
             crosses, height = self._crossing(which, x, y)

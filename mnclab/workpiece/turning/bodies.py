@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.geometry import shapely
 from mnclab.geometry.contours import Floats
 from mnclab.path.inserts import EDGE, cutting_part, mirror_of, turns
 from mnclab.path.tool import LATHE, Tool
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
+from mnclab.workpiece.turning.section import Drawing
 from mnclab.workpiece.turning.turned import half_section
 
 CHORD_ERROR = 1e-4  # mm, of a nose
@@ -23,10 +23,10 @@ THIN = 0.008  # mm: half a tool that has no width, less than what counts
 
 def area_of(body: Any) -> Any:
     """A body about the spindle above its axis, X 0 Y 0. An Alarm for any other."""
-    contour, axis, _ = half_section(body)
+    section, axis, _ = half_section(body)
     if abs(axis) > 1e-9:
         raise Alarm(f"on a lathe a blank and its chuck stand about X 0, got {shown(body)}")
-    return shapely.Polygon(contour.points)
+    return Drawing.of(section, (), ()).bar
 
 
 def outline(tool: Tool, height: float) -> Floats:

@@ -100,6 +100,14 @@ def both_halves(section: Sequence[Contour]) -> tuple[Contour, ...]:
     return Region(tuple(section)).union(Region(tuple(other))).loops
 
 
+def overhangs(section: Sequence[Contour]) -> bool:
+    """Whether seen along the axis one part of the material stands over another, with air between them."""
+    corners = np.unique(np.concatenate([contour.points[:, 1] for contour in section] or [np.zeros(0)]))
+    middles = (corners[:-1] + corners[1:])[np.diff(corners) > AXIS] / 2
+    across = [Contour(contour.points[:, ::-1], -contour.bulge) for contour in section]
+    return any(len(places) > 2 for places in radii_at(across, middles))
+
+
 def volume(section: Sequence[Contour]) -> float:
     """mm³, by Pappus."""
     return 2 * math.pi * sum(moment(contour) for contour in section)

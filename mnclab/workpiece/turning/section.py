@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any
 
 import numpy as np
@@ -27,7 +27,7 @@ TINY = 1e-7  # mm, a piece narrower than this is none
 
 @dataclass(frozen=True)
 class Drawing:
-    """Closed contours as rings of straight pieces; the first one is the blank's, row -1.
+    """Closed contours as rings of straight pieces; the first `bars` of them are the blank's, row -1.
 
     `rings` (m,): the first piece of each contour; of the k pieces `starts`, `ends` (k, 2), `tags` (k,) the curve that it
     lies on and `rows` (k,) the row that it belongs to.
@@ -35,6 +35,12 @@ class Drawing:
 
     contours: Sequence[Contour]
     owners: NDArray[np.int64]
+    bars: int = 1
+
+    @classmethod
+    def of(cls, blank: Sequence[Contour], strokes: Sequence[Contour], rows: Sequence[int]) -> Drawing:
+        """Of the loops of a blank and of what is taken away, with the row of each stroke."""
+        return cls([*blank, *strokes], np.array([-1] * len(blank) + list(rows), dtype=np.int64), len(blank))
 
     @cached_property
     def elements(self) -> tuple[Floats, Floats, Floats, Floats, Floats, NDArray[np.int64]]:
@@ -94,6 +100,16 @@ class Drawing:
         areas[bad] = shapely.make_valid(areas[bad])
         return areas
 
+    @cached_property
+    def bar(self) -> Any:
+        """The blank as a shapely area: what an odd number of its loops encloses."""
+        return reduce(shapely.symmetric_difference, self.areas[: self.bars])
+
+    @property
+    def strokes(self) -> NDArray[Any]:
+        """What is taken away, as shapely areas."""
+        return self.areas[self.bars :]
+
     def traced(self, area: Any) -> tuple[Contour, ...]:
         """A shapely area that was made of the contours, as lines and arcs."""
         starts, ends, element, _, _ = self.pieces
@@ -116,7 +132,7 @@ class Drawing:
 
 def left_of(drawing: Drawing) -> Any:
     """The blank without all strokes, as a shapely area."""
-    return shapely.difference(drawing.areas[0], shapely.union_all(drawing.areas[1:]))
+    return shapely.difference(drawing.bar, shapely.union_all(drawing.strokes))
 
 
 def held(area: Any, low: float) -> tuple[Any, list[Any]]:
@@ -136,8 +152,8 @@ def moment(area: Any) -> float:
 
 def cuts(drawing: Drawing, low: float) -> Iterator[tuple[int, Any, list[Any]]]:
     """The number of each stroke that takes something away, the area that it takes, and the pieces that fall then."""
-    rest = drawing.areas[0]
-    for number, area in enumerate(drawing.areas[1:]):
+    rest = drawing.bar
+    for number, area in enumerate(drawing.strokes):
         if not shapely.intersects(rest, area):
             continue
         cut, off = shapely.intersection(rest, area), list[Any]()
@@ -150,6 +166,6 @@ def taken(drawing: Drawing, rows: int, low: float) -> tuple[NDArray[np.float64],
     """What each row took away, as moments (rows,), mm³, and the pieces that fell, in order."""
     found, fallen = np.zeros(rows), list[Any]()
     for number, cut, off in cuts(drawing, low):
-        found[drawing.owners[1 + number]] += moment(cut)
+        found[drawing.owners[drawing.bars + number]] += moment(cut)
         fallen += off
     return found, fallen

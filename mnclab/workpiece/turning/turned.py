@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,14 +13,19 @@ from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm, several
 from mnclab.text.given import check_number, choice, shown
-from mnclab.workpiece.blank import Box, Revolved
+from mnclab.workpiece.blank import Blank, Box, Revolved
+from mnclab.workpiece.clamped import Placement
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning import revolved
 from mnclab.workpiece.turning.section import Drawing, held, left_of, taken
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of
 from mnclab.workpiece.turning.sweeping import CHORD_ERROR
+from mnclab.workpiece.turning.turned_blank import TurnedBlank
 from mnclab.workpiece.workpiece import Solid, Workpiece
+
+if TYPE_CHECKING:
+    from mnclab.workpiece.milling.moves import Moves
 
 PLANES = ("ZX", "XZ", "ZY", "YZ", "XY")
 
@@ -35,7 +41,7 @@ class Turned(Workpiece):
             check_number(step, "the step of a workpiece (mm)", above=0)
         self.cutting = cutting
         self.blank, self.axis, told = half_section(cutting.stock)
-        (self.low, _), (self.high, self.radius) = self.blank.bounds.tolist()
+        self.low, self.high, self.radius = room_of(self.blank)
         self.method, self.error = "exact sweep of the half section", CHORD_ERROR
         self._told = told
 
@@ -46,7 +52,7 @@ class Turned(Workpiece):
     @cached_property
     def _drawing(self) -> Drawing:
         strokes = self._strokes
-        return Drawing([self.blank, *strokes.contours], np.array([-1, *strokes.rows], dtype=np.int64))
+        return Drawing.of(self.blank, strokes.contours, strokes.rows)
 
     @cached_property
     def _pieces(self) -> tuple[Any, list[Any]]:
@@ -54,7 +60,7 @@ class Turned(Workpiece):
 
     @cached_property
     def section(self) -> list[Contour]:
-        return list(self._drawing.traced(self._pieces[0])) if self._strokes.contours else [self.blank]
+        return list(self._drawing.traced(self._pieces[0])) if self._strokes.contours else self.blank
 
     @cached_property
     def rows(self) -> list[NDArray[np.int64]]:
@@ -81,7 +87,7 @@ class Turned(Workpiece):
     @property
     def removed(self) -> float:
         """What was cut, mm³; what fell off is not."""
-        return revolved.volume([self.blank]) - self.volume - revolved.volume(self.parted)
+        return revolved.volume(self.blank) - self.volume - revolved.volume(self.parted)
 
     def removed_by_row(self) -> Array:
         """What each row of the path took away (n,), mm³; arcs are chords of the section, and the sum is exact."""
@@ -119,6 +125,31 @@ class Turned(Workpiece):
             return [loop.transformed(frame) for loop in whole]
         return [loop.transformed(swap @ frame).reversed() for loop in whole]
 
+    # --- as the next blank -------------------------------------------------------------------------------------------
+
+    def half_section(self) -> tuple[list[Contour], float]:
+        return self.section, self.axis
+
+    @property
+    def _body(self) -> TurnedBlank:
+        return TurnedBlank(tuple(self.section), (self.axis, 0.0))
+
+    def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """What overhangs counts as filled: from the lowest place to the highest one."""
+        return self._body.faces(x, y)
+
+    def outline(self, right: int, up: int) -> list[Array]:
+        return self._body.outline(right, up)
+
+    def edges(self) -> list[Array]:
+        return self._body.edges()
+
+    def made_by(self) -> Iterator[tuple[Moves, Placement]]:
+        return iter(())
+
+    def _uncut(self, stock: Blank) -> Turned:
+        return Turned(self.cutting.uncut(stock))
+
     @property
     def part(self) -> Part:
         return revolved.part(self.section, self.axis)
@@ -127,20 +158,30 @@ class Turned(Workpiece):
         return revolved.solid(self.section, self.rows, self.axis)
 
 
-def half_section(body: Any) -> tuple[Contour, float, tuple[str, ...]]:
-    """The contour (z, r) of a lathe's blank or chuck, where its axis stands in x, mm, and what is to be said of it.
+def half_section(body: Any) -> tuple[list[Contour], float, tuple[str, ...]]:
+    """The contours (z, r) of a lathe's blank or chuck, where its axis stands in x, mm, and what is to be said of it.
 
-    A box counts as a bar, or beside the axis as a ring, by its X.
+    A box counts as a bar, or beside the axis as a ring, by its X. A part that was turned before says its own.
     """
+    own = body.half_section() if hasattr(body, "half_section") else None
+    if own is not None:
+        return list(own[0]), float(own[1]), ()
     if isinstance(body, Box):
         (x0, _, z0), (x1, _, z1) = body.bounds.tolist()
         inner, outer = max(x0, -x1, 0.0), max(abs(x0), abs(x1))
         told = (f"the box counts as a bar of radius {outer:g}",)
-        return Contour([(z0, inner), (z1, inner), (z1, outer), (z0, outer)]), 0.0, told
+        return [Contour([(z0, inner), (z1, inner), (z1, outer), (z0, outer)])], 0.0, told
     if not isinstance(body, Revolved) or body.axis != "Z":
-        raise Alarm(f"on a lathe a blank and its chuck are boxes or bodies about Z, got {shown(body)}")
+        hint = "what a mill has cut does not turn true" if hasattr(body, "half_section") else ""
+        raise Alarm(f"on a lathe a blank and its chuck are boxes or bodies about Z, got {shown(body)}", hint=hint)
     profile = [(place + body.at[2], radius) for radius, place in body.profile]
     points = np.array([*profile, (profile[-1][0], body.bore), (profile[0][0], body.bore)])
     some = np.hypot(*(np.roll(points, -1, axis=0) - points).T) > 0
     contour = Contour(points[some])
-    return contour if contour.area > 0 else contour.reversed(), float(body.at[0]), ()
+    return [contour if contour.area > 0 else contour.reversed()], float(body.at[0]), ()
+
+
+def room_of(section: Sequence[Contour]) -> tuple[float, float, float]:
+    """From where to where along z a section reaches, and how far from the axis, mm."""
+    boxes = np.array([each.bounds for each in section])
+    return float(boxes[:, 0, 0].min()), float(boxes[:, 1, 0].max()), float(boxes[:, 1, 1].max())

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from mnclab.geometry.contours import Contour
 from mnclab.workpiece.blank import CORNERS, Array
 from mnclab.workpiece.turning import revolved
+from mnclab.workpiece.workpiece import Solid
 
 CHORD_ERROR = 0.01  # mm, of arcs in a picture
 AXIS = 1e-9  # mm: what lies nearer lies on the axis
@@ -33,6 +34,10 @@ class TurnedBlank(NamedTuple):
     def axis_x(self) -> float:
         """Where the axis of the spindle stands in x, mm."""
         return self.axis[0]
+
+    def half_section(self) -> tuple[tuple[Contour, ...], float]:
+        """What a lathe asks for: the contours (z, r) and where the axis stands in x, mm."""
+        return self.section, self.axis_x
 
     @property
     def bounds(self) -> Array:
@@ -81,6 +86,11 @@ class TurnedBlank(NamedTuple):
             found += [self._points(float(rim[1]), turn, float(rim[0])) for rim in rims]
             found += [self._points(line[:, 1], float(quarter), line[:, 0]) for quarter in quarters]
         return found
+
+    def solid(self) -> Solid:
+        """Its closed surface; no row cut it."""
+        found = revolved.solid(self.section, [np.full(len(loop.points), -1) for loop in self.section], self.axis_x)
+        return found._replace(points=found.points + (0.0, self.axis[1], 0.0))
 
     def _points(self, radius: Array | float, turn: Array | float, z: Array | float) -> Array:
         """Points (k, 3) at radii and angles about the axis and heights."""

@@ -1,0 +1,150 @@
+"""A milled part against a design: everything is looked at, the worst places are followed, their rows are named."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mnclab.path.columns import Index
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import check_number, shown
+from mnclab.workpiece.design.design import Design
+from mnclab.workpiece.difference.deviations import Seen, seen
+from mnclab.workpiece.difference.difference import Difference, Worst
+from mnclab.workpiece.difference.drawn_target import DrawnTarget
+from mnclab.workpiece.difference.guilt import guilty
+from mnclab.workpiece.difference.reading import Reading
+from mnclab.workpiece.difference.refining import followed
+from mnclab.workpiece.difference.table import OK, OUT, Features, Row
+from mnclab.workpiece.difference.target import Target
+from mnclab.workpiece.difference.volumes import volumes
+from mnclab.workpiece.milling.milled import Milled
+from mnclab.workpiece.milling.raster import NOISE
+
+CANDIDATES = 4  # places from which the worst is followed
+MOST = 24  # places that are as bad, whose rows are looked for
+ALIKE = 1e-7  # mm, by which they may differ
+
+
+def compare(workpiece: Any, target: Any, tolerance: float = 0.05) -> Difference:
+    """A workpiece against a `Design` or the path of a TOML file with one; `tolerance` mm.
+
+    An Alarm for anything else, and for a tolerance that is not greater than 0.
+    """
+    check_number(tolerance, "the tolerance of a comparison (mm)", above=0)
+    if not isinstance(workpiece, Milled):
+        raise Alarm(f"what is compared with a milled design is a milled part, got {shown(workpiece)}")
+    return difference_of(workpiece, target_of(target, float(tolerance)), float(tolerance))
+
+
+def target_of(given: Any, tolerance: float) -> Target:
+    """What a part is compared with, from whatever was given."""
+    if isinstance(given, str | Path):
+        given = Design.load(given)
+    if isinstance(given, Design):
+        return DrawnTarget(given, tolerance)
+    hint = "workpiece.compare(design), or the path of its TOML file"
+    raise Alarm(f"a milled part is compared with a design, got {shown(given)}", hint=hint)
+
+
+def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Difference:
+    """A milled part against a target."""
+    found = _followed(seen(workpiece, target))
+    signed = np.where(np.isfinite(found.grid.top) | (workpiece.heights > workpiece.floor), 0.0, np.nan)
+    cells = found.cells
+    signed[cells.row, cells.column] = found.off[found.of_cells]
+    rows = Features([_row(found, reading) for reading in target.readings(found)])
+    gone, left = volumes(found)
+    return Difference(
+        target.name, tolerance, found.error, _worst(found, -1.0), _worst(found, 1.0), gone, left, workpiece.x, workpiece.y,
+        signed, rows, tuple(_notes(workpiece, rows)), workpiece,
+    )  # fmt: skip
+
+
+def _worst(found: Seen, sign: float) -> Worst:
+    """The worst place of one sign."""
+    off = sign * found.off
+    if not len(off) or not off.max() > 0:
+        return Worst()
+    k, row = _first(found, np.flatnonzero(off >= off.max() - ALIKE))
+    x, y, z = found.place[k].tolist()
+    name = found.target.owner(int(found.owner[k])).name
+    return Worst(float(off.max()), (x, y, z), *_line(found, row), name, _where(found, row))
+
+
+def _followed(found: Seen) -> Seen:
+    """With the places at which it is worst, if they lie between those that were looked at."""
+    places, values = [], []
+    for sign in (-1.0, 1.0):
+        order = np.argsort(-sign * found.off, kind="stable")[: CANDIDATES**2 : CANDIDATES]
+        order = order[sign * found.off[order] > 0]
+        if len(order):
+            place, value = followed(found.workpiece, found.target, found.place[order], found.off[order])
+            if abs(value) - abs(found.off[order[0]]) > max(found.error, ALIKE):
+                places.append(place)
+                values.append(value)
+    if not places:
+        return found
+    at, off = np.array(places), np.array(values)
+    return found.with_places(at, off, found.target.owners(at, np.abs(off)))
+
+
+def _first(found: Seen, among: Index) -> tuple[int, int]:
+    """Of places that are as bad the one that was made first, as far as they are looked at, and the row that made it."""
+    some = among[:: len(among) // MOST + 1]
+    rows = [guilty(found.workpiece, found.target, found.place[k], found.void[k], float(found.off[k])) for k in some]
+    made = [(row, int(k)) for row, k in zip(rows, some) if row >= 0]
+    row, k = min(made, default=(-1, int(some[0])))
+    return k, row
+
+
+def _line(found: Seen, row: int) -> tuple[int, int, int]:
+    """Line, row and program of a row; line 0 of none."""
+    path = found.workpiece.cutting.path
+    return (int(path.line[row]), row, int(path.program[row])) if row >= 0 else (0, -1, 0)
+
+
+def _where(found: Seen, row: int) -> str:
+    line, _, program = _line(found, row)
+    return str(found.workpiece.cutting.name(line, program)) if row >= 0 else ""
+
+
+def _row(found: Seen, reading: Reading) -> Row:
+    measure, actual = reading.measure, reading.actual
+    deviation = actual - measure.nominal
+    deviation = 0.0 if abs(deviation) <= NOISE else deviation
+    lower, upper = measure.limits or (-reading.allowed, reading.allowed)
+    if reading.said:
+        verdict = reading.said
+    else:
+        verdict = OK if lower - found.error <= deviation <= upper + found.error else OUT
+    row, place = -1, None
+    worst = _worst_of(found, reading.among)
+    if len(worst):
+        first, row = _first(found, worst)
+        x, y, z = found.place[first].tolist()
+        place = x, y, z
+    line, row, program = _line(found, row)
+    where = _where(found, row) if row >= 0 else ("nothing cut here" if place else "")
+    return Row(
+        reading.side, reading.feature, measure.name, measure.nominal, measure.nominal + deviation, deviation, lower, upper,
+        verdict, line, row, place, program, where,
+    )  # fmt: skip
+
+
+def _worst_of(found: Seen, among: Index) -> Index:
+    """The places that are worst off among some, none where nothing is off."""
+    off = np.abs(found.off[among])
+    return among[(off > 0) & (off >= off.max(initial=0.0) - ALIKE)]
+
+
+def _notes(workpiece: Milled, rows: Features) -> Iterator[str]:
+    """What was not judged."""
+    yield from workpiece.notes
+    if threads := list(dict.fromkeys(row.feature for row in rows if row.measure.startswith("thread"))):
+        yield f"threads were not measured ({', '.join(threads)})"
+    if workpiece.many:
+        yield f"of so many moves the map stands within {workpiece.error:.3g} mm"

@@ -1,0 +1,87 @@
+"""A part as drawn against the part as cut: where it is off, by how much, which row is guilty, and the verdict."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from mnclab.path.columns import Array
+from mnclab.text.tables import html_table
+from mnclab.workpiece.difference.table import Features
+
+
+class Worst(NamedTuple):
+    """The worst place: `value` mm, never negative, normal to the surface of the design; `place` (x, y, z), None where
+    nothing is off.
+
+    `line` of `program` and `row` of the path made it, line 0 and row -1 where nothing was cut there; `where` is
+    "FILE:LINE". `feature` is the name of the feature that it is off.
+    """
+
+    value: float = 0.0
+    place: tuple[float, float, float] | None = None
+    line: int = 0
+    row: int = -1
+    program: int = 0
+    feature: str = ""
+    where: str = ""
+
+    def __str__(self) -> str:
+        if self.place is None:
+            return "none"
+        x, y, z = self.place
+        return f"{self.value:.4f} mm at X{x:.3f} Y{y:.3f} Z{z:.3f}, {self.feature}: {self.where or 'nothing cut here'}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Difference:
+    """What a comparison found. `ok`: every face lies within `tolerance` mm of the design, and every measure within the
+    limits of the drawing where it gives them (they count for the faces of their feature, too).
+
+    `map` (ny, nx) mm over the cells of the workpiece, whose middles are `x` and `y`: + what is left, - what is gone, 0 where
+    both are the same, nan where neither has material. Volumes in mm³. `error` mm is how far a value at the place it is
+    told for may be off. `features` is the table of measures. `notes` say what was not judged.
+    """
+
+    target: str
+    tolerance: float
+    error: float
+    worst_gouge: Worst
+    worst_rest: Worst
+    gouge_volume: float
+    rest_volume: float
+    x: Array
+    y: Array
+    map: Array
+    features: Features
+    notes: tuple[str, ...] = ()
+    workpiece: Any = None
+
+    @property
+    def ok(self) -> bool:
+        """Whether the part is as drawn, within the tolerance."""
+        return all(row.ok for row in self.features)
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON, without the map."""
+        found = {name: getattr(self, name) for name in ("target", "ok", "tolerance", "error", "gouge_volume", "rest_volume")}
+        worst = {name: getattr(self, name)._asdict() for name in ("worst_gouge", "worst_rest")}
+        return found | worst | {"features": [row.as_dict() for row in self.features], "notes": list(self.notes)}
+
+    def _lines(self) -> list[tuple[str, str]]:
+        verdict = "as drawn" if self.ok else "not as drawn"
+        return [
+            (f"compared with {self.target}", f"{verdict}, tolerance {self.tolerance:g} mm, error {self.error:.1g} mm"),
+            ("worst gouge", str(self.worst_gouge)),
+            ("worst rest", str(self.worst_rest)),
+            ("gouged away", f"{self.gouge_volume:.3f} mm³"),
+            ("left over", f"{self.rest_volume:.3f} mm³"),
+            *(("note", note) for note in self.notes),
+        ]
+
+    def __repr__(self) -> str:
+        (first, verdict), *others = self._lines()
+        return "\n".join([f"{first}: {verdict}", *(f"  {name}: {text}" for name, text in others), "", repr(self.features)])
+
+    def _repr_html_(self) -> str:
+        return html_table(("", ""), self._lines()) + self.features._repr_html_()

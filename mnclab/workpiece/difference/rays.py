@@ -1,0 +1,73 @@
+"""Where along level rays the material of a workpiece ends, or begins: bracketed by doubling, then narrowed down."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.workpiece.milling.milled import Milled
+from mnclab.workpiece.milling.sweep import grouped
+
+NARROW = 1e-9  # mm, to which a place is found
+PLACES = 15  # between both ends of a bracket, looked at together
+FIRST = 1e-6  # mm, the first step
+GROUP = 6.0  # mm, the side of a square whose points are looked at together
+
+
+def sides(workpiece: Milled, x: Array, y: Array) -> tuple[Array, Array]:
+    """Lower and upper side of the material at points (m,) anywhere, exact; equal where there is none."""
+    found = np.empty(len(x))
+    for some in grouped(x, y, max(workpiece.raster.tile, GROUP)):
+        found[some] = workpiece.sweep.left(x[some], y[some])
+    return workpiece.blank_at(x, y)[1], found
+
+
+def stands(workpiece: Milled, x: Array, y: Array, z: Array) -> Mask:
+    """Whether material is at points (m,)."""
+    floor, top = sides(workpiece, x, y)
+    return np.asarray((floor <= z) & (z <= top) & (top > floor))
+
+
+def ways(workpiece: Milled, origin: Array, direction: Array, z: Array, material: Mask, reach: float) -> tuple[Array, Array]:
+    """How far along rays (k, 2) at heights z (k,) what is there at first (`material` or none) ends; nan beyond `reach`.
+
+    The second is how far it was still so.
+    """
+    low, high = np.zeros(len(z)), np.full(len(z), np.nan)
+    steps = FIRST * 2.0 ** np.arange(int(np.ceil(np.log2(reach / FIRST))) + 1)
+    for ladder in np.split(steps, [len(steps) - 7]):  # the long steps only where the short ones found no end
+        open_ = np.flatnonzero(np.isnan(high))
+        if not len(open_):
+            break
+        _bracket(workpiece, origin, direction, z, material, ladder, open_, low, high)
+    some = np.flatnonzero(np.isfinite(high))
+    while len(some := some[high[some] - low[some] > NARROW]):
+        shares = np.arange(1, PLACES + 1) / (PLACES + 1)
+        between = low[some, None] + (high - low)[some, None] * shares
+        ends = _ends(workpiece, origin, direction, z, material, between, some)
+        first = np.where(ends.any(axis=1), ends.argmax(axis=1), PLACES)
+        rungs = np.concatenate([low[some, None], between, high[some, None]], axis=1)
+        every = np.arange(len(some))
+        low[some], high[some] = rungs[every, first], rungs[every, first + 1]
+    return high, low
+
+
+def _bracket(
+    workpiece: Milled, origin: Array, direction: Array, z: Array, material: Mask, ladder: Array, which: Index, low: Array,
+    high: Array,
+) -> None:  # fmt: skip
+    ends = _ends(workpiece, origin, direction, z, material, np.broadcast_to(ladder, (len(which), len(ladder))), which)
+    hit, first = ends.any(axis=1), ends.argmax(axis=1)
+    high[which[hit]] = ladder[first[hit]]
+    before = np.where(hit, first - 1, len(ladder) - 1)
+    low[which] = np.where(before >= 0, ladder[before], low[which])
+
+
+def _ends(
+    workpiece: Milled, origin: Array, direction: Array, z: Array, material: Mask, way: Array, which: Index
+) -> Mask:
+    """Whether what is at first is no longer there after ways (k, n) along some rays (k,)."""
+    places = origin[which, None] + way[..., None] * direction[which, None]
+    heights = np.broadcast_to(z[which, None], way.shape)
+    there = stands(workpiece, places[..., 0].ravel(), places[..., 1].ravel(), heights.ravel()).reshape(way.shape)
+    return there != material[which, None]

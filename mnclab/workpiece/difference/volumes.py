@@ -1,0 +1,85 @@
+"""How much was gouged away and how much is left over, mm³: cells where a face of either stands are seen at many points."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mnclab.path.columns import Array, Mask
+from mnclab.workpiece.difference.columns import Columns, columns
+from mnclab.workpiece.difference.deviations import Seen
+from mnclab.workpiece.difference.rays import sides
+from mnclab.workpiece.milling.volumes import ROUGH, within
+
+LATTICES = ((89, 55), (55, 34), ROUGH, (8, 5))  # points in a cell, and their turn
+POINTS = 1_500_000  # at most, as far as the lattices go
+CHUNK = 200_000
+ALIKE = 1e-6  # of what is off: neighbours that differ by less tell the same
+MARKS = 3  # places of a cell's width along a wall
+
+
+def volumes(seen: Seen) -> tuple[float, float]:
+    """What is gone and what is left over; exactly 0 of a part that is nowhere off."""
+    if not seen.off.any():
+        return 0.0, 0.0
+    workpiece, cells, shape = seen.workpiece, seen.cells, seen.grid.top.shape
+    gone, left = np.zeros(shape), np.zeros(shape)
+    gone[cells.row, cells.column], left[cells.row, cells.column] = thickness(cells.at, seen.error)
+    close = _uneven(gone) | _uneven(left) | _crossed(seen)
+    for edge in (0, -1):
+        close[edge] |= (gone[edge] > 0) | (left[edge] > 0)
+        close[:, edge] |= (gone[:, edge] > 0) | (left[:, edge] > 0)
+    row, column = np.nonzero(close)
+    area = workpiece.step**2
+    found = np.array([float(gone[~close].sum()), float(left[~close].sum())]) * area
+    lattice = next((each for each in LATTICES if len(row) * each[0] <= POINTS), LATTICES[-1])
+    many = CHUNK // lattice[0]
+    for k in range(0, len(row), many):
+        x, y = workpiece.raster.x[column[k : k + many]], workpiece.raster.y[row[k : k + many]]
+        x, y = within(x, y, workpiece.step, lattice)
+        at = columns(sides(workpiece, x, y), seen.target.faces(x, y), x, y)
+        found += np.array([float(each.sum()) for each in thickness(at, seen.error)]) * area / lattice[0]
+    return float(found[0]), float(found[1])
+
+
+def thickness(at: Columns, error: float) -> tuple[Array, Array]:
+    """How much of columns (m,) is gone and how much is left over, mm."""
+    floor, top, its_floor, its_top = (np.nan_to_num(each, nan=0.0) for each in (at.floor, at.top, at.its_floor, at.its_top))
+    both = np.maximum(np.minimum(top, its_top) - np.maximum(floor, its_floor), 0.0)
+    both[np.isnan(at.top) | np.isnan(at.its_top)] = 0.0
+    gone, left = its_top - its_floor - both, top - floor - both
+    return np.where(gone > error, gone, 0.0), np.where(left > error, left, 0.0)
+
+
+def _uneven(thick: Array) -> Mask:
+    """Cells (ny, nx) beside which less or more is off."""
+    ny, nx = thick.shape
+    wide: Array = np.pad(thick, 1, mode="edge")
+    around = np.stack([wide[j : j + ny, i : i + nx] for j in range(3) for i in range(3)])
+    return np.asarray(np.ptp(around, axis=0) > ALIKE * around.max(axis=0))
+
+
+def _beside(found: Mask) -> Mask:
+    """Cells (ny, nx) and those about them."""
+    wide = np.pad(found, 1)
+    rows = wide[:-2] | wide[1:-1] | wide[2:]
+    return np.asarray(rows[:, :-2] | rows[:, 1:-1] | rows[:, 2:])
+
+
+def _crossed(seen: Seen) -> Mask:
+    """Cells (ny, nx) about walls that are off, which may stand between the middles of cells."""
+    walls, raster, found = seen.walls, seen.workpiece.raster, np.zeros(seen.grid.top.shape, dtype=bool)
+    index = np.flatnonzero((seen.off[seen.of_walls] != 0) & np.isfinite(seen.moved))
+    if not len(index):
+        return found
+    place, moved = walls.place[walls.spot[index]], seen.moved[index, None] * walls.normal[walls.spot[index]]
+    longest = float(np.abs(moved).max())
+    along = walls.normal[walls.spot[index]] @ np.array([[0.0, 1.0], [-1.0, 0.0]])
+    gap = float((seen.target.bounds[1] - seen.target.bounds[0])[:2].max()) / 80
+    side = np.arange(-gap, gap + raster.step, raster.step / MARKS)
+    deep = np.linspace(0.0, 1.0, min(int(longest / raster.step * MARKS) + 2, 50))
+    for share in deep:
+        spots = (place + share * moved)[:, None] + side[:, None] * along[:, None]
+        column, row = np.floor((spots.reshape(-1, 2) - raster.low) / raster.step).astype(int).T
+        inside = (row >= 0) & (row < found.shape[0]) & (column >= 0) & (column < found.shape[1])
+        found[row[inside], column[inside]] = True
+    return _beside(found)

@@ -1,0 +1,210 @@
+"""What moves of flat cutters take away of a level: the discs that they sweep, as one region with exact lines and arcs.
+
+A move sweeps a band, as wide as the cutter, and a disc at either end. Discs are split where bands touch them, so that
+what touches smoothly has its corners in the same places. Most of a cleared area lies deep within it: a coarse union tells
+which bands and discs come near the rim, and only these are joined exactly.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mnclab.geometry import shapely
+from mnclab.geometry.contours import FULL_TURN, Contour
+from mnclab.geometry.regions import Region
+from mnclab.geometry.vectors import at_angle
+
+ROUND = 1e-7  # mm, within which places are one
+THIN = 0.01  # mm, of half a strip that does not matter
+FEW = 30  # pieces that are joined at once, without a look at which matter
+COARSE = 32  # chords of a quarter circle
+NEAR = 0.0007  # of a radius, from the rim of the coarse union: what comes so near matters
+SPLIT = 1e-8  # rad, between places where bands touch a disc
+ALONG = 0.036  # rad, in which a disc leaves a band that it touches by more than that
+
+
+@dataclass(frozen=True)
+class Track:
+    """One move of a flat cutter in the plane, mm: from `start` to `end` (x, y), about `centre` by `sweep` rad if it is an
+    arc; `row` of the path."""
+
+    start: tuple[float, float]
+    end: tuple[float, float]
+    radius: float
+    row: int
+    centre: tuple[float, float] = (0.0, 0.0)
+    sweep: float = 0.0
+
+    @property
+    def stands(self) -> bool:
+        return not self.sweep and bool(np.hypot(*np.subtract(self.end, self.start)) < ROUND)
+
+    @property
+    def bend(self) -> float:
+        """The radius of the arc, mm."""
+        return float(np.hypot(*np.subtract(self.start, self.centre))) if self.sweep else 0.0
+
+    @property
+    def line(self) -> Contour:
+        """The way of its axis, open; a full turn in two halves."""
+        if not self.sweep:
+            return Contour([self.start, self.end], closed=False)
+        parts = 1 if abs(self.sweep) < np.pi * 1.5 else 2
+        sweep = np.clip(self.sweep, -FULL_TURN, FULL_TURN)
+        arm = np.subtract(self.start, self.centre)
+        angles = np.arctan2(arm[1], arm[0]) + sweep * np.arange(parts + 1) / parts
+        points = self.centre + self.bend * at_angle(angles)
+        points[0] = self.start
+        if abs(self.sweep) < FULL_TURN:
+            points[-1] = self.end
+        return Contour(points, [*[np.tan(sweep / parts / 4)] * parts, 0.0], closed=False)
+
+    @property
+    def key(self) -> tuple[Any, ...]:
+        """What is the same of moves that sweep the same, there or back."""
+        ends = sorted((_near(self.start), _near(self.end)))
+        middle = self.line.point_at(self.line.length / 2)[0] if self.sweep else self.start
+        return *ends, _near(self.centre), _near(middle) if self.sweep else (), round(self.radius, 6)
+
+    @property
+    def touched(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """The directions, rad, in which the rims of its band leave the discs at its start and at its end."""
+        if self.stands:
+            return (), ()
+        if not self.sweep:
+            (x0, y0), (x1, y1) = self.start, self.end
+            ahead = math.atan2(y1 - y0, x1 - x0)
+            both = ahead - math.pi / 2, ahead + math.pi / 2
+            return both, both
+        (x, y), found = self.centre, []
+        for px, py in (self.start, self.end):
+            spoke = math.atan2(py - y, px - x)
+            found.append((spoke, spoke + math.pi))
+        return found[0], found[1]
+
+    @property
+    def places(self) -> Any:
+        """Points along its way (m, 2)."""
+        return self.line.points_within(0.0003 * self.radius) if self.sweep else [self.start, self.end]
+
+
+def _near(point: Any) -> tuple[float, float]:
+    x, y = (round(float(each), 6) + 0.0 for each in point)
+    return x, y
+
+
+def distinct(tracks: list[Track]) -> list[Track]:
+    """Each of them once, in their order; none that stands where another goes on, or that a full turn begins at."""
+    found: dict[tuple[Any, ...], Track] = {}
+    for each in tracks:
+        found.setdefault(each.key, each)
+    moving = [each for each in found.values() if not each.stands]
+    ends = {(_near(place), round(each.radius, 6)) for each in moving for place in (each.start, each.end)}
+    return [each for each in found.values() if not each.stands or (_near(each.start), round(each.radius, 6)) not in ends]
+
+
+def coarse(tracks: list[Track]) -> Any:
+    """What each of some tracks sweeps, polygons a little within it (k,)."""
+    ways = [shapely.Point(each.start) if each.stands else shapely.LineString(each.places) for each in tracks]
+    return shapely.buffer(ways, [each.radius for each in tracks], quad_segs=COARSE)
+
+
+def swept(tracks: list[Track]) -> Region:
+    """What tracks sweep, exact."""
+    tracks = distinct(tracks)
+    bands = [piece for each in tracks for piece in _bands(each)]
+    discs = [(radius, piece) for radius, piece in _discs(tracks)]
+    if len(bands) + len(discs) <= FEW:
+        return Region.of(*bands, *(piece for _, piece in discs))
+    whole = shapely.union_all(coarse(tracks))
+    shapely.prepare(rim := whole.boundary)
+    wide = NEAR * max(each.radius for each in tracks)
+    outlines = [shapely.Polygon(piece.points_within(wide / 4) if piece.bulge.any() else piece.points) for piece in bands]
+    chosen = [piece for piece, near in zip(bands, shapely.dwithin(rim, outlines, wide)) if near]
+    arcs = [shapely.LineString(_arc_of(piece)) for _, piece in discs]
+    near = shapely.dwithin(rim, arcs, [NEAR * radius for radius, _ in discs])
+    chosen += [piece for (_, piece), matters in zip(discs, near) if matters]
+    loops = (loop for loop in Region.of(*chosen).loops if loop.area > 0 or not whole.contains(_within(loop)))
+    found = Region(tuple(loops))
+    if differ(whole, polygon(found)):  # a piece that matters was not seen to
+        return Region.of(*bands, *(piece for _, piece in discs))
+    return found
+
+
+def differ(one: Any, other: Any) -> bool:
+    """Whether two areas differ by more than thin strips."""
+    return not one.symmetric_difference(other).buffer(-THIN).is_empty
+
+
+def _arc_of(piece: Contour) -> Any:
+    """The bent edge of a piece of a disc, without what runs along with a band at its ends."""
+    if len(piece.points) == 2:
+        return piece.points_within(NEAR)
+    (x, y), (px, py), _ = piece.points.tolist()
+    bend = 4 * math.atan(piece.bulge[1])
+    off = min(ALONG, bend / 2 - 1e-9)
+    angles = math.atan2(py - y, px - x) + np.linspace(off, bend - off, 2 + int(bend / ALONG))
+    return (x, y) + math.hypot(px - x, py - y) * at_angle(angles)
+
+
+def _within(loop: Contour) -> Any:
+    return shapely.Polygon(loop.points_within(1e-4)).representative_point()
+
+
+def _bands(track: Track) -> Iterator[Contour]:
+    """What a move sweeps besides the discs at its ends."""
+    r = track.radius
+    if track.stands:
+        return
+    if not track.sweep:
+        (x0, y0), (x1, y1) = track.start, track.end
+        long = float(np.hypot(x1 - x0, y1 - y0))
+        nx, ny = -(y1 - y0) / long * r, (x1 - x0) / long * r
+        yield Contour([(x0 - nx, y0 - ny), (x1 - nx, y1 - ny), (x1 + nx, y1 + ny), (x0 + nx, y0 + ny)])
+        return
+    line, bend, centre = track.line, track.bend, np.asarray(track.centre)
+    for start, end, bulge in zip(line.starts, line.ends, line.bulge):
+        out, inner = (bend + r) / bend, (bend - r) / bend
+        a, b = centre + (start - centre) * out, centre + (end - centre) * out
+        if bend - r <= ROUND:
+            yield Contour([a, b, centre], [bulge, 0.0, 0.0])
+        else:
+            c, d = centre + (end - centre) * inner, centre + (start - centre) * inner
+            yield Contour([a, b, c, d], [bulge, 0.0, -bulge, 0.0])
+
+
+def _discs(tracks: list[Track]) -> Iterator[tuple[float, Contour]]:
+    """The discs at the ends of moves, each once, in pieces where bands touch it: their radius, and (centre, arc)."""
+    places: dict[tuple[Any, ...], tuple[Any, float, list[float]]] = {}
+    for each in tracks:
+        if abs(each.sweep) >= FULL_TURN - 1e-9:
+            continue  # its band is a ring without ends
+        for place, angles in zip((each.start, each.end), each.touched):
+            known = places.setdefault((*_near(place), round(each.radius, 6)), (place, each.radius, []))
+            known[2].extend(angles)
+    for place, radius, found in places.values():
+        if not found:
+            yield radius, Contour.circle(place, radius)
+            continue
+        around = sorted(angle % FULL_TURN for angle in found)
+        turned = [b for a, b in zip([around[-1] - FULL_TURN, *around], around) if b - a > SPLIT] or around[:1]
+        gaps = [b - a for a, b in zip(turned, [*turned[1:], turned[0] + FULL_TURN])]
+        for first, gap in zip(turned, gaps):
+            (x, y), last = place, first + gap
+            one = x + radius * math.cos(first), y + radius * math.sin(first)
+            other = x + radius * math.cos(last), y + radius * math.sin(last)
+            yield radius, Contour([place, one, other], [0.0, math.tan(gap / 4), 0.0])
+
+
+def polygon(region: Region, chord: float = 1e-3) -> Any:
+    """A region as an area of shapely, for questions that need no exactness."""
+    areas = []
+    for part in region.parts:
+        outer, *holes = (loop.points_within(chord) for loop in part.loops)
+        areas.append(shapely.Polygon(outer, [hole for hole in holes if len(hole) > 3]))
+    return shapely.union_all([area if area.is_valid else area.buffer(0) for area in areas])
