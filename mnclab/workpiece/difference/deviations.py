@@ -22,7 +22,7 @@ MOST = 4_000  # rays that are followed; of more of them every second one, or thi
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """`error` mm: less than that is nothing.
+    """`error` mm: what may be hidden, `least`: less than that is nothing.
 
     `moved` (k,) is how far each place of a wall is off along its normal, + towards the void, nan where no wall was found,
     `rise` (m,) how much higher than it should be the workpiece is at places of slopes and floors, `off` (k + m + c,) how far
@@ -32,6 +32,7 @@ class Seen:
     workpiece: Milled
     target: Target
     error: float
+    least: float
     grid: Grid
     walls: Walls
     slopes: Slopes
@@ -93,17 +94,18 @@ class Seen:
 def seen(workpiece: Milled, target: Target) -> Seen:
     """Everything that a workpiece can be looked at for beside a target."""
     error = max(workpiece.error, target.error, NOISE)
+    least = max(NOISE if workpiece.many else workpiece.error, target.error, NOISE)
     spacing = float((target.bounds[1] - target.bounds[0])[:2].max()) / SPACINGS
     walls, slopes, grid = target.walls(spacing), target.slopes(spacing, workpiece.step), target.grid(workpiece.raster)
-    found = cells(workpiece, target, grid, error)
-    moved, of_walls, at_walls, void_walls = _walls(workpiece, target, walls, max(FIRST, error))
+    found = cells(workpiece, target, grid, least)
+    moved, of_walls, at_walls, void_walls = _walls(workpiece, target, walls, max(FIRST, least))
     rise, of_slopes, at_slopes = _slopes(workpiece, target, slopes)
     at_cells = np.stack([found.at.x, found.at.y, found.z], axis=1)
     place = np.concatenate([at_walls, at_slopes, at_cells])
     void = np.concatenate([void_walls, at_slopes + [0, 0, FIRST], at_cells + [0, 0, FIRST]])
     off_ = np.concatenate([of_walls, of_slopes, found.value])
-    off_[np.abs(off_) <= error] = 0.0
-    return Seen(workpiece, target, error, grid, walls, slopes, found, moved, rise, off_, place, void)
+    off_[np.abs(off_) <= least] = 0.0
+    return Seen(workpiece, target, error, least, grid, walls, slopes, found, moved, rise, off_, place, void)
 
 
 def _walls(workpiece: Milled, target: Target, walls: Walls, aside: float) -> tuple[Array, Array, Array, Array]:

@@ -139,12 +139,12 @@ class _Room:
         if not len(slopes) and not cells_of_it:
             return Found(math.nan, NONE, GONE)
         rise = np.nan_to_num(rise, nan=self.bottom - floor)  # gone right through
-        nearest = np.abs(np.abs(rise) - np.abs(seen.off[index])) <= max(NOISE, seen.error)
+        nearest = np.abs(np.abs(rise) - np.abs(seen.off[index])) <= max(NOISE, seen.least)
         mine = nearest & np.append(cells.plain[off], np.ones(len(slopes), dtype=bool))
         if not mine.any() and cells_of_it == len(off):
             mine = nearest if nearest.any() else ~nearest
         best = float(rise[mine][np.abs(rise[mine]).argmax()]) if mine.any() else 0.0
-        best = best if abs(best) > seen.error else 0.0
+        best = best if abs(best) > seen.least else 0.0
         return Found(self.top - floor - best, index[mine])
 
     # --- features ----------------------------------------------------------------------------------------------------

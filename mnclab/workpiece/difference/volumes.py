@@ -24,7 +24,7 @@ def volumes(seen: Seen) -> tuple[float, float]:
     workpiece, cells, shape = seen.workpiece, seen.cells, seen.grid.top.shape
     gone, left = np.zeros(shape), np.zeros(shape)
     counts = seen.off[seen.of_cells] != 0
-    gone[cells.row, cells.column], left[cells.row, cells.column] = counts * thickness(cells.at, seen.error)
+    gone[cells.row, cells.column], left[cells.row, cells.column] = counts * thickness(cells.at, seen.least)
     close = _uneven(gone) | _uneven(left) | _crossed(seen)
     for edge in (0, -1):
         close[edge] |= (gone[edge] > 0) | (left[edge] > 0)
@@ -38,7 +38,7 @@ def volumes(seen: Seen) -> tuple[float, float]:
         x, y = workpiece.raster.x[column[k : k + many]], workpiece.raster.y[row[k : k + many]]
         x, y = within(x, y, workpiece.step, lattice)
         at = columns(sides(workpiece, x, y), seen.target.faces(x, y), x, y)
-        found += np.array([float(each.sum()) for each in thickness(at, seen.error)]) * area / lattice[0]
+        found += np.array([float(each.sum()) for each in thickness(at, seen.least)]) * area / lattice[0]
     return float(found[0]), float(found[1])
 
 
