@@ -22,6 +22,7 @@ METRES = (".glb", ".gltf")  # in metres, Y upwards
 SMOOTH = np.radians(30)  # neighbours that lean less from each other are facets of one face
 UPRIGHT = 1e-4  # of a normal: how much it may lean
 TINY = 1e-9  # mm², a triangle that has no area
+EDGE = 1e-9  # of a triangle: how far beside it a point still is on it
 PAIRS = 2_000_000  # of points and triangles that are looked at together
 WIDE = (16, 1000)  # squares along the longer side, by which triangles are found
 EXACT = 1e-6  # mm: single precision of files
@@ -104,14 +105,24 @@ class Mesh:
         smooth = (lean > EXACT) & (lean < SMOOTH)
         return max(EXACT, float((wide * np.tan(lean / 4) / 2)[smooth].max(initial=0.0)))
 
+    @cached_property
+    def _implicit(self) -> Any:
+        from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance
+
+        found = vtkImplicitPolyDataDistance()
+        found.SetInput(self.surface)
+        return found
+
     def distance(self, points: Array) -> Array:
         """Signed distances (m,) of points (m, 3), negative in the material."""
-        import pyvista
+        from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+        from vtkmodules.vtkCommonCore import vtkDoubleArray
 
         if not len(points):
             return np.zeros(0)
-        found = pyvista.PolyData(np.ascontiguousarray(points)).compute_implicit_distance(self.surface)
-        return np.asarray(found["implicit_distance"], dtype=np.float64)
+        found = vtkDoubleArray()
+        self._implicit.FunctionValue(numpy_to_vtk(np.ascontiguousarray(points)), found)
+        return np.array(vtk_to_numpy(found), dtype=np.float64)
 
     @cached_property
     def _squares(self) -> tuple[Array, float, tuple[int, int], Index, Index]:
@@ -127,7 +138,14 @@ class Mesh:
         which = np.repeat(np.arange(len(level)), wide * deep)
         rank = np.arange(len(which)) - np.repeat(np.cumsum(wide * deep) - wide * deep, wide * deep)
         i, j = first[which, 0] + rank % wide[which], first[which, 1] + rank // wide[which]
-        square = j * shape[0] + i
+        a = corners[which] - low - side * np.stack([i, j], axis=1)[:, None]  # from the lower corner of the square
+        met = np.ones(len(which), dtype=bool)
+        for k in range(3):  # a square that lies beyond an edge, seen from the third corner, is not met
+            edge, third = a[:, (k + 1) % 3] - a[:, k], a[:, (k + 2) % 3] - a[:, k]
+            across = np.stack([-edge[:, 1], edge[:, 0]], axis=1)
+            across *= np.sign((third * across).sum(axis=1))[:, None]
+            met &= (np.maximum(across, 0).sum(axis=1) * side - (a[:, k] * across).sum(axis=1)) >= -TINY
+        square, which = (j * shape[0] + i)[met], which[met]
         order = np.argsort(square, kind="stable")
         begins = np.searchsorted(square[order], np.arange(shape[0] * shape[1] + 1))
         return low, side, (shape[0], shape[1]), level[which[order]], begins
@@ -156,14 +174,27 @@ class Mesh:
             start = stop
         return np.where(np.isfinite(floor), floor, np.nan), np.where(np.isfinite(top), top, np.nan)
 
+    @cached_property
+    def _planes(self) -> Array:
+        """Of every triangle two coordinates in it and the height (3, 3, m): each a number and its growth along x and y."""
+        a, b, c = self.points[self.triangles].transpose(1, 2, 0)
+        u, v = b - a, c - a
+        with np.errstate(divide="ignore", invalid="ignore"):
+            whole = u[0] * v[1] - u[1] * v[0]
+            s, t = np.stack([v[1], -v[0]]) / whole, np.stack([-u[1], u[0]]) / whole
+            rise = s * u[2] + t * v[2]
+            bases = ((0.0, s), (0.0, t), (a[2], rise))
+            return np.array([[base - way[0] * a[0] - way[1] * a[1], *way] for base, way in bases])
+
     def _height(self, triangle: Index, spots: Array) -> Array:
         """How high triangles (k,) stand over points (k, 2), nan beside them."""
-        a, b, c = self.points[self.triangles[triangle]].transpose(1, 0, 2)
-        u, v, w = (b - a)[:, :2], (c - a)[:, :2], spots - a[:, :2]
-        whole = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-        s, t = (w[:, 0] * v[:, 1] - w[:, 1] * v[:, 0]) / whole, (u[:, 0] * w[:, 1] - u[:, 1] * w[:, 0]) / whole
-        on = (s >= -TINY) & (t >= -TINY) & (s + t <= 1 + TINY)
-        return np.where(on, a[:, 2] + s * (b - a)[:, 2] + t * (c - a)[:, 2], np.nan)
+        (x, y), planes = spots.T, self._planes
+        s, t = (plane[0][triangle] + plane[1][triangle] * x + plane[2][triangle] * y for plane in planes[:2])
+        found = np.full(len(triangle), np.nan)
+        on = np.flatnonzero((s >= -EDGE) & (t >= -EDGE) & (s + t <= 1 + EDGE))
+        base, along, up = planes[2][:, triangle[on]]
+        found[on] = base + along * x[on] + up * y[on]
+        return found
 
     def upright(self, spacing: float) -> tuple[Array, Array, Array]:
         """Places (m, 2) in upright triangles, their normals and heights."""
