@@ -78,10 +78,11 @@ blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…), a
     "mnclab.workpiece.blank": "Box, Revolved, chuck, cylinder",
 })  # fmt: skip
 
-design = Shelf("mnclab.design", "features of a part as drawn, for Design(blank, features) and TurnedDesign(profile, features)", {
+design = Shelf("mnclab.design", "a part as drawn, Design(blank, features) or TurnedDesign(profile, features), and features", {
+    "mnclab.workpiece.blank": "Box, Revolved",
     "mnclab.workpiece.design":
-        "Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud, "
-        "Bore, CentreHole, FaceGroove, RingGroove, Thread, Undercut",
+        "Design, Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud, "
+        "TurnedDesign, Bore, CentreHole, FaceGroove, RingGroove, Thread, Undercut",
 })  # fmt: skip
 
 area = Shelf("mnclab.area", "contours and regions: by numbers, or out of a drawing or a path", {

@@ -212,6 +212,8 @@ class Setup:
     source: Any = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
+        if isinstance(own := getattr(self.part, "part", None), Part):  # of a workpiece or a design
+            object.__setattr__(self, "part", own)
         for name, (check, means) in MEANT.items():
             try:
                 check(name, getattr(self, name))

@@ -21,7 +21,8 @@ def milled(seed):
         front = [d.Face(1)] + [each for each in front if not isinstance(each, d.Chamfer)]
     back = ()
     if dice.random() < 0.2:
-        back = (d.Pocket.circle(x0 + cell / 2, y0 + cell / 2, 0.5 * cell, 2), d.Slot(*_slot(x0 + cell * 1.5, y0 + cell / 2, cell, 0), 4, 3))
+        ends = _slot(x0 + cell * 1.5, y0 + cell / 2, cell, 0)
+        back = (d.Pocket.circle(x0 + cell / 2, y0 + cell / 2, 0.5 * cell, 2), d.Slot(*ends, 4, 3))
     return d.Design(blank, tuple(front), back, title=f"Part {seed}", material=dice.choice(["", "S235", "EN AW-6082"]))
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from matplotlib.backends.backend_pdf import PdfPages
 
 from mnclab.geometry.vectors import Floats
-from mnclab.show.drawing import figure, frame
+from mnclab.show.drawing import dxf, figure, frame
 from mnclab.show.drawing.arrangement import arranged
 from mnclab.show.drawing.dimensions import Point
 from mnclab.show.drawing.frame import Printed
@@ -36,7 +36,7 @@ from mnclab.text.given import check_number, choice
 
 A4, A3 = ("A4", "A4 landscape"), ("A3",)
 SEEN = 90.0  # mm: a part that is as large on A4, or true size there, needs no A3
-FILES = (".svg", ".pdf", ".png")
+FILES = (".svg", ".pdf", ".png", ".dxf")
 
 
 class Boxed(NamedTuple):
@@ -86,11 +86,15 @@ class Drawing:
         return [_figure(sheet, repr(self)[1:-1]) for sheet in self.sheets]
 
     def save(self, path: str | Path, sheet: int | None = None) -> Path:
-        """Write a pdf with all sheets, or one sheet as svg, pdf or png; lines and letters in true size.
+        """Write a pdf or a dxf with all sheets, or one sheet as svg, pdf or png; lines and letters in true size.
 
-        Of several sheets an svg and a png want to know which.
+        Of several sheets an svg and a png want to know which. A dxf has the part 1:1.
         """
         path, suffix = named(path, FILES, "cannot write a drawing as {}")
+        if suffix == ".dxf":
+            with replaced(path) as beside:
+                beside.write_bytes(dxf.content(self))
+            return path
         if sheet is None and suffix != ".pdf" and len(self.sheets) > 1:
             raise Alarm(f"a {suffix} file holds one of the {len(self.sheets)} sheets", hint="sheet=1 writes the first")
         pages = self._figures if sheet is None else [self.figure(sheet)]

@@ -21,9 +21,9 @@ from mnclab.show.drawing.dimensions import Angle, Dimension, Linear, Note, Point
 from mnclab.show.drawing.hatching import hatching
 from mnclab.show.drawing.ink import Label, Mark, Stroke, segment_boxes
 from mnclab.show.drawing.lettering import block
+from mnclab.show.drawing.origin import origin
 from mnclab.show.drawing.placing import OUTLINE, SOFT, Ground, boxes_of, spans
 from mnclab.show.drawing.sheet import scale_text
-from mnclab.show.drawing.origin import origin
 from mnclab.show.drawing.view import Axis, Kind, Origin, View
 
 CHORD = 0.1  # mm on paper: as such chords lines stand in the way of texts

@@ -27,6 +27,11 @@ STACKED = 3.3  # mm, from the lower deviation to the upper one
 SIGNS: dict[str, tuple[Contour, ...]] = {  # strokes in a square of 1, as high as a capital
     "\N{COUNTERBORE}": (Contour([(0.08, 0.85), (0.08, 0.05), (1.02, 0.05), (1.02, 0.85)], closed=False),),
     "\N{COUNTERSINK}": (Contour([(0.05, 0.9), (0.55, 0.05), (1.05, 0.9)], closed=False),),
+    "\N{DOWNWARDS ARROW FROM BAR}": (
+        Contour([(0.1, 1.0), (0.9, 1.0)], closed=False),
+        Contour([(0.5, 1.0), (0.5, 0.02)], closed=False),
+        Contour([(0.2, 0.4), (0.5, 0.02), (0.8, 0.4)], closed=False),
+    ),
 }
 SIGN_WIDTH = 1.2  # with the room to the next letter
 _RUNS = re.compile(f"([{''.join(SIGNS)}])")

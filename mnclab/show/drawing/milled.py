@@ -35,8 +35,10 @@ DEEP = 3.0  # worth of a feature whose depth is told by a section only
 LEAST = 2  # features that a second section must tell the depth of: a single one has it at a leader
 
 
-def drafts(design: Design, ledger: Ledger, tabled: int = 0) -> list[Draft]:
-    """The views with all that is written to them; `tabled` 1 puts holes into a table, 2 all features."""
+def drafts(design: Design, ledger: Ledger, tabled: int = 0, beside: bool = False) -> list[Draft]:
+    """The views with all that is written to them; `tabled` 1 puts holes into a table, 2 all features. The view from below
+    stands above the one from the front, or `beside` that from above.
+    """
     levels = Levels(design.stack, nested=not design.back)
     (x0, y0, _), (x1, y1, _) = design.bounds.tolist()
     items = list(_items(design, FRONT))
@@ -55,7 +57,8 @@ def drafts(design: Design, ledger: Ledger, tabled: int = 0) -> list[Draft]:
         top.cuts.append(Cut(tuple((depth, -u) for u, depth in second.way(-y1, -y0)), "B", (1.0, 0.0)))
     sides = [Side(design, False, top, ledger, shows, second.shows if second else frozenset(), tabled)]
     if design.back:
-        below = Draft("from below", (0, -1), "from below" + (" (turned over about Y)" if design.turn == "y" else ""), free=design.turn == "y")
+        said = "from below" + (" (turned over about Y)" if design.turn == "y" else "")
+        below = Draft("from below", (1, 1) if beside else (0, -1), said, free=beside or design.turn == "y")
         below.draw([line.transformed(design.flip[0]) for line in plan.edges(levels, below=True)])
         below.axes += _through(design)
         found.append(below)
@@ -120,7 +123,9 @@ def _second(design: Design, left: Sequence[Item]) -> Plane | None:
     keys = {each.key for each in left if each.worth >= DEEP}
     if not keys:
         return None
-    plane = chosen([each._replace(worth=each.worth if each.key in keys else 0.1) for each in _items(design, LEFT) if each.key in {i.key for i in left}])
+    mine = {each.key for each in left}
+    items = [each for each in _items(design, LEFT) if each.key in mine]
+    plane = chosen([each if each.key in keys else each._replace(worth=0.1) for each in items])
     return plane if plane and len(plane.shows & keys) >= LEAST else None
 
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from mnclab.show.drawing import milled, turned
 from mnclab.show.drawing.drawing import Drawing, draw
-from mnclab.show.drawing.ledger import Dimensioned, Ledger
+from mnclab.show.drawing.ledger import Dimensioned, Draft, Ledger
 from mnclab.show.drawing.sheet import Title
 from mnclab.show.plot.picture import Picture
 from mnclab.text.alarm import Alarm
@@ -17,6 +21,7 @@ from mnclab.workpiece.design.design import Design
 from mnclab.workpiece.design.turned_design import TurnedDesign
 
 TABLES = (0, 1, 2)  # how much goes into tables: what needs it, all holes, all features
+LEGIBLE = 60.0  # mm: a part that is drawn smaller than it is has at least this size on paper, if another way gives it
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -30,23 +35,45 @@ def drawing(design: Any, *, size: str | None = None, scale: float | None = None)
     """The dimensioned drawing of a design, on "A4", "A4 landscape", "A3" or "A2" and at a scale (0.5 is 1:2), both chosen
     where they are not given.
 
-    Where a view has no room for its dimensions holes, then all features stand in a table; an Alarm where that fails too.
+    Where a view has no room for its dimensions, or only in a small scale, holes, then all features stand in a table; an
+    Alarm where that fails too.
     """
     if not isinstance(design, Design | TurnedDesign):
         raise Alarm(f"a drawing is made of a design, got {shown(design)}", hint="Design(blank, features).plot()")
     title = Title(design.title or "part", design.number, design.material, design.general, design.date, design.author)
-    for tabled in TABLES:
+    best: DesignDrawing | None = None
+    refused: Alarm | None = None
+    for attempt in _attempts(design):
         ledger = Ledger()
-        turns = isinstance(design, TurnedDesign)
-        views = [draft.view() for draft in (turned.drafts(design, ledger) if turns else milled.drafts(design, ledger, tabled))]
+        views = [draft.view() for draft in _drafts(design, ledger, *attempt)]
         try:
             found = draw(views, title, size=size, scale=scale, tables=ledger.tables)
-        except Alarm:
-            if turns or tabled == TABLES[-1]:
-                raise
+        except Alarm as fault:
+            refused = fault
             continue
-        return DesignDrawing(found.title, found.scale, found.sheets, ledger.record(found))
-    raise AssertionError("the last attempt returns or raises")
+        if best is None or found.scale > best.scale:
+            best = DesignDrawing(found.title, found.scale, found.sheets, ledger.record(found))
+        part = max(float(np.ptp(view.bounds, axis=0).max()) for view in views)
+        if scale is not None or found.scale >= 1 or found.scale * part >= LEGIBLE:
+            break
+    if best is None:
+        assert refused is not None
+        raise refused
+    return best
+
+
+def _attempts(design: Design | TurnedDesign) -> Iterator[tuple[int, bool]]:
+    """How much goes into tables, and whether the view from below stands beside that from above, where both find more room."""
+    if isinstance(design, TurnedDesign):
+        yield 0, False
+    else:
+        yield from product(TABLES, (False, True) if design.back else (False,))
+
+
+def _drafts(design: Design | TurnedDesign, ledger: Ledger, tabled: int, beside: bool) -> list[Draft]:
+    if isinstance(design, TurnedDesign):
+        return turned.drafts(design, ledger)
+    return milled.drafts(design, ledger, tabled, beside)
 
 
 def plot(design: Any, *, size: str | None = None, scale: float | None = None, sheet: int = 1) -> Picture:

@@ -84,13 +84,13 @@ def _not_within(levels: Levels, z: float, line: Contour) -> Iterator[Contour]:
     within = np.zeros(len(x), dtype=bool)
     for each in slants.values():
         within |= np.abs(each.away(x, y) - each.at(z)) < NEAR
-    yield from _stretches(line, ~within.reshape(-1, len(SPOTS)).all(axis=1))
+    yield from _stretches(line, np.logical_not(within).reshape(-1, len(SPOTS)).any(axis=1))
 
 
 def _off(loop: Contour, covered: Region) -> Iterator[Contour]:
     """The stretches of a loop that are not on the edge of what is above: that is drawn already."""
     lies = covered.distance(_spots(loop)) < NEAR
-    return _stretches(loop, ~lies.reshape(-1, len(SPOTS)).all(axis=1))
+    return _stretches(loop, np.logical_not(lies).reshape(-1, len(SPOTS)).any(axis=1))
 
 
 def _spots(line: Contour) -> Floats:

@@ -6,18 +6,20 @@ The axis lies level, the front end to the right. Lengths count from the front en
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
+from mnclab.geometry.vectors import Floats
 from mnclab.show.drawing.dimensions import Point
 from mnclab.show.drawing.elevation import SAME, Seen, Step, look
 from mnclab.show.drawing.ledger import Draft, Ledger
 from mnclab.show.drawing.turned_dimensions import Turning
 from mnclab.show.drawing.view import Axis, Kind, Origin
 from mnclab.workpiece.design.turned_design import TurnedDesign
+from mnclab.workpiece.design.turned_features import Bore, FaceGroove
 from mnclab.workpiece.design.turned_threads import Thread
 
 FAR = 1e6  # mm
@@ -25,10 +27,11 @@ SKY = np.diag([1.0, -1.0, 1.0])  # depth grows from outside to the axis
 
 
 def drafts(design: TurnedDesign, ledger: Ledger) -> list[Draft]:
-    """The view with all that is written to it."""
+    """The view with all that is written to it; what is solid but for centre holes is not cut."""
     region = Region(tuple(design.section))
     outside, inside = look(_turned(region)), look(region)
-    cut = _hollow(inside)
+    first = design.bodies[0].section
+    cut = _hollow(look(first)) or any(isinstance(each, Bore | FaceGroove) for each in design.features)
     draft = Draft("from the side", (0, 0))
     lower = list(_outside(outside))
     draft.draw([line.transformed(np.diag([1.0, -1.0, 1.0])) for line in lower])
@@ -56,7 +59,7 @@ def _turned(region: Region) -> Region:
 
 def _hollow(inside: Seen) -> bool:
     """Whether something is inside: what one sees from the axis is not the axis alone."""
-    return any(label >= 0 and abs(r) > SAME for label, r in zip(inside.labels.tolist(), inside.ends()[:, 0].tolist(), strict=True))
+    return bool(((inside.labels >= 0) & (np.abs(inside.ends()) > SAME).any(axis=1)).any())
 
 
 def _outside(seen: Seen) -> Iterator[Contour]:
@@ -100,12 +103,12 @@ def _bore_edges(seen: Seen) -> Iterator[Contour]:
             yield Contour([(u, 0.0), (u, r)], closed=False)
 
 
-def _at_edges(seen: Seen, radii: np.ndarray, chosen: object) -> Iterator[Point]:
+def _at_edges(seen: Seen, radii: Floats, chosen: Callable[[list[float]], float]) -> Iterator[Point]:
     """Places of upright lines, with the greater or the smaller radius beside them."""
     for u in seen.edges():
         k = int(np.abs(seen.places - u).argmin())
         beside = [*([float(radii[k - 1, 1])] if k else []), *([float(radii[k, 0])] if k < len(radii) else [])]
-        yield u, chosen(beside)  # type: ignore[operator]
+        yield u, chosen(beside)
 
 
 def _off_axis(loop: Contour) -> Iterator[Contour]:

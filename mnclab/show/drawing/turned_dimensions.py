@@ -134,7 +134,8 @@ class Turning:
             assert isinstance(feature, FaceGroove)
             at = self._face_groove(feature, front)
             across = f"{written(known['inner diameter'])} / {written(known['outer diameter'])}"
-            lines = [f"{across} {written(known['depth'])}", *([written(known["corner radius"])] if "corner radius" in known else [])]
+            lines = [f"{across} {written(known['depth'])}"]
+            lines += [written(known["corner radius"])] if "corner radius" in known else []
         self.ledger.say(self.draft, Note(at, tuple(lines)), self._claims(k))
 
     def _bore(self, bore: Bore, front: bool) -> Point:
@@ -176,9 +177,12 @@ class Turning:
             if abs(z - self.high) < SAME:
                 self.ledger.at_zero(self.draft, (self.high, 0.0), claims)
                 continue
-            r = max((each[1] for each in found), default=0.0)
-            r = r if self._inside(z, r) and not any(self._outer(z) <= each[1] + SAME for each in found) else self._outer(z)
-            told = Linear((z, -r), (self.high, -front), valued(measure, "", self.high - z), "x", "below")
+            inner = [each[1] for each in found if self._inside(z, each[1])]
+            said = valued(measure, "", self.high - z)
+            if len(inner) == len(found):
+                told = Linear((z, max(inner)), (self.high, front), said, "x", "above")
+            else:
+                told = Linear((z, -self._outer(z)), (self.high, -front), said, "x", "below")
             self.ledger.say(self.draft, told, claims)
 
     def _claims(self, k: int, *names: str) -> list[Claim]:
@@ -219,7 +223,8 @@ def _met(loops: Sequence[Contour], w: float) -> list[float]:
     """Where a level line meets contours, of the first coordinate."""
     found = []
     for loop in loops:
-        for (u0, w0), (u1, w1), sweep, (cu, cw), radius in zip(loop.starts, loop.ends, loop.sweeps, loop.centres, loop.radii, strict=True):
+        rows = zip(loop.starts, loop.ends, loop.sweeps, loop.centres, loop.radii, strict=True)
+        for (u0, w0), (u1, w1), sweep, (cu, cw), radius in rows:
             if sweep == 0:
                 if (w0 - w) * (w1 - w) <= 0 and w0 != w1:
                     found.append(float(u0 + (w - w0) / (w1 - w0) * (u1 - u0)))

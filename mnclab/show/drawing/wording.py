@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mnclab.show.drawing.dimensions import Tolerance, Value, number, value
+from mnclab.show.drawing.dimensions import Tolerance, Value, value
 from mnclab.workpiece.design.features import Hole
 from mnclab.workpiece.design.measures import Measure
 
@@ -77,7 +77,3 @@ def chamfer_text(measures: Sequence[Measure]) -> str:
 def at_place(measure: Measure, datum: float) -> Value:
     """A coordinate as the distance from a datum."""
     return valued(measure, "", abs(measure.nominal - datum))
-
-
-def plain(size: float) -> str:
-    return number(size)

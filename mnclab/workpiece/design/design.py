@@ -18,8 +18,10 @@ from mnclab.path.columns import Array
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, check_point, choice, shown
 from mnclab.text.records import exactly
+from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
 from mnclab.workpiece.design.features import FEATURES, Chamfer, Feature, Pocket, Site, Stud
+from mnclab.workpiece.design.measures import HEAD, rows
 from mnclab.workpiece.design.removals import Flat, Removal
 from mnclab.workpiece.design.slabs import Stack
 from mnclab.workpiece.part import Part
@@ -75,6 +77,11 @@ class Design:
 
     def __repr__(self) -> str:
         return exactly(self)
+
+    def _repr_html_(self) -> str:
+        sides = ((self.features, False), (self.back, True))
+        named = [(name, each.measures()) for some, back in sides for name, each in zip(self.drawn_names(back), some)]
+        return html_table(HEAD, rows(named), numbers=(2, 3))
 
     # --- what it is made of ------------------------------------------------------------------------------------------
 
@@ -143,6 +150,8 @@ class Design:
             raise Alarm(f"{name_of(features, k)} ({where}[{k}]): {said}", hint=hint) from None
         if not top > site.bottom:
             raise Alarm(f"{name_of(features, k)} ({where}[{k}]): its top {top:g} is not above the lower side, {site.bottom:g}")
+        if not any(_takes(body, site) for body in found):
+            raise Alarm(f"{name_of(features, k)} ({where}[{k}]) takes nothing away: it lies beside the blank, or above it")
         return found
 
     def _site(self, back: bool) -> Site:
@@ -275,6 +284,18 @@ def name_of(features: tuple[Any, ...], k: int) -> str:
     return each.name or (each.kind if len(same) == 1 else f"{each.kind} {same.index(k) + 1}")
 
 
+def _takes(body: Removal, site: Site) -> bool:
+    """Whether a body takes something of the blank."""
+    region = body.reach
+    if not body.reaches(site.top) or not region.loops:
+        return False
+    (x0, y0), (x1, y1) = site.outline.bounds
+    (left, low), (right, high) = region.bounds
+    if len(site.outline.loops) == 1 and not site.outline.loops[0].bulge.any() and x0 <= left and right <= x1 and y0 <= low:
+        return bool(high <= y1)
+    return bool(site.outline.intersection(region).loops)
+
+
 def _same_floor(one: Any, other: Any) -> bool:
     return bool(one.top == other.top and one.depth == other.depth)
 
@@ -308,6 +329,7 @@ def _features(given: Any, name: str) -> tuple[Feature, ...]:
         given = (given,)
     if not isinstance(given, tuple | list):
         raise Alarm(f"{name} of a design must be features, got {shown(given)}", hint="mnclab.design.Pocket.circle(30, 20, 12, 5)")
+    given = [one for each in given for one in (each if isinstance(each, tuple | list) else [each])]  # patterns are tuples
     for k, each in enumerate(given):
         if not isinstance(each, Feature):
             known = ", ".join(cls.__name__ for cls in FEATURES.values())

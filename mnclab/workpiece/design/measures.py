@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from mnclab.text.alarm import Alarm
@@ -28,6 +28,19 @@ class Measure(NamedTuple):
     limits: tuple[float, float] | None = None
     fit: str = ""
     text: str = ""
+
+    @property
+    def value(self) -> str:
+        """How much, in words."""
+        return self.text or f"{'⌀' if self.kind == 'diameter' else ''}{self.nominal:.6g}{'°' * (self.kind == 'angle')}"
+
+    @property
+    def allowed(self) -> str:
+        """The deviations that are allowed, in words."""
+        if self.limits is None or self.fit:
+            return self.fit
+        low, high = self.limits
+        return f"±{high:.4g}" if low == -high else f"{low:+.4g} {high:+.4g}"
 
 
 #: ISO 286-1: upper ends of the ranges of sizes, mm; standard tolerances of the grades IT5 to IT12, and how far the zones d
@@ -98,3 +111,12 @@ def with_tolerances(measures: list[Measure], tolerances: Mapping[str, Tolerance]
             each = each._replace(limits=limits, fit=given if isinstance(given, str) else "")
         found.append(each)
     return tuple(found)
+
+
+#: The columns of a table of measures.
+HEAD = ("what", "measure", "value", "tolerance")
+
+
+def rows(measures: Iterable[tuple[str, Iterable[Measure]]]) -> list[tuple[str, ...]]:
+    """What, measure, value and tolerance of measures by what has them, for a table."""
+    return [(name, each.name, each.value, each.allowed) for name, some in measures for each in some]

@@ -67,6 +67,10 @@ class Slanting:
     def up(self) -> bool:
         return self.open > self.deep
 
+    def reaches(self, z: float) -> bool:
+        """Whether material at a height, or at one beyond it, is taken away."""
+        return z > self.deep if self.up else z < self.deep
+
     @property
     def low(self) -> float:
         return min(self.deep, self.open)

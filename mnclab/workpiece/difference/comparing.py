@@ -76,7 +76,7 @@ def _followed(found: Seen) -> Seen:
         order = order[sign * found.off[order] > 0]
         if len(order):
             place, value = followed(found.workpiece, found.target, found.place[order], found.off[order])
-            if abs(value) - abs(found.off[order[0]]) > max(found.error, ALIKE):
+            if abs(value) - abs(found.off[order[0]]) > max(found.least, ALIKE):
                 places.append(place)
                 values.append(value)
     if not places:
@@ -113,7 +113,7 @@ def _row(found: Seen, reading: Reading) -> Row:
     if reading.said:
         verdict = reading.said
     else:
-        verdict = OK if lower - found.error <= deviation <= upper + found.error else OUT
+        verdict = OK if lower - found.least <= deviation <= upper + found.least else OUT
     row, place = -1, None
     worst = _worst_of(found, reading.among)
     if len(worst):

@@ -1,0 +1,88 @@
+"""Tables beside the views: holes, corners of outlines, and all features where a view has no room for them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from mnclab.show.drawing.dimensions import Note, number
+from mnclab.show.drawing.feature_marks import mouth_of, outline_of, point_of, shape_in
+from mnclab.show.drawing.sheet import Table
+from mnclab.show.drawing.wording import hole_lines, written
+from mnclab.workpiece.design.features import Groove, Hole
+from mnclab.workpiece.design.measures import Measure
+from mnclab.workpiece.design.shapes import Outline
+
+if TYPE_CHECKING:
+    from mnclab.show.drawing.milled_features import Side
+
+
+def hole_table(side: Side, holes: list[int]) -> None:
+    """Every hole by its place and sizes, numbered in the view."""
+    title = "holes from below" if side.back else "holes"
+    x, y = side.datum
+    rows = []
+    for row, k in enumerate(holes):
+        hole = side.features[k]
+        assert isinstance(hole, Hole)
+        label = f"{'B' if side.back else 'A'}{row + 1}"
+        known = {each.name: each for each in hole.measures()}
+        text = "  ".join(hole_lines(hole))
+        side.draft.dimensions.append(Note((hole.x, hole.y), (label,), mouth_of(hole) / 2))
+        rows.append((label, _said(known["x"], x), _said(known["y"], y), text))
+        for column, names in ((1, ("x",)), (2, ("y",)), (3, ())):
+            side.ledger.cell(title, row, column, side.claims([k], *names))
+        side.tops([k])
+    side.ledger.tables.append(Table(title, ("No.", "X", "Y", "hole"), tuple(rows)))
+
+
+def feature_table(side: Side, numbers: list[int]) -> None:
+    """Every feature by its measures: where a view has no room for them."""
+    title = "features from below" if side.back else "features"
+    rows = []
+    x, y = side.datum
+    for row, k in enumerate(numbers):
+        feature = side.features[k]
+        label = f"{'B' if side.back else 'A'}{row + 1}"
+        line = outline_of(feature)
+        assert line is not None  # a table holds what has a place
+        at = line.point_at(0.35 * line.length)[0]
+        side.draft.dimensions.append(Note(point_of(at), (label,)))
+        known = {each.name: each for each in feature.measures() if each.kind == "place"}
+        told = [f"{each.name} {written(each)}" for each in feature.measures() if each.kind != "place" or each.name == "top"]
+        rows.append((label, _said(known["x"], x), _said(known["y"], y), f"{side.names()[k]}: {', '.join(told)}"))
+        for column, names in ((1, ("x",)), (2, ("y",))):
+            side.ledger.cell(title, row, column, side.claims([k], *names))
+        side.ledger.cell(title, row, 3, [*side.claims([k]), *side.claims([k], "top")])
+        shape = shape_in(feature)
+        if isinstance(shape, Outline):
+            corner_table(side, shape, (), k)
+    side.ledger.tables.append(Table(title, ("No.", "X", "Y", "feature"), tuple(rows)))
+
+
+def corner_table(side: Side, shape: Outline, measures: Sequence[Measure], k: int, title: str = "") -> None:
+    """Numbered corners, and a table of them; with `measures` its middle and sizes below."""
+    title, line = title or f"contour of {side.names()[k]}", shape.contour
+    letter = chr(97 + len(side.ledger.tables) % 26)
+    x, y = side.datum
+    rows = []
+    radii = line.radii.tolist()
+    for n, (px, py) in enumerate(line.points.tolist()):
+        label = f"{letter}{n + 1}"
+        side.draft.dimensions.append(Note((px, py), (label,)))
+        bend = line.bulge[n] if n < len(line.bulge) else 0.0
+        arc = f"R{number(radii[n])} {'ccw' if bend > 0 else 'cw'}" if n < len(radii) and bend else ""
+        rows.append((label, number(px - x), number(py - y), arc))
+    known = {each.name: each for each in measures}
+    if known:
+        rows.append(("middle", _said(known["x"], x), _said(known["y"], y), ""))
+        rows.append(("size", written(known["length"]), written(known["width"]), ""))
+        for row, names in ((len(rows) - 2, ("x", "y")), (len(rows) - 1, ("length", "width"))):
+            for column, name in enumerate(names, 1):
+                claims = [c for c in side.claims([k], name) if not (isinstance(side.features[k], Groove) and c.place == 0)]
+                side.ledger.cell(title, row, column, claims)
+    side.ledger.tables.append(Table(title, ("No.", "X", "Y", "arc to next"), tuple(rows)))
+
+
+def _said(measure: Measure, datum: float) -> str:
+    return written(measure._replace(nominal=measure.nominal - datum))
