@@ -157,7 +157,7 @@ class Side:
         for axis in "xy":
             self.places[axis].append((known[axis], (shape.x, shape.y), None))
 
-    def shape_in(self, shape: Shape, measures: Sequence[Measure], numbers: list[int], more: tuple[str, ...] = ()) -> None:
+    def _shape(self, shape: Shape, measures: Sequence[Measure], numbers: list[int], more: tuple[str, ...] = ()) -> None:
         known = {each.name: each for each in reversed(measures)}
         count = len(numbers)
         if isinstance(shape, Circle):
