@@ -28,7 +28,7 @@ PRICES = np.array([
     [0.6, 0.0, NEVER, 6.0, 3.0, 0.2, 4.0],  # an extension line
     [1.2, 0.8, NEVER, NEVER, 10.0, 4.0, 20.0],  # a leader
 ])  # fmt: skip
-BODIES = {DIMENSION: (0.8, 0.5), EXTENSION: (NEAR, 0.0), LEADER: (0.8, 0.5)}  # mm: how much shorter, half the width kept free
+BODIES = {DIMENSION: (0.45, 0.5), EXTENSION: (NEAR, 0.0), LEADER: (0.45, 0.5)}  # mm: shorter by less than AIR, half the width
 BATCH = 32  # places tried at once
 
 
