@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from running import run
 
 from mnclab import Tool
@@ -18,3 +19,10 @@ def part(text: str, tool: Tool = MILL, stock=BLOCK, **given) -> Milled:
     """What is left after moves in MNC that begin 50 mm above the blank; line 5 of the program is their first."""
     setup = {"tools": {1: tool}, "stock": stock}
     return run(f"G17 G90 G54\nT1\nS1000 M3 F500\nG0 Z50\n{text}", **setup).workpiece(**given)
+
+
+def is_closed(solid):
+    """Every edge twice, once in each sense."""
+    edges = np.concatenate([solid.triangles[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))])
+    there, back = edges @ (len(solid.points), 1), edges @ (1, len(solid.points))
+    return len(np.unique(there)) == len(there) and np.array_equal(np.sort(there), np.sort(back))

@@ -31,7 +31,8 @@ length = 80                    # and in degrees angle (of the point) and plunge_
 1 = [100, 50, -200]
 2 = { x = 300, y = 50, z = -200, rotation = 30 }
 
-[stock]                        # the blank, machine coordinates: low and high, two corners; or a cylinder about an axis:
+[stock]                        # the blank, machine coordinates: low and high, two corners; design = "part.toml", the part
+                               # of a drawing, turned_over = true with its lower side up; or a cylinder about an axis:
 radius = 25                    # mm; also bore (of a tube), axis "X", "Y" or "Z", at (a point on the axis)
 low = -60
 high = 2
@@ -131,6 +132,28 @@ def _check_kind(value: Any, where: str, name: str) -> None:
             check_number(each, where, endless=True)
 
 
+def _stock(table: Mapping[str, Any], stock: str, file: File) -> Any:
+    """The blank, or the finished part of a design as the next one; its file is seen from the one that names it."""
+    if "design" not in table:
+        return blank_of(table, stock, file, stock)
+    from mnclab.workpiece.design import Design
+
+    check_names(table, ("design", "turned_over"), f"{stock} of a design", file, stock)
+    name, over = table["design"], table.get("turned_over", False)
+    with file.at(stock, "design"):
+        if not isinstance(name, str):
+            raise Alarm(f"{stock}.design must be the name of a file, got {shown(name)}")
+        try:
+            found = Design.load(Path(file.name).parent / name)
+        except Alarm as fault:
+            line = f"{name}:{fault.span.line}" if fault.span else name
+            raise Alarm(f"{stock}.design: {line}: {fault.message}", hint=fault.hint) from None
+    with file.at(stock, "turned_over"):
+        if not isinstance(over, bool):
+            raise Alarm(f"{stock}.turned_over must be true or false, got {shown(over)}")
+    return found.turned_over() if over else found
+
+
 def _files(table: Mapping[str, Any], files: str, file: File) -> dict[str, Path]:
     """Files by name, seen from the one that names them."""
     for key, name in table.items():
@@ -142,6 +165,6 @@ def _files(table: Mapping[str, Any], files: str, file: File) -> dict[str, Path]:
 
 #: What reads a part of a setup that is a table in the file.
 TABLES: dict[str, Callable[[Mapping[str, Any], str, File], Any]] = {
-    **dict.fromkeys(ROWS, _rows), "files": _files, "stock": lambda table, name, file: blank_of(table, name, file, name),
+    **dict.fromkeys(ROWS, _rows), "files": _files, "stock": _stock,
     **dict.fromkeys(("settings", "variables"), lambda table, name, file: table),
 }  # fmt: skip

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from milled import is_closed
 
 import mnclab
 from mnclab import Setup, Tool
@@ -26,13 +27,6 @@ def part(text, stock=STOCK, step=None):
     done = mnclab.run(HEAD + text, "g43", Setup(tools=TOOLS, stock=stock, start=(0, 0, 50)))
     assert done.ok
     return done.workpiece(step=step)
-
-
-def is_closed(solid):
-    """Every edge twice, once in each sense."""
-    edges = np.concatenate([solid.triangles[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))])
-    there, back = edges @ (len(solid.points), 1), edges @ (1, len(solid.points))
-    return len(np.unique(there)) == len(there) and np.array_equal(np.sort(there), np.sort(back))
 
 
 SEGMENT = 9 * math.acos(1 / 3) - math.sqrt(8)  # of a ball of radius 3 that cuts 2 deep

@@ -152,6 +152,16 @@ def test_a_file_of_arcs_and_odd_texts(tmp_path):
     assert mnc.Design.load(path).volume == pytest.approx(2 / 3 * math.pi * 1000 + math.pi * 1000, rel=1e-12)
 
 
+def test_tolerances_go_with_the_part_that_is_turned_over():
+    """The front diameter becomes the last one; a length from the front is none from the other end."""
+    given = {"diameter 1": "h6", "diameter 2": 0.1, "length": (0, 0.2), "length 1": 0.3, "radius 1": 0.05}
+    design = TurnedDesign([(0, 10), (-20, 10), (-20, 15), (-50, 15)], roundings={1: 2}, tolerances=given)
+    over = design.turned_over()
+    assert over.tolerances == {"diameter 2": "h6", "diameter 1": 0.1, "length": (0, 0.2), "radius 1": 0.05}
+    assert [each.nominal for each in over.measures()] == [50, 30, 20, 30, 2]
+    assert "length 1" not in over.turned_over().tolerances and over.turned_over().profile == design.profile
+
+
 def test_moved_along_the_axis():
     design, volume, _ = shaft(3)
     there = design.moved((0, 0, 12.5))

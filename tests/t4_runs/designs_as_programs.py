@@ -8,11 +8,12 @@ import random
 
 import mnclab
 from mnclab import Setup, Tool
+from mnclab.geometry.contours import Contour
 from mnclab.workpiece.design import Chamfer, Design, Face, Groove, Hole, Pocket, Slot, Stud
 from mnclab.workpiece.design.shapes import Outline, Rectangle
 
 TOOLS = {
-    1: Tool(radius=5, kind="mill", plunge_angle=3, cutting_length=60), 2: Tool(radius=3, kind="mill", plunge_angle=3, cutting_length=60),
+    1: Tool(radius=5, kind="mill", plunge_angle=3), 2: Tool(radius=3, kind="mill", plunge_angle=3),
     3: Tool(radius=4, kind="drill", angle=118), 4: Tool(radius=2.5, kind="drill", angle=140),
     5: Tool(radius=8, kind="countersink", angle=90), 6: Tool(radius=3, kind="tap", pitch=1),
     7: Tool(radius=4, kind="chamfer", angle=90),
@@ -147,7 +148,7 @@ def drilled_in_a_pocket(rng, p, x, y, z0, more):
 def slot(rng, p, x, y, z0, more):
     angle, half, depth = math.radians(rng.uniform(0, 180)), size(rng, 5, 14), size(rng, 2, 12)
     dx, dy = half * math.cos(angle), half * math.sin(angle)
-    line = mnclab.geometry.contours.Contour([(x - dx, y - dy), (x + dx, y + dy)], closed=False)
+    line = Contour([(x - dx, y - dy), (x + dx, y + dy)], closed=False)
     for z in layers(depth, 4):
         p.along(1, line, z0 - z)
     return [Slot((x - dx, y - dy), (x + dx, y + dy), 10, depth, **more)]
@@ -198,8 +199,7 @@ def plate(seed):
     high, found, more = (size(rng, 0.5, 3) if faced else 0.0), [], {}
     if faced:
         for k in range(20):
-            x = 4 + 8 * k * 150 / 150
-            p.along(1, mnclab.geometry.contours.Contour([(-10, x), (210, x)], closed=False), 0.0)
+            p.along(1, Contour([(-10, 4 + 8 * k), (210, 4 + 8 * k)], closed=False), 0.0)
         found, more = [Face(high)], {"top": 0.0}
     places = [(25 + 50 * i, 25 + 50 * j) for i in range(4) for j in range(3)]
     rng.shuffle(places)
@@ -214,7 +214,8 @@ def studs(seed):
     x, y, depth = size(rng, 35, 45), size(rng, 27, 33), size(rng, 2, 9)
     if rng.random() < 0.5:
         wide = size(rng, 20, 34)
-        stud, rings = Stud.circle(x, y, wide, depth), [mnclab.geometry.contours.Contour.circle((x, y), wide / 2 + 5 + 8 * k) for k in range(6)]
+        stud = Stud.circle(x, y, wide, depth)
+        rings = [Contour.circle((x, y), wide / 2 + 5 + 8 * k) for k in range(6)]
     else:
         length, width = size(rng, 20, 40), size(rng, 16, 30)
         stud = Stud.rectangle(x, y, length, width, depth)

@@ -1,6 +1,5 @@
 """From path to design: the features that a program makes are those that it was written for, by their numbers."""
 
-import numpy as np
 import pytest
 from designs_as_programs import plate, run_of, studs
 

@@ -44,8 +44,8 @@ def plot_turned(
     radius, span = part.radius, part.high - part.low
     low, high = np.array([-radius, 0.0, part.low]), np.array([radius, 0.0, part.high])
     chucks = [loop for each in part.cutting.fixtures if not isinstance(each, Part) for loop in half_section(each)[0]]
-    known = bool(chucks)
-    chucks = chucks or [_jaw(part)]
+    known = bool(chucks) or not len(part.cutting)  # a part as drawn hangs in no chuck
+    chucks = chucks if known else [_jaw(part)]
     for each in chucks:
         (z0, _), (z1, r1) = each.bounds
         low, high = np.fmin(low, (-r1, 0, z0)), np.fmax(high, (r1, 0, z1))
@@ -54,10 +54,12 @@ def plot_turned(
         low, high = np.fmin(low, tip), np.fmax(high, tip + 2.5 * INSERT * max(span, 2 * radius) * np.array([1.0, 0.0, 1.0]))
     names = [] if colour == "depth" else _colours(part, colour)
     handles: list[Any] = [
-        Line2D([], [], **_BLANK), Patch(**CHUCK, label="chuck"), *([Patch(facecolor=CARBIDE, edgecolor=colours.INK,
-        linewidth=0.9, label="insert")] if tip is not None else []), *(Line2D([], [], color=shade, linewidth=2.2, label=name)
-        for name, shade, _ in names), *([Line2D([], [], **mark)] if len(marks) else []),
-    ]  # fmt: skip
+        Line2D([], [], **_BLANK),
+        *([Patch(**CHUCK, label="chuck")] if chucks else []),
+        *([Patch(facecolor=CARBIDE, edgecolor=colours.INK, linewidth=0.9, label="insert")] if tip is not None else []),
+        *(Line2D([], [], color=shade, linewidth=2.2, label=name) for name, shade, _ in names),
+        *([Line2D([], [], **mark)] if len(marks) else []),
+    ]
     if ax is None:
         labels = [str(each.get_label()) for each in handles]
         picture, (own,) = arrange([VIEW], low, high, labels, Foot(told(part)), in_words(part), size)

@@ -1,17 +1,25 @@
 """The part as a drawing has it: features on a blank, with their exact body.
 
 `shapes` are outlines by their sizes, `features` what a mill makes, `removals` the simple bodies that these take away,
-`slabs` the part as a stack of them: section, volume, distance; `design` puts it together. Turned parts: `corners` and
-`turned_profile` the outline, `turned_features` and `turned_threads` what is cut into it, `turned_body` what they ask of the
-body, `turned_design` the whole.
+`slabs` the part as a stack of them: section, volume, distance; `design` puts it together.
+
+Turned parts: `corners` and `turned_profile` the outline, `turned_holes`, `turned_grooves` and `turned_threads` what is
+cut into it, `turned_features` all of it by names, `turned_body` what they ask of the body, `turned_design` the whole.
 """
 
 from mnclab.workpiece.design.design import Design
 from mnclab.workpiece.design.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slot, Stud
 from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle
 from mnclab.workpiece.design.turned_design import TurnedDesign
-from mnclab.workpiece.design.turned_features import Bore, CentreHole, FaceGroove, RingGroove, TurnedFeature
-from mnclab.workpiece.design.turned_threads import Thread, Undercut
+from mnclab.workpiece.design.turned_features import (
+    Bore,
+    CentreHole,
+    FaceGroove,
+    RingGroove,
+    Thread,
+    TurnedFeature,
+    Undercut,
+)
 
 __all__ = [
     "Bore", "CentreHole", "Chamfer", "Circle", "Design", "Face", "FaceGroove", "Feature", "Groove", "Hole", "Outline",

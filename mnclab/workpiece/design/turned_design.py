@@ -22,9 +22,8 @@ from mnclab.workpiece.design.design import TEXTS, name_of
 from mnclab.workpiece.design.measures import Measure, Tolerance, with_tolerances
 from mnclab.workpiece.design.shapes import Outline
 from mnclab.workpiece.design.turned_body import SAME, TurnedBody
-from mnclab.workpiece.design.turned_features import TurnedFeature
+from mnclab.workpiece.design.turned_features import TURNED_FEATURES, Thread, TurnedFeature
 from mnclab.workpiece.design.turned_profile import Dimension, Profile
-from mnclab.workpiece.design.turned_threads import Thread
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning import revolved
 from mnclab.workpiece.turning.turned_blank import TurnedBlank
@@ -147,11 +146,14 @@ class TurnedDesign:
         return DrawnTurned(self, step)
 
     def turned_over(self) -> TurnedDesign:
-        """The same end for end, in the same stretch of z."""
+        """The same end for end, in the same stretch of z. Tolerances of lengths from what was the front end are lost."""
         outline = self.outline_as_drawn
-        middle = sum(outline.ends)
+        over, middle = outline.turned_over(), sum(outline.ends)
+        names = {_place(each): each.measure.name for each in over.dimensions()}
+        stays = {each.measure.name: names.get(_place(each, middle)) for each in outline.dimensions()}
+        tolerances = {name: each for old, each in self.tolerances.items() if (name := stays[old])}
         return replace(
-            self, profile=outline.turned_over().contour, blank=_turned_over(self.blank, middle), tolerances={},
+            self, profile=over.contour, blank=_turned_over(self.blank, middle), tolerances=tolerances,
             features=tuple(each.turned_over(middle) for each in self.features),
         )  # fmt: skip
 
@@ -231,6 +233,12 @@ class TurnedDesign:
                 raise Alarm(f"the design does not lie within its blank, whose {name} is {allowed:g}: it has {has:g}")
 
 
+def _place(dimension: Dimension, middle: float | None = None) -> tuple[Any, ...]:
+    """What a dimension is of, to tell it again; that of its mirror image where z becomes `middle` less z."""
+    ends = (dimension.start, dimension.end)
+    return dimension.measure.kind, *sorted((round(z if middle is None else middle - z, 6), round(r, 6)) for z, r in ends)
+
+
 def _cylinder(given: Revolved) -> tuple[tuple[float, float], float, float]:
     """From where to where in z a cylinder goes, its radius and its bore."""
     (radius, low), (_, high) = given.profile
@@ -269,7 +277,7 @@ def _features(given: Any) -> tuple[TurnedFeature, ...]:
         raise Alarm(f"features of a turned design must be features, got {shown(given)}", hint="mnclab.design.Bore(12, 30)")
     for k, each in enumerate(given):
         if not isinstance(each, TurnedFeature):
-            known = "Bore, CentreHole, RingGroove, FaceGroove, Thread, Undercut"
+            known = ", ".join(cls.__name__ for cls in TURNED_FEATURES.values())
             raise Alarm(f"features[{k}] of a turned design must be one that turns, got {shown(each)}",
                         hint=f"mnclab.design has {known}")  # fmt: skip
     return tuple(given)

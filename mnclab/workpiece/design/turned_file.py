@@ -1,23 +1,4 @@
-"""A turned design in a file (TOML): read so that an alarm shows the line that is wrong, written so that it reads back equal.
-
-    title = "Shaft"
-    profile = [                       # corners from one end to the other, z and the radius r, mm; or [z, r]
-        { z = 0, r = 12, chamfer = 1.5 },         # or [2, 30]: the width along the axis, the angle from it
-        { z = -30, r = 12, rounding = 2 },
-        { z = -30, r = 20, arc = 40 },            # to the next point an arc of a radius, negative to the right (clockwise)
-        { z = -50, r = 20 },
-    ]
-    blank = { radius = 22, low = -60, high = 1 }  # and bore
-
-    [tolerances]                      # of the profile
-    "diameter 1" = "h6"
-
-    [[features]]                      # in the order in which they are made
-    kind = "bore"
-    diameter = 10
-    depth = 20
-    tolerances = { diameter = "H7" }
-"""
+"""A turned design in a file (TOML): read so that an alarm shows the line that is wrong, written so that it reads back equal."""
 
 from __future__ import annotations
 
@@ -35,12 +16,67 @@ from mnclab.workpiece.blank_file import blank_of, table_of
 from mnclab.workpiece.design.design import TEXTS
 from mnclab.workpiece.design.feature_file import feature_of, pointing, table_of_feature, tuples
 from mnclab.workpiece.design.turned_design import TurnedDesign
-from mnclab.workpiece.design.turned_features import Bore, CentreHole, FaceGroove, RingGroove, TurnedFeature
-from mnclab.workpiece.design.turned_threads import Thread, Undercut
+from mnclab.workpiece.design.turned_features import TURNED_FEATURES
 
-KINDS: dict[str, type[TurnedFeature]] = {
-    each.kind: each for each in (Bore, CentreHole, RingGroove, FaceGroove, Undercut, Thread)
-}
+#: The format, as the help of the command line shows it.
+FORMAT = """\
+title = "Shaft"                # the title block: also number, material, general (tolerances), author, date
+profile = [                    # corners from one end to the other, z and the radius r, mm; also [z, r]
+    { z = 0, r = 12, chamfer = 1.5 },         # a width at 45 degrees, or [width along the axis, angle from it]
+    { z = -30, r = 12 },
+    { z = -30, r = 20, rounding = 1 },        # a radius
+    { z = -50, r = 20, arc = 40 },            # to the next point an arc of a radius; negative: turning to the right
+    { z = -60, r = 18 },
+]
+# closed = true                # where the profile is the whole half section; else it is closed to the axis
+
+[blank]                        # the bar, mm; also bore (a radius too)
+radius = 22
+low = -70
+high = 1
+
+[tolerances]                   # of the profile, counted from the front: ±, a class of ISO 286, or lower and upper
+"diameter 1" = "h6"
+"length 1" = [0, 0.1]
+
+[[features]]                   # one table each, in the order in which they are made
+kind = "bore"                  # depth to the shoulder, without one it goes through; point = 118 degrees, 180 is flat
+diameter = 10                  # chamfer at its mouth, corner (a radius) of a flat bottom
+depth = 20
+from_end = "front"             # or "back"
+name = "bore A"                # what drawing and tables call it
+tolerances = { diameter = "H7" }
+
+[[features]]
+kind = "centre hole"           # ISO 6411 form A: the pilot says the rest; also diameter, depth, from_end
+pilot = 2.5
+from_end = "back"
+
+[[features]]
+kind = "ring groove"           # from z backwards, to a depth or to the diameter of its bottom; inside = true: in a bore
+z = -34
+width = 4
+depth = 2
+corner = 0.4
+
+[[features]]
+kind = "face groove"           # between two diameters in a face; also corner, from_end
+inner = 14
+outer = 19
+depth = 1.5
+
+[[features]]
+kind = "undercut"              # DIN 76-1, from the shoulder at z towards the thread; also diameter, width, corner, angle,
+thread = "M24x1.5"             # inside, thread_at = "back"
+z = -30
+
+[[features]]
+kind = "thread"                # from start backwards; inside = true: in a bore
+thread = "M24x1.5"
+start = 0
+end = -27
+"""
+
 KNOWN = (*TEXTS, "profile", "closed", "blank", "tolerances", "features")
 ROW = ("z", "r", "rounding", "chamfer", "arc", "bulge")
 NAMED = re.compile(r"(?:corner|points?) (\d+)")  # what in an alarm says where the fault is
@@ -63,7 +99,7 @@ def design_of(table: Mapping[str, Any], file: File) -> TurnedDesign:
         more["tolerances"] = tuples(as_table(table.get("tolerances", {}), "tolerances"))
     with file.at("features"):
         features = as_tables(table.get("features", []), "features")
-        made = tuple(feature_of(each, KINDS, file, "features", str(k)) for k, each in enumerate(features))
+        made = tuple(feature_of(each, TURNED_FEATURES, file, "features", str(k)) for k, each in enumerate(features))
     try:
         return TurnedDesign(profile, made, **more)
     except Alarm as fault:

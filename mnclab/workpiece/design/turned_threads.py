@@ -20,7 +20,7 @@ from mnclab.workpiece.design.feature import check_flag, check_positive
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.threads import metric
 from mnclab.workpiece.design.turned_body import BESIDE, BEYOND, SAME, TurnedBody
-from mnclab.workpiece.design.turned_features import ENDS, Place, Point, TurnedFeature, given, outline
+from mnclab.workpiece.design.turned_feature import ENDS, Place, Point, TurnedFeature, given, outline
 
 SHARP = math.sqrt(3) / 2  # of the pitch: the depth of a thread with sharp teeth
 INNER, PITCH, OUTER = 5 / 4 * SHARP, 3 / 4 * SHARP, 17 / 12 * SHARP  # by which core, flanks and core of a bolt are narrower
@@ -37,7 +37,7 @@ UNDERCUTS = {
 
 @dataclass(frozen=True, repr=False)
 class Thread(TurnedFeature):
-    """A metric thread ("M30x1.5", "M30" with its coarse pitch) on a cylinder, or `inside` a bore, from z `start` back to `end`.
+    """A metric thread ("M30x1.5", "M30" with its coarse pitch) from z `start` back to `end`, `inside` a bore or outside.
 
     Outside the profile has its cylinder, of the nominal diameter (or less, down to that of the flanks). Inside it opens its
     bore to the core, D₁ = d - 1.0825 P, where that is narrower.
@@ -127,7 +127,7 @@ class Thread(TurnedFeature):
 
 @dataclass(frozen=True, repr=False)
 class Undercut(TurnedFeature):
-    """The undercut at the end of a thread, simple form: from a shoulder at `z` towards the thread, up its 30° to the surface.
+    """The undercut at the end of a thread: from a shoulder at `z` towards the thread, up a slope of 30° to the surface.
 
     `diameter`, `width` of the bottom, to where the slope begins, and `corner` radii are those of DIN 76-1 for the pitch unless
     given (outside form A, inside form C). `thread_at`: the thread lies to the "front" or the "back" of it.

@@ -30,8 +30,9 @@ class Columns(NamedTuple):
     its_floor: Array
     its_top: Array
 
-    def __getitem__(self, which: Mask) -> Columns:  # type: ignore[override]
-        return Columns(*(column[which] for column in tuple(self)))
+    def some(self, which: Mask) -> Columns:
+        """Those of some points."""
+        return Columns(*(column[which] for column in self))
 
     def differ(self, error: float) -> Mask:
         here, there = np.isfinite(self.top), np.isfinite(self.its_top)
@@ -74,10 +75,11 @@ def distances(target: Target, x: Array, y: Array, z: Array) -> Array:
 
 class Cells(NamedTuple):
     """Cells that differ: row and column (c,), their columns, how far they are off (c,) and at which height. `side` is 1
-    where they are off the upper side of the target, -1 the lower, 0 where another face is nearer; `plain` is far from all edges."""
+    where they are off the upper side of the target, -1 the lower, 0 where another face is nearer; `plain`: edges are
+    farther away."""
 
-    row: Array
-    column: Array
+    row: Index
+    column: Index
     at: Columns
     value: Array
     z: Array
@@ -100,7 +102,7 @@ def cells(workpiece: Milled, target: Target, grid: Grid, error: float) -> Cells:
     rise = at.top - at.its_top
     value[plain] = np.where(rise > 0, rise, -np.minimum(-rise, at.top - at.its_floor))[plain]
     z[plain] = at.top[plain]
-    value[~plain], z[~plain] = off(target, at[~plain])
+    value[~plain], z[~plain] = off(target, at.some(~plain))
     with np.errstate(invalid="ignore"):
         above, below = (np.abs(np.abs(way) - np.abs(value)) <= NOISE for way in (rise, at.its_floor - at.floor))
     return Cells(row, column, at, value, z, np.where(above, 1, np.where(below, -1, 0)), plain)

@@ -27,7 +27,6 @@ from mnclab.workpiece.milling.raster import NOISE
 CANDIDATES = 4  # places from which the worst is followed
 MOST = 24  # places that are as bad, whose rows are looked for
 ALIKE = 1e-7  # mm, by which they may differ
-ABOVE = 1e-6  # mm, above a surface
 
 
 def compare(workpiece: Any, target: Any, tolerance: float = 0.05) -> Difference:
@@ -53,7 +52,7 @@ def target_of(given: Any, tolerance: float) -> Target:
 
 def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Difference:
     """A milled part against a target."""
-    found = seen(workpiece, target)
+    found = _followed(seen(workpiece, target))
     signed = np.where(np.isfinite(found.grid.top) | (workpiece.heights > workpiece.floor), 0.0, np.nan)
     cells = found.cells
     signed[cells.row, cells.column] = found.off[found.of_cells]
@@ -66,21 +65,31 @@ def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Differ
 
 
 def _worst(found: Seen, sign: float) -> Worst:
-    """The worst place of one sign, followed from some that look worst."""
+    """The worst place of one sign."""
     off = sign * found.off
     if not len(off) or not off.max() > 0:
         return Worst()
-    order = np.argsort(-off, kind="stable")[: CANDIDATES**2 : CANDIDATES]
-    order = order[off[order] > 0]
-    place, value = followed(found.workpiece, found.target, found.place[order], found.off[order])
-    if abs(value) - off[order[0]] <= max(found.error, ALIKE):
-        k, row = _first(found, np.flatnonzero(off >= off[order[0]] - ALIKE))
-        place, value, owner = found.place[k], found.off[k], int(found.owner[k])
-    else:
-        owner = int(found.target.owners(place[None], np.array([abs(value)]))[0])
-        row = guilty(found.workpiece, found.target, place, place + [0, 0, ABOVE], value)
-    x, y, z = place.tolist()
-    return Worst(abs(float(value)), (x, y, z), *_line(found, row), found.target.owner(owner).name, _where(found, row))
+    k, row = _first(found, np.flatnonzero(off >= off.max() - ALIKE))
+    x, y, z = found.place[k].tolist()
+    name = found.target.owner(int(found.owner[k])).name
+    return Worst(float(off.max()), (x, y, z), *_line(found, row), name, _where(found, row))
+
+
+def _followed(found: Seen) -> Seen:
+    """With the places at which it is worst, if they lie between those that were looked at."""
+    places, values = [], []
+    for sign in (-1.0, 1.0):
+        order = np.argsort(-sign * found.off, kind="stable")[: CANDIDATES**2 : CANDIDATES]
+        order = order[sign * found.off[order] > 0]
+        if len(order):
+            place, value = followed(found.workpiece, found.target, found.place[order], found.off[order])
+            if abs(value) - abs(found.off[order[0]]) > max(found.error, ALIKE):
+                places.append(place)
+                values.append(value)
+    if not places:
+        return found
+    at, off = np.array(places), np.array(values)
+    return found.with_places(at, off, found.target.owners(at, np.abs(off)))
 
 
 def _first(found: Seen, among: Index) -> tuple[int, int]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -39,6 +39,7 @@ class Seen:
     off: Array
     place: Array
     void: Array
+    known: Index | None = None
 
     @property
     def of_walls(self) -> slice:
@@ -50,19 +51,21 @@ class Seen:
 
     @property
     def of_cells(self) -> slice:
-        return slice(self.of_slopes.stop, len(self.off))
+        return slice(self.of_slopes.stop, self.of_slopes.stop + len(self.cells.value))
 
     @cached_property
     def owner(self) -> Index:
         """Whose face each place is off (k + m + c,): the nearest; but where a floor is off by as much all over, all of it
         is the floor's."""
+        if self.known is not None:
+            return self.known
         cells, off_ = self.cells, np.abs(self.off)
         above, below = (each[cells.row, cells.column].astype(np.int64) for each in (self.grid.owner, self.grid.under))
         floors = np.where(cells.side >= 0, above, below)
         own = np.concatenate([self.walls.owner[self.walls.spot], self.slopes.owner, floors])
         with np.errstate(invalid="ignore"):
             by = np.concatenate([np.abs(self.moved), np.abs(self.rise), np.abs(cells.at.top - cells.at.its_top)])
-        by[self.of_cells][cells.side != 0] = off_[self.of_cells][cells.side != 0]
+        by[self.of_cells] = np.where(cells.side != 0, off_[self.of_cells], by[self.of_cells])
         deepest = np.zeros(int(max(own.max(initial=0), 0)) + 2)
         np.maximum.at(deepest, floors[cells.plain], off_[self.of_cells][cells.plain])
         with np.errstate(invalid="ignore"):
@@ -71,6 +74,18 @@ class Seen:
             away = np.flatnonzero((off_ > 0) & ~(np.abs(by - off_) <= NOISE) & ~whole)
         own[away] = self.target.owners(self.place[away], off_[away])
         return own
+
+    @cached_property
+    def sizes(self) -> tuple[Index, Index]:
+        """How many cells are the upper side of each owner, and how many the lower; the first is that of none."""
+        most = int(max(self.grid.owner.max(), self.grid.under.max())) + 2
+        above, below = (np.bincount(each.ravel() + 1, minlength=most + 1) for each in (self.grid.owner, self.grid.under))
+        return above, below
+
+    def with_places(self, place: Array, off_: Array, owner: Index) -> Seen:
+        """The same with more places (n, 3) that were looked at, off by `off_` (n,); they count for no size."""
+        there = [np.concatenate(pair) for pair in ((self.off, off_), (self.place, place), (self.void, place + [0, 0, FIRST]))]
+        return replace(self, off=there[0], place=there[1], void=there[2], known=np.concatenate([self.owner, owner]))
 
 
 def seen(workpiece: Milled, target: Target) -> Seen:
@@ -146,5 +161,5 @@ def _slopes(workpiece: Milled, target: Target, slopes: Slopes) -> tuple[Array, A
     rise = np.where(slopes.up, 1.0, -1.0) * (ours - slopes.z)
     value, height = np.zeros(len(x)), ours.copy()
     differ = at.differ(NOISE)
-    value[differ], height[differ] = off(target, at[differ])
+    value[differ], height[differ] = off(target, at.some(differ))
     return rise, value, np.stack([x, y, height], axis=1)

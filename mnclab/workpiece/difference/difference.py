@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from mnclab.path.columns import Array
 from mnclab.text.tables import html_table
 from mnclab.workpiece.difference.table import Features
-
-if TYPE_CHECKING:
-    import pyvista
-    from matplotlib.figure import Figure
 
 
 class Worst(NamedTuple):

@@ -15,7 +15,7 @@ from mnclab.geometry.vectors import at_angle, left
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.workpiece.design.design import Design
 from mnclab.workpiece.design.measures import Measure
-from mnclab.workpiece.design.removals import Flat, Slanting, signed
+from mnclab.workpiece.design.removals import Flat, Slanting, signed, within
 from mnclab.workpiece.difference.target import BLANK, Grid, Owner, Slopes, Walls
 from mnclab.workpiece.milling.raster import Raster
 
@@ -54,37 +54,20 @@ class DrawnTarget:
         floor, top = np.full(raster.shape, np.nan), np.full(raster.shape, np.nan)
         owner, under = (np.full(raster.shape, BLANK, dtype=np.int16) for _ in range(2))
         rows, columns, inside = filled(self.design.outline_of_blank, x, y)
-        box = rows, columns
-        floor[box][inside], top[box][inside] = low, high
+        floor[rows, columns][inside], top[rows, columns][inside] = low, high
         for k, (_, _, body) in enumerate(self.design.taken):
             side, whose = (top, owner) if body.up else (floor, under)
-            region = body.region if isinstance(body, Flat) else self._reach(k, body)
-            rows, columns, inside = filled(region, x, y)
-            box = rows, columns
-            here = side[box]
-            if isinstance(body, Flat):
-                level = body.floor
-                cut = inside & ((level < here) if body.up else (level > here))
-                here[cut] = level
-            else:
-                j, i = np.nonzero(inside)
-                level = body.level(x[box[1]][i], y[box[0]][j])
-                lower = level < here[j, i] if body.up else level > here[j, i]
-                here[j[lower], i[lower]] = level[lower]
-                cut = np.zeros_like(inside)
-                cut[j[lower], i[lower]] = True
-            whose[box][cut] = k
+            rows, columns, inside = filled(body.reach, x, y)
+            j, i = np.nonzero(inside)
+            level = body.level_within(x[columns][i], y[rows][j])
+            here = side[rows, columns][inside]
+            cut = level < here if body.up else level > here
+            side[rows, columns][inside] = np.where(cut, level, here)
+            whose[rows, columns][inside] = np.where(cut, k, whose[rows, columns][inside])
         with np.errstate(invalid="ignore"):
             gone = ~(top > floor)
         floor[gone] = top[gone] = np.nan
         return Grid(floor, top, owner, under)
-
-    def _reach(self, k: int, body: Slanting) -> Region:
-        """All that a slant slants off, from above: the sky over it, which follows it, is that region."""
-        after = self.design.taken[k + 1 : k + 2]
-        if after and isinstance(after[0].body, Flat) and after[0].body.floor == body.open and self.role(k) != "point":
-            return after[0].body.region
-        return body.section(body.open)
 
     # --- places to look at -------------------------------------------------------------------------------------------
 
@@ -98,7 +81,7 @@ class DrawnTarget:
 
     def walls(self, spacing: float) -> Walls:
         (x0, y0), (x1, y1) = self.bounds[:, :2].tolist()
-        found, owners, wide = [], [], EDGE * np.ones(2)
+        found, owners, wide = list[tuple[Array, Array, Array]](), list[Index](), EDGE * np.ones(2)
         for number, region, void in self._upright:
             for loop in region.loops:
                 spots, aside, mid = _along(loop, spacing)
@@ -107,26 +90,48 @@ class DrawnTarget:
                 owners.append(np.full(int(near.sum()), number))
         place, normal, middle = (np.concatenate(column) for column in zip(*found, strict=True))
         owner = np.concatenate(owners)
-        behind, before = place - ASIDE * normal, place + ASIDE * normal
-        stands: dict[int, Mask] = {}
-        spot, heights, talls, tallest = [], [], [], np.zeros(len(place))
-        for slab in self.design.stack.slabs:
-            if id(slab.region) not in stands:
-                there = slab.region.contains(np.concatenate([behind, before]))
-                stands[id(slab.region)] = there[: len(place)] & ~there[len(place) :]
-            on = stands[id(slab.region)] & self._reached(owner, (slab.low + slab.high) / 2)
-            tall = slab.high - slab.low
-            hair = min(EDGE, tall / 4)
-            for z, height in ((slab.low + hair, 0.0), ((slab.low + slab.high) / 2, tall), (slab.high - hair, 0.0)):
+        spots = np.concatenate([place - ASIDE * normal, place + ASIDE * normal])
+        spot, heights, talls = list[Index](), list[Array](), list[Array]()
+        tallest = np.zeros(len(place))
+        levels = self._levels
+        for low, high in zip(levels, levels[1:]):
+            tall, hair = high - low, min(EDGE, (high - low) / 4)
+            stands = self._material(spots, (low + high) / 2)
+            on = stands[: len(place)] & ~stands[len(place) :] & self._reached(owner, (low + high) / 2)
+            for z, counts in ((low + hair, 0.0), ((low + high) / 2, tall), (high - hair, 0.0)):
                 here = np.flatnonzero(on)
-                for each in slab.slants:
-                    here = here[each.taken(behind[here, 0], behind[here, 1], np.full(len(here), z)) > ASIDE]
+                for body in self._slants:
+                    if body.low < z < body.high:
+                        here = here[body.taken(spots[here, 0], spots[here, 1], np.full(len(here), z)) > ASIDE]
                 spot.append(here)
                 heights.append(np.full(len(here), z))
-                talls.append(np.full(len(here), height))
-                tallest[here] = np.maximum(tallest[here], height)
+                talls.append(np.full(len(here), counts))
+                tallest[here] = np.maximum(tallest[here], counts)
         index, height = np.concatenate(spot), np.concatenate(talls)
-        return Walls(place, normal, owner, middle, index, np.concatenate(heights), (height > 0) & (height == tallest[index]))
+        mid = (height > 0) & (height == tallest[index])
+        return Walls(place, normal, owner, middle.astype(bool), index, np.concatenate(heights), mid.astype(bool))
+
+    @cached_property
+    def _levels(self) -> list[float]:
+        """The heights at which what stands upright may change."""
+        low, high = self.bounds[:, 2].tolist()
+        heights = [low, high, *(each.body.floor for each in self.design.taken if isinstance(each.body, Flat))]
+        heights += [z for body in self._slants for z in (body.low, body.high)]
+        inside = sorted(z for z in heights if low <= z <= high)
+        return [z for k, z in enumerate(inside) if k == 0 or z - inside[k - 1] > SAME]
+
+    @cached_property
+    def _slants(self) -> list[Slanting]:
+        return [each.body for each in self.design.taken if isinstance(each.body, Slanting)]
+
+    def _material(self, spots: Array, z: float) -> Mask:
+        """Whether upright material stands at places (m, 2) in a height, with what slants off."""
+        found = self.design.outline_of_blank.contains(spots)
+        for each in self.design.taken:
+            if isinstance(each.body, Flat) and each.body.reaches(z):
+                some = np.flatnonzero(found)
+                found[some[within(each.body.region, *spots[some].T)]] = False
+        return found
 
     def _reached(self, owner: Index, z: float) -> Mask:
         """Whether the feature that a wall belongs to (m,) goes as far as a height."""
@@ -144,15 +149,16 @@ class DrawnTarget:
             for share in SHARES:
                 out = body.near + share * (body.far - body.near)
                 z = body.deep + share * (body.open - body.deep)
+                middle = share not in (SHARES[0], SHARES[-1])
                 for spots in self._rings(body, out, spacing):
-                    found.append((spots, *(np.full(len(spots), value) for value in (z, out, k, body.up, share not in (SHARES[0], SHARES[-1])))))
+                    found.append((spots, *(np.full(len(spots), value) for value in (z, out, k, body.up, middle))))
         if not found:
             none = np.zeros(0)
             return Slopes(np.zeros((0, 2)), none, none, none.astype(np.int64), none.astype(bool), none.astype(bool))
-        place, z, out_of, owner, up, middle = (np.concatenate(column) for column in zip(*found, strict=True))
+        place, height, away, owner, up, far = (np.concatenate(column) for column in zip(*found, strict=True))
         floor, top = self.faces(*place.T)
-        on = np.abs(np.where(up, top, floor) - z) <= SAME
-        return Slopes(place[on], z[on], out_of[on], owner[on].astype(np.int64), up[on].astype(bool), middle[on].astype(bool))
+        on = np.abs(np.where(up, top, floor) - height) <= SAME
+        return Slopes(place[on], height[on], away[on], owner[on].astype(np.int64), up[on].astype(bool), far[on].astype(bool))
 
     def _inside(self, body: Flat, spacing: float, step: float) -> Iterator[Array]:
         """Places within a small region, in which few middles of cells lie."""
@@ -173,7 +179,7 @@ class DrawnTarget:
             yield np.array(body.base) + out * at_angle(2 * np.pi * np.arange(count) / count)
             return
         low, high = self.bounds[:, :2]
-        for loop in body.base.loops:
+        for loop in body.edges:
             spots, aside, _ = _along(loop, spacing)
             spots = spots - out * aside
             inside = ((spots >= low) & (spots <= high)).all(axis=1)

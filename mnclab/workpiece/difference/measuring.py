@@ -15,7 +15,7 @@ from mnclab.workpiece.design.removals import Flat, Slanting
 from mnclab.workpiece.difference.deviations import Seen
 from mnclab.workpiece.difference.drawn_target import DrawnTarget
 from mnclab.workpiece.difference.fitting import line
-from mnclab.workpiece.difference.outlines import GONE, NOT_CUT, ON, Faces, Found, between, of_circle, sizes, turn
+from mnclab.workpiece.difference.outlines import GONE, NOT_CUT, ON, Faces, Found, between, of_circle, sizes
 from mnclab.workpiece.difference.reading import NONE, Reading
 from mnclab.workpiece.difference.target import BLANK
 from mnclab.workpiece.milling.raster import NOISE
@@ -58,7 +58,8 @@ class _Room:
         if not self.mine:  # an island: its pocket has its faces
             floor = self.top - feature.depth  # type: ignore[attr-defined]
             floor = self.turned - floor if back else floor
-            self.mine = [k for k, each in enumerate(taken) if isinstance(each.body, Flat) and each.back == back and each.body.floor == floor]
+            flats = [(k, each.body) for k, each in enumerate(taken) if each.back == back and isinstance(each.body, Flat)]
+            self.mine = [k for k, body in flats if body.floor == floor]
 
     def readings(self) -> Iterator[Reading]:
         """In the order of the drawing; what was not measured says so."""
@@ -88,13 +89,13 @@ class _Room:
             moved = -np.einsum("ij,ij->i", faces.moved, self._normals(faces))
             good = np.isfinite(moved)
             wide = feature.width + 2 * float(moved[good].mean()) if good.any() else math.nan
-            yield "width", Found(wide, faces.index, "" if good.any() else NOT_CUT)
+            yield "width", Found(wide, faces.number, "" if good.any() else NOT_CUT)
             middle = faces._replace(place=faces.place + feature.width / 2 * self._normals(faces))
             yield from sizes(feature.contour, middle, feature.width)
         elif hasattr(feature, "contour"):
             faces = self._walls("")
             if not self.own and len(faces.place):
-                faces = faces[feature.contour.contour.distance(faces.place) <= ON]
+                faces = faces.some(feature.contour.contour.distance(faces.place) <= ON)
             yield from sizes(feature.contour, faces, 0.0)
         yield "depth", self._depth(self._of_role(""), self.top - feature.depth)
 
@@ -115,7 +116,7 @@ class _Room:
         return Faces(place, moved, walls.middle[spot], index)
 
     def _normals(self, faces: Faces) -> Array:
-        normal = self.seen.walls.normal[self.seen.walls.spot[faces.index]]
+        normal = self.seen.walls.normal[self.seen.walls.spot[faces.number]]
         return normal @ self.flip[:2, :2].T if self.back else normal
 
     def _depth(self, owners: list[int], floor: float) -> Found:
@@ -134,7 +135,7 @@ class _Room:
         slopes = np.flatnonzero(np.isin(seen.slopes.owner, owners))
         rise = np.concatenate([above[off], seen.rise[slopes]])
         index = np.concatenate([off + seen.of_cells.start, slopes + seen.of_slopes.start])
-        cells_of_it = int(np.isin(grid, owners).sum())
+        cells_of_it = int(seen.sizes[int(self.back)][np.array(owners) + 1].sum())
         if not len(slopes) and not cells_of_it:
             return Found(math.nan, NONE, GONE)
         rise = np.nan_to_num(rise, nan=self.bottom - floor)  # gone right through
@@ -149,24 +150,28 @@ class _Room:
     # --- features ----------------------------------------------------------------------------------------------------
 
     def _slot(self, slot: Slot) -> Iterator[tuple[str, Found]]:
-        (x0, y0), (x1, y1) = slot.start, slot.end
-        long, centre = math.dist(slot.start, slot.end), ((x0 + x1) / 2, (y0 + y1) / 2)
-        degrees = math.degrees(math.atan2(y1 - y0, x1 - x0))
-        half = (long + slot.width) / 2, slot.width / 2
-        seen = self._walls("").turned(centre, degrees)
-        found = dict(between(seen, centre, degrees, half))
-        whole, wide = found["length"], found["width"]
-        yield "length", whole._replace(actual=whole.actual - wide.actual, said=whole.said or wide.said)
-        yield from ((name, found[name]) for name in ("width", "x", "y"))
-        turned = turn(seen, half, degrees)
-        yield "angle", turned._replace(actual=turned.actual % 180)
+        """From the circles of its ends and the straight walls between them."""
+        long, half = math.dist(slot.start, slot.end), slot.width / 2
+        middle = (slot.start[0] + slot.end[0]) / 2, (slot.start[1] + slot.end[1]) / 2
+        faces = self._walls("")
+        seen = faces.turned(middle, math.degrees(math.atan2(slot.end[1] - slot.start[1], slot.end[0] - slot.start[0])))
+        yield "width", dict(between(seen, middle, 0.0, (long / 2 + half, half)))["width"]
+        ends = []
+        for sign, place in ((-1, slot.start), (1, slot.end)):
+            found = dict(of_circle(*place, faces.some((sign * seen.place[:, 0] >= long / 2 + ON) & seen.middle)))
+            ends.append((found["x"], found["y"]))
+        (x0, y0), (x1, y1) = ([each.actual for each in end] for end in ends)
+        among = np.concatenate([end[0].among for end in ends])
+        said = ends[0][0].said or ends[1][0].said
+        values = {"length": math.hypot(x1 - x0, y1 - y0), "x": (x0 + x1) / 2, "y": (y0 + y1) / 2}
+        turned = math.degrees(math.atan2(y1 - y0, x1 - x0)) % 180
+        yield from ((name, Found(value, among, said)) for name, value in (values | {"angle": turned}).items())
 
     def _hole(self, hole: Hole) -> Iterator[tuple[str, Found]]:
         found = dict(of_circle(float(hole.x), float(hole.y), self._walls("")))
         yield from found.items()
         if hole.tip:
-            wide = found["diameter"].actual
-            yield from self._point(hole, hole.wide if math.isnan(wide) else wide)
+            yield from self._point(hole, *(found[name].actual for name in ("diameter", "x", "y")), found["diameter"].among)
         elif hole.depth is not None:
             yield "depth", self._depth(self._of_role(""), self.top - hole.depth)
         if hole.counterbore:
@@ -176,9 +181,11 @@ class _Room:
         if hole.countersink:
             yield from self._slant("countersink", "countersink diameter", "countersink angle", 2.0)
 
-    def _point(self, hole: Hole, wide: float) -> Iterator[tuple[str, Found]]:
-        """Depth to the shoulder and point angle, from the cone."""
-        s, z, index, body = self._cone("point")
+    def _point(self, hole: Hole, wide: float, x: float, y: float, walls: Index) -> Iterator[tuple[str, Found]]:
+        """Depth to the shoulder and point angle, from the cone about the centre found."""
+        if math.isnan(wide):
+            wide, x, y = hole.wide, hole.x, hole.y
+        s, z, index, body = self._cone("point", (x, y))
         if body is None or not len(s):
             yield "depth", Found(math.nan, NONE, GONE)
             return
@@ -187,7 +194,7 @@ class _Room:
             yield "depth", Found(self.top - float(z.min()), index)
             yield "point angle", Found(math.nan, index, NOT_CUT)
             return
-        yield "depth", Found(self.top - (start + slope * wide / 2), index)
+        yield "depth", Found(self.top - (start + slope * wide / 2), np.concatenate([index, walls]))
         yield "point angle", Found(2 * math.degrees(math.atan(1 / slope)), index)
 
     def _slant(self, role: str, size: str, angle: str, sides: float) -> Iterator[tuple[str, Found]]:
@@ -209,14 +216,19 @@ class _Room:
         yield size, Found(sides * (edge - start) / slope, index)
         yield angle, Found(steep if sides == 1 else 2 * (90 - steep), index)
 
-    def _cone(self, role: str) -> tuple[Array, Array, Index, Slanting | None]:
+    def _cone(self, role: str, centre: tuple[float, float] | None = None) -> tuple[Array, Array, Index, Slanting | None]:
         """Distances from the base of a slant and the heights found there, seen from the side of the feature."""
         owners, slopes = self._of_role(role), self.seen.slopes
         body = self.target.design.taken[owners[0]].body if owners else None
         index = np.flatnonzero(np.isin(slopes.owner, owners) & slopes.middle)
         level = self.turned - slopes.z[index] if self.back else slopes.z[index]
         found = level + self.seen.rise[index]
-        return slopes.out[index], found, index + self.seen.of_slopes.start, body if isinstance(body, Slanting) else None
+        out = slopes.out[index]
+        if centre is not None:
+            place = slopes.place[index]
+            place = place @ self.flip[:2, :2].T + self.flip[:2, 2] if self.back else place
+            out = np.hypot(*(place - np.array(centre)).T)
+        return out, found, index + self.seen.of_slopes.start, body if isinstance(body, Slanting) else None
 
     def _allowed(self, measure: Measure) -> float:
         """How far a measure may be off where the drawing gives no limits: as far as faces may, each by the tolerance."""

@@ -10,7 +10,6 @@ import numpy as np
 
 from mnclab.geometry.vectors import turned
 from mnclab.path.columns import Array, Index, Mask
-from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.shapes import Circle, Rectangle, Shape
 from mnclab.workpiece.difference.fitting import circle, line
 
@@ -26,10 +25,11 @@ class Faces(NamedTuple):
     place: Array
     moved: Array
     middle: Mask
-    index: Index
+    number: Index
 
-    def __getitem__(self, which: Mask | Index) -> Faces:  # type: ignore[override]
-        return Faces(*(column[which] for column in tuple(self)))
+    def some(self, which: Mask) -> Faces:
+        """Some of them."""
+        return Faces(self.place[which], self.moved[which], self.middle[which], self.number[which])
 
     def turned(self, centre: tuple[float, float], degrees: float) -> Faces:
         """As seen from a centre along a direction."""
@@ -70,13 +70,13 @@ def of_circle(x: float, y: float, faces: Faces) -> Iterator[tuple[str, Found]]:
     """Diameter and centre of the circle through the places found."""
     there = np.isfinite(faces.moved).all(axis=1)
     if there.sum() < 3:
-        said = NOT_CUT if len(there) else GONE
-        yield from ((name, Found(math.nan, faces.index, said)) for name in ("diameter", "x", "y"))
+        said = NOT_CUT if len(faces.moved) else GONE
+        yield from ((name, Found(math.nan, faces.number, said)) for name in ("diameter", "x", "y"))
         return
     px, py, radius = circle((faces.place + faces.moved)[there], np.array([x, y]))
-    yield "diameter", Found(2 * radius, faces.index)
-    yield "x", Found(px, faces.index)
-    yield "y", Found(py, faces.index)
+    yield "diameter", Found(2 * radius, faces.number)
+    yield "x", Found(px, faces.number)
+    yield "y", Found(py, faces.number)
 
 
 def between(seen: Faces, centre: tuple[float, float], degrees: float, half: tuple[float, float]) -> Iterator[tuple[str, Found]]:
@@ -103,26 +103,26 @@ def _end(seen: Faces, axis: int, sign: int, half: float) -> Found:
     """How far the wall that ends an outline on one side is moved."""
     out = sign * seen.place[:, axis]
     if not len(out) or out.max() < half - NEAR * half - ON:
-        return Found(math.nan, seen.index[:0], GONE)
+        return Found(math.nan, seen.number[:0], GONE)
     here = out >= out.max() - ON
     there = here & np.isfinite(seen.moved[:, axis])
     if not there.any():
-        return Found(math.nan, seen.index[here], NOT_CUT)
+        return Found(math.nan, seen.number[here], NOT_CUT)
     best = there & seen.middle if (there & seen.middle).any() else there
-    return Found(float(seen.moved[best, axis].mean()), seen.index[here])
+    return Found(float(seen.moved[best, axis].mean()), seen.number[here])
 
 
 def _corner(shape: Rectangle, seen: Faces) -> Found:
     """The radius of the corner that is farthest off."""
     inner = np.array([shape.length / 2, shape.width / 2]) - shape.corner
-    at = (np.abs(seen.place) >= inner - ON).all(axis=1) & np.isfinite(seen.moved).all(axis=1)
-    best = Found(math.nan, seen.index[:0], GONE)
+    at = (np.abs(seen.place) >= inner - ON).all(axis=1) & np.isfinite(seen.moved).all(axis=1) & seen.middle
+    best = Found(math.nan, seen.number[:0], GONE)
     for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
         here = at & (seen.place * [sx, sy] > 0).all(axis=1)
         if here.sum() >= 3:
             _, _, radius = circle((seen.place + seen.moved)[here], inner * [sx, sy])
             if best.said or abs(radius - shape.corner) > abs(best.actual - shape.corner):
-                best = Found(radius, seen.index[here])
+                best = Found(radius, seen.number[here])
     return best
 
 
@@ -134,12 +134,7 @@ def turn(seen: Faces, half: tuple[float, float], degrees: float) -> Found:
         here = (np.abs(sign * seen.place[:, axis] - half[axis]) <= ON) & seen.middle & np.isfinite(seen.moved[:, axis])
         if here.sum() >= 2:
             slopes.append(line(seen.place[here, 1 - axis], seen.moved[here, axis])[1])
-            among.append(seen.index[here])
+            among.append(seen.number[here])
     if not slopes:
-        return Found(math.nan, seen.index[:0], GONE)
+        return Found(math.nan, seen.number[:0], GONE)
     return Found(degrees + math.degrees(math.atan(np.mean(slopes))) * (1 if axis else -1), np.concatenate(among))
-
-
-def nominal(measures: tuple[Measure, ...], name: str) -> Measure:
-    """A measure by its name."""
-    return next(each for each in measures if each.name == name)

@@ -82,10 +82,8 @@ class Features(Sequence[Row]):
         cells = [HEAD, *(row.texts() for row in self)]
         widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
         cells.insert(1, tuple("-" * width for width in widths))
-        lines = (
-            "  ".join(text.rjust(width) if k in NUMBERS else text.ljust(width) for k, (text, width) in enumerate(zip(row, widths)))
-            for row in cells
-        )
+        aligned = [[str.rjust if k in NUMBERS else str.ljust for k in range(len(HEAD))]] * len(cells)
+        lines = ("  ".join(to(text, n) for to, text, n in zip(*each)) for each in zip(aligned, cells, [widths] * len(cells)))
         return "\n".join(line.rstrip() for line in lines)
 
     def _repr_html_(self) -> str:

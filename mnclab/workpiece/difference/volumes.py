@@ -43,7 +43,7 @@ def volumes(seen: Seen) -> tuple[float, float]:
 
 def thickness(at: Columns, error: float) -> tuple[Array, Array]:
     """How much of columns (m,) is gone and how much is left over, mm."""
-    floor, top, its_floor, its_top = (np.nan_to_num(each, nan=0.0) for each in tuple(at)[2:])
+    floor, top, its_floor, its_top = (np.nan_to_num(each, nan=0.0) for each in (at.floor, at.top, at.its_floor, at.its_top))
     both = np.maximum(np.minimum(top, its_top) - np.maximum(floor, its_floor), 0.0)
     both[np.isnan(at.top) | np.isnan(at.its_top)] = 0.0
     gone, left = its_top - its_floor - both, top - floor - both
@@ -52,9 +52,17 @@ def thickness(at: Columns, error: float) -> tuple[Array, Array]:
 
 def _uneven(thick: Array) -> Mask:
     """Cells (ny, nx) beside which less or more is off."""
-    wide = np.pad(thick, 1, mode="edge")
-    around = np.stack([wide[j : j + thick.shape[0], i : i + thick.shape[1]] for j in range(3) for i in range(3)])
+    ny, nx = thick.shape
+    wide: Array = np.pad(thick, 1, mode="edge")
+    around = np.stack([wide[j : j + ny, i : i + nx] for j in range(3) for i in range(3)])
     return np.asarray(np.ptp(around, axis=0) > ALIKE * around.max(axis=0))
+
+
+def _beside(found: Mask) -> Mask:
+    """Cells (ny, nx) and those about them."""
+    wide = np.pad(found, 1)
+    rows = wide[:-2] | wide[1:-1] | wide[2:]
+    return np.asarray(rows[:, :-2] | rows[:, 1:-1] | rows[:, 2:])
 
 
 def _crossed(seen: Seen) -> Mask:
@@ -74,5 +82,4 @@ def _crossed(seen: Seen) -> Mask:
         column, row = np.floor((spots.reshape(-1, 2) - raster.low) / raster.step).astype(int).T
         inside = (row >= 0) & (row < found.shape[0]) & (column >= 0) & (column < found.shape[1])
         found[row[inside], column[inside]] = True
-    wide = np.pad(found, 1)
-    return np.asarray(np.any([wide[j : j + found.shape[0], i : i + found.shape[1]] for j in range(3) for i in range(3)], axis=0))
+    return _beside(found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -35,7 +36,7 @@ def chamfers(found: list[Found], cones: list[Cone], blank: Region, top: float) -
             if np.ptp(off) > ON_EDGE or width < ON_EDGE or deep > cone.radius * cone.slope + ON_EDGE:
                 continue
             angle = round(2 * math.degrees(math.atan2(1.0, cone.slope)), 9)
-            more = {} if abs(above - top) < ON_EDGE else {"top": number(above)}
+            more: dict[str, Any] = {} if abs(above - top) < ON_EDGE else {"top": number(above)}
             try:
                 chamfer = Chamfer(drawn(loop), number(width), angle, inside, **more)
             except Alarm:

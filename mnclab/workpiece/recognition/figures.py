@@ -27,7 +27,7 @@ MOST = 100  # pieces of a line that a groove goes along
 class Found:
     """A feature, the row that first cut it, and what of it others need: the region, and how high it begins and ends, mm."""
 
-    feature: Feature
+    feature: Any  # one of `mnclab.design`
     row: int
     region: Region
     top: float
@@ -73,7 +73,8 @@ def drawn(loop: Contour) -> Circle | Rectangle | Outline:
         long, wide = long + shape.width, shape.width
         if abs(turned) > 45 + 1e-9:
             long, wide, turned = wide, long, turned - math.copysign(90, turned)
-        return Rectangle(number((x0 + x1) / 2), number((y0 + y1) / 2), number(long), number(wide), shape.width / 2, number(turned))
+        middle = number((x0 + x1) / 2), number((y0 + y1) / 2)
+        return Rectangle(*middle, number(long), number(wide), shape.width / 2, number(turned))
     return outline_of(loop) if isinstance(shape, Bow) else shape
 
 

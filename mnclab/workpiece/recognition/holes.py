@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
-from mnclab.workpiece.design.features import Hole, Pocket
+from mnclab.workpiece.design.features import Groove, Hole, Pocket
 from mnclab.workpiece.design.shapes import Circle
-from mnclab.workpiece.design.threads import COARSE, core_of
+from mnclab.workpiece.design.threads import core_of
 from mnclab.workpiece.recognition.areas import ON_EDGE
 from mnclab.workpiece.recognition.figures import Found
+from mnclab.workpiece.recognition.naming import designation
 from mnclab.workpiece.recognition.outlines import number
 from mnclab.workpiece.recognition.sorting import Plunge, Threaded, Work
 
@@ -111,15 +113,10 @@ def _is_drill_of(each: Found, plunge: Plunge) -> bool:
 
 def _taken(plunge: Plunge, found: list[Found], top: float) -> bool:
     """Whether what a pointed tool takes away on its axis is told by a feature."""
-    if plunge.shoulder < top - ON_EDGE and any(
-        isinstance(each.feature, Hole) and plunge.on(each.feature.x, each.feature.y) and each.feature.wide > 2 * plunge.radius - ON_EDGE
-        for each in found
-    ):
-        return True
     for each in found:
         hole = each.feature
-        if isinstance(hole, Hole) and plunge.on(hole.x, hole.y) and each.floor <= plunge.tip + ON_EDGE:
-            return True
+        if isinstance(hole, Hole) and plunge.on(hole.x, hole.y) and hole.wide > 2 * plunge.radius - ON_EDGE:
+            return plunge.shoulder < top - ON_EDGE or each.floor <= plunge.tip + ON_EDGE
         if each.floor <= plunge.tip + ON_EDGE and each.region.contains([(plunge.x, plunge.y)])[0]:
             return True
     return False
@@ -127,10 +124,11 @@ def _taken(plunge: Plunge, found: list[Found], top: float) -> bool:
 
 def _thread(thread: Threaded, found: list[Found], top: float, bottom: float) -> list[str]:
     """Gives a thread to the hole that it is cut in; a note where there is none and it is cut outside."""
-    name, here = thread_name(thread), [each for each in found if _on_axis(each, thread)]
+    name, here = designation(thread.diameter, thread.pitch), [each for each in found if _on_axis(each, thread)]
     if not name:
         return [f"a thread {thread.diameter:g} at ({thread.x:g}, {thread.y:g}) has no pitch that is known"]
-    fitting = [each for each in here if core_of(name, 2) - ON_EDGE <= _round_of(each)[1] < thread.diameter + ON_EDGE]
+    holes = [each for each in here if not isinstance(each.feature, Groove)]
+    fitting = [each for each in holes if core_of(name, 2) - ON_EDGE <= _round_of(each)[1] < thread.diameter + ON_EDGE]
     if fitting:
         each = max(fitting, key=lambda each: _round_of(each)[1])
         axis, wide = _round_of(each)
@@ -143,37 +141,34 @@ def _thread(thread: Threaded, found: list[Found], top: float, bottom: float) -> 
         each.feature = replace(hole, thread=name, thread_depth=None if whole else deep)
         return []
     if thread.bend > thread.radius + ON_EDGE:
-        outside = thread_name(replace(thread, diameter=2 * (thread.bend - thread.radius)))
+        outside = designation(2 * (thread.bend - thread.radius), thread.pitch)
         return [f"the thread {outside} at ({thread.x:g}, {thread.y:g}) is cut outside: no feature has it"]
-    above = min((each.floor for each in found if each.floor > thread.tip and each.region.contains([(thread.x, thread.y)])[0]), default=top)
+    over = [each.floor for each in found if each.floor > thread.tip and each.region.contains([(thread.x, thread.y)])[0]]
+    above = min(over, default=top)
     through = thread.tip <= bottom + ON_EDGE
-    more = {} if above == top else {"top": number(above)}
+    more: dict[str, Any] = {} if above == top else {"top": number(above)}
     depth = None if through else number(above - thread.tip)
     hole = Hole(thread.x, thread.y, None, depth, FLAT, thread=name, **more)
+    for ring in here:  # what was milled about the hole before it, or after
+        if isinstance(ring.feature, Groove) and _round_of(ring)[1] - 2 * ring.feature.width < hole.wide and ring.top == above:
+            hole = replace(hole, counterbore=(_round_of(ring)[1], number(above - ring.floor)))
+            found[:] = [each for each in found if each is not ring]
     region = Region((Contour.circle((thread.x, thread.y), hole.wide / 2),))
     found.append(Found(hole, thread.row, region, above, max(thread.tip, bottom)))
     return []
 
 
 def _round_of(each: Found) -> tuple[Hole | Circle, float]:
-    """Axis and diameter of a hole or a round pocket."""
+    """Axis and outer diameter of a hole, a round pocket or a ring."""
     feature = each.feature
-    return (feature, feature.wide) if isinstance(feature, Hole) else (feature.contour, feature.contour.diameter)
+    if isinstance(feature, Hole):
+        return feature, feature.wide
+    return feature.contour, feature.contour.diameter + (feature.width if isinstance(feature, Groove) else 0.0)
 
 
 def _on_axis(each: Found, thread: Threaded) -> bool:
     feature = each.feature
-    if isinstance(feature, Pocket) and not isinstance(feature.contour, Circle) or not isinstance(feature, Hole | Pocket):
+    if not isinstance(feature, Hole) and not (isinstance(feature, Pocket | Groove) and isinstance(feature.contour, Circle)):
         return False
     axis = _round_of(each)[0]
     return math.hypot(axis.x - thread.x, axis.y - thread.y) < ON_EDGE
-
-
-def thread_name(thread: Threaded) -> str:
-    """M8 where the pitch is the coarse one, else M8x1; nothing where it is not known."""
-    wide, pitch = number(round(thread.diameter, 6)), round(thread.pitch, 6)
-    if not 0 < pitch < wide:
-        return f"M{wide:g}" if wide in COARSE and not pitch else ""
-    return f"M{wide:g}" if COARSE.get(wide) == pitch else f"M{wide:g}x{pitch:g}"
-
-

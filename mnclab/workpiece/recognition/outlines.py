@@ -16,7 +16,7 @@ from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle
 
 SAME = 1e-6  # mm, within which two sizes are one
 ALIKE = 1e-6  # rad, of two directions
-SHORT = 1e-4  # mm, of an element that rounding has left
+SHORT = 5e-3  # mm, of an element that rounding has left where arcs touch
 FLAT = 1e-7  # mm, by which an arc rises that is a line
 DIGITS = 9  # of a size that is said, mm
 

@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-import re
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-
-import numpy as np
 
 from mnclab.text.alarm import Alarm
 from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.design.design import Design
-from mnclab.workpiece.design.features import Chamfer, Feature
+from mnclab.workpiece.design.features import Chamfer
 from mnclab.workpiece.recognition.areas import areas_of
 from mnclab.workpiece.recognition.chamfers import chamfers
-from mnclab.workpiece.recognition.figures import Found, figures
+from mnclab.workpiece.recognition.figures import figures
 from mnclab.workpiece.recognition.holes import together
+from mnclab.workpiece.recognition.naming import lines, names
 from mnclab.workpiece.recognition.sorting import sort
 
 MOST = 20_000  # moves, beyond which a path is that of a surface
-CYCLE = re.compile(r"(CYCL DEF \d+|[A-Z]{1,3}\d+)\b")
 
 
 @dataclass(frozen=True, repr=False)
@@ -46,21 +42,8 @@ def proposed(cutting: Cutting) -> Proposal:
         "what is cut aslant has no name": sloping, "what a round tool cuts has no name": work.balls,
         "the point of a tool alone has no name": points, "what a pointed tool cuts has no name": engraved,
     }), *threads)  # fmt: skip
-    return replace(design, features=tuple(_named(found, cutting)), notes=notes)
-
-
-def _named(found: list[Found], cutting: Cutting) -> Iterator[Feature]:
-    """Features by the cycle and the line that made them, numbered where a line made several."""
-    path, said = cutting.path, list[str]()
-    for each in found:
-        line, program = int(path.line[each.row]), int(path.program[each.row])
-        place = f"line {line}" if program == 0 else cutting.name(line, program)
-        cycle = CYCLE.match(path.labels[path.label[each.row]])
-        said.append(f"{cycle[1]}, {place}" if cycle else place)
-    times, count = Counter(said), Counter[str]()
-    for each, name in zip(found, said):
-        count[name] += 1
-        yield replace(each.feature, name=f"{name} ({count[name]})" if times[name] > 1 else name)
+    said = names(cutting, [each.row for each in found])
+    return replace(design, features=tuple(replace(each.feature, name=name) for each, name in zip(found, said)), notes=notes)
 
 
 def _notes(cutting: Cutting, cornered: dict[float, list[int]], left: dict[str, list[int]]) -> Iterator[str]:
@@ -68,13 +51,7 @@ def _notes(cutting: Cutting, cornered: dict[float, list[int]], left: dict[str, l
     if cutting.tilted is not None and (out := cutting.cuts & cutting.tilted).any():
         yield f"rows of a tilted tool are left out ({cutting.lines(out)})"
     for corner, rows in sorted(cornered.items()):
-        yield f"floors have round corners of {corner:g} mm that the design has not ({_lines(cutting, rows)})"
+        yield f"floors have round corners of {corner:g} mm that the design has not ({lines(cutting, rows)})"
     for what, rows in left.items():
         if rows:
-            yield f"{what} ({_lines(cutting, rows)})"
-
-
-def _lines(cutting: Cutting, rows: list[int]) -> str:
-    those = np.zeros(len(cutting), dtype=bool)
-    those[rows] = True
-    return cutting.lines(those)
+            yield f"{what} ({lines(cutting, rows)})"

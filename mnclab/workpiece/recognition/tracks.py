@@ -68,8 +68,8 @@ class Track:
     def key(self) -> tuple[Any, ...]:
         """What is the same of moves that sweep the same, there or back."""
         ends = sorted((_near(self.start), _near(self.end)))
-        middle = self.line.points[1] if abs(self.sweep) > np.pi else self.line.point_at(self.line.length / 2)[0] if self.sweep else ()
-        return *ends, _near(self.centre), round(abs(self.sweep), 6), round(self.radius, 6), *map(float, np.round(middle, 5))
+        middle = self.line.point_at(self.line.length / 2)[0] if self.sweep else self.start
+        return *ends, _near(self.centre), _near(middle) if self.sweep else (), round(self.radius, 6)
 
     @property
     def touched(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -103,7 +103,8 @@ def distinct(tracks: list[Track]) -> list[Track]:
     found: dict[tuple[Any, ...], Track] = {}
     for each in tracks:
         found.setdefault(each.key, each)
-    ends = {(_near(place), round(each.radius, 6)) for each in found.values() if not each.stands for place in (each.start, each.end)}
+    moving = [each for each in found.values() if not each.stands]
+    ends = {(_near(place), round(each.radius, 6)) for each in moving for place in (each.start, each.end)}
     return [each for each in found.values() if not each.stands or (_near(each.start), round(each.radius, 6)) not in ends]
 
 
@@ -190,8 +191,8 @@ def _discs(tracks: list[Track]) -> Iterator[tuple[float, Contour]]:
         if not found:
             yield radius, Contour.circle(place, radius)
             continue
-        angles = sorted(angle % FULL_TURN for angle in found)
-        turned = [b for a, b in zip([angles[-1] - FULL_TURN, *angles], angles) if b - a > SPLIT] or angles[:1]
+        around = sorted(angle % FULL_TURN for angle in found)
+        turned = [b for a, b in zip([around[-1] - FULL_TURN, *around], around) if b - a > SPLIT] or around[:1]
         gaps = [b - a for a, b in zip(turned, [*turned[1:], turned[0] + FULL_TURN])]
         for first, gap in zip(turned, gaps):
             (x, y), last = place, first + gap
