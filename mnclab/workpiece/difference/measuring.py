@@ -135,7 +135,7 @@ class _Room:
         slopes = np.flatnonzero(np.isin(seen.slopes.owner, owners))
         rise = np.concatenate([above[off], seen.rise[slopes]])
         index = np.concatenate([off + seen.of_cells.start, slopes + seen.of_slopes.start])
-        cells_of_it = int(seen.sizes[int(self.back)][np.array(owners) + 1].sum())
+        cells_of_it = sum(int(seen.sizes[self.back][k + 1]) for k in owners if k + 1 < len(seen.sizes[self.back]))
         if not len(slopes) and not cells_of_it:
             return Found(math.nan, NONE, GONE)
         rise = np.nan_to_num(rise, nan=self.bottom - floor)  # gone right through
