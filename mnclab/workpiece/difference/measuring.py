@@ -222,6 +222,8 @@ class _Room:
         owners, slopes = self._of_role(role), self.seen.slopes
         body = self.target.design.taken[owners[0]].body if owners else None
         index = np.flatnonzero(np.isin(slopes.owner, owners) & slopes.middle)
+        still = np.isin(self.seen.owner[self.seen.of_slopes][index], owners)  # where no other face has come nearer
+        index = index[still] if still.any() else index
         level = self.turned - slopes.z[index] if self.back else slopes.z[index]
         found = level + self.seen.rise[index]
         out = slopes.out[index]
