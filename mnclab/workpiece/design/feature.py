@@ -13,7 +13,7 @@ from mnclab.text.given import check_number, faults_as_alarms, plain, shown
 from mnclab.text.records import exactly
 from mnclab.workpiece.design.measures import Measure, Tolerance, with_tolerances
 from mnclab.workpiece.design.removals import Flat, Removal
-from mnclab.workpiece.design.shapes import Shape, shape_of
+from mnclab.workpiece.design.shapes import LARGEST, Shape, check_place, shape_of
 
 BESIDE = 1e-3  # mm, beside an edge, where material is looked for
 
@@ -75,7 +75,7 @@ class Feature(Named):
 
     def __post_init__(self) -> None:
         if self.top is not None:
-            check_number(self.top, f"the top of a {self.kind} (mm)")
+            check_place(self.top, f"the top of a {self.kind} (mm)")
         super().__post_init__()
 
     @abstractmethod
@@ -107,7 +107,7 @@ EXAMPLE = 'tolerances={"depth": 0.1}'
 def check_positive(feature: Named, *names: str) -> None:
     """An Alarm unless sizes of a feature are greater than 0."""
     for name in names:
-        check_number(getattr(feature, name), f"the {name} of a {feature.kind} (mm)", above=0)
+        check_number(getattr(feature, name), f"the {name} of a {feature.kind} (mm)", above=0, at_most=LARGEST)
 
 
 def check_flag(feature: Named, name: str) -> None:

@@ -14,6 +14,7 @@ from mnclab.text.given import check_number, shown, whole
 from mnclab.workpiece.design.feature import Feature, Site, check_positive
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Flat, Removal, Slanting
+from mnclab.workpiece.design.shapes import LARGEST, check_place
 from mnclab.workpiece.design.threads import core_of
 
 BEYOND = 1.0  # mm, by which what goes through goes beyond the lower side
@@ -56,7 +57,7 @@ class Hole(Feature):
     ) -> tuple[Self, ...]:  # fmt: skip
         """Rows of holes above each other, the first of them at (x, y), `dx` and `dy` mm apart, all `turned` by degrees."""
         for name, number in (("dx", dx), ("dy", dy), ("turned", turned)):
-            check_number(number, f"{name} of a pattern of holes")
+            check_place(number, f"{name} of a pattern of holes")
         counts = (_count(columns, "the columns"), _count(rows, "the rows"))
         c, s = math.cos(math.radians(turned)), math.sin(math.radians(turned))
         places = [(dx * i, dy * k) for k in range(counts[1]) for i in range(counts[0])]
@@ -68,8 +69,8 @@ class Hole(Feature):
         first: float = 0.0, **more: Any,
     ) -> tuple[Self, ...]:  # fmt: skip
         """So many evenly on a circle about (x, y), the first of them at an angle, degrees."""
-        check_number(pitch_diameter, "the pitch diameter of a circle of holes (mm)", above=0)
-        check_number(first, "the angle of the first hole (degrees)")
+        check_number(pitch_diameter, "the pitch diameter of a circle of holes (mm)", above=0, at_most=LARGEST)
+        check_place(first, "the angle of the first hole (degrees)")
         number = _count(count, "the count")
         angles = [math.radians(first + 360 * k / number) for k in range(number)]
         places = [(pitch_diameter / 2 * math.cos(a), pitch_diameter / 2 * math.sin(a)) for a in angles]
@@ -80,23 +81,25 @@ class Hole(Feature):
         cls, x: float, y: float, places: list[tuple[float, float]], diameter: float | None, depth: float | None, more: Any
     ) -> tuple[Self, ...]:
         for name, number in (("x", x), ("y", y)):
-            check_number(number, f"{name} of a pattern of holes (mm)")
+            check_place(number, f"{name} of a pattern of holes (mm)")
         return tuple(cls(round(x + u, 9), round(y + v, 9), diameter, depth, **more) for u, v in places)
 
     def _check(self) -> None:
         for name in ("x", "y"):
-            check_number(getattr(self, name), f"the {name} of a hole (mm)")
+            check_place(getattr(self, name), f"the {name} of a hole (mm)")
+        if not isinstance(self.thread, str):
+            raise Alarm(f"the thread of a hole must be a text, got {shown(self.thread)}", hint='thread="M8"')
         if self.diameter is None and self.thread:
             object.__setattr__(self, "diameter", core_of(self.thread))
         check_positive(self, "diameter", *([] if self.depth is None else ["depth"]))
         check_number(self.point, "the point of a hole (degrees)", above=0, at_most=180)
-        for name, second, most in (("counterbore", "depth (mm)", None), ("countersink", "angle (degrees)", 179.0)):
+        for name, second, most in (("counterbore", "depth (mm)", LARGEST), ("countersink", "angle (degrees)", 179.0)):
             given = getattr(self, name)
             if given is None:
                 continue
             if not isinstance(given, tuple | list) or len(given) != 2:
                 raise Alarm(f"the {name} of a hole must be its diameter (mm) and {second}, got {shown(given)}")
-            check_number(given[0], f"the diameter of a {name} (mm)", above=self.wide)
+            check_number(given[0], f"the diameter of a {name} (mm)", above=self.wide, at_most=LARGEST)
             check_number(given[1], f"the {second} of a {name}", above=0, at_most=most)
             object.__setattr__(self, name, tuple(float(each) for each in given))
         if self.counterbore and self.depth is not None and self.counterbore[1] >= self.depth:

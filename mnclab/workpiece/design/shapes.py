@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
 
@@ -12,11 +12,17 @@ import numpy as np
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
 from mnclab.text.alarm import Alarm
-from mnclab.text.given import check_number, faults_as_alarms, plain, shown
+from mnclab.text.given import check_number, check_point, faults_as_alarms, plain, shown
 from mnclab.text.records import exactly
 from mnclab.workpiece.design.measures import Measure
 
+LARGEST = 1e5  # mm, of a size and of a coordinate
 ROUND = 1e-9  # mm, within which two halves are one circle
+
+
+def check_place(value: Any, what: str) -> None:
+    """An Alarm unless a coordinate is a number that a drawing can have."""
+    check_number(value, what, at_least=-LARGEST, at_most=LARGEST)
 
 
 @dataclass(frozen=True, repr=False)
@@ -31,8 +37,12 @@ class Rectangle:
     turned: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("x", "y", "length", "width", "corner", "turned"):
-            check_number(getattr(self, name), f"the {name} of a rectangle")
+        _plain(self)
+        for name in ("x", "y", "turned"):
+            check_place(getattr(self, name), f"the {name} of a rectangle ({'degrees' if name == 'turned' else 'mm'})")
+        for name in ("length", "width"):
+            check_number(getattr(self, name), f"the {name} of a rectangle (mm)", above=0, at_most=LARGEST)
+        check_number(self.corner, "the corner of a rectangle (mm)", at_least=0, at_most=LARGEST)
         with faults_as_alarms():
             self.contour  # noqa: B018  it must exist
 
@@ -67,9 +77,10 @@ class Circle:
     diameter: float
 
     def __post_init__(self) -> None:
+        _plain(self)
         for name in ("x", "y"):
-            check_number(getattr(self, name), f"the {name} of a circle")
-        check_number(self.diameter, "the diameter of a circle (mm)", above=0)
+            check_place(getattr(self, name), f"the {name} of a circle (mm)")
+        check_number(self.diameter, "the diameter of a circle (mm)", above=0, at_most=LARGEST)
 
     __repr__ = exactly
 
@@ -96,6 +107,18 @@ class Outline:
     closed: bool = True
 
     def __post_init__(self) -> None:
+        for name in ("points", "bulge"):
+            if not isinstance(getattr(self, name), tuple | list):
+                raise Alarm(f"the {name} of an outline must be a list, got {shown(getattr(self, name))}")
+        _plain(self)
+        for each in self.points:
+            check_point(each, "a point of an outline (mm)", flat=True)
+            for number in each:
+                check_place(number, "a coordinate of an outline (mm)")
+        for number in self.bulge:
+            check_number(number, "a bulge of an outline", at_least=-LARGEST, at_most=LARGEST)
+        if not isinstance(self.closed, bool):
+            raise Alarm(f"closed of an outline must be True or False, got {shown(self.closed)}")
         with faults_as_alarms():
             self.contour  # noqa: B018  it must exist
 
@@ -120,6 +143,12 @@ class Outline:
 Shape = Rectangle | Circle | Outline
 
 
+def _plain(shape: Shape) -> None:
+    """Numbers of numpy and fractions as those of Python, lists as tuples."""
+    for each in fields(shape):
+        object.__setattr__(shape, each.name, plain(getattr(shape, each.name)))
+
+
 def shape_of(given: Any, what: str, closed: bool | None = True) -> Shape:
     """A shape, a contour or points as a shape; an Alarm where it is none of these, or open where it must be closed."""
     if isinstance(given, Rectangle | Circle | Outline):
@@ -127,11 +156,13 @@ def shape_of(given: Any, what: str, closed: bool | None = True) -> Shape:
     else:
         contour = given
         if not isinstance(given, Contour):
+            points = given.tolist() if isinstance(given, np.ndarray) else given
+            if not isinstance(points, tuple | list):
+                raise Alarm(f"{what} must be a contour or points (x, y), got {shown(given)}")
             try:
-                with faults_as_alarms():
-                    contour = Contour(np.asarray(given, dtype=np.float64))
-            except (TypeError, ValueError):
-                raise Alarm(f"{what} must be a contour or points (x, y), got {shown(given)}") from None
+                contour = Outline(tuple(points)).contour
+            except Alarm as fault:
+                raise Alarm(f"{what}: {fault.message}") from None
         found = _circle(contour) or _outline(contour)
     if closed is not None and found.contour.closed != closed:
         raise Alarm(f"{what} must be a {'closed' if closed else 'open'} contour, got {shown(given)}")

@@ -56,7 +56,8 @@ def _alone(region: Region, slant: Slanting, widest: Region) -> Callable[[float],
     if abs(region.intersection(widest).area - widest.area) > SAME * max(widest.area, 1.0):
         return None
     base, far, sign = slant.base.area, max(slant.at(slant.low), slant.at(slant.high)), -1 if slant.inside else 1
-    whole, half, part = (sign * (slant.grown(far * share).area - base) for share in (1.0, 0.5, 0.75))
+    whole = widest.area
+    half, part = (sign * (slant.grown(far * share).area - base) for share in (0.5, 0.75))
     c = 2 * whole - 4 * half
     b = whole - c
     if abs(0.75 * b + 0.5625 * c - part) > SAME * max(widest.area, 1.0):
