@@ -180,8 +180,12 @@ def _side(rng, blank):
     if rng.random() < 0.3:
         depth = r(2, 5)
         for k in range(rng.choice([1, 2])):
-            size = {"length": r(15, 30), "width": r(15, 30), "corner": r(0, 6)} if rng.random() < 0.6 else {"diameter": r(15, 30)}
-            found.append({"kind": "stud", "name": f"stud {k}", "x": 32 + 36 * k + r(-2, 2), "y": r(25, 35), **size, "depth": depth})
+            if rng.random() < 0.6:
+                size = {"length": r(15, 30), "width": r(15, 30), "corner": r(0, 6)}
+            else:
+                size = {"diameter": r(15, 30)}
+            stud = {"kind": "stud", "name": f"stud {k}", "x": 32 + 36 * k + r(-2, 2), "y": r(25, 35)}
+            found.append(stud | size | {"depth": depth})
     for _ in range(rng.randint(1, 4)):
         kind = rng.choice(["pocket", "pocket", "slot", "hole", "hole", "hole", "groove", "chamfer"])
         x, y = r(15, 85), r(12, 48)

@@ -17,6 +17,7 @@ from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.raster import NOISE
 
 LEVELS = (0.5, 0.1, 0.3, 0.7, 0.9)  # of a column that is gone
+SWEPT = 100_000  # cells of a map of very many moves, up to which they are swept again, exactly
 CHUNK = 20_000  # points whose distances are looked at together
 
 
@@ -97,15 +98,28 @@ def cells(workpiece: Milled, target: Target, grid: Grid, error: float) -> Cells:
     row, column = np.nonzero(whole.differ(error))
     sides = (each[row, column] for each in (floor, top, grid.floor, grid.top))
     at = Columns(raster.x[column], raster.y[row], *sides)
+    known = workpiece.error if workpiece.many and len(row) > SWEPT else 0.0
+    if workpiece.many and not known:
+        row, column, at = _exactly(workpiece, row, column, at, error)
     value, z = np.zeros(len(row)), np.zeros(len(row))
     plain = _plain(workpiece, grid, at, row, column) if len(row) else np.zeros(0, dtype=bool)
     rise = at.top - at.its_top
     value[plain] = np.where(rise > 0, rise, -np.minimum(-rise, at.top - at.its_floor))[plain]
     z[plain] = at.top[plain]
     value[~plain], z[~plain] = off(target, at.some(~plain))
+    value[np.abs(value) <= known] = 0.0
     with np.errstate(invalid="ignore"):
         above, below = (np.abs(np.abs(way) - np.abs(value)) <= NOISE for way in (rise, at.its_floor - at.floor))
     return Cells(row, column, at, value, z, np.where(above, 1, np.where(below, -1, 0)), plain)
+
+
+def _exactly(workpiece: Milled, row: Index, column: Index, at: Columns, error: float) -> tuple[Index, Index, Columns]:
+    """The heights of a map are never too low, but may be too high: cells that still differ where all moves are swept."""
+    top = workpiece.sweep.at(at.x, at.y)
+    at = at._replace(top=np.where(top > workpiece.blank_at(at.x, at.y)[1], top, np.nan))
+    at = at._replace(floor=np.where(np.isnan(at.top), np.nan, at.floor))
+    keep = at.differ(error)
+    return row[keep], column[keep], at.some(keep)
 
 
 def _plain(workpiece: Milled, grid: Grid, at: Columns, row: Index, column: Index) -> Mask:

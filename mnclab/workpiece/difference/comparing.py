@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,43 +10,37 @@ import numpy as np
 from mnclab.path.columns import Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
-from mnclab.workpiece.design.design import Design
 from mnclab.workpiece.difference.deviations import Seen, seen
 from mnclab.workpiece.difference.difference import Difference, Worst
-from mnclab.workpiece.difference.drawn_target import DrawnTarget
 from mnclab.workpiece.difference.guilt import guilty
 from mnclab.workpiece.difference.reading import Reading
 from mnclab.workpiece.difference.refining import followed
 from mnclab.workpiece.difference.table import OK, OUT, Features, Row
 from mnclab.workpiece.difference.target import Target
+from mnclab.workpiece.difference.targets import half_target_of, target_of
+from mnclab.workpiece.difference.turned_comparing import compare_turned
 from mnclab.workpiece.difference.volumes import volumes
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.raster import NOISE
+from mnclab.workpiece.turning.turned import Turned
+from mnclab.workpiece.workpiece import Workpiece
 
 CANDIDATES = 4  # places from which the worst is followed
 MOST = 24  # places that are as bad, whose rows are looked for
 ALIKE = 1e-7  # mm, by which they may differ
 
 
-def compare(workpiece: Any, target: Any, tolerance: float = 0.05) -> Difference:
-    """A workpiece against a `Design` or the path of a TOML file with one; `tolerance` mm.
+def compare(workpiece: Workpiece, target: Any, tolerance: float = 0.05) -> Difference:
+    """A workpiece against whatever `targets` knows; `tolerance` mm.
 
     An Alarm for anything else, and for a tolerance that is not greater than 0.
     """
     check_number(tolerance, "the tolerance of a comparison (mm)", above=0)
-    if not isinstance(workpiece, Milled):
-        raise Alarm(f"what is compared with a milled design is a milled part, got {shown(workpiece)}")
-    return difference_of(workpiece, target_of(target, float(tolerance)), float(tolerance))
-
-
-def target_of(given: Any, tolerance: float) -> Target:
-    """What a part is compared with, from whatever was given."""
-    if isinstance(given, str | Path):
-        given = Design.load(given)
-    if isinstance(given, Design):
-        return DrawnTarget(given, tolerance)
-    hint = "workpiece.compare(design), or the path of its TOML file"
-    raise Alarm(f"a milled part is compared with a design, got {shown(given)}", hint=hint)
+    if isinstance(workpiece, Milled):
+        return difference_of(workpiece, target_of(target, workpiece, float(tolerance)), float(tolerance))
+    if isinstance(workpiece, Turned):
+        return compare_turned(workpiece, half_target_of(target, workpiece), float(tolerance))
+    raise Alarm(f"what is compared is a workpiece, got {shown(workpiece)}", hint="run.workpiece()")
 
 
 def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Difference:
@@ -60,7 +53,7 @@ def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Differ
     gone, left = volumes(found)
     return Difference(
         target.name, tolerance, found.error, _worst(found, -1.0), _worst(found, 1.0), gone, left, workpiece.x, workpiece.y,
-        signed, rows, tuple(_notes(workpiece, rows)), workpiece,
+        signed, rows, tuple(_notes(workpiece, rows)), workpiece, target,
     )  # fmt: skip
 
 
@@ -83,7 +76,7 @@ def _followed(found: Seen) -> Seen:
         order = order[sign * found.off[order] > 0]
         if len(order):
             place, value = followed(found.workpiece, found.target, found.place[order], found.off[order])
-            if abs(value) - abs(found.off[order[0]]) > max(found.error, ALIKE):
+            if abs(value) - abs(found.off[order[0]]) > max(found.least, ALIKE):
                 places.append(place)
                 values.append(value)
     if not places:
@@ -120,7 +113,7 @@ def _row(found: Seen, reading: Reading) -> Row:
     if reading.said:
         verdict = reading.said
     else:
-        verdict = OK if lower - found.error <= deviation <= upper + found.error else OUT
+        verdict = OK if lower - found.least <= deviation <= upper + found.least else OUT
     row, place = -1, None
     worst = _worst_of(found, reading.among)
     if len(worst):

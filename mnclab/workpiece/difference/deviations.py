@@ -15,12 +15,14 @@ from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.raster import NOISE
 
 SPACINGS = 80  # places along the longer side of a target
+TOUCHING = 1e-7  # mm, by which a place may lie beyond a face that it is on
+BETWEEN = (np.arange(16) + 0.5) / 16  # of a ray, where it must not have crossed the target
 MOST = 4_000  # rays that are followed; of more of them every second one, or third
 
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """`error` mm: less than that is nothing.
+    """`error` mm: what may be hidden, `least`: less than that is nothing.
 
     `moved` (k,) is how far each place of a wall is off along its normal, + towards the void, nan where no wall was found,
     `rise` (m,) how much higher than it should be the workpiece is at places of slopes and floors, `off` (k + m + c,) how far
@@ -30,6 +32,7 @@ class Seen:
     workpiece: Milled
     target: Target
     error: float
+    least: float
     grid: Grid
     walls: Walls
     slopes: Slopes
@@ -91,17 +94,18 @@ class Seen:
 def seen(workpiece: Milled, target: Target) -> Seen:
     """Everything that a workpiece can be looked at for beside a target."""
     error = max(workpiece.error, target.error, NOISE)
+    least = max(NOISE if workpiece.many else workpiece.error, target.error, NOISE)
     spacing = float((target.bounds[1] - target.bounds[0])[:2].max()) / SPACINGS
     walls, slopes, grid = target.walls(spacing), target.slopes(spacing, workpiece.step), target.grid(workpiece.raster)
-    found = cells(workpiece, target, grid, error)
-    moved, of_walls, at_walls, void_walls = _walls(workpiece, target, walls, max(FIRST, error))
+    found = cells(workpiece, target, grid, least)
+    moved, of_walls, at_walls, void_walls = _walls(workpiece, target, walls, max(FIRST, least))
     rise, of_slopes, at_slopes = _slopes(workpiece, target, slopes)
     at_cells = np.stack([found.at.x, found.at.y, found.z], axis=1)
     place = np.concatenate([at_walls, at_slopes, at_cells])
     void = np.concatenate([void_walls, at_slopes + [0, 0, FIRST], at_cells + [0, 0, FIRST]])
     off_ = np.concatenate([of_walls, of_slopes, found.value])
-    off_[np.abs(off_) <= error] = 0.0
-    return Seen(workpiece, target, error, grid, walls, slopes, found, moved, rise, off_, place, void)
+    off_[np.abs(off_) <= least] = 0.0
+    return Seen(workpiece, target, error, least, grid, walls, slopes, found, moved, rise, off_, place, void)
 
 
 def _walls(workpiece: Milled, target: Target, walls: Walls, aside: float) -> tuple[Array, Array, Array, Array]:
@@ -127,7 +131,13 @@ def _walls(workpiece: Milled, target: Target, walls: Walls, aside: float) -> tup
         at = np.where(ends, way, 0.0)[:, None]
         there_ = np.concatenate([origin + at * direction, place[index, 2:]], axis=1)
         value = sign * distances(target, *there_.T)
-        good = ends & (value > -1e-7)
+        good = ends & (value > -TOUCHING)
+        aside_ = np.flatnonzero(good & (np.abs(way - value) > TOUCHING))  # another face is nearer: it may have been crossed
+        if len(aside_):
+            between = origin[aside_, None] + (at[aside_] * BETWEEN)[..., None] * direction[aside_, None]
+            heights = np.broadcast_to(place[index[aside_], 2:], between.shape[:2])
+            within = sign * distances(target, between[..., 0].ravel(), between[..., 1].ravel(), heights.ravel())
+            good[aside_] = (within.reshape(len(aside_), -1) > -TOUCHING).all(axis=1)
         moved[index[good]], found[index[good]] = sign * way[good], sign * np.maximum(value[good], 0.0)
         place[index[good]] = there_[good]
         step = np.pad(normal[index[good]], ((0, 0), (0, 1)))
@@ -144,9 +154,9 @@ def _farthest(target: Target, place: Array, direction: Array, sign: float, reach
     steps = np.append(0.0, FIRST * 2.0 ** np.arange(int(np.log2(reach / FIRST)) + 1))
     spots = place[:, None] + steps[:, None] * np.pad(direction, ((0, 0), (0, 1)))[:, None]
     value = sign * distances(target, *spots.reshape(-1, 3).T).reshape(len(place), -1)
-    gone = np.logical_or.accumulate(value < -1e-7, axis=1)
-    value = np.where(gone, -1.0, value)
-    best = value.argmax(axis=1)
+    crossed = np.zeros(value.shape, dtype=bool)  # between two places that are not farther apart than from it lies none of it
+    crossed[:, 1:] = value[:, 1:] + value[:, :-1] < np.diff(steps) - TOUCHING
+    best = np.where(np.logical_or.accumulate(crossed, axis=1), -1.0, value).argmax(axis=1)
     every = np.arange(len(place))
     return sign * np.maximum(value[every, best], 0.0), spots[every, best]
 

@@ -56,6 +56,8 @@ class Difference:
     features: Features
     notes: tuple[str, ...] = ()
     workpiece: Any = None
+    compared: Any = None
+    looked: Any = None
 
     @property
     def ok(self) -> bool:

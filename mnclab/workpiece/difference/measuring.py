@@ -139,12 +139,12 @@ class _Room:
         if not len(slopes) and not cells_of_it:
             return Found(math.nan, NONE, GONE)
         rise = np.nan_to_num(rise, nan=self.bottom - floor)  # gone right through
-        nearest = np.abs(np.abs(rise) - np.abs(seen.off[index])) <= max(NOISE, seen.error)
+        nearest = np.abs(np.abs(rise) - np.abs(seen.off[index])) <= max(NOISE, seen.least)
         mine = nearest & np.append(cells.plain[off], np.ones(len(slopes), dtype=bool))
         if not mine.any() and cells_of_it == len(off):
             mine = nearest if nearest.any() else ~nearest
         best = float(rise[mine][np.abs(rise[mine]).argmax()]) if mine.any() else 0.0
-        best = best if abs(best) > seen.error else 0.0
+        best = best if abs(best) > seen.least else 0.0
         return Found(self.top - floor - best, index[mine])
 
     # --- features ----------------------------------------------------------------------------------------------------
@@ -171,7 +171,7 @@ class _Room:
         found = dict(of_circle(float(hole.x), float(hole.y), self._walls("")))
         yield from found.items()
         if hole.tip:
-            yield from self._point(hole, *(found[name].actual for name in ("diameter", "x", "y")), found["diameter"].among)
+            yield from self._point(hole, found)
         elif hole.depth is not None:
             yield "depth", self._depth(self._of_role(""), self.top - hole.depth)
         if hole.counterbore:
@@ -181,8 +181,9 @@ class _Room:
         if hole.countersink:
             yield from self._slant("countersink", "countersink diameter", "countersink angle", 2.0)
 
-    def _point(self, hole: Hole, wide: float, x: float, y: float, walls: Index) -> Iterator[tuple[str, Found]]:
-        """Depth to the shoulder and point angle, from the cone about the centre found."""
+    def _point(self, hole: Hole, around: dict[str, Found]) -> Iterator[tuple[str, Found]]:
+        """Depth to the shoulder and point angle, from the cone about the circle found."""
+        wide, x, y = (around[name].actual for name in ("diameter", "x", "y"))
         if math.isnan(wide):
             wide, x, y = hole.wide, hole.x, hole.y
         s, z, index, body = self._cone("point", (x, y))
@@ -194,7 +195,7 @@ class _Room:
             yield "depth", Found(self.top - float(z.min()), index)
             yield "point angle", Found(math.nan, index, NOT_CUT)
             return
-        yield "depth", Found(self.top - (start + slope * wide / 2), np.concatenate([index, walls]))
+        yield "depth", Found(self.top - (start + slope * wide / 2), np.concatenate([index, around["diameter"].among]))
         yield "point angle", Found(2 * math.degrees(math.atan(1 / slope)), index)
 
     def _slant(self, role: str, size: str, angle: str, sides: float) -> Iterator[tuple[str, Found]]:

@@ -109,7 +109,7 @@ def _end(seen: Faces, axis: int, sign: int, half: float) -> Found:
     if not there.any():
         return Found(math.nan, seen.number[here], NOT_CUT)
     best = there & seen.middle if (there & seen.middle).any() else there
-    return Found(float(seen.moved[best, axis].mean()), seen.number[here])
+    return Found(float(np.median(seen.moved[best, axis])), seen.number[here])
 
 
 def _corner(shape: Rectangle, seen: Faces) -> Found:

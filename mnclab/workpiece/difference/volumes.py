@@ -23,7 +23,8 @@ def volumes(seen: Seen) -> tuple[float, float]:
         return 0.0, 0.0
     workpiece, cells, shape = seen.workpiece, seen.cells, seen.grid.top.shape
     gone, left = np.zeros(shape), np.zeros(shape)
-    gone[cells.row, cells.column], left[cells.row, cells.column] = thickness(cells.at, seen.error)
+    counts = seen.off[seen.of_cells] != 0
+    gone[cells.row, cells.column], left[cells.row, cells.column] = counts * thickness(cells.at, seen.least)
     close = _uneven(gone) | _uneven(left) | _crossed(seen)
     for edge in (0, -1):
         close[edge] |= (gone[edge] > 0) | (left[edge] > 0)
@@ -37,7 +38,7 @@ def volumes(seen: Seen) -> tuple[float, float]:
         x, y = workpiece.raster.x[column[k : k + many]], workpiece.raster.y[row[k : k + many]]
         x, y = within(x, y, workpiece.step, lattice)
         at = columns(sides(workpiece, x, y), seen.target.faces(x, y), x, y)
-        found += np.array([float(each.sum()) for each in thickness(at, seen.error)]) * area / lattice[0]
+        found += np.array([float(each.sum()) for each in thickness(at, seen.least)]) * area / lattice[0]
     return float(found[0]), float(found[1])
 
 
@@ -67,7 +68,8 @@ def _beside(found: Mask) -> Mask:
 
 def _crossed(seen: Seen) -> Mask:
     """Cells (ny, nx) about walls that are off, which may stand between the middles of cells."""
-    walls, raster, found = seen.walls, seen.workpiece.raster, np.zeros(seen.grid.top.shape, dtype=bool)
+    walls, raster, (ny, nx) = seen.walls, seen.workpiece.raster, seen.grid.top.shape
+    found = np.zeros((ny, nx), dtype=bool)
     index = np.flatnonzero((seen.off[seen.of_walls] != 0) & np.isfinite(seen.moved))
     if not len(index):
         return found
@@ -79,7 +81,7 @@ def _crossed(seen: Seen) -> Mask:
     deep = np.linspace(0.0, 1.0, min(int(longest / raster.step * MARKS) + 2, 50))
     for share in deep:
         spots = (place + share * moved)[:, None] + side[:, None] * along[:, None]
-        column, row = np.floor((spots.reshape(-1, 2) - raster.low) / raster.step).astype(int).T
-        inside = (row >= 0) & (row < found.shape[0]) & (column >= 0) & (column < found.shape[1])
+        column, row = np.floor((spots.reshape(-1, 2) - np.array(raster.low)) / raster.step).astype(int).T
+        inside = (row >= 0) & (row < ny) & (column >= 0) & (column < nx)
         found[row[inside], column[inside]] = True
     return _beside(found)
