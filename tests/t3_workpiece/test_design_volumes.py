@@ -100,6 +100,12 @@ def test_chamfers_of_outside_edges():
     assert stud.volume == pytest.approx(6000 * 14 + pi * 225 * (6 - w) + frustum(15, 15 - w, w), abs=1e-6)
 
 
+@pytest.mark.parametrize("place", [(1, 30), (99, 30), (50, 1), (50, 59)])
+def test_what_sticks_out_of_the_blank_takes_what_is_in_it(place):
+    square = Rectangle(*place, 10, 10)
+    assert Design(((0, 0, -HIGH), (100, 60, 0)), Pocket(square, 5)).volume == pytest.approx(120_000 - 6 * 10 * 5, abs=1e-6)
+
+
 def test_facing_and_studs_of_one_depth():
     studs = [Stud.circle(25, 30, 20, 7), Stud.rectangle(70, 30, 30, 20, 7, corner=4)]
     design = Design(((0, 0, -HIGH), (100, 60, 0)), [Face(2), *studs])
