@@ -53,7 +53,7 @@ def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Differ
     gone, left = volumes(found)
     return Difference(
         target.name, tolerance, found.error, _worst(found, -1.0), _worst(found, 1.0), gone, left, workpiece.x, workpiece.y,
-        signed, rows, tuple(_notes(workpiece, rows)), workpiece, target,
+        signed, rows, tuple(_notes(workpiece, rows)), workpiece, target, found,
     )  # fmt: skip
 
 

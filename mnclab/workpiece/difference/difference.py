@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mnclab.path.columns import Array
 from mnclab.text.tables import html_table
 from mnclab.workpiece.difference.table import Features
+
+if TYPE_CHECKING:
+    import pyvista
+    from matplotlib.figure import Figure
 
 
 class Worst(NamedTuple):
@@ -41,6 +46,9 @@ class Difference:
     `map` (ny, nx) mm over the cells of the workpiece, whose middles are `x` and `y`: + what is left, - what is gone, 0 where
     both are the same, nan where neither has material. Volumes in mm³. `error` mm is how far a value at the place it is
     told for may be off. `features` is the table of measures. `notes` say what was not judged.
+
+    Of a turned part `map` (1, n) has the deviations along the half section of the design, at ways `x` (n,) along its lines; nan
+    where nothing is judged. `compared` and `looked` are what pictures need: the target, and all places that were looked at.
     """
 
     target: str
@@ -70,6 +78,26 @@ class Difference:
         worst = {name: getattr(self, name)._asdict() for name in ("worst_gouge", "worst_rest")}
         return found | worst | {"features": [row.as_dict() for row in self.features], "notes": list(self.notes)}
 
+    # --- doors -------------------------------------------------------------------------------------------------------
+
+    def plot(self, **options: Any) -> Figure:
+        """The signed map, of a lathe the half section, with sections and table; see `show.plot.difference.plot_difference`."""
+        from mnclab.show.plot.difference import plot_difference
+
+        return plot_difference(self, **options)
+
+    def scene(self, **options: Any) -> pyvista.Plotter:
+        """The part as a body in the colours of its deviation (needs pyvista); see `show.difference_scene.scene`."""
+        from mnclab.show.difference_scene import scene
+
+        return scene(self, **options)
+
+    def save(self, path: str | Path, **options: Any) -> Path:
+        """Write one file; the suffix says what: svg, pdf, png (the picture), csv (the table), json, html (a record)."""
+        from mnclab.show.export_difference import save
+
+        return save(self, path, **options)
+
     def _lines(self) -> list[tuple[str, str]]:
         verdict = "as drawn" if self.ok else "not as drawn"
         return [
@@ -85,5 +113,9 @@ class Difference:
         (first, verdict), *others = self._lines()
         return "\n".join([f"{first}: {verdict}", *(f"  {name}: {text}" for name, text in others), "", repr(self.features)])
 
+    def html_parts(self) -> tuple[str, str]:
+        """What was found, and the table of measures."""
+        return html_table(("", ""), self._lines()), self.features._repr_html_()
+
     def _repr_html_(self) -> str:
-        return html_table(("", ""), self._lines()) + self.features._repr_html_()
+        return "".join(self.html_parts())

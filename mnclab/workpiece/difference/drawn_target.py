@@ -18,6 +18,7 @@ from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Flat, Slanting, signed, within
 from mnclab.workpiece.difference.target import BLANK, Grid, Owner, Slopes, Walls
 from mnclab.workpiece.milling.raster import Raster
+from mnclab.workpiece.workpiece import Workpiece
 
 if TYPE_CHECKING:
     from mnclab.workpiece.difference.deviations import Seen
@@ -68,6 +69,14 @@ class DrawnTarget:
             gone = ~(top > floor)
         floor[gone] = top[gone] = np.nan
         return Grid(floor, top, owner, under)
+
+    def cut(self, plane: str, at: float) -> list[Contour]:
+        """A section, as of a workpiece."""
+        return list(self.design.section(at).loops) if plane == "XY" else self._workpiece.cut(plane, at)
+
+    @cached_property
+    def _workpiece(self) -> Workpiece:
+        return self.design.workpiece()
 
     # --- places to look at -------------------------------------------------------------------------------------------
 

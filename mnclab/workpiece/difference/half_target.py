@@ -39,6 +39,12 @@ class HalfTarget:
         (low, _), (high, _) = self.surface.region.bounds.tolist()
         return low, high
 
+    @property
+    def bounds_3d(self) -> Array:
+        """The box (2, 3) of the half section: from the axis out, about x = 0."""
+        (low, _), (high, radius) = self.surface.region.bounds.tolist()
+        return np.array([(0.0, 0.0, low), (radius, 0.0, high)])
+
     @cached_property
     def names(self) -> tuple[str, ...]:
         """The profile and the features."""

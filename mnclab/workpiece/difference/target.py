@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.workpiece.milling.raster import Raster
 
@@ -79,6 +80,9 @@ class Target(Protocol):
 
     def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Lower and upper side at points (m,), nan beside it."""
+
+    def cut(self, plane: str, at: float) -> list[Contour]:
+        """A section, as of a workpiece."""
 
     def grid(self, raster: Raster) -> Grid:
         """Both sides at the middles of cells."""
