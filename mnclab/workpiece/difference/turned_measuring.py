@@ -168,7 +168,7 @@ class _Room:
 
     def thread(self, thread: Thread, dimension: Dimension) -> Found:
         """Of a thread outside the diameter over its crests; that it is there at all."""
-        if dimension.measure.kind != "thread":
+        if dimension.measure.kind != "thread" or not len(self.found.part.cutting):  # a drawing has no teeth
             return NOTHING
         middle = np.linspace(thread.end, thread.start, 2002)[1:-1]
         radii = revolved.radii_at(self.found.surface.region.loops, middle)
