@@ -1,4 +1,4 @@
-"""A turned part against its design: faults whose numbers are plain arithmetic, found within 1e-6 mm, with the row that did them."""
+"""A turned part against its design: faults whose numbers are plain arithmetic, found within 1e-6 mm, with their rows."""
 
 import math
 
@@ -20,7 +20,7 @@ DESIGN = TurnedDesign([(0, 20), (-30, 20), (-30, 25), (-50, 25)], roundings={1: 
 
 
 def way(dr=0.0, dz=0.0, hollow=2.0):
-    """Along the contour of the bolt with a sharp tool: rows 0 chamfer (from the air on), 1 cylinder, 2 hollow, 3 shoulder, 4 cylinder."""
+    """Along the bolt with a sharp tool: rows 0 chamfer (from the air on), 1 cylinder, 2 hollow, 3 shoulder, 4 cylinder."""
     start = [(1 + dz, 18 + dr), (-1 + dz, 20 + dr), (-30 + hollow + dz, 20 + dr)]
     return [*start, (-30 + dz, 20 + hollow + dr, QUARTER), (-30 + dz, 25 + dr), (-50, 25 + dr), (-50, 31)]
 
@@ -117,7 +117,7 @@ def test_features_that_were_forgotten():
 
 
 def test_a_taper():
-    """5° instead of 4°: k = (tan 5° - tan 4°)·cos 4° more for each mm; most is left where the shoulder is as near, at s = (20 - s)·k."""
+    """5° instead of 4°: k = (tan 5° - tan 4°)·cos 4° more for each mm; most where the shoulder is as near, s = (20 - s)·k."""
     flat = TurnedDesign([(0, 15), (-20, 15 + 20 * math.tan(math.radians(4))), (-20, 25), (-50, 25)])
     end = 15 + 20 * math.tan(math.radians(5))
     found = turned(SHARP, (0, 15), (-20, end), (-20, 25), (-50, 25), (-50, 31)).compare(flat)
@@ -162,7 +162,8 @@ def test_a_part_that_was_cut_off_is_what_fell():
     assert any("cut off" in note for note in found.notes)
 
 
-THREADED = TurnedDesign([(0, 12), (-24, 12), (-24, 15), (-50, 15)], [RingGroove(-20, 4, diameter=20.5), Thread("M24x1.5", 0, -20)])
+STUD = [(0, 12), (-24, 12), (-24, 15), (-50, 15)]
+THREADED = TurnedDesign(STUD, [RingGroove(-20, 4, diameter=20.5), Thread("M24x1.5", 0, -20)])
 
 
 def threaded(deep, turns=True, groove=10.25):

@@ -134,7 +134,8 @@ def _draw_plan(ax: Axes, difference: Difference, most: float) -> None:
     step = float(difference.workpiece.step)
     box = difference.x[0] - step / 2, difference.x[-1] + step / 2, difference.y[0] - step / 2, difference.y[-1] + step / 2
     norm = Normalize(-most, most)
-    ax.imshow(difference.map, extent=box, origin="lower", cmap=SHADES, norm=norm, zorder=0.8, aspect="auto", interpolation="nearest")
+    look: dict[str, Any] = {"cmap": SHADES, "norm": norm, "interpolation": "nearest", "zorder": 0.8}
+    ax.imshow(difference.map, extent=box, origin="lower", aspect="auto", **look)
     beyond = np.nan_to_num(difference.map)
     for sign, hatch in HATCHES.items():
         wide = np.pad((sign * beyond > difference.tolerance).astype(float), 1)
@@ -168,7 +169,7 @@ def _draw_walls(ax: Axes, difference: Difference, norm: Normalize) -> None:
     for sign, marker in ((-1, "v"), (1, "o")):
         mine = some[np.sign(off[some]) == sign]
         ax.scatter(
-            *place[mine].T, s=DOTS, c=off[mine], cmap=SHADES, norm=norm, marker=marker, linewidths=0.25,
+            place[mine, 0], place[mine, 1], s=DOTS, c=off[mine], cmap=SHADES, norm=norm, marker=marker, linewidths=0.25,
             edgecolors=GONE if sign < 0 else "#6b2a08", zorder=2.4,
         )  # fmt: skip
 
@@ -182,7 +183,8 @@ def _draw_half(ax: Axes, difference: Difference, most: float) -> None:
     ax.add_patch(hatch)
     factor = factor_of(difference)
     place, normal, off = looked.places.place, looked.places.normal, np.nan_to_num(looked.off)
-    off = np.where((np.abs(off) > FULL * difference.tolerance) | np.isnan(looked.moved), 0.0, off)  # too much to be magnified: areas as they are
+    much = (np.abs(off) > FULL * difference.tolerance) | np.isnan(looked.moved)
+    off = np.where(much, 0.0, off)  # too much to be magnified: areas as they are
     for region, shade in ((looked.gone, GONE), (looked.left, LEFT)):
         if region.loops:
             face = {"facecolor": shade + "66", "edgecolor": shade, "linewidth": 0.6}

@@ -68,7 +68,7 @@ def deepest(region: Region, distance: Distance, least: float) -> tuple[Array, fl
         if not len(spots):
             continue
         value = distance(spots)
-        k: Index = value.argmax()
+        k = int(value.argmax())
         place, found, step = spots[k], float(value[k]), float((high - low).max()) / GRID
         ring = np.array([(np.cos(a), np.sin(a)) for a in np.arange(16) * np.pi / 8])
         while step > LEAST**2 and found + 2 * step > (best[1] if best else least):
