@@ -38,7 +38,7 @@ def scene(
     plotter = scenes.new_plotter(repr(difference).splitlines()[0], size)
     solid = difference.workpiece.solid()
     mesh = pyvista.PolyData.from_regular_faces(solid.points, solid.triangles)
-    mesh.cell_data[TITLE] = deviations_of(difference, solid.points[solid.triangles].mean(axis=1))
+    mesh.cell_data[TITLE] = deviations_of(difference, solid.points[solid.triangles])
     bar = scenes.BAR | BESIDE | {"title": TITLE + "\n", "fmt": "%.3g"}
     plotter.add_mesh(mesh, scalars=TITLE, cmap=SHADES, clim=(-most, most), nan_color="#dddddd", scalar_bar_args=bar, **LOOK)
     edges = mesh.extract_feature_edges(feature_angle=ANGLE, boundary_edges=False, non_manifold_edges=False, manifold_edges=False)
@@ -52,13 +52,14 @@ def scene(
     return plotter
 
 
-def deviations_of(difference: Difference, points: Array) -> Array:
-    """How far places (m, 3) of the surface of the part are off its target, mm; nan where that is not judged."""
+def deviations_of(difference: Difference, corners: Array) -> Array:
+    """How far the middles of triangles (m, 3, 3) of the part are off its target, mm; nan where that is not judged."""
     if not difference.workpiece.cutting.lathe:
-        found = distances(difference.compared, *points.T)
+        found = distances(difference.compared, *corners.mean(axis=1).T)
         return np.where(np.abs(found) <= difference.error, 0.0, found)
     target = difference.compared
-    half = np.stack([points[:, 2], np.hypot(points[:, 0] - difference.workpiece.axis, points[:, 1])], axis=1)
+    radius = np.hypot(corners[..., 0] - difference.workpiece.axis, corners[..., 1])  # corners lie on circles, middles do not
+    half = np.stack([corners[..., 2], radius], axis=2).mean(axis=1)
     found = target.surface.distance(half)
     found = np.where((np.abs(found) <= difference.error) | target.toothed(half), 0.0, found)
     behind = difference.workpiece.low < target.ends[0] - difference.error  # the bar goes on in the chuck
