@@ -1,7 +1,7 @@
-"""mnclab from a shell: check, run, plot, part, report, time, help, lab; `python -m mnclab` is the same as `mnclab`.
+"""mnclab from a shell: check, run, plot, part, compare, drawing, report, time, help, lab; `python -m mnclab` is the same.
 
-Exit status: 0 clean, 1 alarms, 2 a command line that makes no sense, 130 stopped by Ctrl-C. Alarms go to stderr, one
-line each, in the form that editors understand: `FILE:LINE:COLUMN: alarm: message (hint)`.
+Exit status: 0 clean, 1 alarms or a part that is not as drawn, 2 a command line that makes no sense, 130 stopped by
+Ctrl-C. Alarms go to stderr, one line each, in the form that editors understand: `FILE:LINE:COLUMN: alarm: message (hint)`.
 """
 
 from __future__ import annotations
@@ -34,11 +34,15 @@ SUFFIXES = (
     "svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; ngc (plain blocks); stl, gltf, glb, vtk"
 )
 
+DRAWN = "svg, pdf, png, dxf (the drawing); toml (the design)"
+
 PARTS = "stl, gltf, glb, vtk (the body); svg, pdf, png (pictures); csv (heights, or the section of a lathe)"
 
 EPILOG = f"""\
-exit status: 0 clean, 1 alarms (or an unreadable file), 2 a wrong command line, 130 Ctrl-C
-warnings are shown too, but leave the status at 0
+exit status: 0 clean, 1 alarms (or an unreadable file, or a part outside the tolerance), 2 a wrong command line,
+130 Ctrl-C; warnings are shown too, but leave the status at 0
+
+mnclab help design: what the file of a design (--design) looks like
 
 a setup file (--setup) looks like this:
 
@@ -138,6 +142,16 @@ def parser() -> argparse.ArgumentParser:
     output(sub, f"the suffix says what: {PARTS}")
     sub.add_argument("--line", type=int, metavar="N", help="as it is after line N (default: at the end)")
     options(sub)
+    sub = command("compare", compare, "run a program and compare what it leaves with a design; status 1 if it is not as drawn")
+    sub.add_argument("--design", required=True, metavar="D.toml", help="the part as drawn (mnclab help design shows one)")
+    says = "mm that a face may be off where the drawing says nothing else (default: 0.05)"
+    sub.add_argument("--tolerance", type=float, default=0.05, metavar="MM", help=says)
+    sub.add_argument("-o", "--output", metavar="MAP", help="a picture of where it is off: svg, pdf, png")
+    options(sub, "verdict, worst places and table on stdout as one object instead")
+    sub = command("drawing", drawing, "save the dimensioned drawing of a design (.toml), or of the part that a program makes")
+    output(sub, f"the suffix says what: {DRAWN}")
+    sub.add_argument("--size", metavar="SIZE", help='A4, "A4 landscape", A3 or A2 (default: the smallest that will do)')
+    options(sub)
     sub = command("report", report, "run a program and write a report: figures, tools, times, picture, alarms, listing")
     output(sub, "an .html or a .pdf file")
     sub.add_argument("--title", help="default: the name of the file")
@@ -147,7 +161,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--machine", metavar="M", help="a named machine, or a .toml file (default: limits of the setup)")
     sub.add_argument("--override", type=float, default=100.0, metavar="PERCENT", help="feed override (default: 100)")
     sub = command("help", explain, "show the parameters of a cycle or the meaning of a function", "")
-    codes = "such as G83 or CYCL DEF 200; the name of a control: all its codes"
+    codes = "such as G83 or CYCL DEF 200; the name of a control: all its codes; design: the file of a design"
     sub.add_argument("code", nargs="+", metavar="CODE", help=codes)
     sub.add_argument("--control", choices=list(mnclab.controls), help="default: the only one that has the code")
     command("lab", lab, "open the lessons in JupyterLab, which gets all options that follow", "")
@@ -255,6 +269,39 @@ def part(chosen: argparse.Namespace) -> int:
     return verdict(result)
 
 
+def compare(chosen: argparse.Namespace) -> int:
+    """Compare what a program leaves of its blank with a design."""
+    drawn = sensible(mnclab.Design.load, chosen.design)
+    result = with_blank(obey(chosen))
+    found = sensible(result.workpiece().compare, drawn, chosen.tolerance)
+    if chosen.output:
+        sensible(save, found, chosen.output, lambda found: found.plot())
+    if chosen.json:
+        print(json.dumps(found.as_dict(), allow_nan=False))
+    else:
+        print(found)
+        worst = () if found.ok else (("gouge", found.worst_gouge), ("rest", found.worst_rest))
+        for kind, place in worst:
+            if place.value > 0:
+                told = str(place).removesuffix(f": {place.where}")
+                print(f"{place.where or chosen.file}: {kind}: {told}", file=sys.stderr)
+    return verdict(result, quiet=chosen.json) or (CLEAN if found.ok else ALARMS)
+
+
+def drawing(chosen: argparse.Namespace) -> int:
+    """Save the drawing of a design, or of the part that a program makes."""
+    options = {"size": chosen.size} if chosen.size is not None else {}
+    if program(chosen.file).suffix.lower() == ".toml":
+        sensible(partial(mnclab.Design.load(chosen.file).save, **options), chosen.output)
+        return CLEAN
+    result = with_blank(obey(chosen))
+    found = result.design()
+    for note in found.notes:
+        print(f"{chosen.file}: note: {note}", file=sys.stderr)
+    sensible(partial(found.save, **options), chosen.output)
+    return verdict(result)
+
+
 def report(chosen: argparse.Namespace) -> int:
     """Write a report of a run."""
     result = obey(chosen)
@@ -296,7 +343,12 @@ def verdict(result: mnclab.Run, quiet: bool = False) -> int:
 
 
 def explain(chosen: argparse.Namespace) -> int:
-    """Print what a code means."""
+    """Print what a code means, or what the file of a design looks like."""
+    if chosen.code == ["design"]:
+        from mnclab.workpiece.design import design_file, turned_file
+
+        print(f"a milled part:\n\n{design_file.FORMAT}\na turned part:\n\n{turned_file.FORMAT}", end="")
+        return CLEAN
     print(sensible(mnclab.help, " ".join(chosen.code), chosen.control))
     return CLEAN
 

@@ -22,10 +22,10 @@ def tolerance(some):
     return some.choice([None, None, None, 0.1, 0.05, (-0.05, 0.1), (0, 0.021), "H7", "h6"])
 
 
-def plate(seed, size=None):
-    """Views of a plate with a pocket and holes, and how many dimensions they have."""
+def plate(seed, holes=None):
+    """Views of a plate with a pocket and holes; each hole has three dimensions."""
     some = random.Random(seed)
-    size = size or some.choice([25, 60, 110, 250, 600])
+    size = some.choice([25, 60, 110, 250, 600])
     wide, high, thick = (round(size * some.uniform(*span), some.choice([0, 1])) for span in ((0.7, 1), (0.4, 0.9), (0.1, 0.4)))
     lines, axes, dims = [Line(rectangle(0, 0, wide, high))], [], []
     dims += [Linear((0, 0), (wide, 0), value(wide)), Linear((0, 0), (0, high), value(high, tolerance=tolerance(some)), "y")]
@@ -36,7 +36,7 @@ def plate(seed, size=None):
     dims += [Linear((x0, y0), (x1, y0), value(x1 - x0, tolerance=tolerance(some))), Linear((0, 0), (x0, y0), value(x0))]
     dims += [Linear((x1, y0), (x1, y1), value(y1 - y0), "y"), Linear((x1, 0), (x1, y0), value(y0), "y")]
     dims.append(Radius((x1 - r, y1 - r), r, 0, math.pi / 2, value(r, "4× R")))
-    for _ in range(some.randint(0, 6)):
+    for _ in range(some.randint(0, 6) if holes is None else holes):
         x, y = round(some.uniform(0.08, 0.92) * wide, 1), round(some.choice([0.1, 0.9]) * high, 1)
         d = round(some.uniform(0.03, 0.1) * min(wide, high), 1)
         lines.append(Line(Contour.circle((x, y), d / 2)))

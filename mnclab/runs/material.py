@@ -207,8 +207,10 @@ def played(run: Run) -> tuple[Cutting | None, Collisions]:
     if stock is None or not stock.volume > 0:
         return None, Collisions()
     judged = len(run.toolpath) <= JUDGED
-    if run.toolpath.lathe and isinstance(stock, Revolved):
-        if stock.axis != "Z":  # no lathe turns a body that lies across
+    if run.toolpath.lathe:
+        from mnclab.workpiece.turning.turned import turns
+
+        if not turns(stock):  # a body that lies across, one that was milled
             return None, Collisions()
-        judged &= not any(stock.at[:2])  # what runs out of true is not judged
+        judged &= not (isinstance(stock, Revolved) and any(stock.at[:2]))  # what runs out of true is not judged
     return cutting_of(run), collisions(run) if judged else Collisions()

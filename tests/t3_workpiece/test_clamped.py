@@ -195,3 +195,22 @@ def test_a_drilled_cone_from_below_keeps_its_slope():
     rho = np.linspace(0, 2.999, 50)
     floor = over.faces(20 + rho, np.full(50, 22.0))[0]
     assert np.abs(floor - (-20 + 9 - rho / math.tan(math.radians(59)))).max() < 1e-9
+
+
+@pytest.mark.deep
+def test_what_very_many_moves_left_is_a_blank_too():
+    """A plate 3 mm thick gone in 20,005 moves; turned over it is the lower side, and a slot 5 deep weighs its box."""
+    from t3_workpiece.test_many_moves import FLAT, cutting, passes
+
+    from mnclab.workpiece.milling.milled import EXACT, Milled
+
+    first = Milled(cutting(passes(-3.0, EXACT + 5)))
+    second = part("G0 X-10 Y30\nG1 Z-5\nX90\nG0 Z50\n", MILL, first.turned_over("x"))
+    assert second.faces(np.array([10.0, 40.0]), np.array([10.0, 30.0]))[0] == pytest.approx([-17, -17])
+    assert second.at([40, 40], [30, 10]) == pytest.approx([-5, 0])
+    assert second.removed == pytest.approx(80 * 10 * 5, rel=1e-3)
+    assert second.volume == pytest.approx(80 * 60 * 17 - 4000, rel=1e-5)
+    assert second.error == first.error and any(note.startswith("of the blank: level sections") for note in second.notes)
+    third = Milled(cutting(passes(-1.0, EXACT + 5), (FLAT,), stock=second.turned_over("x").as_blank()))
+    assert third.method == "erosion of the height raster"
+    assert third.at(40, 30) == -3 and third.volume == pytest.approx(second.volume, rel=1e-6)  # 1 mm down there is nothing

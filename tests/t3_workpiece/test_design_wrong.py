@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud
 
 from mnclab import Alarm, Design
-from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud
 
 BLANK = ((0, 0, -20), (100, 60, 0))
 SQUARE = [(20, 20), (40, 20), (40, 40), (20, 40)]
@@ -22,7 +22,7 @@ BOW = [(20, 20), (40, 40), (40, 20), (20, 40)]
 HOSTILE = [
     np.nan, np.inf, -np.inf, -3.0, 0.0, 1e12, -1e12, 10**400, "abc", "", None, True, [], (), {}, object(), 1j, b"x",
     [1, 2], (1, 2, 3), [(1, 2)], [None, None], [("a", "b")] * 3, np.zeros(3), np.zeros((3, 2)), np.full((4, 2), np.nan),
-    BOW, [(0, 0), (0, 0), (1, 1)], {"depth": "H99"}, {"depth": None}, {3: 4}, lambda x: x, 1e-300, float, [[[]]],
+    BOW, [(0, 0), (0, 0), (1, 1)], {"depth": "H99"}, {"depth": None}, {3: 4}, lambda x: x, 1e-9, float, [[[]]],
 ]  # fmt: skip
 
 

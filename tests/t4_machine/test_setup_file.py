@@ -1,7 +1,9 @@
 """A setup read from a file, and what is said about a faulty one."""
 
+import math
 from dataclasses import fields
 
+import numpy as np
 import pytest
 
 import mnclab
@@ -192,3 +194,32 @@ def test_no_text_of_a_setup_is_more_than_an_alarm(tmp_path, text):
 def test_a_setup_has_a_bound(tmp_path):
     with pytest.raises(Alarm, match="the setup cannot be read: it has more than 1 MB"):
         load(written(tmp_path, "# " + "x" * 1_000_001))
+
+
+HOLE = "[blank]\nlow = [0, 0, -20]\nhigh = [60, 40, 0]\n\n[[features]]\nkind = 'hole'\nx = 8\ny = 8\ndiameter = 6\ndepth = 5\n"
+
+
+def test_the_part_of_a_design_is_the_next_blank(tmp_path):
+    """The design stands beside the setup; a hole 5 deep is in the upper side, or turned over in the lower one."""
+    (tmp_path / "part.toml").write_text(HOLE)
+    stock = load(written(tmp_path, "[stock]\ndesign = 'part.toml'\n")).stock
+    assert stock.faces(np.array([8.0]), np.array([8.0]))[1] == [pytest.approx(-5 - 3 / math.tan(math.radians(59)))]
+    stock = load(written(tmp_path, "[stock]\ndesign = 'part.toml'\nturned_over = true\n")).stock
+    assert [side.tolist() for side in stock.faces(np.array([10.9]), np.array([32.0]))] == [
+        [pytest.approx(-15 + 0.1 / math.tan(math.radians(59)))], [0]
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "place", "said"), [
+    ("[stock]\ndesign = 'none.toml'\n", "2:1", "stock.design: none.toml: the design cannot be read"),
+    ("[stock]\ndesign = 3\n", "2:1", "stock.design must be the name of a file, got 3"),
+    ("[stock]\ndesign = 'part.toml'\nlow = 3\n", "3:1", "stock of a design has no 'low'"),
+    ("[stock]\ndesign = 'part.toml'\nturned_over = 3\n", "3:1", "stock.turned_over must be true or false, got 3"),
+    ("[stock]\ndesign = 'bad.toml'\n", "2:1", "stock.design: bad.toml:11: a hole has no 'deep'"),
+])  # fmt: skip
+def test_what_is_wrong_with_the_design_of_a_blank(tmp_path, text, place, said):
+    (tmp_path / "part.toml").write_text(HOLE)
+    (tmp_path / "bad.toml").write_text(HOLE + "deep = 3\n")
+    with pytest.raises(Alarm) as told:
+        load(written(tmp_path, text))
+    assert said in str(told.value) and f":{place}: " in str(told.value)

@@ -68,6 +68,12 @@ def test_nothing_lies_on_something_else(kind, seed):
     check(drawing, views)
 
 
+def test_more_than_forty_dimensions():
+    views = plate(3, holes=11)
+    assert sum(len(view.dimensions) for view in views) > 40
+    check(draw(views, "crowded"), views)
+
+
 @pytest.mark.deep
 @pytest.mark.parametrize("kind", VIEWS)
 def test_nothing_lies_on_something_else_on_many_more(kind):

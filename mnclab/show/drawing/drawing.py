@@ -19,7 +19,7 @@ import numpy as np
 from matplotlib.backends.backend_pdf import PdfPages
 
 from mnclab.geometry.vectors import Floats
-from mnclab.show.drawing import dxf, figure, frame
+from mnclab.show.drawing import dxf, figure, frame, linear
 from mnclab.show.drawing.arrangement import arranged
 from mnclab.show.drawing.dimensions import Point
 from mnclab.show.drawing.frame import Printed
@@ -157,7 +157,7 @@ class _Attempt:
 
     def _a4(self) -> tuple[str, ...]:
         """A4 upright and across, first as the views are."""
-        wide, high = (sum(self._sizes(self.views, axis).values()) for axis in (0, 1))
+        wide, high = (sum(self._sizes(self.views, axis, 1.0).values()) for axis in (0, 1))
         return A4 if high > wide else A4[::-1]
 
     def _one(self, sizes: Sequence[str], scales: Sequence[float]) -> Drawing | None:
@@ -199,15 +199,16 @@ class _Attempt:
         return sheets
 
     def _might(self, views: Sequence[View], size: Size, scale: float) -> bool:
-        """Whether the bare views would have room: what is written to them takes more."""
+        """Whether the views with their rows of dimensions would have room: the other texts may take more."""
         x0, y0, x1, y1 = frame.inside(size)
-        return all(sum(self._sizes(views, axis).values()) * scale <= room for axis, room in ((0, x1 - x0), (1, y1 - y0)))
+        return all(sum(self._sizes(views, axis, scale).values()) <= room for axis, room in ((0, x1 - x0), (1, y1 - y0)))
 
-    def _sizes(self, views: Sequence[View], axis: int) -> dict[int, float]:
-        """The columns (axis 0) or rows (axis 1) of the bare views: how large they are, mm of the part."""
+    def _sizes(self, views: Sequence[View], axis: int, scale: float) -> dict[int, float]:
+        """The columns (axis 0) or rows (axis 1) of the views: how large they are at least on paper, mm."""
         sizes = dict[int, float]()
         for view in views:
-            length = float(np.ptp(view.bounds[:, axis])) * view.enlarged
+            length = float(np.ptp(view.bounds[:, axis])) * view.enlarged * scale
+            length += linear.room_for(view.dimensions, "yx"[axis])
             sizes[view.cell[axis]] = max(sizes.get(view.cell[axis], 0.0), length)
         return sizes
 
@@ -245,7 +246,7 @@ class _Attempt:
     def _refused(self) -> Alarm:
         for (k, scale), found in self.laid.items():
             if isinstance(found, NoRoom):
-                said = f"the view {self.views[k].name!r} has no room for {found.what}"
+                said = f"the view {self.views[k].name!r} has no room for {found.said!r}"
                 return Alarm(f"{said} at {scale_text(scale)}", hint="a table or another view may take some of the dimensions")
         return Alarm("the views find no room on the sheet", hint="size= or scale= may be chosen otherwise, or left to be chosen")
 

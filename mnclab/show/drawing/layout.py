@@ -22,7 +22,7 @@ from mnclab.show.drawing.hatching import hatching
 from mnclab.show.drawing.ink import Label, Mark, Stroke, segment_boxes
 from mnclab.show.drawing.lettering import block
 from mnclab.show.drawing.origin import origin
-from mnclab.show.drawing.placing import OUTLINE, SOFT, Ground, boxes_of, spans
+from mnclab.show.drawing.placing import OUTLINE, SOFT, Batch, Ground, Offers, boxes_of, spans
 from mnclab.show.drawing.sheet import scale_text
 from mnclab.show.drawing.view import Axis, Kind, Origin, View
 
@@ -31,7 +31,7 @@ WIDE = 0.3  # mm, of lines that others should not run along
 BEYOND = 3.0  # mm by which centre lines go beyond what they are the middle of
 PLAIN = 9.0  # mm: a shorter centre line has no dots
 TITLE = 5.0  # mm, letters of sections
-MOVES, ROOM = 6, 3  # how often marks may be placed, for each of them; how much more room one may get
+MOVES, ROOM = 4, 3  # how often marks may be placed, for each of them; how much more room one may get
 LOOKS = 2  # how often each looks for a better place in the end
 LAYERS = {Kind.VISIBLE: "OUTLINE", Kind.HIDDEN: "HIDDEN", Kind.CENTRE: "CENTRE", Kind.THIN: "THIN", Kind.PHANTOM: "PHANTOM"}
 Written = Dimension | cuts.End
@@ -43,6 +43,13 @@ class NoRoom(Exception):
     def __init__(self, what: Written) -> None:
         super().__init__(what)
         self.what = what
+
+    @property
+    def said(self) -> str:
+        """What it would say on the drawing."""
+        if isinstance(self.what, cuts.End):
+            return self.what.cut.letter
+        return self.what.lines[0] if isinstance(self.what, Note) else self.what.value.text
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,18 +79,23 @@ def lay_out(view: View, scale: float) -> Laid:
         strokes += cuts.strokes(cut, scale, marks[2 * k], marks[2 * k + 1])
     rows = [boxes_of(mark)[0] for mark in marks]
     ink = segment_boxes(np.concatenate([_chords(stroke.contour) for stroke in strokes]))
-    low, high = spans(np.concatenate([ink, *rows]))
-    bounds = np.array([low.min(axis=0), high.max(axis=0)])
+    bounds = _around(np.concatenate([ink, *rows]))
     text = view.title if view.enlarged == 1 else f"{view.title} ({scale_text(scale)})".strip()
     title = None
     if text:
         letters = block(text, TITLE)
         title = Label(letters, (float(outline[:, 0].mean()) - letters.width / 2, float(bounds[1, 1]) + 3.0))
-        low, high = spans(np.array([title.box()]))
-        bounds = np.array([np.minimum(bounds[0], low[0]), np.maximum(bounds[1], high[0])])
+        low, high = _around(np.array([title.box()]))
+        bounds = np.array([np.minimum(bounds[0], low), np.maximum(bounds[1], high)])
     texts = np.array([label.box() for mark in marks for label in mark.labels]).reshape(-1, 6)
     lines = hatching(view.hatches, scale, texts)
     return Laid(view, scale, tuple(strokes), tuple(marks), lines, title, bounds)
+
+
+def _around(boxes: Floats) -> Floats:
+    """Lower left and upper right corner of all boxes, `(2, 2)`."""
+    left, low, right, high = spans(boxes)
+    return np.array([(left.min(), low.min()), (right.max(), high.max())])
 
 
 def _strokes(view: View, scale: float) -> Iterator[Stroke]:
@@ -134,21 +146,24 @@ def _ground(strokes: Sequence[Stroke]) -> Ground:
 
 def _placed(things: Sequence[Written], scale: float, outline: Floats, ground: Ground) -> list[Mark]:
     """A mark for each of them, in their order; they are laid on the ground."""
-    marks = dict[int, Mark]()
-    standing, room = np.full(len(things), 4.0), [0] * len(things)
-    waiting = deque(sorted(range(len(things)), key=lambda k: (*_rank(things[k], scale), k)))
+    marks, standing, room = dict[int, Mark](), np.full(len(things), 4.0), [0] * len(things)
+    order = sorted(range(len(things)), key=lambda k: (*_rank(things[k], scale), k))
+    offers = [_offers(thing, scale, outline, 0) for thing in things]
+    waiting = deque(order)
     for _ in range(MOVES * len(things) + MOVES):
         if not waiting:
             break
         k = waiting.popleft()
-        found, away = ground.best(_offers(things[k], scale, outline, room[k]))
+        found, away = ground.best(offers[k])
         if found is None:
-            found, away = ground.best(_offers(things[k], scale, outline, room[k]), standing)
+            found, away = ground.best(offers[k], standing)
             standing[k] += 5.0
-            room[k] = min(room[k] + 1, ROOM)
+            if room[k] < ROOM:
+                room[k] += 1
+                offers[k] = _offers(things[k], scale, outline, room[k])
+            elif found is None:
+                raise NoRoom(things[k])
             if found is None:
-                if room[k] == ROOM:
-                    raise NoRoom(things[k])
                 waiting.appendleft(k)
                 continue
             for other in away:
@@ -159,10 +174,10 @@ def _placed(things: Sequence[Written], scale: float, outline: Floats, ground: Gr
         marks[k] = found
     if waiting:
         raise NoRoom(things[waiting[0]])
-    for k in sorted(marks, key=lambda k: (*_rank(things[k], scale), k)) * LOOKS:  # now that all stand
+    for k in order * LOOKS:  # now that all stand
         ground.take(k)
-        price = float(ground.prices([marks[k]])[0][0])
-        marks[k] = ground.best(_offers(things[k], scale, outline, room[k]), least=price)[0] or marks[k]
+        price = float(ground.prices(Batch.of([marks[k]]))[0][0])
+        marks[k] = ground.best(offers[k], least=price)[0] or marks[k]
         ground.put(marks[k], k)
     return [marks[k] for k in range(len(things))]
 
@@ -175,11 +190,11 @@ def _rank(dimension: Written, scale: float) -> tuple[int, float]:
     return (2, 0.0) if isinstance(dimension, Angle) else (3 + isinstance(dimension, Note), 0.0)
 
 
-def _offers(dimension: Written, scale: float, outline: Floats, room: int) -> Iterator[Mark]:
-    if isinstance(dimension, cuts.End):
-        return cuts.places(dimension)
-    if isinstance(dimension, Linear):
-        return linear.places(dimension, scale, outline, 4 * room)
-    if isinstance(dimension, Angle):
-        return angles.places(dimension, scale, room)
-    return leaders.places(dimension, scale, room)
+def _offers(thing: Written, scale: float, outline: Floats, room: int) -> Offers:
+    if isinstance(thing, cuts.End):
+        return Offers(cuts.places(thing))
+    if isinstance(thing, Linear):
+        return Offers(linear.places(thing, scale, outline, 4 * room))
+    if isinstance(thing, Angle):
+        return Offers(angles.places(thing, scale, room))
+    return Offers(leaders.places(thing, scale, room))

@@ -11,13 +11,14 @@ In the frame of a dimension u runs along it as its text is read, v to the left o
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
 
 from mnclab.geometry.vectors import Floats
-from mnclab.show.drawing.dimensions import Linear, Point
+from mnclab.show.drawing.dimensions import Dimension, Linear, Point
 from mnclab.show.drawing.ink import ABOVE, ARROW, GAP, OVERSHOOT, Arrow, Label, Mark
 from mnclab.show.drawing.lettering import Block, value_block
 from mnclab.show.drawing.placing import DIMENSION, EXTENSION
@@ -68,6 +69,19 @@ def length_of(dimension: Linear, scale: float) -> float:
     """How long a dimension is on paper, mm."""
     frame = frame_of(dimension, scale)
     return frame.right[0] - frame.left[0]
+
+
+def room_for(dimensions: Iterable[Dimension], along: str) -> float:
+    """The room (mm on paper) that dimensions along x or y take at least, above and below the view or beside it: as many
+    rows as there are dimensions over one place."""
+    k = "xy".index(along)
+    ends = []
+    for each in dimensions:
+        if isinstance(each, Linear) and each.along == along and not each.inside:
+            first, last = sorted((each.a[k], each.b[k]))
+            ends += [(first, 1), (last, -1)]
+    rows = max(accumulate(step for _, step in sorted(ends)), default=0)
+    return min(rows, 2) * FIRST + max(rows - 2, 0) * ROW
 
 
 def places(dimension: Linear, scale: float, outline: Floats, room: int) -> Iterator[Mark]:

@@ -157,7 +157,7 @@ class Side:
         for axis in "xy":
             self.places[axis].append((known[axis], (shape.x, shape.y), None))
 
-    def shape_in(self, shape: Shape, measures: Sequence[Measure], numbers: list[int], more: tuple[str, ...] = ()) -> None:
+    def _shape(self, shape: Shape, measures: Sequence[Measure], numbers: list[int], more: tuple[str, ...] = ()) -> None:
         known = {each.name: each for each in reversed(measures)}
         count = len(numbers)
         if isinstance(shape, Circle):
@@ -187,13 +187,12 @@ class Side:
             self._angle((shape.x, shape.y), a, shape.turned, known["angle"], numbers)
 
     def _angle(self, centre: Point, reach: float, degrees: float, measure: Measure, numbers: list[int]) -> None:
-        """From the level line through the centre to the axis."""
-        x, y = centre
-        level, turned = (x + reach, y), (x + reach * math.cos(math.radians(degrees)), y + reach * math.sin(math.radians(degrees)))
+        """From the level line through the centre to the axis; to the right of it clockwise, as the picture shows."""
+        (x, y), turned = centre, degrees if -90 < degrees < 180 else degrees % 180
+        way = math.radians(turned)
+        level, axis = (x + reach, y), (x + reach * math.cos(way), y + reach * math.sin(way))
         self.draft.lines.append(Line(Contour([centre, level], closed=False), Kind.THIN))
-        legs = (level, turned) if degrees % 360 < 180 else (turned, level)
-        size = degrees % 360 if degrees % 360 < 180 else 360 - degrees % 360
-        told = Angle(centre, *legs, valued(measure, "", measure.nominal if measure.nominal > 0 else -size, len(numbers)))
+        told = Angle(centre, *((level, axis) if turned > 0 else (axis, level)), valued(measure, "", abs(turned), len(numbers)))
         self.ledger.say(self.draft, told, self.claims(numbers, "angle"))
 
     def _slot(self, slot: Slot, known: dict[str, Measure], numbers: list[int]) -> None:

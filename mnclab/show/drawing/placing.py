@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,16 +21,47 @@ Whole = NDArray[np.intp]
 NEVER = 1e6
 PRICES = np.array([
     # OUTLINE SOFT TEXT ARROW DIMENSION EXTENSION LEADER: what lies there
-    [0.0, 0.0, NEVER, 0.5, 2.0, 0.6, 1.2],  # an outline
+    [0.0, 0.0, NEVER, 0.5, 2.0, 0.6, 1.8],  # an outline
     [0.0, 0.0, 7.0, 0.0, 0.3, 0.0, 0.8],  # a soft line
     [NEVER, 7.0, NEVER, NEVER, NEVER, NEVER, NEVER],  # a text
     [0.5, 0.0, NEVER, NEVER, NEVER, 6.0, NEVER],  # an arrowhead
     [2.0, 0.3, NEVER, NEVER, 15.0, 3.0, 10.0],  # a dimension line
     [0.6, 0.0, NEVER, 6.0, 3.0, 0.2, 4.0],  # an extension line
-    [1.2, 0.8, NEVER, NEVER, 10.0, 4.0, 20.0],  # a leader
+    [1.8, 0.8, NEVER, NEVER, 10.0, 4.0, 20.0],  # a leader
 ])  # fmt: skip
 BODIES = {DIMENSION: (0.45, 0.5), EXTENSION: (NEAR, 0.0), LEADER: (0.45, 0.5)}  # mm: shorter by less than AIR, half the width
 BATCH = 32  # places tried at once
+
+
+class Batch(NamedTuple):
+    """Some marks with their own costs `(n,)`; their boxes `(k, 6)` with part, number of the mark among these, and spans."""
+
+    marks: Sequence[Mark]
+    costs: Floats
+    boxes: Floats
+    parts: Whole
+    owners: Whole
+    spans: Floats
+
+    @classmethod
+    def of(cls, marks: Sequence[Mark]) -> Batch:
+        found = [boxes_of(mark) for mark in marks]
+        boxes, parts = np.concatenate([b for b, _ in found]), np.concatenate([p for _, p in found])
+        owners = np.repeat(np.arange(len(marks)), [len(p) for _, p in found])
+        return cls(marks, np.array([mark.cost for mark in marks]), boxes, parts, owners, spans(boxes))
+
+
+class Offers:
+    """The places that a mark may have, in the order of their costs: made when first asked for, and then kept."""
+
+    def __init__(self, marks: Iterator[Mark]) -> None:
+        self._rest, self._made = marks, list[Batch]()
+
+    def __iter__(self) -> Iterator[Batch]:
+        yield from self._made
+        while marks := list(islice(self._rest, BATCH)):
+            self._made.append(Batch.of(marks))
+            yield self._made[-1]
 
 
 class Ground:
@@ -39,13 +71,13 @@ class Ground:
         self.boxes: Floats = np.zeros((0, 6))
         self.parts: Whole = np.zeros(0, dtype=np.intp)
         self.marks: Whole = np.zeros(0, dtype=np.intp)
-        self.spans: Floats = np.zeros((0, 2, 2))
+        self.spans: Floats = np.zeros((4, 0))
 
     def add(self, boxes: Floats, parts: Whole, mark: int = -1) -> None:
         """Lay boxes `(n, 6)` down."""
         self.boxes, self.parts = np.vstack([self.boxes, boxes]), np.concatenate([self.parts, parts])
         self.marks = np.concatenate([self.marks, np.full(len(parts), mark)])
-        self.spans = np.concatenate([self.spans, np.stack(spans(boxes), axis=1)])
+        self.spans = np.hstack([self.spans, spans(boxes)])
 
     def put(self, mark: Mark, number: int) -> None:
         """Lay a mark down under a number."""
@@ -55,39 +87,33 @@ class Ground:
         """Take a mark away."""
         kept = self.marks != number
         self.boxes, self.parts, self.marks = self.boxes[kept], self.parts[kept], self.marks[kept]
-        self.spans = self.spans[kept]
+        self.spans = self.spans[:, kept]
 
-    def prices(self, marks: Sequence[Mark]) -> tuple[Floats, NDArray[np.bool_]]:
+    def prices(self, batch: Batch) -> tuple[Floats, NDArray[np.bool_]]:
         """What each of n marks would cost where it is `(n,)`, and which of the others it can not stand with `(n, m + 1)`,
         by their numbers; lines of the view are the last column."""
-        found = [boxes_of(mark) for mark in marks]
-        boxes, parts = np.concatenate([b for b, _ in found]), np.concatenate([p for _, p in found])
-        owner = np.repeat(np.arange(len(marks)), [len(p) for _, p in found])
-        low, high = spans(boxes)
-        there_low, there_high = self.spans[:, 0], self.spans[:, 1]
-        near = (low[:, None, 0] <= there_high[:, 0]) & (high[:, None, 0] >= there_low[:, 0])
-        near &= (low[:, None, 1] <= there_high[:, 1]) & (high[:, None, 1] >= there_low[:, 1])
+        left, low, right, high = batch.spans[:, :, None]
+        near = (left <= self.spans[2]) & (right >= self.spans[0]) & (low <= self.spans[3]) & (high >= self.spans[1])
         i, k = np.nonzero(near)
-        price = PRICES[parts[i], self.parts[k]]
+        price = PRICES[batch.parts[i], self.parts[k]]
         some = price > 0
         i, k, price = i[some], k[some], price[some]
-        meet = overlap(boxes[i], self.boxes[k])
+        meet = overlap(batch.boxes[i], self.boxes[k])
         i, k, price = i[meet], k[meet], price[meet]
         never = price >= NEVER
-        costs = np.array([mark.cost for mark in marks])
-        np.add.at(costs, owner[i[~never]], price[~never])
-        barred = np.zeros((len(marks), int(self.marks.max(initial=-1)) + 2), dtype=bool)
-        barred[owner[i[never]], self.marks[k[never]]] = True
+        costs = batch.costs + np.bincount(batch.owners[i[~never]], price[~never], len(batch.marks))
+        barred = np.zeros((len(batch.marks), int(self.marks.max(initial=-1)) + 2), dtype=bool)
+        barred[batch.owners[i[never]], self.marks[k[never]]] = True
         return costs, barred
 
     def best(
-        self, offers: Iterable[Mark], standing: Floats | None = None, least: float = NEVER
+        self, offers: Iterable[Batch], standing: Floats | None = None, least: float = NEVER
     ) -> tuple[Mark | None, list[int]]:
         """The cheapest of the marks, which come in the order of their own costs, and the numbers of those that must give
         way: they cost what `standing` says of them; without it none gives way. None where none is cheaper than `least`."""
         best, away = None, list[int]()
-        for batch in _batches(iter(offers)):
-            if batch[0].cost >= least:
+        for batch in offers:
+            if batch.costs[0] >= least:
                 break
             costs, barred = self.prices(batch)
             weights = np.full(barred.shape[1], NEVER)
@@ -96,13 +122,8 @@ class Ground:
             costs = costs + barred @ weights
             k = int(costs.argmin())
             if costs[k] < least:
-                best, least, away = batch[k], float(costs[k]), np.flatnonzero(barred[k]).tolist()
+                best, least, away = batch.marks[k], float(costs[k]), np.flatnonzero(barred[k]).tolist()
         return best, away
-
-
-def _batches(offers: Iterator[Mark]) -> Iterator[list[Mark]]:
-    while batch := list(islice(offers, BATCH)):
-        yield batch
 
 
 def boxes_of(mark: Mark) -> tuple[Floats, Whole]:
@@ -121,13 +142,12 @@ def boxes_of(mark: Mark) -> tuple[Floats, Whole]:
     return rows, np.array(parts, dtype=np.intp)
 
 
-def spans(boxes: Floats) -> tuple[Floats, Floats]:
-    """Lower left and upper right corners `(n, 2)` of boxes."""
+def spans(boxes: Floats) -> Floats:
+    """Left, lower, right and upper ends of boxes, `(4, n)`."""
     x, y, u, v, c, s = boxes.T
     c, s = np.abs(c), np.abs(s)
-    half = np.stack([u * c + v * s, u * s + v * c], axis=1)
-    middle = np.stack([x, y], axis=1)
-    return middle - half, middle + half
+    wide, high = u * c + v * s, u * s + v * c
+    return np.stack([x - wide, y - high, x + wide, y + high])
 
 
 def overlap(a: Floats, b: Floats) -> NDArray[np.bool_]:

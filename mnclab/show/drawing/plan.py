@@ -84,13 +84,13 @@ def _not_within(levels: Levels, z: float, line: Contour) -> Iterator[Contour]:
     within = np.zeros(len(x), dtype=bool)
     for each in slants.values():
         within |= np.abs(each.away(x, y) - each.at(z)) < NEAR
-    yield from _stretches(line, np.logical_not(within).reshape(-1, len(SPOTS)).any(axis=1))
+    yield from _stretches(line, np.logical_not(within).reshape(-1, len(SPOTS)))
 
 
 def _off(loop: Contour, covered: Region) -> Iterator[Contour]:
     """The stretches of a loop that are not on the edge of what is above: that is drawn already."""
-    lies = covered.distance(_spots(loop)) < NEAR
-    return _stretches(loop, np.logical_not(lies).reshape(-1, len(SPOTS)).any(axis=1))
+    off = covered.distance(_spots(loop)) >= NEAR
+    return _stretches(loop, off.reshape(-1, len(SPOTS)))
 
 
 def _spots(line: Contour) -> Floats:
@@ -99,8 +99,9 @@ def _spots(line: Contour) -> Floats:
     return line.point_at(ways.ravel())[0]
 
 
-def _stretches(line: Contour, shown: NDArray[np.bool_]) -> Iterator[Contour]:
-    """The elements that are shown, those that follow each other as one."""
+def _stretches(line: Contour, spots: NDArray[np.bool_]) -> Iterator[Contour]:
+    """The elements of which some spots (m, 5) are shown, those that follow each other as one."""
+    shown: NDArray[np.bool_] = np.asarray(spots.any(axis=1))
     count = len(shown)
     if shown.all():
         yield line

@@ -43,7 +43,7 @@ def written(measure: Measure, before: str | None = None) -> str:
     if said.limits:
         upper, lower = said.limits
         return f"{said.text} {upper}/{lower}"
-    space = "" if not said.tolerance or said.tolerance[:1].isalpha() else "\N{THIN SPACE}"
+    space = "\N{THIN SPACE}" if said.tolerance else ""
     return f"{said.text}{space}{said.tolerance}"
 
 

@@ -106,8 +106,8 @@ def draw_half(ax: Axes, part: Turned) -> None:
 def _jaw(part: Turned) -> Contour:
     """A jaw outside the left end of the bar, where the setup has no chuck."""
     long, high = JAW[0] * part.radius, JAW[1] * part.radius
-    left = part.low - long
-    return Contour([(left, part.radius), (part.low, part.radius), (part.low, part.radius + high), (left, part.radius + high)])
+    left, inner = part.low - long, part.grip
+    return Contour([(left, inner), (part.low, inner), (part.low, inner + high), (left, inner + high)])
 
 
 def _draw(ax: Axes, part: Turned, chucks: list[Contour], known: bool) -> None:
@@ -117,7 +117,7 @@ def _draw(ax: Axes, part: Turned, chucks: list[Contour], known: bool) -> None:
             ax.add_patch(Polygon(ring * (1, side), **CHUCK, zorder=2.0, label="chuck"))
     stub = part.low - (0.0 if known else JAW[0] * part.radius)  # in a chuck that nobody gave the bar goes on
     ax.add_patch(Polygon(
-        [(stub, -part.radius), (part.low, -part.radius), (part.low, part.radius), (stub, part.radius)],
+        [(stub, -part.grip), (part.low, -part.grip), (part.low, part.grip), (stub, part.grip)],
         facecolor="#e6e2d6", edgecolor="#8c8778", linewidth=0.7, zorder=1.2,
     ))  # fmt: skip
     for loop in part.blank:

@@ -32,11 +32,11 @@ class Drawn(Milled):
         return floor, top
 
     @cached_property
-    def heights(self) -> Array:  # type: ignore[override]
+    def heights(self) -> Array:
         return self.sides[1]
 
     @cached_property
-    def floor(self) -> Array:  # type: ignore[override]
+    def floor(self) -> Array:
         return self.sides[0]
 
     @property

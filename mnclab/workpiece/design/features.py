@@ -23,7 +23,7 @@ from mnclab.workpiece.design.feature import BESIDE, EXAMPLE, Feature, Site, area
 from mnclab.workpiece.design.holes import Hole
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Flat, Removal
-from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle, shape_of
+from mnclab.workpiece.design.shapes import Circle, Rectangle, shape_of
 
 __all__ = ["EXAMPLE", "FEATURES", "Chamfer", "Face", "Feature", "Groove", "Hole", "Pocket", "Site", "Slot", "Stud", "area_of"]
 

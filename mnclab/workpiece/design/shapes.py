@@ -111,10 +111,10 @@ class Outline:
             if not isinstance(getattr(self, name), tuple | list):
                 raise Alarm(f"the {name} of an outline must be a list, got {shown(getattr(self, name))}")
         _plain(self)
-        for each in self.points:
-            check_point(each, "a point of an outline (mm)", flat=True)
+        for k, each in enumerate(self.points):
+            check_point(each, f"point {k} of an outline (mm)", flat=True)
             for number in each:
-                check_place(number, "a coordinate of an outline (mm)")
+                check_place(number, f"a coordinate of point {k} of an outline (mm)")
         for number in self.bulge:
             check_number(number, "a bulge of an outline", at_least=-LARGEST, at_most=LARGEST)
         if not isinstance(self.closed, bool):

@@ -17,11 +17,11 @@ from mnclab.geometry.contours import Contour
 from mnclab.text.given import check_number, choice
 from mnclab.workpiece.design.corners import joined, pieces
 from mnclab.workpiece.design.feature import Named
+from mnclab.workpiece.design.shapes import LARGEST
 from mnclab.workpiece.design.turned_body import TurnedBody
 from mnclab.workpiece.design.turned_profile import Dimension
 
 ENDS = ("front", "back")
-LARGEST = 1e6  # mm, of any size or place
 Point = tuple[float, float]
 Place = tuple[Point, Point, Point | None]  # from where to where, (z, r), and the centre of a radius
 

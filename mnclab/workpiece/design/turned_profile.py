@@ -23,7 +23,6 @@ from mnclab.workpiece.design.measures import Measure
 
 WHAT = "the profile"
 SAME = 1e-9  # mm
-FARTHEST = 1e5  # mm, where a profile may stand
 
 
 class Dimension(NamedTuple):
@@ -56,8 +55,6 @@ class Profile:
     def _loop(self) -> tuple[Contour, int]:
         """The profile closed to the axis, counter-clockwise, and the number that its first point has as given."""
         line, points = self.contour, self.contour.points
-        for far in np.flatnonzero(np.abs(points).max(axis=1) > FARTHEST)[:1].tolist():
-            raise Alarm(f"point {far} of {WHAT} must lie within {FARTHEST:g} mm, got {shown(tuple(points[far].tolist()))}")
         for below in np.flatnonzero(points[:, 1] < -SAME)[:1].tolist():
             told = f"point {below} of {WHAT} must have a radius of at least 0, got {points[below, 1]:g}"
             raise Alarm(told, hint="points are (z, r)")

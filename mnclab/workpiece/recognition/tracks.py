@@ -23,9 +23,10 @@ ROUND = 1e-7  # mm, within which places are one
 THIN = 0.01  # mm, of half a strip that does not matter
 FEW = 30  # pieces that are joined at once, without a look at which matter
 COARSE = 32  # chords of a quarter circle
-NEAR = 0.0007  # of a radius, from the rim of the coarse union: what comes so near matters
+NEAR = 0.0005  # of a radius, from the rim of the coarse union: what comes so near matters
 SPLIT = 1e-8  # rad, between places where bands touch a disc
-ALONG = 0.036  # rad, in which a disc leaves a band that it touches by more than that
+SLIGHT = 0.3  # rad, of a bend
+ALONG = 0.045  # rad, in which a disc leaves a band that it touches by more than that
 
 
 @dataclass(frozen=True)
@@ -157,48 +158,58 @@ def _within(loop: Contour) -> Any:
 
 
 def _bands(track: Track) -> Iterator[Contour]:
-    """What a move sweeps besides the discs at its ends."""
+    """What a move sweeps besides the discs at its ends: on its right and on its left."""
     r = track.radius
     if track.stands:
         return
     if not track.sweep:
         (x0, y0), (x1, y1) = track.start, track.end
-        long = float(np.hypot(x1 - x0, y1 - y0))
+        long = math.hypot(x1 - x0, y1 - y0)
         nx, ny = -(y1 - y0) / long * r, (x1 - x0) / long * r
-        yield Contour([(x0 - nx, y0 - ny), (x1 - nx, y1 - ny), (x1 + nx, y1 + ny), (x0 + nx, y0 + ny)])
+        yield Contour([(x0 - nx, y0 - ny), (x1 - nx, y1 - ny), (x1, y1), (x0, y0)])
+        yield Contour([(x0, y0), (x1, y1), (x1 + nx, y1 + ny), (x0 + nx, y0 + ny)])
         return
     line, bend, centre = track.line, track.bend, np.asarray(track.centre)
     for start, end, bulge in zip(line.starts, line.ends, line.bulge):
-        out, inner = (bend + r) / bend, (bend - r) / bend
-        a, b = centre + (start - centre) * out, centre + (end - centre) * out
-        if bend - r <= ROUND:
-            yield Contour([a, b, centre], [bulge, 0.0, 0.0])
-        else:
-            c, d = centre + (end - centre) * inner, centre + (start - centre) * inner
-            yield Contour([a, b, c, d], [bulge, 0.0, -bulge, 0.0])
+        for most, least in ((bend + r, bend), (bend, bend - r)):
+            a, b = centre + (start - centre) * (most / bend), centre + (end - centre) * (most / bend)
+            if least <= ROUND:
+                yield Contour([a, b, centre], [bulge, 0.0, 0.0])
+            else:
+                c, d = centre + (end - centre) * (least / bend), centre + (start - centre) * (least / bend)
+                yield Contour([a, b, c, d], [bulge, 0.0, -bulge, 0.0])
 
 
 def _discs(tracks: list[Track]) -> Iterator[tuple[float, Contour]]:
-    """The discs at the ends of moves, each once, in pieces where bands touch it: their radius, and (centre, arc)."""
-    places: dict[tuple[Any, ...], tuple[Any, float, list[float]]] = {}
+    """The discs at the ends of moves, each once, in pieces where bands touch it: their radius, and (centre, arc).
+
+    The piece on the inside of a slight bend of straight moves is left out: their bands cover it.
+    """
+    places: dict[tuple[Any, ...], tuple[Any, float, list[float], list[Any]]] = {}
     for each in tracks:
         if abs(each.sweep) >= FULL_TURN - 1e-9:
             continue  # its band is a ring without ends
-        for place, angles in zip((each.start, each.end), each.touched):
-            known = places.setdefault((*_near(place), round(each.radius, 6)), (place, each.radius, []))
+        for place, angles, other in zip((each.start, each.end), each.touched, (each.end, each.start)):
+            known = places.setdefault((*_near(place), round(each.radius, 6)), (place, each.radius, [], []))
             known[2].extend(angles)
-    for place, radius, found in places.values():
+            known[3].append(None if each.sweep else other)
+    for (x, y), radius, found, others in places.values():
         if not found:
-            yield radius, Contour.circle(place, radius)
+            yield radius, Contour.circle((x, y), radius)
             continue
         around = sorted(angle % FULL_TURN for angle in found)
         turned = [b for a, b in zip([around[-1] - FULL_TURN, *around], around) if b - a > SPLIT] or around[:1]
         gaps = [b - a for a, b in zip(turned, [*turned[1:], turned[0] + FULL_TURN])]
         for first, gap in zip(turned, gaps):
-            (x, y), last = place, first + gap
+            last, middle = first + gap, first + gap / 2
+            if gap < SLIGHT and all(
+                other and (other[0] - x) * math.cos(middle) + (other[1] - y) * math.sin(middle) > 0
+                and math.dist(other, (x, y)) > radius * gap for other in others
+            ):  # fmt: skip
+                continue
             one = x + radius * math.cos(first), y + radius * math.sin(first)
             other = x + radius * math.cos(last), y + radius * math.sin(last)
-            yield radius, Contour([place, one, other], [0.0, math.tan(gap / 4), 0.0])
+            yield radius, Contour([(x, y), one, other], [0.0, math.tan(gap / 4), 0.0])
 
 
 def polygon(region: Region, chord: float = 1e-3) -> Any:

@@ -27,6 +27,7 @@ from mnclab.workpiece.workpiece import Solid, Workpiece
 if TYPE_CHECKING:
     from mnclab.workpiece.milling.moves import Moves
 
+NEAR = 1e-6  # mm from an end
 PLANES = ("ZX", "XZ", "ZY", "YZ", "XY")
 
 
@@ -61,6 +62,11 @@ class Turned(Workpiece):
     @cached_property
     def section(self) -> list[Contour]:
         return list(self._drawing.traced(self._pieces[0])) if self._strokes.contours else self.blank
+
+    @property
+    def grip(self) -> float:
+        """The radius of the blank at the end that hangs in the chuck, mm."""
+        return float(revolved.radii_at(self.blank, np.array([self.low + NEAR]))[0].max(initial=0.0))
 
     @cached_property
     def rows(self) -> list[NDArray[np.int64]]:
@@ -158,22 +164,29 @@ class Turned(Workpiece):
         return revolved.solid(self.section, self.rows, self.axis)
 
 
+def turns(body: Any) -> bool:
+    """Whether a lathe can turn a blank: a bar, a body about Z, a part that was turned before."""
+    if hasattr(body, "half_section"):
+        return body.half_section() is not None
+    return isinstance(body, Box) or (isinstance(body, Revolved) and body.axis == "Z")
+
+
 def half_section(body: Any) -> tuple[list[Contour], float, tuple[str, ...]]:
     """The contours (z, r) of a lathe's blank or chuck, where its axis stands in x, mm, and what is to be said of it.
 
     A box counts as a bar, or beside the axis as a ring, by its X. A part that was turned before says its own.
     """
-    own = body.half_section() if hasattr(body, "half_section") else None
-    if own is not None:
-        return list(own[0]), float(own[1]), ()
+    if not turns(body):
+        hint = "what a mill has cut does not turn true" if hasattr(body, "half_section") else ""
+        raise Alarm(f"on a lathe a blank and its chuck are boxes or bodies about Z, got {shown(body)}", hint=hint)
+    if hasattr(body, "half_section"):
+        section, axis = body.half_section()
+        return list(section), float(axis), ()
     if isinstance(body, Box):
         (x0, _, z0), (x1, _, z1) = body.bounds.tolist()
         inner, outer = max(x0, -x1, 0.0), max(abs(x0), abs(x1))
         told = (f"the box counts as a bar of radius {outer:g}",)
         return [Contour([(z0, inner), (z1, inner), (z1, outer), (z0, outer)])], 0.0, told
-    if not isinstance(body, Revolved) or body.axis != "Z":
-        hint = "what a mill has cut does not turn true" if hasattr(body, "half_section") else ""
-        raise Alarm(f"on a lathe a blank and its chuck are boxes or bodies about Z, got {shown(body)}", hint=hint)
     profile = [(place + body.at[2], radius) for radius, place in body.profile]
     points = np.array([*profile, (profile[-1][0], body.bore), (profile[0][0], body.bore)])
     some = np.hypot(*(np.roll(points, -1, axis=0) - points).T) > 0

@@ -75,3 +75,12 @@ def test_a_stylus_that_is_in_contact_already(z, free):
     assert found.ok is free
     if not free:
         assert "the stylus is in contact before it touches" in found.alarms[-1].message
+
+
+@pytest.mark.parametrize("half_round", [lambda part: part.turned(180), lambda part: part.turned_over("y").turned_over("x")])
+def test_the_wall_of_a_former_clamping(half_round):
+    """Half a turn about Z puts the wall of the slot from X25 to X35, and its open end to X60: probed towards minus."""
+    towards_minus = probe(x=35).replace("Q267=+1", "Q267=-1")
+    found = run(towards_minus, stock=half_round(run(FORM, SLOT).workpiece()))
+    assert found.ok, found.alarms
+    assert found.tables.presets[0][0] == pytest.approx(135, abs=1e-9)

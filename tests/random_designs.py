@@ -1,4 +1,4 @@
-"""Random milled designs for drawings: features side by side in the cells of a grid, so that each can be told apart."""
+"""Random designs for drawings: milled ones with features side by side in the cells of a grid, stepped shafts and bushes."""
 
 import math
 import random
@@ -24,6 +24,38 @@ def milled(seed):
         ends = _slot(x0 + cell * 1.5, y0 + cell / 2, cell, 0)
         back = (d.Pocket.circle(x0 + cell / 2, y0 + cell / 2, 0.5 * cell, 2), d.Slot(*ends, 4, 3))
     return d.Design(blank, tuple(front), back, title=f"Part {seed}", material=dice.choice(["", "S235", "EN AW-6082"]))
+
+
+def turned(seed):
+    """A stepped part of two to five cylinders with grooves, threads, bores."""
+    dice = random.Random(seed)
+    rising = sorted(dice.sample(range(10, 40), dice.randint(2, 5)))
+    if len(rising) > 3:
+        rising[-1], rising[-2] = rising[-2], rising[-1]
+    points, z = [], 0.0
+    for r in rising:
+        long = dice.choice([12, 15, 20.5])
+        points += [(z, r), (z - long, r)]
+        z -= long
+    features, chamfers = [], {0: dice.choice([0.5, 1, 1.5])}
+    if dice.random() < 0.5:
+        features.append(d.RingGroove(-7, 3, depth=1.5, corner=dice.choice([0, 0.4])))
+    kind = dice.choice(["solid", "centred", "bore", "stepped", "nut"])
+    if kind == "centred":
+        features += [d.CentreHole(2.5), d.CentreHole(2, from_end="back")]
+    if kind in ("bore", "stepped"):
+        features.append(d.Bore(8, dice.choice([None, 15]), tolerances={"diameter": "H7"} if dice.random() < 0.5 else {}))
+    if kind == "stepped":
+        features.append(d.Bore(12, 6, point=180, chamfer=0.5))
+    if kind == "nut":
+        features += [d.Bore(10.2, None), d.Thread("M12", 0, -10, inside=True)]
+    if dice.random() < 0.4:
+        features.append(d.Thread(f"M{2 * rising[0]}x1", 0, -5))
+    roundings = {3: 1} if dice.random() < 0.5 else {}
+    tolerances = {"diameter 2": "h6"} if dice.random() < 0.5 else {}
+    return d.TurnedDesign(
+        points, tuple(features), chamfers=chamfers, roundings=roundings, tolerances=tolerances, title=f"Shaft {seed}"
+    )
 
 
 def _feature(dice, x, y, cell, high):
