@@ -6,6 +6,7 @@ import pytest
 from t3_workpiece.cut_from_drawings import DRILL, MILL, R, cut, random_design, written
 
 from mnclab import Tool
+from mnclab.workpiece.design import Design
 
 SEEDS = [*range(3), *(pytest.param(seed, marks=pytest.mark.deep) for seed in range(3, 33))]
 STEP, EXACT = 0.4, 2e-5  # mm; the centre of a circle is the mean of a few hundred places
@@ -102,3 +103,14 @@ def test_shifted(seed):
     assert found.worst_gouge.line in program.lines_of[found.worst_gouge.feature]
     assert found.worst_rest.line in program.lines_of[found.worst_rest.feature]
     check_lines(found, program)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_nothing_was_cut(seed):
+    """The blank itself: all that the design takes away is left, and no size is there."""
+    design = random_design(seed)
+    found = Design(design.blank).workpiece(0.4).compare(design)
+    assert found.rest_volume == pytest.approx(design.blank.volume - design.volume, rel=2e-3)
+    assert found.gouge_volume == 0 and found.worst_gouge.place is None and not found.ok
+    assert {row.verdict for row in found.features if row.measure in ("diameter", "length", "width")} == {"not cut"}
+    assert found.worst_rest.line == 0

@@ -246,7 +246,7 @@ class _Attempt:
     def _refused(self) -> Alarm:
         for (k, scale), found in self.laid.items():
             if isinstance(found, NoRoom):
-                said = f"the view {self.views[k].name!r} has no room for {found.what}"
+                said = f"the view {self.views[k].name!r} has no room for {found.said!r}"
                 return Alarm(f"{said} at {scale_text(scale)}", hint="a table or another view may take some of the dimensions")
         return Alarm("the views find no room on the sheet", hint="size= or scale= may be chosen otherwise, or left to be chosen")
 

@@ -44,6 +44,13 @@ class NoRoom(Exception):
         super().__init__(what)
         self.what = what
 
+    @property
+    def said(self) -> str:
+        """What it would say on the drawing."""
+        if isinstance(self.what, cuts.End):
+            return self.what.cut.letter
+        return self.what.lines[0] if isinstance(self.what, Note) else self.what.value.text
+
 
 @dataclass(frozen=True, eq=False)
 class Laid:

@@ -20,13 +20,14 @@ from mnclab.geometry.contours import Contour
 from mnclab.path.columns import Array
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number
-from mnclab.show.plot.difference_sections import Magnified, draw_magnified, magnified, sections_of
-from mnclab.show.plot.difference_table import draw_table, lines_of
+from mnclab.show.plot.difference_marks import draw_marks, marks_of
+from mnclab.show.plot.difference_sections import FULL, Magnified, draw_magnified, sections_of
+from mnclab.show.plot.difference_table import draw_table, lines_of, wide_of
 from mnclab.show.plot.picture import LINE, SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, write_legend
-from mnclab.show.plot.sections import CARD, FACE, HATCH, HALO, mark_section, outline_of
+from mnclab.show.plot.sections import CARD, FACE, HATCH, mark_section, outline_of
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
-from mnclab.workpiece.difference.difference import Difference, Worst
+from mnclab.workpiece.difference.difference import Difference
 
 #: Dark blue what is gone, pale what is right, orange what is left; grey print keeps the order.
 GONE, RIGHT, LEFT = "#0b2a78", "#f4f1e6", "#d9541e"
@@ -54,14 +55,16 @@ def plot_difference(
     - `section` of a milled part: planes "XZ" or "YZ", one or several, each at its place `at` (mm; default through the worst
       place): the part and its target, the deviation magnified by a factor that is told.
     - `table`: the measures below the picture; what is out has a number, which stands at its place too.
-    - `limit`: the ends of the scale, mm; default the worst deviation, at least twice the tolerance.
+    - `limit`: the ends of the scale, mm; default the worst deviation, at least twice the tolerance and at most ten times.
     - `size`: the greatest width and height in inches, without the table.
     """
     if not isinstance(table, bool):
         raise Alarm(f"table must be True or False, got {shown(table)}")
     if limit is not None:
         check_number(limit, "the limit of the scale (mm)", above=0)
-    most = float(limit) if limit else nice(max(difference.worst_gouge.value, difference.worst_rest.value, 2 * difference.tolerance))
+    worst = max(difference.worst_gouge.value, difference.worst_rest.value)
+    usual = nice(min(max(worst, 2 * difference.tolerance), FULL * difference.tolerance))
+    most = float(limit) if limit else usual
     lathe = difference.workpiece.cutting.lathe
     cuts = sections_of(difference, section, at)
     if ax is not None:
@@ -71,17 +74,22 @@ def plot_difference(
         return cast(Figure, ax.get_figure(root=True))
     low, high = difference.compared.bounds_3d if lathe else _bounds(difference)
     views = [VIEWS["ZX" if lathe else "XY"], *(each.section.view for each in cuts)]
-    rows = lines_of(difference) if table else []
-    foot = Foot("\n".join([_told(difference), *([""] * len(rows))]))
-    size = size[0], size[1] + LINE * len(rows)
+    marks = marks_of(difference)
+    said = [*_told(difference), *(f"{each.number}  {each.text}" for each in marks)]
+    rows = lines_of(difference, marks) if table else []
+    size = size[0], size[1] + LINE * (len(rows) + len(said))
     handles = _handles(difference, cuts)
+    foot = Foot("\n" * (len(rows) + len(said) - 1))
     picture, axes = arrange(views, low, high, [str(each.get_label()) for each in handles], foot, _words(difference), size, True)
+    width = max(picture.get_figwidth(), wide_of(rows))
+    picture.set_size_inches(width, picture.get_figheight())
     _draw(axes[0], difference, most)
     for one, each in zip(axes[1:], cuts):
         draw_magnified(one, each, (GONE, LEFT))
         mark_section(axes[0], each.section, low, high)
-    _scale(picture, most, difference.tolerance)
+    _scale(picture, most, difference.tolerance, worst > most)
     write_legend(picture, handles, SCALE)
+    Foot("\n".join([*said, *([""] * len(rows))])).write(picture)
     draw_table(picture, rows)
     return picture
 
@@ -118,7 +126,7 @@ def _draw(ax: Axes, difference: Difference, most: float) -> None:
     for loop in outlines(difference):
         ax.add_collection(LineCollection([_closed(loop)], **OUTLINE))
     _draw_walls(ax, difference, norm)
-    _mark(ax, difference, (0, 1))
+    draw_marks(ax, marks_of(difference), (0, 1), (GONE, LEFT))
 
 
 def outlines(difference: Difference) -> list[Contour]:
@@ -175,39 +183,16 @@ def _draw_half(ax: Axes, difference: Difference, most: float) -> None:
         f"deviation × {number(factor)}", (0.5, 1.0), (0, -3), xycoords="axes fraction", textcoords="offset points", ha="center",
         va="top", fontsize=SMALL + 1, bbox=CARD, zorder=5,
     )  # fmt: skip
-    _mark(ax, difference, (2, 0))
+    draw_marks(ax, marks_of(difference), (2, 0), (GONE, LEFT))
 
 
 def factor_of(difference: Difference) -> float:
     """By how much deviations along a half section are magnified: the worst one to a twelfth of its height."""
     off = np.abs(np.nan_to_num(difference.looked.off))
-    worst = max(float(off.max(initial=0.0)), difference.tolerance)
-    (low, high), _ = difference.compared.ends, None
+    worst = float(np.clip(off.max(initial=0.0), difference.tolerance, FULL * difference.tolerance))
+    low, high = difference.compared.ends
     radius = max(float(loop.bounds[1, 1]) for loop in difference.compared.section)
     return max(1.0, nice(min(high - low, radius) / 12 / worst) / 2)
-
-
-def _mark(ax: Axes, difference: Difference, axes: tuple[int, int]) -> None:
-    """The worst gouge and the worst rest with their values, and the numbers of what is out, as the table has them."""
-    for name, worst, shade, aside in (("gouge", difference.worst_gouge, GONE, -1), ("rest", difference.worst_rest, LEFT, 1)):
-        if worst.place is not None:
-            _pin(ax, worst, name, shade, aside, axes, difference)
-
-
-def _pin(ax: Axes, worst: Worst, name: str, shade: str, aside: int, axes: tuple[int, int], difference: Difference) -> None:
-    place = np.array(worst.place)[list(axes)]
-    middle = (np.mean(ax.get_xlim()), np.mean(ax.get_ylim()))
-    right, up = (1 if p < m else -1 for p, m in zip(place, middle))
-    ax.add_line(Line2D(*place[:, None], color=shade, marker="o", markersize=7, markerfacecolor="none", markeredgewidth=1.5,
-                       linestyle="none", zorder=4.0, path_effects=HALO))  # fmt: skip
-    sign = "\N{MINUS SIGN}" if aside < 0 else "+"
-    where = f", {worst.where}" if worst.where else ""
-    ax.annotate(
-        f"{name} {sign}{worst.value:.3f}{where}", tuple(place), (24 * right, up * (22 if aside < 0 else 40)),
-        textcoords="offset points", fontsize=SMALL, ha="left" if right > 0 else "right", va="center", zorder=5,
-        bbox={**CARD, "edgecolor": shade, "linewidth": 0.8}, annotation_clip=False,
-        arrowprops={"arrowstyle": "-", "color": shade, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 4},
-    )  # fmt: skip
 
 
 def _closed(loop: Contour) -> Array:
@@ -225,19 +210,19 @@ def _handles(difference: Difference, cuts: Sequence[Magnified]) -> list[Any]:
     return found
 
 
-def _told(difference: Difference) -> str:
+def _told(difference: Difference) -> list[str]:
     verdict = "as drawn" if difference.ok else "not as drawn"
     volumes = f"gouged away {difference.gouge_volume:.3f} mm³, left over {difference.rest_volume:.3f} mm³"
-    return f"{verdict} within {number(difference.tolerance)} mm; {volumes}"
+    return [f"{verdict} within {number(difference.tolerance)} mm; {volumes}"]
 
 
 def _words(difference: Difference) -> str:
     gone, left = (getattr(difference, f"worst_{name}") for name in NAMES)
-    return f"difference from {difference.target}: {_told(difference)}; worst gouge {gone}; worst rest {left}"
+    return f"difference from {difference.target}: {_told(difference)[0]}; worst gouge {gone}; worst rest {left}"
 
 
-def _scale(picture: Picture, most: float, tolerance: float) -> None:
-    """The bar of colours above the views, the tolerance marked on it."""
+def _scale(picture: Picture, most: float, tolerance: float, more: bool) -> None:
+    """The bar of colours above the views, the tolerance marked on it; whether there is `more` than at its ends."""
     width, height = picture.get_size_inches().tolist()
     long, thick = min(3.6, width - 2.0), 0.1
     ax = picture.add_axes((1.15 / width, 1 - (0.07 + thick) / height, long / width, thick / height))
@@ -247,6 +232,9 @@ def _scale(picture: Picture, most: float, tolerance: float) -> None:
         ax.axvline(place, color=colours.INK, linewidth=1.1)
     ax.tick_params(labelsize=SMALL, length=2, pad=1)
     ticks = np.array([-most, -most / 2, 0, most / 2, most])
-    ax.set_xticks(ticks, [("+" if t > 0 else "") + number(t).replace("-", "\N{MINUS SIGN}") for t in ticks.tolist()])
+    names = [("+" if t > 0 else "") + number(t).replace("-", "\N{MINUS SIGN}") for t in ticks.tolist()]
+    if more:
+        names[0], names[-1] = f"\N{LESS-THAN OR EQUAL TO} {names[0]}", f"\N{GREATER-THAN OR EQUAL TO} {names[-1]}"
+    ax.set_xticks(ticks, names)
     ax.set_ylabel("deviation, mm", fontsize=SMALL, rotation=0, ha="right", va="center", labelpad=5)
     ax.spines[:].set_linewidth(0.5)

@@ -20,37 +20,44 @@ from mnclab.text.alarm import Alarm
 from mnclab.workpiece.difference.difference import Difference
 
 PLACES = 1200  # along the longer side
+FULL = 10.0  # tolerances: what is off by more has the full colour, and is not magnified
 SHARE = 14  # the worst deviation is drawn as this part of the smaller side of a section
 LEAST, GREATEST = 1.0, 1000.0
 
 
 class Magnified(NamedTuple):
-    """`section` of the part, its target as a region, the factor; where the part is (k, 2), where it should be, and by how
-    much it is off (k,); `joined` (k - 1,) neighbours on one line."""
+    """`section` of the part, its target as a region, what is gone and what is left as regions, the factor; where the part is (k, 2), where it should be, and by how
+    much it is off (k,), 0 where that is too much to be magnified, and the `true` values; `joined` (k - 1,) neighbours on one line."""
 
     section: Section
     target: Region
+    gone: Region
+    left: Region
     factor: float
     there: Array
     foot: Array
     off: Array
     joined: Array
     tolerance: float
-    error: float
+    true: Array
 
 
 def sections_of(difference: Difference, planes: str | Sequence[str], at: float | Sequence[float] | None) -> list[Magnified]:
-    """The sections that are asked for; without a place they go through the worst one."""
+    """The sections that are asked for; without a place they go where most is off: through a worst place or the middle."""
     if not planes:
         return []
     if difference.workpiece.cutting.lathe:
         raise Alarm("the picture of a turned part is its section through the axis; it has no other")
-    several = [planes] if isinstance(planes, str) else planes
-    worst = max(difference.worst_gouge, difference.worst_rest, key=lambda each: each.value).place
-    if at is None and worst is not None and isinstance(several, Sequence):
-        at = [worst[ACROSS[plane]] for plane in several if plane in ACROSS]
-        at = at if len(at) == len(several) else None  # what is no plane is refused by name
-    return [magnified(difference, each) for each in sections_of_part(difference.workpiece, planes, at)]
+    if at is not None:
+        return [magnified(difference, each) for each in sections_of_part(difference.workpiece, planes, at)]
+    found = []
+    for middle in sections_of_part(difference.workpiece, planes, None):
+        axis = ACROSS[middle.plane]
+        places = [each.place[axis] for each in (difference.worst_gouge, difference.worst_rest) if each.place is not None]
+        cuts = [sections_of_part(difference.workpiece, middle.plane, place)[0] for place in places]
+        told = [magnified(difference, each._replace(letter=middle.letter)) for each in (middle, *cuts)]
+        found.append(max(told, key=lambda each: float(np.abs(each.true).max(initial=0.0))))
+    return found
 
 
 def magnified(difference: Difference, section: Section) -> Magnified:
@@ -73,9 +80,12 @@ def magnified(difference: Difference, section: Section) -> Magnified:
     else:
         foot, off = spots, np.zeros(len(spots))
     off[np.abs(off) <= max(difference.error, 1e-6)] = 0.0
-    worst = max(float(np.abs(off).max(initial=0.0)), difference.tolerance)
+    whole = Region(tuple(section.contours))
+    gone, left = (a.difference(b) if a.loops and off.any() else Region(()) for a, b in ((target, whole), (whole, target)))
+    worst = float(np.clip(np.abs(off).max(initial=0.0), difference.tolerance, FULL * difference.tolerance))
     factor = float(np.clip(_nice(float(span.min()) / SHARE / worst), LEAST, GREATEST))
-    return Magnified(section, target, factor, spots, foot, off, np.concatenate(joined)[:-1], difference.tolerance, difference.error)
+    joined_, most = np.concatenate(joined)[:-1], FULL * difference.tolerance
+    return Magnified(section, target, gone, left, factor, spots, foot, np.where(np.abs(off) > most, 0.0, off), joined_, difference.tolerance, off)
 
 
 def _nice(value: float) -> float:
@@ -92,6 +102,9 @@ def draw_magnified(ax: Axes, cut: Magnified, shades: tuple[str, str]) -> None:
         hatch = PathPatch(shape, **(HATCH | {"edgecolor": "#b9b5a8"}), zorder=1.6)
         hatch.set_hatch_linewidth(0.5)
         ax.add_patch(hatch)
+    for region, shade in ((cut.gone, shades[0]), (cut.left, shades[1])):
+        if region.loops:
+            ax.add_patch(PathPatch(outline_of(region.loops), facecolor=shade + "66", edgecolor=shade, linewidth=0.6, zorder=1.7))
     drawn = cut.foot + cut.factor * (cut.there - cut.foot)
     quads = np.stack([cut.foot[:-1], cut.foot[1:], drawn[1:], drawn[:-1]], axis=1)
     lines = np.stack([drawn[:-1], drawn[1:]], axis=1)
@@ -102,13 +115,10 @@ def draw_magnified(ax: Axes, cut: Magnified, shades: tuple[str, str]) -> None:
         ax.add_collection(PolyCollection(list(quads[some]), facecolors=shade + "66", edgecolors="none", zorder=2.0))
         ax.add_collection(LineCollection(list(lines[some]), colors=shade, linestyles=dashes, linewidths=1.1, zorder=2.2))
     for loop in cut.target.loops:
-        points = loop.points_within(0.02)
+        area = Region((loop,)) if loop.area > 0 else Region((loop.reversed(),))
         for side in (-1, 1):
-            band = Region((loop,)) if loop.area > 0 else Region((loop.reversed(),))
-            grown = band.inset(side * cut.factor * cut.tolerance)
-            for each in grown.loops:
-                points = each.points_within(0.02)
-                ax.plot(*points.T, color="#8c8778", linewidth=0.5, linestyle=(0, (2, 2)), zorder=1.9)
+            for each in area.inset(side * cut.factor * cut.tolerance).loops:
+                ax.plot(*each.points_within(0.02).T, color="#8c8778", linewidth=0.5, linestyle=(0, (2, 2)), zorder=1.9)
     ax.annotate(
         f"{cut.section.title}, deviation × {number(cut.factor)}", (0.5, 1.0), (0, -2), xycoords="axes fraction",
         textcoords="offset points", ha="center", va="top", fontsize=SMALL + 1, bbox=CARD, zorder=5,

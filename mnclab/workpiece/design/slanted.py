@@ -8,16 +8,18 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import reduce
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 
 from mnclab.geometry import shapely
 from mnclab.geometry.apart import CLEAR, rough
-from mnclab.geometry.regions import Region
-from mnclab.workpiece.design.removals import Slanting
+from mnclab.geometry.contours import Contour
+from mnclab.geometry.regions import Region, bands_beside, covered, polygons_of
+from mnclab.workpiece.design.removals import TINY, Slanting
 
 SAME = 1e-9  # of an area, and mm
-EXACT = 1e-9  # of a volume, by which two ways to integrate may differ
+MEETING = 3e-9  # of the volume of a slab, by which what is taken of it may be off where slants meet other edges
 HALVINGS = 12
 
 
@@ -32,7 +34,8 @@ def slanted_off(region: Region, slants: Sequence[Slanting], low: float, high: fl
         area = _alone(region, some[0], widest[group[0]]) if len(group) == 1 else None
         if area is None:
             near = region.intersection(reduce(Region.union, (widest[k] for k in group)))
-            total += _integral(_together(near, some), low, high) if near.loops else 0.0
+            least = MEETING * region.area * (high - low)
+            total += _integral(_together(near, some), low, high, least) if near.loops else 0.0
         else:  # quadratic in the height: Simpson's rule is exact
             at = some[0].at
             total += (high - low) / 6 * (area(at(low)) + 4 * area(at((low + high) / 2)) + area(at(high)))
@@ -81,24 +84,39 @@ def _cone(region: Region, slant: Slanting, widest: Region) -> Callable[[float], 
 
 
 def _together(near: Region, slants: Sequence[Slanting]) -> Callable[[float], float]:
-    """The area that some slants take together of a region, by the height."""
+    """The area that some slants take together of a region, by the height: of fine polygons, none of which is traced."""
+    places = [_open_to(near, each) for each in slants]
 
     def area(z: float) -> float:
-        gone = [found for each in slants if (found := each.section(z)).loops]
-        return near.area - near.without(gone).area if gone else 0.0
+        gone = []
+        for each, place in zip(slants, places):
+            if (out := each.at(z)) > each.near + TINY:
+                loops = [Contour.circle(each.base, out)] if not isinstance(each.base, Region) else [
+                    band for edge in each.edges for band in bands_beside(edge.reversed(), out)
+                ]
+                gone.append(shapely.intersection(place, covered(loops)))
+        return float(shapely.union_all(gone).area)
 
     return area
 
 
-def _integral(area: Callable[[float], float], low: float, high: float) -> float:
-    """By Simpson's rule, exact up to cubic functions, in halves until they agree."""
-    least = EXACT * max(area(low), area(high)) * (high - low)
+def _open_to(near: Region, slant: Slanting) -> Any:
+    """Where a slant may take something of a region: on its side of the edge."""
+    place = polygons_of(near)
+    if not isinstance(slant.base, Region):
+        return place
+    cut = shapely.intersection if slant.inside else shapely.difference
+    return cut(place, polygons_of(slant.base))
+
+
+def _integral(area: Callable[[float], float], low: float, high: float, least: float) -> float:
+    """By Simpson's rule, exact up to cubic functions, in halves until they agree within `least` mm³."""
 
     def whole(a: float, fa: float, fm: float, b: float, fb: float, deep: int) -> float:
         m = (a + b) / 2
         fl, fr = area((a + m) / 2), area((m + b) / 2)
         one, two = (b - a) / 6 * (fa + 4 * fm + fb), (b - a) / 12 * (fa + 4 * fl + 2 * fm + 4 * fr + fb)
-        if deep == 0 or abs(two - one) <= max(15 * least, SAME * (b - a)):
+        if deep == 0 or abs(two - one) <= max(15 * least * (b - a) / (high - low), SAME * (b - a)):
             return two + (two - one) / 15
         return whole(a, fa, fl, m, fm, deep - 1) + whole(m, fm, fr, b, fb, deep - 1)
 

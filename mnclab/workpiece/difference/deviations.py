@@ -16,8 +16,8 @@ from mnclab.workpiece.milling.raster import NOISE
 
 SPACINGS = 80  # places along the longer side of a target
 TOUCHING = 1e-7  # mm, by which a place may lie beyond a face that it is on
-BETWEEN = (np.arange(16) + 0.5) / 16  # of a ray, where it must not have crossed the target
-MOST = 4_000  # rays that are followed; of more of them every second one, or third
+BETWEEN = (np.arange(8) + 0.5) / 8  # of a ray, where it must not have crossed the target
+MOST, AT_EDGES = 4_000, 500  # rays in the middle and at edges of walls; of more of them every second one is followed, or third
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,8 +81,8 @@ class Seen:
     @cached_property
     def sizes(self) -> tuple[Index, Index]:
         """How many cells are the upper side of each owner, and how many the lower; the first is that of none."""
-        most = int(max(self.grid.owner.max(), self.grid.under.max())) + 2
-        above, below = (np.bincount(each.ravel() + 1, minlength=most + 1) for each in (self.grid.owner, self.grid.under))
+        most = int(max(self.walls.owner.max(), self.grid.owner.max(), self.grid.under.max(), self.slopes.owner.max(initial=0)))
+        above, below = (np.bincount(each.ravel() + 1, minlength=most + 2) for each in (self.grid.owner, self.grid.under))
         return above, below
 
     def with_places(self, place: Array, off_: Array, owner: Index) -> Seen:
@@ -122,7 +122,8 @@ def _walls(workpiece: Milled, target: Target, walls: Walls, aside: float) -> tup
     for some, sign in ((gouged, -1.0), (left & ~gouged, 1.0)):
         index = np.flatnonzero(some)
         moved[index] = np.nan
-        index = index[:: len(index) // MOST + 1]
+        mid, edge = index[walls.mid[index]], index[~walls.mid[index]]
+        index = np.concatenate([mid[:: len(mid) // MOST + 1], edge[:: len(edge) // AT_EDGES + 1]])
         if not len(index):
             continue
         origin, direction = place[index, :2], sign * normal[index]

@@ -135,7 +135,7 @@ class _Room:
         slopes = np.flatnonzero(np.isin(seen.slopes.owner, owners))
         rise = np.concatenate([above[off], seen.rise[slopes]])
         index = np.concatenate([off + seen.of_cells.start, slopes + seen.of_slopes.start])
-        cells_of_it = int(seen.sizes[int(self.back)][np.array(owners) + 1].sum())
+        cells_of_it = sum(int(seen.sizes[self.back][k + 1]) for k in owners if k + 1 < len(seen.sizes[self.back]))
         if not len(slopes) and not cells_of_it:
             return Found(math.nan, NONE, GONE)
         rise = np.nan_to_num(rise, nan=self.bottom - floor)  # gone right through
@@ -222,6 +222,8 @@ class _Room:
         owners, slopes = self._of_role(role), self.seen.slopes
         body = self.target.design.taken[owners[0]].body if owners else None
         index = np.flatnonzero(np.isin(slopes.owner, owners) & slopes.middle)
+        still = np.isin(self.seen.owner[self.seen.of_slopes][index], owners)  # where no other face has come nearer
+        index = index[still] if still.any() else index
         level = self.turned - slopes.z[index] if self.back else slopes.z[index]
         found = level + self.seen.rise[index]
         out = slopes.out[index]

@@ -25,6 +25,7 @@ from mnclab.workpiece.turning.turned import Turned
 
 SPACINGS = 1500  # places along the longest side
 EDGE = 1e-4  # mm, from a corner: places lie a hair beside it
+OWN = 0.5  # of the way along its normal: a face that was found nearer to the target than that is another one
 LEAST = 1e-7  # mm, less is nothing
 ALIKE = 1e-7  # mm, by which places that are as bad may differ
 MOST = 40  # of them whose rows are looked for
@@ -151,7 +152,9 @@ def _looked(found: Compared, target: HalfTarget, spacing: float, error: float) -
     judged = ~target.toothed(at.place) & ~found.behind(at.place)
     moved = np.where(judged, moved, np.nan)
     there = at.place + np.nan_to_num(moved)[:, None] * at.normal
-    off = np.sign(moved) * np.minimum(np.abs(moved), np.abs(target.surface.distance(there)))
+    away = np.abs(target.surface.distance(there))
+    off = np.sign(moved) * np.minimum(np.abs(moved), away)
+    moved = np.where(away < OWN * np.abs(moved) - error, np.nan, moved)  # another face stands there
     off = np.where(np.abs(off) <= error, np.where(np.isnan(off), np.nan, 0.0), off)
     return Looked(at, moved, off)
 
