@@ -16,7 +16,7 @@ import numpy as np
 from mnclab.geometry.apart import less
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array
-from mnclab.workpiece.design.removals import NOTHING, Flat, Removal, Slanting, signed
+from mnclab.workpiece.design.removals import NOTHING, Flat, Removal, Slant, signed
 from mnclab.workpiece.design.slanted import slanted_off
 
 THIN = 1e-9  # mm, of a slab that is none
@@ -29,7 +29,7 @@ class Slab:
     low: float
     high: float
     region: Region
-    slants: tuple[Slanting, ...] = ()
+    slants: tuple[Slant, ...] = ()
 
     def section(self, z: float) -> Region:
         return less(self.region, [each.section(z) for each in self.slants])
@@ -55,7 +55,7 @@ class Stack:
     def of(cls, outline: Region, low: float, high: float, removals: Sequence[Removal]) -> Stack:
         """A blank that stands upright on an outline, and what is taken away from it."""
         flats = [each for each in removals if isinstance(each, Flat)]
-        slants = [each for each in removals if isinstance(each, Slanting)]
+        slants = [each for each in removals if not isinstance(each, Flat)]
         heights = [low, high, *(each.floor for each in flats)]
         heights += [z for each in slants for z in (each.low, each.high)]
         levels = sorted(z for z in heights if low <= z <= high)
@@ -89,11 +89,12 @@ class Stack:
         for slab in self.slabs:
             off = np.maximum(np.maximum(slab.low - z, z - slab.high), 0.0)
             region, core = plane[id(slab.region)], plane[id(slab.core)]
+            whole = np.hypot(np.maximum(region, 0.0), off)
             out = np.minimum(out, np.hypot(np.maximum(core, 0.0), off))
             deep = np.minimum(deep, np.hypot(np.maximum(-region, 0.0), off))
             here = (region <= 0) & (off == 0)
             for each in slab.slants:
-                out = np.minimum(out, each.left(slab.low, slab.high, x, y, z))
+                out = np.minimum(out, np.maximum(each.left(slab.low, slab.high, x, y, z), whole))
                 taken = each.taken(x, y, z)
                 deep = np.minimum(deep, taken)
                 here &= taken > 0
