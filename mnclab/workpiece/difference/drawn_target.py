@@ -288,7 +288,8 @@ def _from_faces(body: Flat | Slant, x: Array, y: Array, z: Array) -> Array:
         above = (z - body.level_within(x, y)) * (1.0 if body.up else -1.0)
         floor = np.abs(above) / np.hypot(1.0, (body.open - body.deep) / body.far)
         beside = signed(body.region, np.stack([x, y], axis=1))
-        return np.where(beside > 0, np.hypot(beside, np.maximum(-above, 0.0)), np.minimum(floor, np.where(above > 0, -beside, np.inf)))
+        walls = np.where(above > 0, -beside, np.inf)
+        return np.where(beside > 0, np.hypot(beside, np.maximum(-above, 0.0)), np.minimum(floor, walls))
     s, ds, dz = body.away(x, y), body.far - body.near, body.open - body.deep
     share = np.clip(((s - body.near) * ds + (z - body.deep) * dz) / (ds * ds + dz * dz), 0.0, 1.0)
     return np.hypot(s - body.near - share * ds, z - body.deep - share * dz)

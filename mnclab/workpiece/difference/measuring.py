@@ -11,7 +11,7 @@ import numpy as np
 from mnclab.path.columns import Array, Index
 from mnclab.workpiece.design.features import Chamfer, Feature, Groove, Hole, Slope, Slot
 from mnclab.workpiece.design.measures import Measure
-from mnclab.workpiece.design.removals import Flat, Slant, Slanting, Wedge
+from mnclab.workpiece.design.removals import Flat, Slant, Wedge
 from mnclab.workpiece.difference.deviations import Seen
 from mnclab.workpiece.difference.drawn_target import DrawnTarget
 from mnclab.workpiece.difference.fitting import line
