@@ -15,6 +15,7 @@ import numpy as np
 from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
+from mnclab.geometry.signed import contains, signed
 from mnclab.path.columns import Array, Mask
 
 NOTHING = Region(())
@@ -165,15 +166,19 @@ class Slanting:
 
     def taken(self, x: Array, y: Array, z: Array) -> Array:
         """How far points (m,) are from what it takes away, mm; 0 within."""
-        return in_triangle((self.near, self.deep), (self.near, self.open), (self.far, self.open), self.away(x, y), z)
+        return self.taken_out(self.away(x, y), z)
 
-    def left(self, low: float, high: float, x: Array, y: Array, z: Array) -> Array:
-        """How far points (m,) are from the material under the slant between two heights, mm; 0 within."""
+    def taken_out(self, out: Array, z: Array) -> Array:
+        """The same at distances `out` (m,) from the base."""
+        return in_triangle((self.near, self.deep), (self.near, self.open), (self.far, self.open), out, z)
+
+    def left(self, low: float, high: float, out: Array, z: Array) -> Array:
+        """How far points (m,), `out` from the base, are from the material under the slant between two heights, mm; 0 within."""
         if self.up:
             corners = (self.at(low), low), (self.at(high), low), (self.at(high), high)
         else:
             corners = (self.at(high), high), (self.at(low), high), (self.at(low), low)
-        return in_triangle(*corners, self.away(x, y), z)
+        return in_triangle(*corners, out, z)
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,12 +213,13 @@ class Wedge:
 
     def away(self, x: Array, y: Array) -> Array:
         """How far points (m,) are from the deep edge, along."""
-        return self._along(x, y)[0]
-
-    def _along(self, x: Array, y: Array) -> tuple[Array, Array]:
-        """The same, and how far they are beside the rectangle, across."""
         (x0, y0), (c, s) = self.start, self.ahead
-        return c * (x - x0) + s * (y - y0), np.maximum(np.abs(c * (y - y0) - s * (x - x0)) - self.width / 2, 0.0)
+        return np.asarray(c * (x - x0) + s * (y - y0))
+
+    def beside(self, x: Array, y: Array) -> Array:
+        """How far points (m,) are beside the rectangle, across."""
+        (x0, y0), (c, s) = self.start, self.ahead
+        return np.maximum(np.abs(c * (y - y0) - s * (x - x0)) - self.width / 2, 0.0)
 
     def at(self, z: float) -> float:
         """How far out it reaches at a height, mm."""
@@ -259,19 +265,20 @@ class Wedge:
         c, s = (flip[:2, :2] @ self.ahead).tolist()
         return replace(self, start=(x, y), ahead=(c, s), deep=z - self.deep, open=z - self.open)
 
-    # Distances are those of triangles in the plane of the way along and the height, and across.
+    # Distances along it are those of triangles in the plane of the way along and the height; `beside` stands across them.
 
     def taken(self, x: Array, y: Array, z: Array) -> Array:
         """How far points (m,) are from what it takes away, mm; 0 within."""
-        s, beside = self._along(x, y)
-        return np.hypot(in_triangle((0.0, self.deep), (0.0, self.open), (self.far, self.open), s, z), beside)
+        return np.hypot(self.taken_out(self.away(x, y), z), self.beside(x, y))
 
-    def left(self, low: float, high: float, x: Array, y: Array, z: Array) -> Array:
-        """How far points (m,) are from the material under the slant between two heights, mm; 0 within."""
-        s, beside = self._along(x, y)
+    def taken_out(self, out: Array, z: Array) -> Array:
+        """The same along, at distances `out` (m,) from the deep edge."""
+        return in_triangle((0.0, self.deep), (0.0, self.open), (self.far, self.open), out, z)
+
+    def left(self, low: float, high: float, out: Array, z: Array) -> Array:
+        """How far points (m,), `out` from the deep edge, are along from the material under the slant between two heights."""
         first, last = (low, high) if self.up else (high, low)
-        a, b = (self.at(first), first), (self.at(last), last)
-        return np.hypot(in_triangle(a, (b[0], first), b, s, z), beside)
+        return in_triangle((self.at(first), first), (self.at(last), first), (self.at(last), last), out, z)
 
 
 def in_triangle(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], s: Array, z: Array) -> Array:
@@ -292,15 +299,8 @@ def within(region: Region, x: Array, y: Array) -> Mask:
     if region.loops:
         (x0, y0), (x1, y1) = region.bounds
         about = np.flatnonzero((x >= x0) & (x <= x1) & (y >= y0) & (y <= y1))
-        found[about] = region.contains(np.stack([x[about], y[about]], axis=1))
+        found[about] = contains(region, x[about], y[about])
     return found
-
-
-def signed(region: Region, spots: Array) -> Array:
-    """How far points (m, 2) are from a region, negative within (m,)."""
-    if not region.loops:
-        return np.full(len(spots), np.inf)
-    return np.where(region.contains(spots), -1.0, 1.0) * region.distance(spots)
 
 
 def flipped(region: Region, flip: Array) -> Region:
