@@ -102,7 +102,7 @@ def test_what_a_slope_says_and_its_file(tmp_path):
     [
         ({"start_depth": 3, "end_depth": 3}, "the depths of a slope must differ, got 3"),
         ({"start_depth": -1}, r"the start_depth of a slope \(mm\) must be at least 0"),
-        ({"length": 0}, r"the length of a slope \(mm\) must be greater than 0"),
+        ({"length": 0}, r"the length of a slope \(mm\) must be at least 0.001"),
         ({"width": None}, r"the width of a slope \(mm\) must be a number"),
         ({"turned": "a"}, "the turned of a rectangle"),
     ],

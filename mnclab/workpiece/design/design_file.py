@@ -67,6 +67,10 @@ width = 3
 depth = 2
 
 [[features]]
+kind = "face"                  # the whole top
+depth = 0.5
+
+[[features]]
 kind = "slope"                 # a rectangle with a plane floor, from the depth at its end of least X to that at the other
 x = 70
 y = 10
@@ -74,10 +78,6 @@ length = 20
 width = 6
 start_depth = 1
 end_depth = 3
-
-[[features]]
-kind = "face"                  # the whole top
-depth = 0.5
 
 [[back]]                       # a feature of the lower side, as it is seen once the part is turned over
 kind = "pocket"

@@ -10,12 +10,13 @@ from typing import Self
 
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number
-from mnclab.workpiece.design.feature import Feature, Site, check_positive
+from mnclab.workpiece.design.feature import Feature, Site
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Removal, Wedge
 from mnclab.workpiece.design.shapes import LARGEST, Rectangle
 
 SAME = 1e-6  # mm, of two depths that make no slope
+LEAST = 1e-3  # mm, long and wide
 
 
 @dataclass(frozen=True, repr=False)
@@ -34,7 +35,8 @@ class Slope(Feature):
     turned: float = 0.0
 
     def _check(self) -> None:
-        check_positive(self, "length", "width")
+        for name in ("length", "width"):
+            check_number(getattr(self, name), f"the {name} of a slope (mm)", at_least=LEAST, at_most=LARGEST)
         self.contour  # noqa: B018  it must exist
         for name in ("start_depth", "end_depth"):
             check_number(getattr(self, name), f"the {name} of a slope (mm)", at_least=0, at_most=LARGEST)
