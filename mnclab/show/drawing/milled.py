@@ -231,7 +231,7 @@ def _height(design: Design, front: Draft, ledger: Ledger) -> None:
 
 
 def _depths(design: Design, draft: Draft, levels: Sequence[Level], ledger: Ledger) -> None:
-    """One dimension for each step from a height to another; where depths begin a floor may tell."""
+    """One dimension for each step from a height to another; where depths begin a floor may tell, or a flight of them."""
     told: dict[object, Level] = {}
     for each in levels:
         key = round(each.start, 6), round(each.end, 6), each.measure.limits, each.measure.fit
@@ -239,7 +239,7 @@ def _depths(design: Design, draft: Draft, levels: Sequence[Level], ledger: Ledge
             told[key].claims += each.claims
         else:
             told[key] = each
-    for each in told.values():
+    for each in _said_by_others(list(told.values())):
         if abs(each.start - each.end) < SAME:  # the top of the blank, where all depths begin
             other = next(level for level in told.values() if abs(level.start - each.end) < SAME and level is not each)
             other.claims += each.claims
@@ -247,3 +247,22 @@ def _depths(design: Design, draft: Draft, levels: Sequence[Level], ledger: Ledge
         said = valued(each.measure, "", abs(each.start - each.end))
         ledger.say(draft, Linear((each.u, each.start), (each.u, each.end), said, "y"), each.claims)
 
+
+
+def _said_by_others(levels: list[Level]) -> list[Level]:
+    """Levels without those that only say where depths begin, and end where others lead to one after the other: these have
+    their claims."""
+    floors = [each for each in levels if each.measure.name != "top"]
+    kept = list[Level]()
+    for each in levels:
+        heights, last = {round(each.start, 6)}, None
+        for _ in floors if each.measure.name == "top" and each.measure.limits is None else ():
+            for floor in floors:
+                if round(floor.start, 6) in heights:
+                    heights.add(round(floor.end, 6))
+                    last = floor if abs(floor.end - each.end) < SAME else last
+        if last is None or abs(each.start - each.end) < SAME:
+            kept.append(each)
+        else:
+            last.claims += each.claims
+    return kept

@@ -35,6 +35,7 @@ from mnclab.workpiece.design.threads import core_of
 SAME = 1e-6  # mm
 MOST_HOLES = 10  # with dimensions of their own; more stand in a table
 MOST_PLACES = 9  # coordinates in one direction
+MOST_KINDS = 14  # different features with dimensions of their own; more stand in a table
 
 
 Place = tuple[Measure, Point, Claim | None]  # a coordinate, whose it is, and the measure that it says, if it is one
@@ -100,6 +101,8 @@ class Side:
             alike.setdefault((*key, k) if isinstance(shape_in(each), Outline) else key, []).append(k)
         holes = [k for k, each in enumerate(self.features) if isinstance(each, Hole)]
         coordinates = max(len({round(getattr(self.features[k], axis), 6) for k in holes}) for axis in "xy") if holes else 0
+        if len([k for k, *_ in alike if not issubclass(k, Face | Chamfer)]) > MOST_KINDS:
+            self.tabled = 2
         in_table = bool(holes) and (self.tabled > 0 or len(holes) > MOST_HOLES or coordinates > MOST_PLACES)
         for numbers in alike.values():
             first = self.features[numbers[0]]

@@ -294,8 +294,9 @@ def _takes(body: Removal, site: Site) -> bool:
         return False
     (x0, y0), (x1, y1) = site.outline.bounds
     (left, low), (right, high) = region.bounds
-    if len(site.outline.loops) == 1 and not site.outline.loops[0].bulge.any() and x0 <= left and right <= x1 and y0 <= low:
-        return bool(high <= y1)
+    if len(site.outline.loops) == 1 and not site.outline.loops[0].bulge.any():
+        if x0 <= left and right <= x1 and y0 <= low and high <= y1:
+            return True
     return bool(site.outline.intersection(region).loops)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
+from mnclab.geometry.signed import contains, signed
 from mnclab.path.columns import Array, Mask
 
 NOTHING = Region(())
@@ -162,15 +163,19 @@ class Slanting:
 
     def taken(self, x: Array, y: Array, z: Array) -> Array:
         """How far points (m,) are from what it takes away, mm; 0 within."""
-        return in_triangle((self.near, self.deep), (self.near, self.open), (self.far, self.open), self.away(x, y), z)
+        return self.taken_out(self.away(x, y), z)
 
-    def left(self, low: float, high: float, x: Array, y: Array, z: Array) -> Array:
-        """How far points (m,) are from the material under the slant between two heights, mm; 0 within."""
+    def taken_out(self, out: Array, z: Array) -> Array:
+        """The same at distances `out` (m,) from the base."""
+        return in_triangle((self.near, self.deep), (self.near, self.open), (self.far, self.open), out, z)
+
+    def left(self, low: float, high: float, out: Array, z: Array) -> Array:
+        """How far points (m,), `out` from the base, are from the material under the slant between two heights, mm; 0 within."""
         if self.up:
             corners = (self.at(low), low), (self.at(high), low), (self.at(high), high)
         else:
             corners = (self.at(high), high), (self.at(low), high), (self.at(low), low)
-        return in_triangle(*corners, self.away(x, y), z)
+        return in_triangle(*corners, out, z)
 
 
 def in_triangle(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], s: Array, z: Array) -> Array:
@@ -191,15 +196,8 @@ def within(region: Region, x: Array, y: Array) -> Mask:
     if region.loops:
         (x0, y0), (x1, y1) = region.bounds
         about = np.flatnonzero((x >= x0) & (x <= x1) & (y >= y0) & (y <= y1))
-        found[about] = region.contains(np.stack([x[about], y[about]], axis=1))
+        found[about] = contains(region, x[about], y[about])
     return found
-
-
-def signed(region: Region, spots: Array) -> Array:
-    """How far points (m, 2) are from a region, negative within (m,)."""
-    if not region.loops:
-        return np.full(len(spots), np.inf)
-    return np.where(region.contains(spots), -1.0, 1.0) * region.distance(spots)
 
 
 def flipped(region: Region, flip: Array) -> Region:

@@ -90,7 +90,9 @@ class _Room:
             good = np.isfinite(moved)
             wide = feature.width + 2 * float(moved[good].mean()) if good.any() else math.nan
             yield "width", Found(wide, faces.number, "" if good.any() else NOT_CUT)
-            middle = faces._replace(place=faces.place + feature.width / 2 * self._normals(faces))
+            wider = (wide - feature.width) / 2 if good.any() else 0.0  # of both walls: it does not move the middle
+            normals = self._normals(faces)
+            middle = faces._replace(place=faces.place + feature.width / 2 * normals, moved=faces.moved + wider * normals)
             yield from sizes(feature.contour, middle, feature.width)
         elif hasattr(feature, "contour"):
             faces = self._walls("")
