@@ -24,6 +24,7 @@ from mnclab.show.drawing.feature_marks import (
 )  # fmt: skip
 from mnclab.show.drawing.feature_tables import corner_table, feature_table, hole_table
 from mnclab.show.drawing.ledger import Claim, Draft, Ledger
+from mnclab.show.drawing.patterns import pattern_of, write_pattern
 from mnclab.show.drawing.view import Kind, Line, Origin
 from mnclab.show.drawing.wording import DIAMETER, at_place, chamfer_text, hole_lines, times, valued, written
 from mnclab.workpiece.design.design import Design
@@ -99,7 +100,9 @@ class Side:
         for k, each in enumerate(self.features):
             key = type(each), tuple(m for m in each.measures() if m.kind != "place" or m.name == "top")
             alike.setdefault((*key, k) if isinstance(shape_in(each), Outline) else key, []).append(k)
-        holes = [k for k, each in enumerate(self.features) if isinstance(each, Hole)]
+        patterns = {tuple(some): found for some in alike.values() if (found := pattern_of([self.features[k] for k in some]))}
+        ordered = {k for some in patterns for k in some}
+        holes = [k for k, each in enumerate(self.features) if isinstance(each, Hole) and k not in ordered]
         coordinates = max(len({round(getattr(self.features[k], axis), 6) for k in holes}) for axis in "xy") if holes else 0
         if len([k for k, *_ in alike if not issubclass(k, Face | Chamfer)]) > MOST_KINDS:
             self.tabled = 2
@@ -110,11 +113,14 @@ class Side:
                 feature_marks(self.draft, self.features[k])
             if self.tabled > 1 and not isinstance(first, Face | Chamfer):
                 continue
-            if not (isinstance(first, Hole) and in_table):
+            found = patterns.get(tuple(numbers))
+            if found or not (isinstance(first, Hole) and in_table):
                 self._sizes(first, numbers)
                 self.tops(numbers)
-                for k in numbers:
-                    self._place(k)
+                if found:
+                    write_pattern(self, numbers, found)
+                for k in () if found else numbers:
+                    self.place(k)
         if self.tabled > 1:
             feature_table(self, [k for k, each in enumerate(self.features) if not isinstance(each, Face | Chamfer)])
         elif in_table:
@@ -300,13 +306,14 @@ class Side:
 
     # ---- places ----
 
-    def _place(self, k: int) -> None:
+    def place(self, k: int, axes: str = "xy") -> None:
+        """The coordinates of a feature are dimensioned."""
         shape = shape_in(self.features[k])
         if isinstance(shape, Outline):
             return
         centre = centre_of(self.features[k])
         for place, each in enumerate(self.features[k].measures()):
-            if each.name in self.places:
+            if each.name in self.places and each.name in axes:
                 self.places[each.name].append((each, centre, Claim(self.back, k, place, each.name)))
 
     def _coordinates(self) -> None:
