@@ -312,7 +312,10 @@ class Run:
         return save(self, path, **options)
 
     def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
-        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program; `options` of `plot`."""
+        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program; `options` of `plot`.
+
+        `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm.
+        """
         from mnclab.show.report import save_report
 
         return save_report(self, path, title, **options)

@@ -28,7 +28,7 @@ from mnclab.show.drawing.patterns import pattern_of, write_pattern
 from mnclab.show.drawing.view import Kind, Line, Origin
 from mnclab.show.drawing.wording import DIAMETER, at_place, chamfer_text, hole_lines, times, valued, written
 from mnclab.workpiece.design.design import Design
-from mnclab.workpiece.design.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slot, Stud
+from mnclab.workpiece.design.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slope, Slot, Stud
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle, Shape
 from mnclab.workpiece.design.threads import core_of
@@ -146,6 +146,9 @@ class Side:
             self._deep(numbers, first.outline)
         elif isinstance(first, Groove):
             self._groove(first, numbers)
+        elif isinstance(first, Slope):
+            self._rectangle(first.contour, known, numbers)
+            self._fall(first, known, numbers)
         elif shape is not None:
             deep = isinstance(shape, Circle) and not isinstance(first, Stud)
             self._shape(shape, first.measures(), numbers, (written(known["depth"]),) if deep else ())
@@ -256,6 +259,20 @@ class Side:
         at = outline.point_at(0.35 * outline.length)[0]
         note = Note(point_of(at), (times(len(numbers)) + written(depth),))
         self.ledger.say(self.draft, note, self.claims(numbers, "depth"))
+
+    def _fall(self, slope: Slope, known: dict[str, Measure], numbers: list[int]) -> None:
+        """The depths at both ends: in the section along it, or with leaders."""
+        cut = next((self.features[k] for k in numbers if (self.back, k) in self.shows), None)
+        for name, side in (("start depth", -1), ("end depth", 1)):
+            depth, claims = known[name], self.claims(numbers, name)
+            if isinstance(cut, Slope) and abs(math.remainder(cut.turned, 180)) < SAME:
+                x, y = frame_at((cut.x, cut.y), cut.turned)(side * cut.length / 2, 0.0)
+                u = float((self.design.flip[0] @ [x, y, 1.0])[0]) if self.back else x
+                top = self.top(slope)
+                self.levels.append(Level(self._across(top), self._across(top - depth.nominal), u, depth, claims))
+            else:
+                at = frame_at((slope.x, slope.y), slope.turned)(0.47 * side * slope.length, 0.3 * slope.width)
+                self.ledger.say(self.draft, Note(at, (times(len(numbers)) + written(depth),)), claims)
 
     def _level(self, numbers: list[int], line: Contour, axis: int = 0) -> None:
         """A depth in the section, at that wall of an outline which is nearer to the edge of the part."""
