@@ -305,3 +305,10 @@ def test_rounded_corners_of_a_chamfer_have_no_edges_at_other_heights():
     section = drawing(d.Design(((0, 0, -15), (80, 60, 0)), parts)).sheets[0].views[0][0]
     level = [line.contour.points for line in section.view.lines if np.ptp(line.contour.points[:, 1]) < 1e-9]
     assert all(np.ptp(points[:, 0]) < 0.01 for points in level if abs(points[0, 1] + 0.5) < 1e-3)
+
+
+def test_a_thread_from_end_to_end_has_the_length_of_the_part():
+    nut = d.TurnedDesign([(0, 18), (-25, 18)], (d.Bore(17.5, None), d.Thread("M20", 0, -25, inside=True)))
+    drawn = drawing(nut)
+    check(drawn, nut)
+    assert [box.text for box in drawn.boxes()].count("25") == 1

@@ -25,6 +25,7 @@ from mnclab.show.given_away import whole
 WIDTH, FOOT, HEAD, BESIDE = 180.0, 10.0, 24.0, 60.0  # mm: of the title block, its lower and upper row, the field on the left
 TINY = 1.8  # mm, letters of the names of fields
 LETTERS = (5.0, HEIGHT, SMALL, TINY)
+LARGE = ("owner", "title", "drawing number")  # fields with the largest letters
 NAME = 3.2  # mm above a field's text, for the name of the field
 CENTRING = 3.0  # mm by which centring marks reach into the frame: less than anything else keeps away from it
 CELL, TALL = 4.0, 2.0  # mm of a table: room beside a text, above and below it
@@ -123,7 +124,7 @@ def _written(field: Field) -> Iterator[Label]:
     x, y, name = field.x + 1.2, field.y, block(field.name, TINY)
     yield Label(name, (x, y + field.height - 0.8 - TINY * ASCENT))
     top = field.height - NAME
-    lines, height = fitted(field.text, field.width - 2.4, top, LETTERS if field.height > FOOT else LETTERS[1:])
+    lines, height = fitted(field.text, field.width - 2.4, top, LETTERS if field.name in LARGE else LETTERS[1:])
     below = (top - height * (PITCH * len(lines) + 1 - PITCH)) / 2
     for k, text in enumerate(reversed(lines)):
         yield Label(block(text, height), (x, y + below + k * PITCH * height))

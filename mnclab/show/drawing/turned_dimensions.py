@@ -117,7 +117,11 @@ class Turning:
         if isinstance(feature, Thread):
             r = (feature.minor if feature.inside else feature.major) / 2
             told = Linear((feature.end, r), (feature.start, r), valued(known["length"]), "x", "above")
-            self.ledger.say(self.draft, told, self._claims(k, "length"))
+            same = next((claims for said, claims in self.ledger.said if self._says(said, told)), None)
+            if same is None:
+                self.ledger.say(self.draft, told, self._claims(k, "length"))
+            else:
+                same += self._claims(k, "length")
             self._from_front(k, feature.start, r)
             return
         if isinstance(feature, Bore):
@@ -137,6 +141,14 @@ class Turning:
             lines = [f"{across} {written(known['depth'])}"]
             lines += [written(known["corner radius"])] if "corner radius" in known else []
         self.ledger.say(self.draft, Note(at, tuple(lines)), self._claims(k))
+
+    @staticmethod
+    def _says(said: Any, told: Linear) -> bool:
+        """Whether a length between the same ends is said already: that of a thread from end to end."""
+        if not isinstance(said, Linear) or (said.value, said.along) != (told.value, told.along):
+            return False
+        ends = (sorted((each.a[0], each.b[0])) for each in (said, told))
+        return all(abs(a - b) < SAME for a, b in zip(*ends, strict=True))
 
     def _bore(self, bore: Bore, front: bool) -> Point:
         """A point on its wall."""
