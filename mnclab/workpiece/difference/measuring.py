@@ -123,17 +123,17 @@ class _Room:
         """Of the place of a floor that is farthest off; where its walls are nearer, what is left or gone is theirs."""
         seen, cells = self.seen, self.seen.cells
         through = floor <= self.bottom + NOISE
-        grid = seen.grid.under if self.back else seen.grid.owner
-        whose = grid[cells.row, cells.column]
+        own = seen.cells_above(owners, self.back)
         if through:
-            off = np.flatnonzero(np.isin(whose, owners) & np.isnan(cells.at.its_top))
+            off = own[np.isnan(cells.at.its_top[own])]
             left = (cells.at.floor if self.back else cells.at.top)[off]
             level = self.turned - left if self.back else left
             return Found(self.top - (floor if not len(off) else float(level.max())), off + seen.of_cells.start)
-        off = np.flatnonzero(np.isin(whose, owners) & np.isfinite(cells.at.its_top))
-        above = cells.at.its_floor - cells.at.floor if self.back else cells.at.top - cells.at.its_top
+        off = own[np.isfinite(cells.at.its_top[own])]
+        at = cells.at.some(off)
+        above = at.its_floor - at.floor if self.back else at.top - at.its_top
         slopes = np.flatnonzero(np.isin(seen.slopes.owner, owners))
-        rise = np.concatenate([above[off], seen.rise[slopes]])
+        rise = np.concatenate([above, seen.rise[slopes]])
         index = np.concatenate([off + seen.of_cells.start, slopes + seen.of_slopes.start])
         cells_of_it = sum(int(seen.sizes[self.back][k + 1]) for k in owners if k + 1 < len(seen.sizes[self.back]))
         if not len(slopes) and not cells_of_it:
