@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.path.columns import Array, Index
-from mnclab.workpiece.design.features import Chamfer, Feature, Groove, Hole, Slot
+from mnclab.workpiece.design.features import Chamfer, Feature, Groove, Hole, Slot, along
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Flat, Slanting
 from mnclab.workpiece.difference.deviations import Seen
@@ -91,7 +91,7 @@ class _Room:
             wide = feature.width + 2 * float(moved[good].mean()) if good.any() else math.nan
             yield "width", Found(wide, faces.number, "" if good.any() else NOT_CUT)
             middle = faces._replace(place=faces.place + feature.width / 2 * self._normals(faces))
-            yield from sizes(feature.contour, middle, feature.width)
+            yield from ((along(name), found) for name, found in sizes(feature.contour, middle, feature.width))
         elif hasattr(feature, "contour"):
             faces = self._walls("")
             if not self.own and len(faces.place):
