@@ -91,7 +91,7 @@ class Region:
         if distance == 0 or not self.loops:
             return self
         faces = self.loops if distance > 0 else [loop.reversed() for loop in self.loops]
-        bands = [band for face in faces for band in _bands(face, abs(distance))]
+        bands = [band for face in faces for band in bands_beside(face, abs(distance))]
         drawing = _Drawing([*self.loops, *bands])
         strips = [shapely.Polygon(ring) for ring in drawing.rings[len(self.loops) :]]
         strip = shapely.union_all(strips, grid_size=GRID)
@@ -180,6 +180,8 @@ class _Drawing:
         """Loops of a region, which stand in the drawing from `first` on, as a shapely area."""
         pieces: list[tuple[Floats, list[Floats]]] = []
         for loop, ring in zip(loops, self.rings[first:], strict=False):
+            if len(ring) < 3:
+                continue  # a circle smaller than what counts as equal
             if loop.area > 0:
                 pieces.append((ring, []))
             else:
@@ -192,6 +194,16 @@ class _Drawing:
         starts = np.vstack([np.zeros((0, 2)), *self.rings])
         ends = np.vstack([np.zeros((0, 2)), *(np.roll(ring, -1, axis=0) for ring in self.rings)])
         return traced(result, starts, ends, np.concatenate([np.zeros(0, dtype=int), *self.tags]), self.curves)
+
+
+def polygons_of(region: Region) -> Any:
+    """A region as a shapely area of fine polylines, `CHORD_ERROR` mm from it."""
+    return _Drawing(region.loops).area(region.loops, 0)
+
+
+def covered(contours: Sequence[Contour]) -> Any:
+    """What closed contours cover together, as a shapely area of such polylines."""
+    return shapely.union_all([shapely.Polygon(ring) for ring in _Drawing(contours).rings if len(ring) > 2])
 
 
 def traced(
@@ -281,7 +293,7 @@ def _corner(a: Curve, b: Curve, near: Floats) -> Floats:
     return meeting if off < SAME else near
 
 
-def _bands(loop: Contour, width: float) -> Iterator[Contour]:
+def bands_beside(loop: Contour, width: float) -> Iterator[Contour]:
     """Bands along the left side of each element, and fans where the loop turns to the right."""
     begin, end = loop.tangents()
     first, last = loop.starts + width * left(begin), loop.ends + width * left(end)

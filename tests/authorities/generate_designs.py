@@ -144,19 +144,30 @@ class Solids:
             bodies.append(self.prism(self.circle(x, y, wide / 2), seat, ABOVE))
         return bodies
 
+    def blank(self, blank):
+        if "radius" not in blank:
+            return Manifold.cube([LENGTH, WIDTH, HEIGHT]).translate([0, 0, -HEIGHT])
+        x, y, _ = blank["at"]
+        body = self.prism(self.circle(x, y, blank["radius"]), -HEIGHT, 0)
+        if "bore" in blank:
+            body -= self.prism(self.circle(x, y, blank["bore"]), -HEIGHT - 1, 1)
+        return body
+
+    def takes(self, blank, feature, features):
+        """Whether a feature takes something of a blank: a design refuses one that lies beside it."""
+        bodies, body = self.removed(feature, features), self.blank(blank)
+        return not bodies or any((body ^ each).volume() > 0 for each in bodies)
+
     def volume(self, blank, features, back):
-        if "radius" in blank:
-            x, y, _ = blank["at"]
-            body = self.prism(self.circle(x, y, blank["radius"]), -HEIGHT, 0)
-            if "bore" in blank:
-                body -= self.prism(self.circle(x, y, blank["bore"]), -HEIGHT - 1, 1)
-        else:
-            body = Manifold.cube([LENGTH, WIDTH, HEIGHT]).translate([0, 0, -HEIGHT])
+        body = self.blank(blank)
         gone = [each for feature in features for each in self.removed(feature, features)]
         for feature in back:  # about X, in its place
             for each in self.removed(feature, back):
                 gone.append(each.rotate([180, 0, 0]).translate([0, WIDTH, -HEIGHT]))
         return (body - Manifold.batch_boolean(gone, OpType.Add)).volume()
+
+
+SOME = Solids(64)
 
 
 def designs():
@@ -169,6 +180,7 @@ def designs():
             if rng.random() < 0.5:
                 blank["bore"] = rng.choice([5, 8])
         sides = [_side(rng, blank) for _ in range(2 if number % 4 == 1 else 1)]
+        sides = [[each for each in side if SOME.takes(blank, each, side)] for side in sides]
         yield f"design {number}", blank, sides[0], sides[1] if len(sides) > 1 else []
 
 

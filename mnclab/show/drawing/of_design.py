@@ -21,6 +21,7 @@ from mnclab.workpiece.design.design import Design
 from mnclab.workpiece.design.turned_design import TurnedDesign
 
 TABLES = (0, 1, 2)  # how much goes into tables: what needs it, all holes, all features
+MOST = 70  # dimensions of a view; more are not looked for places, but stand in a table
 LEGIBLE = 60.0  # mm: a part that is drawn smaller than it is has at least this size on paper, if another way gives it
 
 
@@ -46,6 +47,8 @@ def drawing(design: Any, *, size: str | None = None, scale: float | None = None)
     for attempt in _attempts(design):
         ledger = Ledger()
         views = [draft.view() for draft in _drafts(design, ledger, *attempt)]
+        if attempt[0] < TABLES[-1] and max(len(view.dimensions) for view in views) > MOST:
+            continue
         try:
             found = draw(views, title, size=size, scale=scale, tables=ledger.tables)
         except Alarm as fault:
@@ -65,7 +68,7 @@ def drawing(design: Any, *, size: str | None = None, scale: float | None = None)
 def _attempts(design: Design | TurnedDesign) -> Iterator[tuple[int, bool]]:
     """How much goes into tables, and whether the view from below stands beside that from above, where both find more room."""
     if isinstance(design, TurnedDesign):
-        yield 0, False
+        yield TABLES[-1], False
     else:
         yield from product(TABLES, (False, True) if design.back else (False,))
 
