@@ -34,6 +34,8 @@ SUFFIXES = (
     "svg, pdf, png (pictures); html (the player); csv, json (the moves); dxf; ngc (plain blocks); stl, gltf, glb, vtk"
 )
 
+COMPARED = "svg, pdf, png (a map of where it is off); csv (the table); json, html (a record)"
+
 DRAWN = "svg, pdf, png, dxf (the drawing); toml (the design)"
 
 PARTS = "stl, gltf, glb, vtk (the body); svg, pdf, png (pictures); csv (heights, or the section of a lathe)"
@@ -146,7 +148,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--design", required=True, metavar="D.toml", help="the part as drawn (mnclab help design shows one)")
     says = "mm that a face may be off where the drawing says nothing else (default: 0.05)"
     sub.add_argument("--tolerance", type=float, default=0.05, metavar="MM", help=says)
-    sub.add_argument("-o", "--output", metavar="MAP", help="a picture of where it is off: svg, pdf, png")
+    sub.add_argument("-o", "--output", metavar="OUT", help=f"the suffix says what: {COMPARED}")
     options(sub, "verdict, worst places and table on stdout as one object instead")
     sub = command("drawing", drawing, "save the dimensioned drawing of a design (.toml), or of the part that a program makes")
     output(sub, f"the suffix says what: {DRAWN}")
@@ -275,9 +277,10 @@ def compare(chosen: argparse.Namespace) -> int:
     result = with_blank(obey(chosen))
     found = sensible(result.workpiece().compare, drawn, chosen.tolerance)
     if chosen.output:
-        sensible(save, found, chosen.output, lambda found: found.plot())
+        sensible(found.save, chosen.output)
     if chosen.json:
-        print(json.dumps(found.as_dict(), allow_nan=False))
+        alarms = [describe(alarm, chosen.file) for alarm in result.alarms]
+        print(json.dumps(found.as_dict() | {"alarms": alarms}, allow_nan=False))
     else:
         print(found)
         worst = () if found.ok else (("gouge", found.worst_gouge), ("rest", found.worst_rest))

@@ -18,7 +18,7 @@ from mnclab.show.drawing.placing import LEADER
 from mnclab.show.drawing.view import Cut, Kind
 from mnclab.text.alarm import Alarm
 
-OUT = (6.0, 9.0, 13.0, 17.0, 20.0, 24.0, 27.0, 31.0, 34.0, 38.0, 45.0, 52.0, 59.0)  # mm from the view to the end of the line
+OUT = (6.0, 8.0, 13.5, 20.5, 27.5, 34.5, 41.5, 48.5, 55.5, 62.5)  # mm from the view to the end of the line: between the rows
 THICK, SHAFT, STEP = 5.0, 7.0, 3.0  # mm: a thick end, an arrow, thick arms where the line steps
 LETTER = 5.0  # mm
 

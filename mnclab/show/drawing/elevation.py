@@ -27,6 +27,7 @@ SAME = 1e-6  # mm, within which two places are one
 LEAN = 1e-3  # within which two slopes are one
 NOTHING, CUT = -2, -1  # what is seen, if not the piece of a contour
 INSIDE = 1e-3  # of a slanting slab, how far from its ends it is looked at: there a cone may have no section
+STEEP = 0.02  # of a slanting slab, over which faces are followed to its ends; rad, within which two of them go on as one
 HEIGHTS = 13  # at which a slanting slab is looked at whose edges are curves
 
 
@@ -165,13 +166,14 @@ class Elevation:
             if not slab.slants:
                 found.append((np.array([slab.low, slab.high]), [self._look(slab, middle)] * 2))
                 continue
-            near = INSIDE * (slab.high - slab.low)
-            heights = np.array([slab.low + near, middle, slab.high - near])
+            ends = np.array([INSIDE, STEEP, 0.5, 1 - STEEP, 1 - INSIDE])
+            heights = slab.low + ends * (slab.high - slab.low)
             seen = [self._look(slab, float(z)) for z in heights]
             rows = [np.array(each.edges()) for each in seen]
-            if len({len(row) for row in rows}) > 1 or np.abs(rows[0] + rows[2] - 2 * rows[1]).max(initial=0.0) > SAME:
-                heights = np.linspace(heights[0], heights[-1], HEIGHTS)
-                seen = [seen[0], *(self._look(slab, float(z)) for z in heights[1:-1]), seen[-1]]
+            if len({len(row) for row in rows}) > 1 or np.abs(rows[0] + rows[-1] - 2 * rows[2]).max(initial=0.0) > SAME:
+                inner = np.linspace(heights[0], heights[-1], HEIGHTS)[1:-1]
+                heights = np.concatenate([heights[:2], inner, heights[-2:]])
+                seen = [*seen[:2], *(self._look(slab, float(z)) for z in inner), *seen[-2:]]
             found.append((heights, seen))
         return found
 
@@ -259,7 +261,8 @@ def _differing(below: Layer | None, above: Layer | None, z: float) -> list[tuple
         looks.append((np.full(len(middle), NOTHING), np.full(len(middle), np.inf), np.zeros(len(middle))))
     (kind, depth, slope), (other, far, lean) = looks
     with np.errstate(invalid="ignore"):
-        face = (kind == 0) & (other == 0) & ((np.abs(depth - far) > 10 * SAME) | (np.abs(slope - lean) > LEAN))
+        bent = np.abs(np.arctan(slope) - np.arctan(lean)) > STEEP
+        face = (kind == 0) & (other == 0) & ((np.abs(depth - far) > 10 * SAME) | bent)
     stretches = [(a, b) for a, b, line in zip(u[:-1].tolist(), u[1:].tolist(), ((kind != other) | face).tolist()) if line]
     return _joined(stretches)
 

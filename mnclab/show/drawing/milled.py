@@ -24,7 +24,7 @@ from mnclab.show.drawing.view import Axis, Cross, Cut, Kind
 from mnclab.show.drawing.wording import DIAMETER, valued
 from mnclab.workpiece.blank import Box
 from mnclab.workpiece.design.design import Design
-from mnclab.workpiece.design.features import Feature, Groove, Hole, Pocket, Slot
+from mnclab.workpiece.design.features import Feature, Groove, Hole, Pocket, Slope, Slot
 from mnclab.workpiece.design.shapes import Circle, Rectangle
 from mnclab.workpiece.design.threads import core_of
 
@@ -81,7 +81,7 @@ def _items(design: Design, turn: Floats) -> Iterator[Item]:
     told = set[object]()
     for back, features in ((False, design.features), (True, design.back)):
         for k, each in enumerate(features):
-            if not isinstance(each, Pocket | Slot | Groove | Hole):
+            if not isinstance(each, Pocket | Slot | Groove | Hole | Slope):
                 continue
             key = type(each), back, tuple(m for m in each.measures() if m.kind != "place" or m.name == "top")
             worth = _worth(each) if key not in told else 0.1
@@ -89,7 +89,7 @@ def _items(design: Design, turn: Floats) -> Iterator[Item]:
             line = _placed(design, each, back, turn)
             (u0, v0), (u1, v1) = line.bounds.tolist()
             low = high = (v0 + v1) / 2
-            shape = each.contour if isinstance(each, Pocket) else None
+            shape = each.contour if isinstance(each, Pocket | Slope) else None
             if isinstance(shape, Rectangle) and abs(shape.turned) < SAME:
                 low, high = v0 + shape.corner + 1e-3, v1 - shape.corner - 1e-3
                 low, high = (low, high) if low < high else ((v0 + v1) / 2,) * 2
@@ -113,7 +113,7 @@ def _placed(design: Design, feature: Feature, back: bool, turn: Floats) -> Conto
     elif isinstance(feature, Groove):
         line = feature.area.loops[0]
     else:
-        assert isinstance(feature, Pocket)
+        assert isinstance(feature, Pocket | Slope)
         line = feature.contour.contour
     return line.transformed(turn @ design.flip[0] if back else turn)
 
@@ -231,7 +231,7 @@ def _height(design: Design, front: Draft, ledger: Ledger) -> None:
 
 
 def _depths(design: Design, draft: Draft, levels: Sequence[Level], ledger: Ledger) -> None:
-    """One dimension for each step from a height to another; where depths begin a floor may tell."""
+    """One dimension for each step from a height to another; where depths begin a floor may tell, or a flight of them."""
     told: dict[object, Level] = {}
     for each in levels:
         key = round(each.start, 6), round(each.end, 6), each.measure.limits, each.measure.fit
@@ -239,7 +239,7 @@ def _depths(design: Design, draft: Draft, levels: Sequence[Level], ledger: Ledge
             told[key].claims += each.claims
         else:
             told[key] = each
-    for each in told.values():
+    for each in _said_by_others(list(told.values())):
         if abs(each.start - each.end) < SAME:  # the top of the blank, where all depths begin
             other = next(level for level in told.values() if abs(level.start - each.end) < SAME and level is not each)
             other.claims += each.claims
@@ -247,3 +247,22 @@ def _depths(design: Design, draft: Draft, levels: Sequence[Level], ledger: Ledge
         said = valued(each.measure, "", abs(each.start - each.end))
         ledger.say(draft, Linear((each.u, each.start), (each.u, each.end), said, "y"), each.claims)
 
+
+
+def _said_by_others(levels: list[Level]) -> list[Level]:
+    """Levels without those that only say where depths begin, and end where others lead to one after the other: these have
+    their claims."""
+    floors = [each for each in levels if each.measure.name != "top"]
+    kept = list[Level]()
+    for each in levels:
+        heights, last = {round(each.start, 6)}, None
+        for _ in floors if each.measure.name == "top" and each.measure.limits is None else ():
+            for floor in floors:
+                if round(floor.start, 6) in heights:
+                    heights.add(round(floor.end, 6))
+                    last = floor if abs(floor.end - each.end) < SAME else last
+        if last is None or abs(each.start - each.end) < SAME:
+            kept.append(each)
+        else:
+            last.claims += each.claims
+    return kept

@@ -22,8 +22,8 @@ NEVER = 1e6
 PRICES = np.array([
     # OUTLINE SOFT TEXT ARROW DIMENSION EXTENSION LEADER: what lies there
     [0.0, 0.0, NEVER, 0.5, 2.0, 0.6, 1.8],  # an outline
-    [0.0, 0.0, 7.0, 0.0, 0.3, 0.0, 0.8],  # a soft line
-    [NEVER, 7.0, NEVER, NEVER, NEVER, NEVER, NEVER],  # a text
+    [0.0, 0.0, 14.0, 0.0, 0.3, 0.0, 0.8],  # a soft line
+    [NEVER, 14.0, NEVER, NEVER, NEVER, NEVER, NEVER],  # a text
     [0.5, 0.0, NEVER, NEVER, NEVER, 6.0, NEVER],  # an arrowhead
     [2.0, 0.3, NEVER, NEVER, 15.0, 3.0, 10.0],  # a dimension line
     [0.6, 0.0, NEVER, 6.0, 3.0, 0.2, 4.0],  # an extension line

@@ -12,7 +12,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import Floats
 from mnclab.show.drawing.levels import Levels
-from mnclab.workpiece.design.removals import Slanting
+from mnclab.workpiece.design.removals import Slant, Wedge
 
 NEAR = 1e-6  # mm, within which a line lies on another
 SPOTS = np.array([0.02, 0.25, 0.5, 0.75, 0.98])  # of an element, by which is told whether all of it does
@@ -70,7 +70,7 @@ def _mitres(levels: Levels, below: bool) -> Iterator[Contour]:
     """Where two slanting faces meet: lines from the corners of the upper edge to those of the lower one."""
     for slab in levels.slabs:
         for each in slab.slants:
-            if isinstance(each.base, Region) and each.up != below:
+            if not isinstance(each, Wedge) and isinstance(each.base, Region) and each.up != below:
                 upper, lower = (_corners(levels.section(slab, z), each, z) for z in (slab.high, slab.low))
                 wide = abs(each.at(slab.high) - each.at(slab.low))
                 for corner in upper:
@@ -79,7 +79,7 @@ def _mitres(levels: Levels, below: bool) -> Iterator[Contour]:
                         yield Contour([corner, lower[off.argmin()]], closed=False)
 
 
-def _corners(section: Region, slant: Slanting, z: float) -> Floats:
+def _corners(section: Region, slant: Slant, z: float) -> Floats:
     """Sharp corners (n, 2) of a section that lie on a slanting face."""
     spots = [loop.starts[np.abs(loop.turns()) > SHARP] for loop in section.loops]
     found = np.concatenate([np.zeros((0, 2)), *spots])

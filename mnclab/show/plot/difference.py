@@ -62,42 +62,54 @@ def plot_difference(
         raise Alarm(f"table must be True or False, got {shown(table)}")
     if limit is not None:
         check_number(limit, "the limit of the scale (mm)", above=0)
-    worst = max(difference.worst_gouge.value, difference.worst_rest.value)
-    usual = nice(min(max(worst, 2 * difference.tolerance), FULL * difference.tolerance))
-    most = float(limit) if limit else usual
+    most = float(limit) if limit else usual_limit(difference)
     lathe = difference.workpiece.cutting.lathe
     cuts = sections_of(difference, section, at)
     if ax is not None:
         _draw(ax, difference, most)
-        dress(ax, VIEWS["ZX" if lathe else "XY"])
-        ax.autoscale_view()
         return cast(Figure, ax.get_figure(root=True))
     low, high = difference.compared.bounds_3d if lathe else _bounds(difference)
     views = [VIEWS["ZX" if lathe else "XY"], *(each.section.view for each in cuts)]
     marks = marks_of(difference)
     said = [*_told(difference), *(f"{each.number}  {each.text}" for each in marks)]
-    rows = lines_of(difference, marks) if table else []
+    rows = [(), *lines_of(difference, marks)] if table and len(difference.features) else []
     size = size[0], size[1] + LINE * (len(rows) + len(said))
     handles = _handles(difference, cuts)
     foot = Foot("\n" * (len(rows) + len(said) - 1))
     picture, axes = arrange(views, low, high, [str(each.get_label()) for each in handles], foot, _words(difference), size, True)
-    width = max(picture.get_figwidth(), wide_of(rows))
-    picture.set_size_inches(width, picture.get_figheight())
+    _widen(picture, axes, wide_of(rows))
     _draw(axes[0], difference, most)
     for one, each in zip(axes[1:], cuts):
         draw_magnified(one, each, (GONE, LEFT))
         mark_section(axes[0], each.section, low, high)
-    _scale(picture, most, difference.tolerance, worst > most)
+    _scale(picture, most, difference.tolerance, max(difference.worst_gouge.value, difference.worst_rest.value) > most)
     write_legend(picture, handles, SCALE)
     Foot("\n".join([*said, *([""] * len(rows))])).write(picture)
     draw_table(picture, rows)
     return picture
 
 
+def usual_limit(difference: Difference) -> float:
+    """The ends of the scale: the worst deviation, but two tolerances at least and ten at most."""
+    worst, tolerance = max(difference.worst_gouge.value, difference.worst_rest.value), difference.tolerance
+    return nice(min(max(worst, 2 * tolerance), FULL * tolerance))
+
+
 def nice(value: float) -> float:
     """The next number 1, 2 or 5 times a power of ten that is not less."""
     power = 10.0 ** math.floor(math.log10(value))
     return next((step * power for step in STEPS if step * power >= value * (1 - 1e-9)), 10 * power)
+
+
+def _widen(picture: Picture, axes: Sequence[Axes], wide: float) -> None:
+    """Make room for a table of some inches; the views keep their size."""
+    width, height = picture.get_size_inches().tolist()
+    if wide <= width:
+        return
+    picture.set_size_inches(wide, height)
+    for ax in axes:
+        x, y, w, h = ax.get_position().bounds
+        ax.set_position((x * width / wide, y, w * width / wide, h))
 
 
 def _bounds(difference: Difference) -> tuple[Array, Array]:
@@ -107,13 +119,23 @@ def _bounds(difference: Difference) -> tuple[Array, Array]:
 
 
 def _draw(ax: Axes, difference: Difference, most: float) -> None:
-    if difference.workpiece.cutting.lathe:
-        _draw_half(ax, difference, most)
-        return
+    lathe = difference.workpiece.cutting.lathe
+    box, free = (ax.get_xlim(), ax.get_ylim()), ax.get_autoscale_on()
+    (_draw_half if lathe else _draw_plan)(ax, difference, most)
+    if free:
+        dress(ax, VIEWS["ZX" if lathe else "XY"])
+        ax.autoscale_view()
+    else:
+        ax.set(xlim=box[0], ylim=box[1])
+    draw_marks(ax, marks_of(difference), (2, 0) if lathe else (0, 1), (GONE, LEFT))
+
+
+def _draw_plan(ax: Axes, difference: Difference, most: float) -> None:
     step = float(difference.workpiece.step)
     box = difference.x[0] - step / 2, difference.x[-1] + step / 2, difference.y[0] - step / 2, difference.y[-1] + step / 2
     norm = Normalize(-most, most)
-    ax.imshow(difference.map, extent=box, origin="lower", cmap=SHADES, norm=norm, zorder=0.8, aspect="auto", interpolation="nearest")
+    look: dict[str, Any] = {"cmap": SHADES, "norm": norm, "interpolation": "nearest", "zorder": 0.8}
+    ax.imshow(difference.map, extent=box, origin="lower", aspect="auto", **look)
     beyond = np.nan_to_num(difference.map)
     for sign, hatch in HATCHES.items():
         wide = np.pad((sign * beyond > difference.tolerance).astype(float), 1)
@@ -126,7 +148,6 @@ def _draw(ax: Axes, difference: Difference, most: float) -> None:
     for loop in outlines(difference):
         ax.add_collection(LineCollection([_closed(loop)], **OUTLINE))
     _draw_walls(ax, difference, norm)
-    draw_marks(ax, marks_of(difference), (0, 1), (GONE, LEFT))
 
 
 def outlines(difference: Difference) -> list[Contour]:
@@ -148,7 +169,7 @@ def _draw_walls(ax: Axes, difference: Difference, norm: Normalize) -> None:
     for sign, marker in ((-1, "v"), (1, "o")):
         mine = some[np.sign(off[some]) == sign]
         ax.scatter(
-            *place[mine].T, s=DOTS, c=off[mine], cmap=SHADES, norm=norm, marker=marker, linewidths=0.25,
+            place[mine, 0], place[mine, 1], s=DOTS, c=off[mine], cmap=SHADES, norm=norm, marker=marker, linewidths=0.25,
             edgecolors=GONE if sign < 0 else "#6b2a08", zorder=2.4,
         )  # fmt: skip
 
@@ -162,11 +183,17 @@ def _draw_half(ax: Axes, difference: Difference, most: float) -> None:
     ax.add_patch(hatch)
     factor = factor_of(difference)
     place, normal, off = looked.places.place, looked.places.normal, np.nan_to_num(looked.off)
+    much = (np.abs(off) > FULL * difference.tolerance) | np.isnan(looked.moved)
+    off = np.where(much, 0.0, off)  # too much to be magnified: areas as they are
+    for region, shade in ((looked.gone, GONE), (looked.left, LEFT)):
+        if region.loops:
+            face = {"facecolor": shade + "66", "edgecolor": shade, "linewidth": 0.6}
+            ax.add_patch(PathPatch(outline_of(region.loops), **face, zorder=1.7))
     drawn = place + factor * off[:, None] * normal
     same = (np.diff(looked.places.line) == 0) & (np.diff(looked.places.element) == 0)
     quads = np.stack([place[:-1], place[1:], drawn[1:], drawn[:-1]], axis=1)
     mean = (off[:-1] + off[1:]) / 2
-    some = same & (np.abs(mean) > difference.error)
+    some = same & (off[:-1] * off[1:] > 0)
     ax.add_collection(PolyCollection(list(quads[some]), array=mean[some], cmap=SHADES, norm=Normalize(-most, most), zorder=2.0))
     edges = np.stack([drawn[:-1], drawn[1:]], axis=1)
     for sign, shade, dashes in ((-1, GONE, "-"), (1, LEFT, (0, (4, 1)))):
@@ -183,7 +210,6 @@ def _draw_half(ax: Axes, difference: Difference, most: float) -> None:
         f"deviation × {number(factor)}", (0.5, 1.0), (0, -3), xycoords="axes fraction", textcoords="offset points", ha="center",
         va="top", fontsize=SMALL + 1, bbox=CARD, zorder=5,
     )  # fmt: skip
-    draw_marks(ax, marks_of(difference), (2, 0), (GONE, LEFT))
 
 
 def factor_of(difference: Difference) -> float:

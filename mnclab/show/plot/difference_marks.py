@@ -62,9 +62,12 @@ def draw_marks(ax: Axes, marks: list[Marked], axes: tuple[int, int], shades: tup
         return
     points = figure.dpi / 72
     taken: list[tuple[float, float]] = []
-    spots = [ax.transData.transform((each.place[axes[0]], each.place[axes[1]])) / points for each in marks]
+    spots: list[tuple[float, float]] = []
+    for each in marks:
+        px, py = ax.transData.transform((each.place[axes[0]], each.place[axes[1]])).tolist()
+        spots.append((px / points, py / points))
     box = ax.get_window_extent()
-    (x0, y0), (x1, y1) = box.min / points, box.max / points
+    x0, y0, x1, y1 = (float(value) / points for value in box.extents)
     for each, (x, y) in zip(marks, spots):
         shade = {-1: shades[0], 1: shades[1], 0: colours.INK}[each.sign]
         ax.add_line(Line2D([each.place[axes[0]]], [each.place[axes[1]]], color=shade, marker="o", markersize=7, linestyle="none",

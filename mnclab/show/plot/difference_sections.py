@@ -26,8 +26,11 @@ LEAST, GREATEST = 1.0, 1000.0
 
 
 class Magnified(NamedTuple):
-    """`section` of the part, its target as a region, what is gone and what is left as regions, the factor; where the part is (k, 2), where it should be, and by how
-    much it is off (k,), 0 where that is too much to be magnified, and the `true` values; `joined` (k - 1,) neighbours on one line."""
+    """`section` of the part; its target, what is gone and what is left as regions; the factor.
+
+    Where the part is (k, 2), where it should be, by how much it is off (k,), 0 where that is too much to be magnified;
+    `joined` (k - 1,) neighbours on one line; the `true` values (k,).
+    """
 
     section: Section
     target: Region
@@ -85,7 +88,8 @@ def magnified(difference: Difference, section: Section) -> Magnified:
     worst = float(np.clip(np.abs(off).max(initial=0.0), difference.tolerance, FULL * difference.tolerance))
     factor = float(np.clip(_nice(float(span.min()) / SHARE / worst), LEAST, GREATEST))
     joined_, most = np.concatenate(joined)[:-1], FULL * difference.tolerance
-    return Magnified(section, target, gone, left, factor, spots, foot, np.where(np.abs(off) > most, 0.0, off), joined_, difference.tolerance, off)
+    small = np.where(np.abs(off) > most, 0.0, off)
+    return Magnified(section, target, gone, left, factor, spots, foot, small, joined_, difference.tolerance, off)
 
 
 def _nice(value: float) -> float:

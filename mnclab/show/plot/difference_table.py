@@ -24,7 +24,7 @@ def lines_of(difference: Difference, marks: list[Marked]) -> list[tuple[str, ...
 
 def wide_of(rows: list[tuple[str, ...]]) -> float:
     """How wide a picture must be for a table, inches."""
-    return 0.2 + sum(_widths(rows)) if rows else 0.0
+    return 0.2 + sum(_widths(rows[1:])) if rows else 0.0
 
 
 def _widths(rows: list[tuple[str, ...]]) -> list[float]:
@@ -35,6 +35,7 @@ def draw_table(picture: Picture, rows: list[tuple[str, ...]]) -> None:
     """The rows in the room kept for them at the foot, what is out bold."""
     if not rows:
         return
+    rows = rows[1:]  # the first keeps room
     width, height = picture.get_size_inches().tolist()
     numbers = {HEAD[k] for k in NUMBERS}
     right = [name in numbers for name in rows[0]]

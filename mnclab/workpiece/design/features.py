@@ -24,8 +24,11 @@ from mnclab.workpiece.design.holes import Hole
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Flat, Removal
 from mnclab.workpiece.design.shapes import Circle, Rectangle, shape_of
+from mnclab.workpiece.design.slopes import Slope
 
-__all__ = ["EXAMPLE", "FEATURES", "Chamfer", "Face", "Feature", "Groove", "Hole", "Pocket", "Site", "Slot", "Stud", "area_of"]
+__all__ = [
+    "EXAMPLE", "FEATURES", "Chamfer", "Face", "Feature", "Groove", "Hole", "Pocket", "Site", "Slope", "Slot", "Stud", "area_of",
+]  # fmt: skip
 
 
 @dataclass(frozen=True, repr=False)
@@ -199,4 +202,4 @@ class Groove(Feature):
         return replace(self, contour=self.contour.moved(dx, dy), **self.raised(dz))
 
 
-FEATURES: dict[str, type[Feature]] = {each.kind: each for each in (Face, Pocket, Stud, Slot, Groove, Hole, Chamfer)}
+FEATURES: dict[str, type[Feature]] = {each.kind: each for each in (Face, Pocket, Stud, Slot, Groove, Hole, Chamfer, Slope)}

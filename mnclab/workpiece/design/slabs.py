@@ -7,7 +7,7 @@ slants off has a core that stands upright and, under each slant, a wedge.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,8 +15,9 @@ import numpy as np
 
 from mnclab.geometry.apart import less
 from mnclab.geometry.regions import Region
-from mnclab.path.columns import Array
-from mnclab.workpiece.design.removals import NOTHING, Flat, Removal, Slanting, signed
+from mnclab.geometry.signed import signed
+from mnclab.path.columns import Array, Index, Mask
+from mnclab.workpiece.design.removals import NOTHING, Flat, Removal, Slant, Slanting
 from mnclab.workpiece.design.slanted import slanted_off
 
 THIN = 1e-9  # mm, of a slab that is none
@@ -29,7 +30,7 @@ class Slab:
     low: float
     high: float
     region: Region
-    slants: tuple[Slanting, ...] = ()
+    slants: tuple[Slant, ...] = ()
 
     def section(self, z: float) -> Region:
         return less(self.region, [each.section(z) for each in self.slants])
@@ -55,7 +56,7 @@ class Stack:
     def of(cls, outline: Region, low: float, high: float, removals: Sequence[Removal]) -> Stack:
         """A blank that stands upright on an outline, and what is taken away from it."""
         flats = [each for each in removals if isinstance(each, Flat)]
-        slants = [each for each in removals if isinstance(each, Slanting)]
+        slants = [each for each in removals if not isinstance(each, Flat)]
         heights = [low, high, *(each.floor for each in flats)]
         heights += [z for each in slants for z in (each.low, each.high)]
         levels = sorted(z for z in heights if low <= z <= high)
@@ -82,31 +83,75 @@ class Stack:
         return NOTHING
 
     def distance(self, points: Array) -> Array:
-        """Signed distances (m,) of points (m, 3): negative in the material, exact; at corners of a chamfer as if rounded."""
-        x, y, z = points.T
-        plane = self._in_plane(points[:, :2])
-        inside, out, deep = np.zeros(len(z), dtype=bool), np.full(len(z), np.inf), np.full(len(z), np.inf)
-        for slab in self.slabs:
-            off = np.maximum(np.maximum(slab.low - z, z - slab.high), 0.0)
-            region, core = plane[id(slab.region)], plane[id(slab.core)]
-            out = np.minimum(out, np.hypot(np.maximum(core, 0.0), off))
-            deep = np.minimum(deep, np.hypot(np.maximum(-region, 0.0), off))
-            here = (region <= 0) & (off == 0)
-            for each in slab.slants:
-                out = np.minimum(out, each.left(slab.low, slab.high, x, y, z))
-                taken = each.taken(x, y, z)
-                deep = np.minimum(deep, taken)
-                here &= taken > 0
-            inside |= here
-        low, high = self.slabs[0].low, self.slabs[-1].high
-        deep = np.minimum(deep, np.minimum(np.abs(z - low), np.abs(high - z)))
-        return np.where(inside, -deep, out)
+        """Signed distances (m,) of points (m, 3): negative in the material, exact; at corners of a chamfer as if rounded.
 
-    def _in_plane(self, spots: Array) -> dict[int, Array]:
-        """Signed distances from every region of the slabs, each worked out once."""
-        found: dict[int, Array] = {}
+        The slab of a point comes first, then those above and below it, as long as they may be nearer.
+        """
+        z, known = points[:, 2], _Planes(points[:, :2])
+        inside, found = np.zeros(len(z), dtype=bool), np.full(len(z), np.inf)
+        low, high = self.slabs[0].low, self.slabs[-1].high
         for slab in self.slabs:
-            for region in (slab.region, slab.core):
-                if id(region) not in found:
-                    found[id(region)] = signed(region, spots)
-        return found
+            here = np.flatnonzero((slab.low <= z) & (z <= slab.high))
+            here = here[known.signed(slab.region, here) <= 0]
+            for each in slab.slants:
+                here = here[known.taken(each, here, z) > 0]
+            inside[here] = True
+        found[inside] = np.minimum(np.abs(z - low), np.abs(high - z))[inside]
+        for slab in self.slabs:
+            _nearer(slab, np.flatnonzero((slab.low <= z) & (z <= slab.high)), z, inside, found, known)
+        for slab in reversed(self.slabs):
+            _nearer(slab, np.flatnonzero((z > slab.high) & (z - slab.high < found)), z, inside, found, known)
+        for slab in self.slabs:
+            _nearer(slab, np.flatnonzero((z < slab.low) & (slab.low - z < found)), z, inside, found, known)
+        return np.where(inside, -found, found)
+
+
+class _Planes:
+    """Signed distances of points (m, 2) from regions and from the bases of slants, each worked out once, where asked for."""
+
+    def __init__(self, spots: Array) -> None:
+        self._spots = spots
+        self._known: dict[int, Array] = {}
+
+    def signed(self, region: Region, index: Index) -> Array:
+        return self._once(region, index, lambda some: signed(region, some))
+
+    def away(self, slant: Slant, index: Index) -> Array:
+        return self._once(slant, index, lambda some: slant.away(*some.T))
+
+    def taken(self, slant: Slant, index: Index, z: Array) -> Array:
+        """How far points are from what a slant takes away; 0 within."""
+        return self._across(slant, index, slant.taken_out(self.away(slant, index), z[index]))
+
+    def left(self, slab: Slab, slant: Slant, index: Index, z: Array) -> Array:
+        """How far points are from what a slant leaves of a slab, at least."""
+        return self._across(slant, index, slant.left(slab.low, slab.high, self.away(slant, index), z[index]))
+
+    def _across(self, slant: Slant, index: Index, along: Array) -> Array:
+        return along if isinstance(slant, Slanting) else np.hypot(along, slant.beside(*self._spots[index].T))
+
+    def _once(self, what: Region | Slant, index: Index, of: Callable[[Array], Array]) -> Array:
+        known = self._known.setdefault(id(what), np.full(len(self._spots), np.nan))
+        new = index[np.isnan(known[index])]
+        if len(new):
+            known[new] = of(self._spots[new])
+        return known[index]
+
+
+def _nearer(slab: Slab, index: Index, z: Array, inside: Mask, found: Array, known: _Planes) -> None:
+    """Lowers the distances of some points to what a slab leaves: of those outside that from its material, of those inside
+    that from what was taken of it."""
+    if not len(index):
+        return
+    beyond = np.maximum(np.maximum(slab.low - z, z - slab.high), 0.0)
+    outer, inner = index[~inside[index]], index[inside[index]]
+    if len(outer):
+        found[outer] = np.minimum(found[outer], np.hypot(np.maximum(known.signed(slab.core, outer), 0.0), beyond[outer]))
+    if len(inner):
+        found[inner] = np.minimum(found[inner], np.hypot(np.maximum(-known.signed(slab.region, inner), 0.0), beyond[inner]))
+    for each in slab.slants:
+        if len(outer):
+            whole = np.hypot(np.maximum(known.signed(slab.region, outer), 0.0), beyond[outer])
+            found[outer] = np.minimum(found[outer], np.maximum(known.left(slab, each, outer, z), whole))
+        if len(inner):
+            found[inner] = np.minimum(found[inner], known.taken(each, inner, z))

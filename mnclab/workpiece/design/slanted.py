@@ -5,7 +5,7 @@ The section of a cone, and of a chamfer along lines and arcs, is a quadratic fun
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import reduce
 from itertools import combinations
 from typing import Any
@@ -16,22 +16,24 @@ from mnclab.geometry import shapely
 from mnclab.geometry.apart import CLEAR, rough
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region, bands_beside, covered, polygons_of
-from mnclab.workpiece.design.removals import TINY, Slanting
+from mnclab.workpiece.design.removals import TINY, Slant, Slanting, Wedge
 
 SAME = 1e-9  # of an area, and mm
+ROUNDED = 1e-8  # of an area, by which corners that are rounded to 1e-9 mm may change it
 MEETING = 3e-9  # of the volume of a slab, by which what is taken of it may be off where slants meet other edges
 HALVINGS = 12
 
 
-def slanted_off(region: Region, slants: Sequence[Slanting], low: float, high: float) -> float:
+def slanted_off(region: Region, slants: Sequence[Slant], low: float, high: float) -> float:
     """mm³ that slants take away of a slab that stands on a region."""
     if not region.loops or not slants:
         return 0.0
+    outs = [each.at(high if each.up else low) for each in slants]
     widest = [each.section(high if each.up else low) for each in slants]
     total = 0.0
     for group in _groups(widest):
         some = [slants[k] for k in group]
-        area = _alone(region, some[0], widest[group[0]]) if len(group) == 1 else None
+        area = _alone(region, some[0], widest[group[0]], outs[group[0]]) if len(group) == 1 else None
         if area is None:
             near = region.intersection(reduce(Region.union, (widest[k] for k in group)))
             least = MEETING * region.area * (high - low)
@@ -52,18 +54,22 @@ def _groups(widest: list[Region]) -> list[list[int]]:
     return [[k for k, each in enumerate(group) if each == which] for which in dict.fromkeys(group)]
 
 
-def _alone(region: Region, slant: Slanting, widest: Region) -> Callable[[float], float] | None:
-    """The area that a slant takes of a region, by how far it reaches; None where anything else stands in its way."""
-    if not isinstance(slant.base, Region):
+def _alone(region: Region, slant: Slant, widest: Region, far: float) -> Callable[[float], float] | None:
+    """The area that a slant takes of a region, by how far it reaches, at most `far`; None where anything else is in its way."""
+    if isinstance(slant, Slanting) and not isinstance(slant.base, Region):
         return _cone(region, slant, widest)
     if abs(region.intersection(widest).area - widest.area) > SAME * max(widest.area, 1.0):
         return None
-    base, far, sign = slant.base.area, max(slant.at(slant.low), slant.at(slant.high)), -1 if slant.inside else 1
+    if isinstance(slant, Wedge):
+        width = slant.width
+        return lambda out: width * out
+    assert isinstance(slant.base, Region)
+    base, sign = slant.base.area, -1 if slant.inside else 1
     whole = widest.area
     half, part = (sign * (slant.grown(far * share).area - base) for share in (0.5, 0.75))
     c = 2 * whole - 4 * half
     b = whole - c
-    if abs(0.75 * b + 0.5625 * c - part) > SAME * max(widest.area, 1.0):
+    if abs(0.75 * b + 0.5625 * c - part) > ROUNDED * max(widest.area, 1.0):
         return None
     return lambda out: out / far * (b + c * out / far)
 
@@ -83,7 +89,7 @@ def _cone(region: Region, slant: Slanting, widest: Region) -> Callable[[float], 
     return lambda out: np.pi * (out * out - hole * hole)
 
 
-def _together(near: Region, slants: Sequence[Slanting]) -> Callable[[float], float]:
+def _together(near: Region, slants: Sequence[Slant]) -> Callable[[float], float]:
     """The area that some slants take together of a region, by the height: of fine polygons, none of which is traced."""
     places = [_open_to(near, each) for each in slants]
 
@@ -91,19 +97,27 @@ def _together(near: Region, slants: Sequence[Slanting]) -> Callable[[float], flo
         gone = []
         for each, place in zip(slants, places):
             if (out := each.at(z)) > each.near + TINY:
-                loops = [Contour.circle(each.base, out)] if not isinstance(each.base, Region) else [
-                    band for edge in each.edges for band in bands_beside(edge.reversed(), out)
-                ]
-                gone.append(shapely.intersection(place, covered(loops)))
+                gone.append(shapely.intersection(place, covered(list(_bands(each, out)))))
         return float(shapely.union_all(gone).area)
 
     return area
 
 
-def _open_to(near: Region, slant: Slanting) -> Any:
+def _bands(slant: Slant, out: float) -> Iterator[Contour]:
+    """What lies nearer to the edge of its base than a distance, on its side."""
+    if isinstance(slant, Wedge):
+        yield slant.outline(out)
+    elif isinstance(slant.base, Region):
+        for edge in slant.edges:
+            yield from bands_beside(edge.reversed(), out)
+    else:
+        yield Contour.circle(slant.base, out)
+
+
+def _open_to(near: Region, slant: Slant) -> Any:
     """Where a slant may take something of a region: on its side of the edge."""
     place = polygons_of(near)
-    if not isinstance(slant.base, Region):
+    if isinstance(slant, Wedge) or not isinstance(slant.base, Region):
         return place
     cut = shapely.intersection if slant.inside else shapely.difference
     return cut(place, polygons_of(slant.base))

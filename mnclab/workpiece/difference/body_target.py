@@ -13,6 +13,7 @@ from mnclab.geometry.vectors import left
 from mnclab.path.columns import Array, Index
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.difference.mesh import Mesh
+from mnclab.workpiece.difference.rays import ways
 from mnclab.workpiece.difference.reading import Reading
 from mnclab.workpiece.difference.target import BLANK, Grid, Owner, Slopes, Walls
 from mnclab.workpiece.milling.milled import Milled
@@ -25,6 +26,7 @@ FLOORS = 8  # levels between which walls are looked at
 SHARE = 1e-3  # of the cells: smaller floors have no walls of their own
 FEWEST, EDGE = 3, 1e-3  # places of an element, mm beside its ends
 ASIDE = 1e-6  # mm, on either side of a wall
+CHORDS = 1e-3  # mm, by which lines of sections may be off
 NEAR = 1e-9  # mm: middles of cells that are the same
 
 
@@ -86,7 +88,7 @@ class BodyTarget(ABC):
 
 
 class PartTarget(BodyTarget):
-    """Another milled part, moved by `shift` (3,) mm."""
+    """Another milled part, moved by `shift` (3,) mm. Beside its edges distances are those from its faces, prolonged."""
 
     def __init__(self, part: Milled, shift: Array, step: float, tolerance: float) -> None:
         self.part, self.shift, self.step, self.tolerance = part, shift, step, tolerance
@@ -133,7 +135,10 @@ class PartTarget(BodyTarget):
                 place, aside = _along(loop, spacing)
                 found.append((place + self.shift[:2], -aside, np.full(len(place), z + self.shift[2])))
         place, normal, height = (np.concatenate(column) for column in zip(*found))
-        return place, normal, height
+        inside = place - self.shift[:2] - CHORDS * normal  # sections are chords: the wall itself is looked for
+        way, _ = ways(self.part, inside, normal, height - self.shift[2], np.ones(len(place), dtype=bool), 2 * CHORDS)
+        met = np.isfinite(way)
+        return place[met] + (way[met] - CHORDS)[:, None] * normal[met], normal[met], height[met]
 
 
 class MeshTarget(BodyTarget):

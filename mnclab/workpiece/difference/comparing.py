@@ -13,7 +13,7 @@ from mnclab.text.given import check_number, shown
 from mnclab.workpiece.difference.deviations import Seen, seen
 from mnclab.workpiece.difference.difference import Difference, Worst
 from mnclab.workpiece.difference.guilt import guilty
-from mnclab.workpiece.difference.reading import Reading
+from mnclab.workpiece.difference.reading import NONE, Reading
 from mnclab.workpiece.difference.refining import followed
 from mnclab.workpiece.difference.table import OK, OUT, Features, Row
 from mnclab.workpiece.difference.target import Target
@@ -49,23 +49,30 @@ def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Differ
     signed = np.where(np.isfinite(found.grid.top) | (workpiece.heights > workpiece.floor), 0.0, np.nan)
     cells = found.cells
     signed[cells.row, cells.column] = found.off[found.of_cells]
-    rows = Features([_row(found, reading) for reading in target.readings(found)])
+    readings = list(target.readings(found))
+    worst = [_worst_of(found, reading.among) for reading in readings]
+    *first, gouge, rest = _first(found, [*worst, _farthest(found, -1.0), _farthest(found, 1.0)])
+    rows = Features([_row(found, reading, *each) for reading, each in zip(readings, first)])
     gone, left = volumes(found)
     return Difference(
-        target.name, tolerance, found.error, _worst(found, -1.0), _worst(found, 1.0), gone, left, workpiece.x, workpiece.y,
+        target.name, tolerance, found.error, _worst(found, -1.0, *gouge), _worst(found, 1.0, *rest), gone, left, workpiece.x, workpiece.y,
         signed, rows, tuple(_notes(workpiece, rows)), workpiece, target, found,
     )  # fmt: skip
 
 
-def _worst(found: Seen, sign: float) -> Worst:
-    """The worst place of one sign."""
+def _farthest(found: Seen, sign: float) -> Index:
+    """The places that are farthest off with one sign, none where nothing is."""
     off = sign * found.off
-    if not len(off) or not off.max() > 0:
+    return np.flatnonzero(off >= off.max() - ALIKE) if len(off) and off.max() > 0 else NONE
+
+
+def _worst(found: Seen, sign: float, k: int, row: int) -> Worst:
+    """The worst place of one sign, `k` of those that were looked at, -1 for none."""
+    if k < 0:
         return Worst()
-    k, row = _first(found, np.flatnonzero(off >= off.max() - ALIKE))
     x, y, z = found.place[k].tolist()
     name = found.target.owner(int(found.owner[k])).name
-    return Worst(float(off.max()), (x, y, z), *_line(found, row), name, _where(found, row))
+    return Worst(float((sign * found.off).max()), (x, y, z), *_line(found, row), name, _where(found, row))
 
 
 def _followed(found: Seen) -> Seen:
@@ -85,13 +92,20 @@ def _followed(found: Seen) -> Seen:
     return found.with_places(at, off, found.target.owners(at, np.abs(off)))
 
 
-def _first(found: Seen, among: Index) -> tuple[int, int]:
-    """Of places that are as bad the one that was made first, as far as they are looked at, and the row that made it."""
-    some = among[:: len(among) // MOST + 1]
-    rows = [guilty(found.workpiece, found.target, found.place[k], found.void[k], float(found.off[k])) for k in some]
-    made = [(row, int(k)) for row, k in zip(rows, some) if row >= 0]
-    row, k = min(made, default=(-1, int(some[0])))
-    return k, row
+def _first(found: Seen, groups: list[Index]) -> list[tuple[int, int]]:
+    """Of the places of each group, all as bad, the one that was made first, as far as they are looked at, and the row that
+    made it; -1 and -1 for an empty group."""
+    groups = [among[:: len(among) // MOST + 1] for among in groups]
+    some, where = np.unique(np.concatenate(groups), return_inverse=True)
+    rows = guilty(found.workpiece, found.target, found.place[some], found.void[some], found.off[some])[where.reshape(-1)]
+    first, begin = [], 0
+    for among in groups:
+        mine = rows[begin : begin + len(among)]
+        made = [(int(row), int(k)) for row, k in zip(mine, among) if row >= 0]
+        row, k = min(made, default=(-1, int(among[0]) if len(among) else -1))
+        first.append((k, row))
+        begin += len(among)
+    return first
 
 
 def _line(found: Seen, row: int) -> tuple[int, int, int]:
@@ -105,7 +119,8 @@ def _where(found: Seen, row: int) -> str:
     return str(found.workpiece.cutting.name(line, program)) if row >= 0 else ""
 
 
-def _row(found: Seen, reading: Reading) -> Row:
+def _row(found: Seen, reading: Reading, k: int, row: int) -> Row:
+    """A reading as a row of the table; `k` is the worst of its places, -1 for none, which a row made."""
     measure, actual = reading.measure, reading.actual
     deviation = actual - measure.nominal
     deviation = 0.0 if abs(deviation) <= NOISE else deviation
@@ -114,11 +129,9 @@ def _row(found: Seen, reading: Reading) -> Row:
         verdict = reading.said
     else:
         verdict = OK if lower - found.least <= deviation <= upper + found.least else OUT
-    row, place = -1, None
-    worst = _worst_of(found, reading.among)
-    if len(worst):
-        first, row = _first(found, worst)
-        x, y, z = found.place[first].tolist()
+    place = None
+    if k >= 0:
+        x, y, z = found.place[k].tolist()
         place = x, y, z
     line, row, program = _line(found, row)
     where = _where(found, row) if row >= 0 else ("nothing cut here" if place else "")

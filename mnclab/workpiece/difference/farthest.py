@@ -19,10 +19,11 @@ LEAST = 1e-6  # mm: less is no gain
 Distance = Callable[[Array], Array]
 
 
-def narrowed(surface: HalfSurface, at: Places, value: Array, distance: Distance) -> tuple[Array, Array]:
+def narrowed(surface: HalfSurface, at: Places, value: Array, group: Index, distance: Distance) -> tuple[Array, Array]:
     """Places (k, 2) on a surface where a distance is greatest between those that were looked at, and how far (k,).
 
-    It changes by no more than the way: only where it is greater than the greatest less a step can a greater one lie.
+    It changes by no more than the way: only where it is greater than the greatest of a group (m,) less a step can a greater
+    one lie.
     """
     if not len(value):
         return np.zeros((0, 2)), np.zeros(0)
@@ -30,7 +31,9 @@ def narrowed(surface: HalfSurface, at: Places, value: Array, distance: Distance)
     before, after = np.append(False, same), np.append(same, False)
     peak = (~before | (value >= np.roll(value, 1))) & (~after | (value >= np.roll(value, -1)))
     gap = np.where(after, np.roll(at.way, -1) - at.way, np.where(before, at.way - np.roll(at.way, 1), 0.0))
-    some = np.flatnonzero(peak & (value >= value.max() - gap))
+    most = np.zeros(int(group.max()) + 1)
+    np.maximum.at(most, group, value)
+    some = np.flatnonzero(peak & (value > 0) & (value >= most[group] - gap))
     some = some[np.argsort(-value[some], kind="stable")][:MOST]
     low = np.where(before[some], at.share[some - 1], at.share[some])
     high = np.where(after[some], at.share[(some + 1) % len(value)], at.share[some])
@@ -65,7 +68,7 @@ def deepest(region: Region, distance: Distance, least: float) -> tuple[Array, fl
         if not len(spots):
             continue
         value = distance(spots)
-        k: Index = value.argmax()
+        k = int(value.argmax())
         place, found, step = spots[k], float(value[k]), float((high - low).max()) / GRID
         ring = np.array([(np.cos(a), np.sin(a)) for a in np.arange(16) * np.pi / 8])
         while step > LEAST**2 and found + 2 * step > (best[1] if best else least):

@@ -25,7 +25,7 @@ TINY = 1e-9  # mm², a triangle that has no area
 EDGE = 1e-9  # of a triangle: how far beside it a point still is on it
 PAIRS = 2_000_000  # of points and triangles that are looked at together
 WIDE = (16, 1000)  # squares along the longer side, by which triangles are found
-EXACT = 1e-6  # mm: single precision of files
+EXACT, SINGLE = 1e-6, 1e-7  # mm, and of a coordinate: the single precision of files
 ACROSS = {"XY": 2, "XZ": 1, "YZ": 0}
 
 
@@ -103,7 +103,8 @@ class Mesh:
         long = np.linalg.norm(np.diff(self.points[ends[pair]], axis=1)[:, 0], axis=1)
         wide = 2 * np.minimum(self.area[one], self.area[other]) / np.maximum(long, TINY)
         smooth = (lean > EXACT) & (lean < SMOOTH)
-        return max(EXACT, float((wide * np.tan(lean / 4) / 2)[smooth].max(initial=0.0)))
+        rise = (wide * np.tan(lean / 4) / 2)[smooth].max(initial=0.0)
+        return max(EXACT, SINGLE * float(np.abs(self.points).max()), float(rise))
 
     @cached_property
     def _implicit(self) -> Any:

@@ -7,19 +7,30 @@ import numpy as np
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.sweep import grouped
+from mnclab.workpiece.milling.swept import left_by
 
 NARROW = 1e-9  # mm, to which a place is found
 PLACES = 15  # between both ends of a bracket, looked at together
 FIRST = 1e-6  # mm, the first step
+PAIRS = 1 << 14  # points times moves, up to which all moves that come near are asked
 GROUP = 6.0  # mm, the side of a square whose points are looked at together
 
 
 def sides(workpiece: Milled, x: Array, y: Array) -> tuple[Array, Array]:
     """Lower and upper side of the material at points (m,) anywhere, exact; equal where there is none."""
-    found = np.empty(len(x))
+    top, floor = workpiece.blank_at(x, y)
+    found, moves, boxes = np.empty(len(x)), workpiece.moves, workpiece.sweep.boxes
     for some in grouped(x, y, max(workpiece.raster.tile, GROUP)):
-        found[some] = workpiece.sweep.left(x[some], y[some])
-    return workpiece.blank_at(x, y)[1], found
+        px, py = x[some], y[some]
+        near = (boxes[:, 0] <= px.max()) & (boxes[:, 1] <= py.max()) & (boxes[:, 2] >= px.min()) & (boxes[:, 3] >= py.min())
+        which = np.flatnonzero(near & (moves.low < top[some].max()))
+        if not len(which):
+            found[some] = top[some]
+        elif len(which) * len(some) <= PAIRS:
+            found[some] = np.minimum(top[some], left_by(moves[which], px, py).min(axis=0))
+        else:
+            found[some] = workpiece.sweep.within(px, py, top[some], floor[some])
+    return floor, np.maximum(found, floor)
 
 
 def stands(workpiece: Milled, x: Array, y: Array, z: Array) -> Mask:

@@ -76,11 +76,14 @@ class Compared:
 @dataclass(frozen=True, eq=False)
 class Looked:
     """`places` (m, …) on the surface of the target, how far the part is off along the normal there (m,), nan where it has no
-    surface or nothing is judged, and `off` (m,): the distance of what was found from the target."""
+    surface or nothing is judged, and `off` (m,): the distance of what was found from the target. `gone` and `left` are the
+    areas of the half section that were cut away too much, or left over, empty where nothing is off."""
 
     places: Places
     moved: Array
     off: Array
+    gone: Region
+    left: Region
 
 
 def compare_turned(part: Turned, target: HalfTarget, tolerance: float) -> Difference:
@@ -96,7 +99,7 @@ def compare_turned(part: Turned, target: HalfTarget, tolerance: float) -> Differ
     if (off > 0).any():
         left = found.surface.region.difference(target.surface.region)
     at, off, owner = _with_depths(target, gone, left, at, off, owner)
-    looked = _looked(found, target, spacing, error)
+    looked = _looked(found, target, spacing, error, gone, left)
     from mnclab.workpiece.difference.turned_measuring import rows_of
 
     rows = Features(list(rows_of(found, target, looked, (at, off, owner), tolerance, error)))
@@ -124,7 +127,9 @@ def _all_off(found: Compared, target: HalfTarget, spacing: float, error: float) 
     for distance, sign in ((left, 1.0), (gone, -1.0)):
         value = np.maximum(sign * values[0], 0.0)
         if value.max() > error:
-            place, far = narrowed(surface, at, value, distance)
+            group = np.zeros(len(value), dtype=np.int64)
+            group[value > error] = target.owners(at.place[value > error])
+            place, far = narrowed(surface, at, value, group, distance)
             places.append(place)
             values.append(sign * far)
     place, value = np.concatenate(places), np.concatenate(values)
@@ -145,7 +150,7 @@ def _with_depths(
     return at, off, owner
 
 
-def _looked(found: Compared, target: HalfTarget, spacing: float, error: float) -> Looked:
+def _looked(found: Compared, target: HalfTarget, spacing: float, error: float, gone: Region, left: Region) -> Looked:
     """The part along the normals of the target."""
     at = target.surface.places(spacing * 3, EDGE)
     moved = found.surface.ways_out(at.place, at.normal)
@@ -156,7 +161,7 @@ def _looked(found: Compared, target: HalfTarget, spacing: float, error: float) -
     off = np.sign(moved) * np.minimum(np.abs(moved), away)
     moved = np.where(away < OWN * np.abs(moved) - error, np.nan, moved)  # another face stands there
     off = np.where(np.abs(off) <= error, np.where(np.isnan(off), np.nan, 0.0), off)
-    return Looked(at, moved, off)
+    return Looked(at, moved, off, gone, left)
 
 
 def _worst(found: Compared, target: HalfTarget, at: Array, off: Array, owner: Index, sign: float) -> Worst:

@@ -168,7 +168,7 @@ class _Room:
 
     def thread(self, thread: Thread, dimension: Dimension) -> Found:
         """Of a thread outside the diameter over its crests; that it is there at all."""
-        if dimension.measure.kind != "thread":
+        if dimension.measure.kind != "thread" or not len(self.found.part.cutting):  # a drawing has no teeth
             return NOTHING
         middle = np.linspace(thread.end, thread.start, 2002)[1:-1]
         radii = revolved.radii_at(self.found.surface.region.loops, middle)
@@ -201,15 +201,19 @@ class _Room:
     def _of_face(self, face: _Face, point: Point, axis: int) -> Found:
         spots = face.middle[:, axis]
         if np.isnan(spots).any() or not len(spots):
-            return Found(said=NOT_CUT) if not self.target.toothed(face.at).any() else NOTHING
+            return self._lost(face)
         off = spots - point[axis]
         worst = int(np.abs(off).argmax())
         return Found(float(spots[worst]), face.middle, off)
 
+    def _lost(self, face: _Face) -> Found:
+        """What is said of a face that was not found: where a thread has its teeth it is not looked for."""
+        return NOTHING if self.target.toothed(face.at).any() else Found(said=NOT_CUT)
+
     def _meeting(self, one: _Face, two: _Face, axis: int) -> Found:
         (a, u), (b, v) = one.line, two.line
         if np.isnan(a).any() or np.isnan(b).any():
-            return Found(said=NOT_CUT)
+            return self._lost(one if np.isnan(a).any() else two)
         across = _cross(u, v)
         share = _cross(b - a, v) / across if across else math.nan
         spots = np.concatenate([one.middle, two.middle])
@@ -231,7 +235,7 @@ class _Room:
         face = min(faces, key=lambda each: each.from_(a))
         centre, ahead = face.line
         if np.isnan(centre).any():
-            return Found(said=NOT_CUT)
+            return self._lost(face)
         lean = math.degrees(math.atan2(abs(ahead[1]), abs(ahead[0])))
         drawn = math.degrees(math.atan2(abs(face.ahead[1]), abs(face.ahead[0])))
         whole = 2.0 if abs(dimension.measure.nominal - 2 * drawn) < abs(dimension.measure.nominal - drawn) else 1.0
@@ -243,7 +247,7 @@ class _Room:
             reach, there = (float(np.hypot(*(end - centre))) for end in (face.start, face.end))
             if face.bent and max(abs(reach - dimension.measure.nominal), abs(there - reach)) <= SAME:
                 if np.isnan(face.middle).any():
-                    return Found(said=NOT_CUT)
+                    return self._lost(face)
                 *_, radius = circle(face.middle, centre)
                 return Found(float(radius), face.middle, np.hypot(*(face.middle - centre).T) - reach)
         return NOTHING
