@@ -9,7 +9,7 @@ from mnclab.show.drawing.dimensions import Note, number
 from mnclab.show.drawing.feature_marks import mouth_of, outline_of, point_of, shape_in
 from mnclab.show.drawing.sheet import Table
 from mnclab.show.drawing.wording import SIGNS, hole_lines, written
-from mnclab.workpiece.design.features import Groove, Hole
+from mnclab.workpiece.design.features import Hole, along
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.shapes import Circle, Outline
 
@@ -78,11 +78,11 @@ def corner_table(side: Side, shape: Outline, measures: Sequence[Measure], k: int
     known = {each.name: each for each in measures}
     if known:
         rows.append(("middle", _said(known["x"], x), _said(known["y"], y), ""))
-        rows.append(("size", written(known["length"]), written(known["width"]), ""))
-        for row, names in ((len(rows) - 2, ("x", "y")), (len(rows) - 1, ("length", "width"))):
+        length, width = (name if name in known else along(name) for name in ("length", "width"))
+        rows.append(("size", written(known[length]), written(known[width]), ""))
+        for row, names in ((len(rows) - 2, ("x", "y")), (len(rows) - 1, (length, width))):
             for column, name in enumerate(names, 1):
-                claims = [c for c in side.claims([k], name) if not (isinstance(side.features[k], Groove) and c.place == 0)]
-                side.ledger.cell(title, row, column, claims)
+                side.ledger.cell(title, row, column, side.claims([k], name))
     side.ledger.tables.append(Table(title, ("No.", "X", "Y", "arc to next"), tuple(rows)))
 
 

@@ -28,7 +28,7 @@ from mnclab.show.drawing.patterns import pattern_of, write_pattern
 from mnclab.show.drawing.view import Kind, Line, Origin
 from mnclab.show.drawing.wording import DIAMETER, at_place, chamfer_text, hole_lines, times, valued, written
 from mnclab.workpiece.design.design import Design
-from mnclab.workpiece.design.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slope, Slot, Stud
+from mnclab.workpiece.design.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slope, Slot, Stud, along
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle, Shape
 from mnclab.workpiece.design.threads import core_of
@@ -184,11 +184,11 @@ class Side:
         at = frame_at((shape.x, shape.y), shape.turned)
         a, b, count = shape.length / 2, shape.width / 2, len(numbers)
         straight = abs(shape.turned) < SAME
-        for name, start, end, along, side in (
+        for size, start, end, way, side in (
             ("length", (-a, b), (a, b), "x", "above"), ("width", (a, -b), (a, b), "y", "right"),
         ):  # fmt: skip
-            way = (along, side) if straight else ("ab", "")
-            said = Linear(at(*start), at(*end), valued(known[name], count=count), *way)
+            name = size if size in known else along(size)
+            said = Linear(at(*start), at(*end), valued(known[name], count=count), *((way, side) if straight else ("ab", "")))
             self.ledger.say(self.draft, said, self.claims(numbers, name))
         if "corner radius" in known:
             r = shape.corner
@@ -230,13 +230,7 @@ class Side:
         aside = np.array([-ahead[1], ahead[0]]) * wide
         width = Linear(point_of(at - aside), point_of(at + aside), valued(measures[0], count=len(numbers)), direction_of(aside))
         self.ledger.say(self.draft, width, [Claim(self.back, k, 0, "width") for k in numbers])
-        self._once(measures, numbers)
         self._deep(numbers, line)
-
-    def _once(self, measures: Sequence[Measure], numbers: list[int]) -> None:
-        """The width of a groove along a rectangle is another than that of the rectangle."""
-        for _, claims in self.ledger.said[:-1]:
-            claims[:] = [each for each in claims if not (each.back == self.back and each.feature in numbers and each.place == 0)]
 
     def _hole(self, hole: Hole, numbers: list[int]) -> None:
         wide = core_of(hole.thread, 0.0) if hole.thread else mouth_of(hole)

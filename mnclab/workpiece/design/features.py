@@ -192,7 +192,7 @@ class Groove(Feature):
 
     def _measures(self) -> Iterator[Measure]:
         yield Measure("width", self.width)
-        yield from self.contour.measures()
+        yield from (each._replace(name=along(each.name)) for each in self.contour.measures())
         yield Measure("depth", self.depth, "depth")
 
     def removals(self, site: Site) -> Iterator[Removal]:
@@ -200,6 +200,11 @@ class Groove(Feature):
 
     def moved(self, dx: float, dy: float, dz: float) -> Self:
         return replace(self, contour=self.contour.moved(dx, dy), **self.raised(dz))
+
+
+def along(name: str) -> str:
+    """What a measure of the outline that a groove goes along is called: its sizes are not those of the groove."""
+    return f"outline {name}" if name in ("length", "width") else name
 
 
 FEATURES: dict[str, type[Feature]] = {each.kind: each for each in (Face, Pocket, Stud, Slot, Groove, Hole, Chamfer, Slope)}

@@ -55,8 +55,8 @@ def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Differ
     rows = Features([_row(found, reading, *each) for reading, each in zip(readings, first)])
     gone, left = volumes(found)
     return Difference(
-        target.name, tolerance, found.error, _worst(found, -1.0, *gouge), _worst(found, 1.0, *rest), gone, left, workpiece.x, workpiece.y,
-        signed, rows, tuple(_notes(workpiece, rows)), workpiece, target, found,
+        target.name, tolerance, found.error, _worst(found, -1.0, *gouge), _worst(found, 1.0, *rest), gone, left,
+        workpiece.x, workpiece.y, signed, rows, tuple(_notes(workpiece, rows)), workpiece, target, found,
     )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mnclab.path.columns import Array, Index
-from mnclab.workpiece.design.features import Chamfer, Feature, Groove, Hole, Slope, Slot
+from mnclab.workpiece.design.features import Chamfer, Feature, Groove, Hole, Slope, Slot, along
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Flat, Slant, Wedge
 from mnclab.workpiece.difference.deviations import Seen
@@ -97,7 +97,7 @@ class _Room:
             wider = (wide - feature.width) / 2 if good.any() else 0.0  # of both walls: it does not move the middle
             normals = self._normals(faces)
             middle = faces._replace(place=faces.place + feature.width / 2 * normals, moved=faces.moved + wider * normals)
-            yield from sizes(feature.contour, middle, feature.width)
+            yield from ((along(name), found) for name, found in sizes(feature.contour, middle, feature.width))
         elif hasattr(feature, "contour"):
             faces = self._walls("")
             if not self.own and len(faces.place):
@@ -129,17 +129,17 @@ class _Room:
         """Of the place of a floor that is farthest off; where its walls are nearer, what is left or gone is theirs."""
         seen, cells = self.seen, self.seen.cells
         through = floor <= self.bottom + NOISE
-        grid = seen.grid.under if self.back else seen.grid.owner
-        whose = grid[cells.row, cells.column]
+        own = seen.cells_above(owners, self.back)
         if through:
-            off = np.flatnonzero(np.isin(whose, owners) & np.isnan(cells.at.its_top))
+            off = own[np.isnan(cells.at.its_top[own])]
             left = (cells.at.floor if self.back else cells.at.top)[off]
             level = self.turned - left if self.back else left
             return Found(self.top - (floor if not len(off) else float(level.max())), off + seen.of_cells.start)
-        off = np.flatnonzero(np.isin(whose, owners) & np.isfinite(cells.at.its_top))
-        above = cells.at.its_floor - cells.at.floor if self.back else cells.at.top - cells.at.its_top
+        off = own[np.isfinite(cells.at.its_top[own])]
+        at = cells.at.some(off)
+        above = at.its_floor - at.floor if self.back else at.top - at.its_top
         slopes = np.flatnonzero(np.isin(seen.slopes.owner, owners))
-        rise = np.concatenate([above[off], seen.rise[slopes]])
+        rise = np.concatenate([above, seen.rise[slopes]])
         index = np.concatenate([off + seen.of_cells.start, slopes + seen.of_slopes.start])
         cells_of_it = sum(int(seen.sizes[self.back][k + 1]) for k in owners if k + 1 < len(seen.sizes[self.back]))
         if not len(slopes) and not cells_of_it:
