@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import Enum
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ import numpy as np
 from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
+from mnclab.geometry.vectors import Floats
 
 ROUGH = 1e-3  # mm, how far the polygons that are looked at may be off
 CLEAR = 1e-2  # mm, between edges that do not meet
@@ -31,8 +33,8 @@ def where(loop: Contour, region: Region) -> Where:
     """Where a loop lies against a region."""
     if any(_same(loop, other) for other in region.loops):
         return Where.EDGE
-    edges = [shapely.LinearRing(other.points_within(ROUGH)) for other in region.loops]
-    line = shapely.LinearRing(loop.points_within(ROUGH))
+    edges = [shapely.LinearRing(_ring(other)) for other in region.loops]
+    line = shapely.LinearRing(_ring(loop))
     if shapely.dwithin(line, edges, CLEAR).any():
         return Where.ACROSS
     return Where.INSIDE if region.contains(loop.points[:1])[0] else Where.OUTSIDE
@@ -117,7 +119,7 @@ def _holds_parts(hole: Contour, region: Region) -> bool:
 
 
 def _filled(loop: Contour) -> Any:
-    return shapely.Polygon(loop.points_within(ROUGH))
+    return shapely.Polygon(_ring(loop))
 
 
 def _same(a: Contour, b: Contour) -> bool:
@@ -141,5 +143,10 @@ def _inside(bodies: list[Any], outline: Any) -> int | None:
 
 def rough(region: Region) -> Any:
     """A region as a rough shapely area."""
-    rings = [[loop.points_within(ROUGH) for loop in part.loops] for part in region.parts]
+    rings = [[_ring(loop) for loop in part.loops] for part in region.parts]
     return shapely.MultiPolygon([shapely.Polygon(first, rest) for first, *rest in rings])
+
+
+@lru_cache(512)
+def _ring(loop: Contour) -> Floats:
+    return loop.points_within(ROUGH)

@@ -20,7 +20,7 @@ from matplotlib.backends.backend_pdf import PdfPages
 
 from mnclab.geometry.vectors import Floats
 from mnclab.show.drawing import dxf, figure, frame, linear
-from mnclab.show.drawing.arrangement import arranged
+from mnclab.show.drawing.arrangement import EDGE, LEAST, arranged
 from mnclab.show.drawing.dimensions import Point
 from mnclab.show.drawing.frame import Printed
 from mnclab.show.drawing.ink import corners_of
@@ -201,7 +201,11 @@ class _Attempt:
     def _might(self, views: Sequence[View], size: Size, scale: float) -> bool:
         """Whether the views with their rows of dimensions would have room: the other texts may take more."""
         x0, y0, x1, y1 = frame.inside(size)
-        return all(sum(self._sizes(views, axis, scale).values()) <= room for axis, room in ((0, x1 - x0), (1, y1 - y0)))
+        for axis, room in ((0, x1 - x0), (1, y1 - y0)):
+            sizes = self._sizes(views, axis, scale)
+            if sum(sizes.values()) + LEAST * (len(sizes) - 1) + 2 * EDGE > room:
+                return False
+        return True
 
     def _sizes(self, views: Sequence[View], axis: int, scale: float) -> dict[int, float]:
         """The columns (axis 0) or rows (axis 1) of the views: how large they are at least on paper, mm."""
