@@ -276,3 +276,12 @@ def test_a_wrong_target_is_an_alarm(given, said):
 def test_a_wrong_tolerance_is_an_alarm(tolerance):
     with pytest.raises(Alarm, match="tolerance"):
         part("G0 X30 Y20").compare(Design(BLOCK), tolerance)
+
+
+def test_a_groove_cut_too_wide_keeps_its_middle():
+    around = "G0 X20 Y10 Z2\nG1 Z-2\nG1 X50\nG1 Y30\nG1 X20\nG1 Y10\nG0 Z2\n"
+    groove = Groove([(20, 10), (50, 10), (50, 30), (20, 30)], 6.0, 2.0)
+    found = part(around, Tool(radius=3.1, number=1, kind="mill")).compare(Design(BLOCK, (groove,)), 0.05)
+    wide, high = (each.actual for each in found.features if each.feature == "groove" and each.measure == "width")
+    assert wide == pytest.approx(6.2, abs=1e-6)
+    assert (row(found, "groove", "length").actual, high) == (pytest.approx(30, abs=1e-6), pytest.approx(20, abs=1e-6))

@@ -275,6 +275,13 @@ def test_holes_in_equal_steps_have_their_number():
     assert said == {"15": 5 + 8, "7× 18 (=126)": 7 * 5, "4× 17 (=68)": 4 * 8}
 
 
+def test_rows_of_equal_steps_share_them():
+    rows = *d.Hole.row(30, 25, 4, 20, 5, None), *d.Hole.row(30, 55, 4, 20, 8, None)
+    drawn = drawing(d.Design(((0, 0, -12), (120, 80, 0)), rows))
+    assert [box.text for box in drawn.boxes()].count("3× 20 (=60)") == 1
+    check(drawn, d.Design(((0, 0, -12), (120, 80, 0)), rows))
+
+
 def test_very_many_kinds_of_features_stand_in_a_table():
     places = [(i, k) for i in range(4) for k in range(4)]
     pockets = tuple(d.Pocket.circle(8 + 11 * i, 8 + 11 * k, 7 + 0.2 * i + 0.1 * k, 2 + 0.3 * k) for i, k in places)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mnclab.geometry.contours import Contour
 from mnclab.show.drawing.dimensions import Angle, Diameter, Linear, Point, Value, number, value
@@ -92,7 +92,19 @@ def write_pattern(side: Side, numbers: Sequence[int], pattern: Ring | Lattice) -
         text = f"{count}{TIMES} {number(whole / count)} (={number(whole)})"
         ends = [(each, other[0]) if axis == "x" else (other[0], each) for each in (some[0], some[-1])]
         told = Linear(ends[0], ends[1], Value(text), axis, "below" if axis == "x" else "left")
-        side.ledger.say(side.draft, told, side.claims(rest, axis))
+        same = next((claims for said, claims in side.ledger.said if said in side.draft.dimensions and _alike(said, told)), None)
+        if same is None:
+            side.ledger.say(side.draft, told, side.claims(rest, axis))
+        else:
+            same += side.claims(rest, axis)
+
+
+def _alike(said: Any, told: Linear) -> bool:
+    """Whether a dimension says the same steps of other holes."""
+    if not isinstance(said, Linear) or (said.value, said.along) != (told.value, told.along):
+        return False
+    k = "xy".index(told.along)
+    return abs(said.a[k] - told.a[k]) < SAME and abs(said.b[k] - told.b[k]) < SAME
 
 
 def _write_ring(side: Side, numbers: Sequence[int], ring: Ring) -> None:

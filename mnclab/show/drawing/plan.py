@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.apart import Where, joined, where
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import Floats
@@ -37,7 +38,7 @@ def _sections(levels: Levels, below: bool) -> Iterator[tuple[float, Region]]:
 def _more(levels: Levels, covered: Region, section: Region) -> Region:
     if not covered.loops or not section.loops:
         return section if section.loops else covered
-    return section if levels.nested else covered.union(section)
+    return section if levels.nested else joined(covered, section)
 
 
 def _seen(levels: Levels, below: bool) -> Iterator[tuple[float, Contour]]:
@@ -49,9 +50,20 @@ def _seen(levels: Levels, below: bool) -> Iterator[tuple[float, Contour]]:
             yield from ((z, loop) for loop in section.loops)
             covered = section
             continue
-        for loop in (section if levels.nested else section.difference(covered)).loops:
-            yield from ((z, line) for line in _off(loop, covered))
+        yield from ((z, line) for line in _beside(levels, section, covered))
         covered = _more(levels, covered, section)
+
+
+def _beside(levels: Levels, section: Region, covered: Region) -> Iterator[Contour]:
+    """The edges of a section that are not below what covers it, nor on the edge of that."""
+    places = [(loop, where(loop, covered)) for loop in section.loops]
+    if any(place is Where.ACROSS for _, place in places) and not levels.nested:
+        places = [(loop, Where.ACROSS) for loop in section.difference(covered).loops]
+    for loop, place in places:
+        if place is Where.ACROSS:
+            yield from _off(loop, covered)
+        elif place is Where.OUTSIDE:
+            yield loop
 
 
 def _mitres(levels: Levels, below: bool) -> Iterator[Contour]:
