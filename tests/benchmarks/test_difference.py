@@ -18,7 +18,7 @@ BLOCK, STEP = ((0, 0, -20), (102.4, 102.4, 0)), 0.1
 PLACES = [(15 + 24 * i, 15 + 24 * j) for i in range(4) for j in range(4)]
 
 
-@pytest.mark.parametrize(("radius", "most"), [(3.0, 0.5), (3.05, 5.0)])
+@pytest.mark.parametrize(("radius", "most"), [(3.0, 0.5), (3.05, 1.5)])
 def test_sixteen_pockets(radius, most):
     text = ""
     for x, y in PLACES:

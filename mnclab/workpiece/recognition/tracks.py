@@ -127,14 +127,15 @@ def swept(tracks: list[Track]) -> Region:
     wide = NEAR * max(each.radius for each in tracks)
     outlines = [shapely.Polygon(piece.points_within(wide / 4) if piece.bulge.any() else piece.points) for piece in bands]
     chosen = [piece for piece, near in zip(bands, shapely.dwithin(rim, outlines, wide)) if near]
-    arcs = [shapely.LineString(_arc_of(piece)) for _, piece in discs]
-    near = shapely.dwithin(rim, arcs, [NEAR * radius for radius, _ in discs])
-    chosen += [piece for (_, piece), matters in zip(discs, near) if matters]
-    loops = (loop for loop in Region.of(*chosen).loops if loop.area > 0 or not whole.contains(_within(loop)))
-    found = Region(tuple(loops))
-    if differ(whole, polygon(found)):  # a piece that matters was not seen to
-        return Region.of(*bands, *(piece for _, piece in discs))
-    return found
+    for along in (ALONG, 0.0):  # steps that are short beside the cutter leave only the ends of their discs at the rim
+        arcs = [shapely.LineString(_arc_of(piece, along)) for _, piece in discs]
+        near = shapely.dwithin(rim, arcs, [NEAR * radius for radius, _ in discs])
+        seen = chosen + [piece for (_, piece), matters in zip(discs, near) if matters]
+        loops = (loop for loop in Region.of(*seen).loops if loop.area > 0 or not whole.contains(_within(loop)))
+        found = Region(tuple(loops))
+        if not differ(whole, polygon(found)):
+            return found
+    return Region.of(*bands, *(piece for _, piece in discs))  # a piece that matters was not seen to
 
 
 def differ(one: Any, other: Any) -> bool:
@@ -142,13 +143,13 @@ def differ(one: Any, other: Any) -> bool:
     return not one.symmetric_difference(other).buffer(-THIN).is_empty
 
 
-def _arc_of(piece: Contour) -> Any:
-    """The bent edge of a piece of a disc, without what runs along with a band at its ends."""
+def _arc_of(piece: Contour, along: float) -> Any:
+    """The bent edge of a piece of a disc, without what runs along with a band at its ends, so many rad."""
     if len(piece.points) == 2:
         return piece.points_within(NEAR)
     (x, y), (px, py), _ = piece.points.tolist()
     bend = 4 * math.atan(piece.bulge[1])
-    off = min(ALONG, bend / 2 - 1e-9)
+    off = min(along, bend / 2 - 1e-9)
     angles = math.atan2(py - y, px - x) + np.linspace(off, bend - off, 2 + int(bend / ALONG))
     return (x, y) + math.hypot(px - x, py - y) * at_angle(angles)
 
