@@ -81,7 +81,7 @@ blank = Shelf("mnclab.blank", "what a program cuts from, for Setup(stock=…), a
 design = Shelf("mnclab.design", "a part as drawn, Design(blank, features) or TurnedDesign(profile, features), and features", {
     "mnclab.workpiece.blank": "Box, Revolved",
     "mnclab.workpiece.design":
-        "Design, Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud, "
+        "Design, Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slope, Slot, Stud, "
         "TurnedDesign, Bore, CentreHole, FaceGroove, RingGroove, Thread, Undercut",
 })  # fmt: skip
 

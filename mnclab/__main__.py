@@ -279,7 +279,8 @@ def compare(chosen: argparse.Namespace) -> int:
     if chosen.output:
         sensible(found.save, chosen.output)
     if chosen.json:
-        print(json.dumps(found.as_dict(), allow_nan=False))
+        alarms = [describe(alarm, chosen.file) for alarm in result.alarms]
+        print(json.dumps(found.as_dict() | {"alarms": alarms}, allow_nan=False))
     else:
         print(found)
         worst = () if found.ok else (("gouge", found.worst_gouge), ("rest", found.worst_rest))

@@ -26,8 +26,8 @@ FLOORS = {
 OUTSIDE = {  # package -> the only modules of mnclab that import it
     "shapely": ("geometry.shapely",),
     "matplotlib": ("show.plot", "show.drawing"),
-    "pyvista": ("show.scene", "show.part_scene"),
-    "vtkmodules": ("show.scene", "show.part_scene"),
+    "pyvista": ("show.scene", "show.part_scene", "show.difference_scene", "workpiece.difference.mesh"),
+    "vtkmodules": ("show.scene", "show.part_scene", "workpiece.difference.mesh"),
     "ezdxf": ("geometry.dxf",),
     "ipywidgets": ("show.forms", "show.editor"),
     "IPython": ("show.magic",),

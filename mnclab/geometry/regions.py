@@ -180,6 +180,8 @@ class _Drawing:
         """Loops of a region, which stand in the drawing from `first` on, as a shapely area."""
         pieces: list[tuple[Floats, list[Floats]]] = []
         for loop, ring in zip(loops, self.rings[first:], strict=False):
+            if len(ring) < 3:
+                continue  # a circle smaller than what counts as equal
             if loop.area > 0:
                 pieces.append((ring, []))
             else:
@@ -201,7 +203,7 @@ def polygons_of(region: Region) -> Any:
 
 def covered(contours: Sequence[Contour]) -> Any:
     """What closed contours cover together, as a shapely area of such polylines."""
-    return shapely.union_all([shapely.Polygon(ring) for ring in _Drawing(contours).rings])
+    return shapely.union_all([shapely.Polygon(ring) for ring in _Drawing(contours).rings if len(ring) > 2])
 
 
 def traced(

@@ -23,8 +23,8 @@ from mnclab.workpiece.workpiece import Workpiece, no_blank
 
 if TYPE_CHECKING:
     from mnclab.runs.run import Run
-    from mnclab.workpiece.design.design import Design
-    from mnclab.workpiece.design.turned_design import TurnedDesign
+    from mnclab.workpiece.recognition.proposal import Proposal
+    from mnclab.workpiece.recognition.turned import TurnedProposal
 
 Made = TypeVar("Made")
 KEPT = 6  # parts and lists of collisions that a run keeps
@@ -141,7 +141,7 @@ def _workpiece(run: Run, last: int | None, step: float | None, stock: Any) -> Wo
     return Milled(cutting, step)
 
 
-def design(run: Run, stock: Any = None) -> Design | TurnedDesign:
+def design(run: Run, stock: Any = None) -> Proposal | TurnedProposal:
     """The design that a run makes."""
     cutting = cutting_of(run, stock)
     if cutting.lathe:

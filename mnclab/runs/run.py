@@ -53,8 +53,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from mnclab.show.player import Player
-    from mnclab.workpiece.design.design import Design
-    from mnclab.workpiece.design.turned_design import TurnedDesign
+    from mnclab.workpiece.recognition.proposal import Proposal
+    from mnclab.workpiece.recognition.turned import TurnedProposal
 
 
 EXAMPLE = "mnclab.Setup(tools={1: mnclab.Tool(radius=5)})"
@@ -212,7 +212,7 @@ class Run:
         """
         return material.collisions(self, stock, step)
 
-    def design(self, stock: Any = None) -> Design | TurnedDesign:
+    def design(self, stock: Any = None) -> Proposal | TurnedProposal:
         """The design that the program makes of its blank: holes, pockets, slots, studs, contours, faces, chamfers, threads in
         the order of cutting, named by cycle and line; of a lathe the profile with its threads.
 
@@ -312,7 +312,10 @@ class Run:
         return save(self, path, **options)
 
     def report(self, path: str | Path, title: str | None = None, **options: Any) -> Path:
-        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program; `options` of `plot`."""
+        """Write a report, .html or .pdf: figures, tools, time, picture, alarms, the program; `options` of `plot`.
+
+        `design=`, or what else `Workpiece.compare` takes, adds a measuring record; `tolerance=0.05` mm.
+        """
         from mnclab.show.report import save_report
 
         return save_report(self, path, title, **options)

@@ -5,7 +5,7 @@ The HTML file stands alone: its style sheet (`report.css`) and its picture are i
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -52,6 +52,8 @@ class Report:
     collisions: Collisions = Collisions()
     called: tuple[tuple[str, Listing], ...] = ()
     """Name and listing of the programs that were called."""
+    difference: Any = None
+    """How the part differs from its design, where one was given."""
 
     @property
     def programs(self) -> list[tuple[str, Listing]]:
@@ -111,8 +113,13 @@ def _tool(number: int, tool: Tool, seconds: float) -> tuple[str, ...]:
     return (f"T{number}", tool.name, tool.kind, *sizes, str(tool.teeth or ""), clock(seconds))
 
 
-def save_report(run: Any, path: str | Path, title: str | None = None, **options: Any) -> Path:
-    """Write a report to one file, .html or .pdf; `options` are those of the picture (`Run.plot`)."""
+def save_report(
+    run: Any, path: str | Path, title: str | None = None, *, design: Any = None, tolerance: float = 0.05, **options: Any
+) -> Path:
+    """Write a report to one file, .html or .pdf; `options` are those of the picture (`Run.plot`).
+
+    With a `design`, or whatever else a part is compared with, it has a measuring record of the part; `tolerance` in mm.
+    """
     if not isinstance(path, str | Path):
         raise Alarm(f"a file is written to a path, got {shown(path)}")
     if not isinstance(title, str | None):
@@ -123,6 +130,8 @@ def save_report(run: Any, path: str | Path, title: str | None = None, **options:
         raise Alarm(f"a report is an .html or a .pdf file, got {path.name!r}")
     with replaced(path) as beside:
         found, picture = report(run, title), run.plot(**options)
+        if design is not None:
+            found = replace(found, difference=run.workpiece().compare(design, tolerance))
         if suffix == ".html":
             beside.write_text(html(found, picture), "utf-8", errors="replace", newline="\n")
         else:
@@ -147,6 +156,10 @@ def html(found: Report, picture: Any) -> str:
         collided = collisions_html(found.collisions) or "<p>none</p>"
         parts[-1:-1] = [f"<h2>Removal</h2>{html_table(HEAD, found.removal, numbers=range(1, 6))}"]
         parts.append(f"<h2>Collisions</h2>{collided}")
+    if found.difference is not None:
+        from mnclab.show.export_difference import record
+
+        parts.append(f"<h2>Measuring record</h2>{record(found.difference)}")
     parts += [f'<h2>{escape(name)}</h2><pre class="listing">{_listing(lines)}</pre>' for name, lines in found.programs]
     policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
     head = f'<meta charset="utf-8">{policy}<title>{escape(found.title)}</title><style>{style}</style>'

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
-from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud
+from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slope, Slot, Stud
 
 import mnclab
 from mnclab import Alarm, Design
@@ -40,6 +40,7 @@ feature = st.one_of(
     of(Face, depth), of(Pocket, shape, depth), of(Stud, shape, depth), of(Groove, st.one_of(shape, line), near, depth),
     of(Pocket, rectangle, depth, st.tuples(small)),
     of(Slot, st.tuples(near, near), st.tuples(near.map(lambda x: 20 + x), near), near, depth),
+    st.builds(lambda a, b, t: Slope(30, 20, 10 + a, 8 + b, 3 + a, 1 + b, t), near, near, st.floats(-90, 90)),
     of(Hole, near, near, near.map(lambda d: 5 + d), depth, point=st.sampled_from([90, 118, 180.0])),
     of(Hole, near, near, near, depth, countersink=st.tuples(near.map(lambda d: 2 + d), st.floats(60, 120))),
     of(Hole, near, near, st.none(), depth, thread=st.sampled_from(["M8", "M8x1"]), counterbore=st.tuples(st.just(14), near)),
@@ -71,7 +72,7 @@ def test_the_format_of_the_help_is_a_design(tmp_path):
     path = tmp_path / "d.toml"
     path.write_text(FORMAT, "utf-8")
     design = Design.load(path)
-    assert [each.kind for each in design.features] == ["pocket", "hole", "slot", "chamfer", "groove", "face"]
+    assert [each.kind for each in design.features] == ["pocket", "hole", "slot", "chamfer", "groove", "face", "slope"]
     assert design.features[0] == Pocket.rectangle(
         30, 20, 40, 25, 8, corner=5, name="pocket A", islands=(Circle(30, 20, 10),),
         tolerances={"length": 0.1, "width": "H9", "depth": (0, 0.2)},

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slot, Stud
+from mnclab.design import Chamfer, Circle, Face, Groove, Hole, Outline, Pocket, Rectangle, Slope, Slot, Stud
 
 from mnclab import Alarm, Design
 
@@ -13,6 +13,7 @@ GOOD = {
     Slot: {"start": (20, 20), "end": (50, 20), "width": 8, "depth": 5}, Groove: {"contour": SQUARE, "width": 2, "depth": 2},
     Hole: {"x": 20, "y": 20, "diameter": 8, "depth": 12, "point": 118, "counterbore": (11, 4), "countersink": (12, 90),
            "thread": "M8", "thread_depth": 10},
+    Slope: {"x": 30, "y": 30, "length": 20, "width": 10, "start_depth": 2, "end_depth": 6, "turned": 30},
     Chamfer: {"contour": SQUARE, "width": 1, "angle": 90, "inside": True},
     Rectangle: {"x": 0, "y": 0, "length": 10, "width": 8, "corner": 2, "turned": 30}, Circle: {"x": 0, "y": 0, "diameter": 5},
     Outline: {"points": SQUARE, "bulge": (0, 0, 0, 0), "closed": True},

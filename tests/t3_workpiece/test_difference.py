@@ -11,7 +11,7 @@ from t3_workpiece.cut_from_drawings import Writer, cut
 from mnclab import Alarm, Tool
 from mnclab.geometry.contours import Contour
 from mnclab.workpiece.blank import cylinder
-from mnclab.workpiece.design import Chamfer, Design, Face, Groove, Hole, Pocket, Slot, Stud
+from mnclab.workpiece.design import Chamfer, Design, Face, Groove, Hole, Pocket, Rectangle, Slot, Stud
 
 BLOCK = ((0, 0, -20), (60, 40, 0))
 ROUND = 12.0 - 5.0  # the path of a mill of 5 mm in a circle of 24
@@ -210,6 +210,23 @@ def test_grooves_studs_and_countersinks():
     assert row(off, "groove", "depth").actual == pytest.approx(2.1, abs=1e-9)
 
 
+def test_the_width_of_a_groove_is_not_that_of_its_outline():
+    """Along a rectangle of 30 by 20 a mill of 10 makes walls at 40 by 30 and 20 by 10; a tolerance meets the groove alone."""
+    groove = Groove(Rectangle(30, 20, 30, 20), 10, 2, tolerances={"width": 0.01})
+    design = Design(BLOCK, (groove,))
+    assert {each.name: each.nominal for each in groove.measures()} == {
+        "width": 10, "outline length": 30, "outline width": 20, "x": 30, "y": 20, "depth": 2,
+    }  # fmt: skip
+    assert [each.name for each in groove.measures() if each.limits] == ["width"]
+    text = "G0 X15 Y10 Z2\nG1 Z-2\nG1 X45\nG1 Y30\nG1 X15\nG1 Y10"
+    found = part(text).compare(design)
+    for name, value in (("width", 10), ("outline length", 30), ("outline width", 20)):
+        assert row(found, "groove", name).actual == pytest.approx(value, abs=1e-6)
+    wide = part(text, Tool(radius=5.02, number=1, kind="mill")).compare(design)
+    assert row(wide, "groove", "width").actual == pytest.approx(10.04, abs=1e-6)
+    assert [each.measure for each in wide.features.of("groove").outside] == ["width"]
+
+
 def test_a_stud_and_a_chamfer_about_it():
     design = Design(BLOCK, (Stud.circle(30, 20, 20, 5), Chamfer(Pocket.circle(30, 20, 20, 1).contour, 1.0)))
     tools = {1: Tool(radius=5, number=1, kind="mill"), 3: Tool(radius=6, number=3, kind="chamfer", angle=90)}
@@ -277,3 +294,12 @@ def test_a_wrong_target_is_an_alarm(given, said):
 def test_a_wrong_tolerance_is_an_alarm(tolerance):
     with pytest.raises(Alarm, match="tolerance"):
         part("G0 X30 Y20").compare(Design(BLOCK), tolerance)
+
+
+def test_a_groove_cut_too_wide_keeps_its_middle():
+    around = "G0 X20 Y10 Z2\nG1 Z-2\nG1 X50\nG1 Y30\nG1 X20\nG1 Y10\nG0 Z2\n"
+    groove = Groove([(20, 10), (50, 10), (50, 30), (20, 30)], 6.0, 2.0)
+    found = part(around, Tool(radius=3.1, number=1, kind="mill")).compare(Design(BLOCK, (groove,)), 0.05)
+    wide, high = (each.actual for each in found.features if each.feature == "groove" and each.measure == "width")
+    assert wide == pytest.approx(6.2, abs=1e-6)
+    assert (row(found, "groove", "length").actual, high) == (pytest.approx(30, abs=1e-6), pytest.approx(20, abs=1e-6))

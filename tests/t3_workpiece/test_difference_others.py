@@ -41,7 +41,7 @@ def test_a_tool_of_another_radius(radius, sign):
     """Walls that are 0.1 off, thinner than a cell: found along sections of the other part."""
     found = ring(radius).compare(ring(4.0))
     worst, none = (found.worst_gouge, found.worst_rest) if sign > 0 else (found.worst_rest, found.worst_gouge)
-    assert worst.value == pytest.approx(0.1, abs=1e-6) and none.value == 0 and worst.line in range(6, 11)
+    assert worst.value == pytest.approx(0.1, abs=2e-5) and none.value == 0 and worst.line in range(6, 11)  # beside a corner
     volume = found.gouge_volume if sign > 0 else found.rest_volume
     assert volume == pytest.approx(5 * abs(band(radius) - band(4.0)), rel=0.03)
     assert not found.ok

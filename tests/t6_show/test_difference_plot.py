@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from milled import part
+from running import run
 
 from mnclab import Tool
 from mnclab.show.plot.difference import SHADES, nice, plot_difference
@@ -46,7 +47,7 @@ def test_every_mark_has_its_number_and_covers_no_other(found):
     boxes = [text.get_window_extent() for text in numbers]
     assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
     told = [text.get_text() for text in picture.texts]
-    assert any(f"1  worst gouge \N{MINUS SIGN}0.080 mm, pocket" in text for text in told[0].splitlines() + told)
+    assert any("1  worst gouge \N{MINUS SIGN}0.080 mm, pocket" in text for text in told[0].splitlines() + told)
 
 
 @pytest.mark.parametrize("which", ["found", "turned"])
@@ -131,3 +132,16 @@ def test_the_scene_has_the_deviation_of_every_face(found, turned):
         names = set(each.scene().actors)
         assert ("gouge" in names) == (each.worst_gouge.place is not None) and "rest" in names
     assert math.isclose(found.worst_gouge.value, 0.08, abs_tol=1e-6)
+
+
+@pytest.mark.parametrize("suffix", ["html", "pdf"])
+def test_a_report_with_a_measuring_record(suffix, tmp_path):
+    text = f"G17 G90 G54\nT1\nS1000 M3 F500\nG0 Z50\n{TEXT}"
+    tools = {1: Tool(radius=5, number=1, kind="mill")}
+    cut = run(text, tools=tools, stock=((0, 0, -20), (60, 40, 0)))
+    design = Design(((0, 0, -20), (60, 40, 0)), [Pocket.rectangle(30, 20, 44, 24, 6, corner=5, name="pocket")])
+    path, plain = cut.report(tmp_path / f"a.{suffix}", design=design), cut.report(tmp_path / f"b.{suffix}")
+    assert path.stat().st_size > plain.stat().st_size + 5000
+    if suffix == "html":
+        page = path.read_text("utf-8")
+        assert "Measuring record" in page and "6.0800" in page and "Measuring record" not in plain.read_text("utf-8")

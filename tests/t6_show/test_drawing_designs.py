@@ -247,3 +247,63 @@ def test_the_door_of_a_design(tmp_path):
         drawing("plate.toml")
     with pytest.raises(Alarm, match="there is nothing to draw"):
         drawing(d.Design(((0, 0, -20), (80, 60, 0)), d.Pocket.rectangle(40, 30, 80, 60, 20)))
+
+
+def plain(drawn):
+    return [each.text for each in drawn.dimensions if each.measure in ("x", "y")]
+
+
+def test_holes_on_a_circle_have_its_diameter():
+    holes = d.Hole.circle(0, 0, 6, 60, 6.6, None)
+    drawn = drawing(d.Design(((-50, -50, -10), (50, 50, 0)), holes))
+    check(drawn, d.Design(((-50, -50, -10), (50, 50, 0)), holes))
+    assert plain(drawn) == ["⌀60"] * 12
+    square = d.Hole.circle(0, 0, 4, 60, 6.6, None, first=45)  # the corners of a square have coordinates
+    assert "⌀60" not in plain(drawing(d.Design(((-50, -50, -10), (50, 50, 0)), square)))
+
+
+def test_holes_on_a_circle_that_is_turned_have_an_angle():
+    design = d.Design(((-50, -50, -10), (50, 50, 0)), d.Hole.circle(5, 0, 3, 60, 6.6, None, first=20))
+    drawn = drawing(design)
+    check(drawn, design)
+    assert {"20°", "5", "⌀60"} <= {box.text for box in drawn.boxes()}
+
+
+def test_holes_in_equal_steps_have_their_number():
+    design = d.Design(((0, 0, -10), (160, 100, 0)), d.Hole.grid(15, 15, 8, 5, 18, 17, 6, None))
+    drawn = drawing(design)
+    check(drawn, design)
+    said = Counter(plain(drawn))
+    assert said == {"15": 5 + 8, "7× 18 (=126)": 7 * 5, "4× 17 (=68)": 4 * 8}
+
+
+def test_rows_of_equal_steps_share_them():
+    rows = *d.Hole.row(30, 25, 4, 20, 5, None), *d.Hole.row(30, 55, 4, 20, 8, None)
+    drawn = drawing(d.Design(((0, 0, -12), (120, 80, 0)), rows))
+    assert [box.text for box in drawn.boxes()].count("3× 20 (=60)") == 1
+    check(drawn, d.Design(((0, 0, -12), (120, 80, 0)), rows))
+
+
+def test_very_many_kinds_of_features_stand_in_a_table():
+    places = [(i, k) for i in range(4) for k in range(4)]
+    pockets = tuple(d.Pocket.circle(8 + 11 * i, 8 + 11 * k, 7 + 0.2 * i + 0.1 * k, 2 + 0.3 * k) for i, k in places)
+    drawn = drawing(d.Design(((0, 0, -20), (50, 50, 0)), pockets))
+    assert texts(drawn, 0, "diameter") == ["pocket 1: ⌀7, ↧2"]
+
+
+def test_depths_in_a_flight_are_said_once():
+    steps = d.Pocket.rectangle(40, 30, 60, 40, 10, corner=6), d.Pocket.rectangle(40, 30, 40, 24, 8, corner=5, top=-10)
+    design = d.Design(((0, 0, -40), (80, 60, 0)), (*steps, d.Pocket.circle(40, 30, 16, 6, top=-18)))
+    drawn = drawing(design)
+    check(drawn, design)
+    assert texts(drawn, 2, "top") == texts(drawn, 1, "depth") == ["8"]
+    assert "18" not in {box.text for box in drawn.boxes()}  # the floor of the second is the top of the third
+
+
+def test_rounded_corners_of_a_chamfer_have_no_edges_at_other_heights():
+    inner = d.Rectangle(40, 30, 40, 24, 6)
+    edges = (d.Chamfer(inner, 1), d.Chamfer(d.Circle(10, 10, 8), 0.5))
+    parts = (d.Pocket(inner, 6), d.Hole(10, 10, 8, None), *edges)
+    section = drawing(d.Design(((0, 0, -15), (80, 60, 0)), parts)).sheets[0].views[0][0]
+    level = [line.contour.points for line in section.view.lines if np.ptp(line.contour.points[:, 1]) < 1e-9]
+    assert all(np.ptp(points[:, 0]) < 0.01 for points in level if abs(points[0, 1] + 0.5) < 1e-3)

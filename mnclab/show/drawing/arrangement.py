@@ -50,7 +50,7 @@ def arranged(laid: Sequence[Laid], tables: Sequence[Printed], size: Size, block:
     x0, y0, x1, y1 = x0 + EDGE, y0 + EDGE, x1 - EDGE, y1 - EDGE
     columns, rows = tracks(laid, 0), tracks(laid, 1)
     wide, high = (sum(track.size for track in each.values()) for each in (columns, rows))
-    above = block[3] + EDGE
+    above, near = block[3] + EDGE, (block[0] - EDGE, block[1], block[2], block[3] + EDGE)
     for low, spread, right, up in _attempts(y0, above):
         gaps = []
         for count, room, taken in ((len(columns), x1 - x0, wide), (len(rows), y1 - low, high)):
@@ -63,7 +63,7 @@ def arranged(laid: Sequence[Laid], tables: Sequence[Printed], size: Size, block:
         places = list(_placed(laid, columns, rows, start, gaps))
         boxes = [_moved(each.bounds, place) for each, place in zip(laid, places, strict=True)]
         taken_up = [block, *boxes]
-        if any(_meet(box, block) for box in boxes):
+        if any(_meet(box, near) for box in boxes):
             continue
         for table in tables:
             spot = _free((x0, y0, x1, y1), table.box, taken_up)

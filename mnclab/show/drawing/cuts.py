@@ -18,7 +18,8 @@ from mnclab.show.drawing.placing import LEADER
 from mnclab.show.drawing.view import Cut, Kind
 from mnclab.text.alarm import Alarm
 
-OUT = (6.0, 13.5, 20.5, 27.5, 34.5, 41.5, 48.5, 55.5, 62.5)  # mm from the view to the end of the line: between the rows
+OUT = (6.0, 8.0, 13.5, 20.5, 27.5, 34.5, 41.5, 48.5, 55.5)  # mm from the view to the end of the line: between the rows
+ELSE, DEARER = (9.0, 12.0, 16.0, 18.0, 23.0, 25.0, 30.0, 32.0, 37.0, 45.0, 52.0, 59.0), 4.0  # near a row, where there is no room
 THICK, SHAFT, STEP = 5.0, 7.0, 3.0  # mm: a thick end, an arrow, thick arms where the line steps
 LETTER = 5.0  # mm
 
@@ -51,7 +52,8 @@ def places(end: End) -> Iterator[Mark]:
     looks = np.array(end.cut.looks, dtype=float) / math.hypot(*end.cut.looks)
     letter = block(end.cut.letter, LETTER)
     half = np.array([letter.width / 2, LETTER / 2])
-    for out, where in product(OUT, (0, 1, 2)):
+    ways = sorted((0.35 * out + where + DEARER * (out in ELSE), out, where) for out, where in product(OUT + ELSE, (0, 1, 2)))
+    for cost, out, where in ways:
         tip = end.corner + (end.way + out) * end.out
         tail = tip - SHAFT * looks
         if where == 0:
@@ -62,7 +64,7 @@ def places(end: End) -> Iterator[Mark]:
         a, b, begin, edge = (
             (float(p[0]), float(p[1])) for p in (tip, tail, tip - THICK * end.out, tip - (out - 0.5) * end.out)
         )
-        mark = Mark(end, 0.35 * out + where, [(LEADER, b, a), (LEADER, a, edge)], [Arrow(a, math.atan2(looks[1], looks[0]))])
+        mark = Mark(end, cost, [(LEADER, b, a), (LEADER, a, edge)], [Arrow(a, math.atan2(looks[1], looks[0]))])
         mark.labels = [Label(letter, (float(middle[0]) - letter.width / 2, float(middle[1]) - LETTER / 2))]
         mark.places = (a, begin)
         yield mark

@@ -286,6 +286,7 @@ def _figure(sheet: Sheet, alt: str) -> Picture:
     for laid, place in sheet.views:
         figure.draw_thin(ax, laid.hatches, "HATCH", place, zorder=1.5)
         figure.draw_strokes(ax, laid.strokes, place)
+        figure.draw_clear(ax, [label for mark in laid.marks for label in mark.labels], place)
         for mark in laid.marks:
             segments = np.array([(a, b) for _, a, b in mark.lines]).reshape(-1, 2, 2)
             figure.draw_thin(ax, segments, "DIMENSIONS", place)

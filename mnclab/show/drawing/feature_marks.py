@@ -10,7 +10,7 @@ from mnclab.geometry.contours import Contour
 from mnclab.show.drawing.dimensions import Point
 from mnclab.show.drawing.ledger import Draft
 from mnclab.show.drawing.view import Axis, Cross, Kind, Line, thread_circle
-from mnclab.workpiece.design.features import Chamfer, Feature, Groove, Hole, Pocket, Slot, Stud
+from mnclab.workpiece.design.features import Chamfer, Feature, Groove, Hole, Pocket, Slope, Slot, Stud
 from mnclab.workpiece.design.shapes import Circle, Rectangle, Shape
 from mnclab.workpiece.design.threads import core_of
 
@@ -54,7 +54,7 @@ def mouth_of(hole: Hole) -> float:
 
 def shape_in(feature: Feature) -> Shape | None:
     """The outline that a feature was given, if it has one."""
-    return feature.contour if isinstance(feature, Pocket | Stud | Groove | Chamfer) else None
+    return feature.contour if isinstance(feature, Pocket | Stud | Groove | Chamfer | Slope) else None
 
 
 def outline_of(feature: Feature) -> Contour | None:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from mnclab.show.drawing.dimensions import Note, number
 from mnclab.show.drawing.feature_marks import mouth_of, outline_of, point_of, shape_in
 from mnclab.show.drawing.sheet import Table
-from mnclab.show.drawing.wording import hole_lines, written
-from mnclab.workpiece.design.features import Groove, Hole
+from mnclab.show.drawing.wording import SIGNS, hole_lines, written
+from mnclab.workpiece.design.features import Hole, along
 from mnclab.workpiece.design.measures import Measure
-from mnclab.workpiece.design.shapes import Outline
+from mnclab.workpiece.design.shapes import Circle, Outline
 
 if TYPE_CHECKING:
     from mnclab.show.drawing.milled_features import Side
@@ -47,14 +47,16 @@ def feature_table(side: Side, numbers: list[int]) -> None:
         line = outline_of(feature)
         assert line is not None  # a table holds what has a place
         at = line.point_at(0.35 * line.length)[0]
-        side.draft.dimensions.append(Note(point_of(at), (label,)))
+        shape = shape_in(feature)
+        to = Note((shape.x, shape.y), (label,), shape.diameter / 2) if isinstance(shape, Circle) else Note(point_of(at), (label,))
+        side.draft.dimensions.append(to)
         known = {each.name: each for each in feature.measures() if each.kind == "place"}
-        told = [f"{each.name} {written(each)}" for each in feature.measures() if each.kind != "place" or each.name == "top"]
+        said = [each for each in feature.measures() if each.kind != "place" or each.name == "top"]
+        told = [written(each) if each.name in SIGNS else f"{each.name} {written(each)}" for each in said]
         rows.append((label, _said(known["x"], x), _said(known["y"], y), f"{side.names()[k]}: {', '.join(told)}"))
         for column, names in ((1, ("x",)), (2, ("y",))):
             side.ledger.cell(title, row, column, side.claims([k], *names))
         side.ledger.cell(title, row, 3, [*side.claims([k]), *side.claims([k], "top")])
-        shape = shape_in(feature)
         if isinstance(shape, Outline):
             corner_table(side, shape, (), k)
     side.ledger.tables.append(Table(title, ("No.", "X", "Y", "feature"), tuple(rows)))
@@ -76,11 +78,11 @@ def corner_table(side: Side, shape: Outline, measures: Sequence[Measure], k: int
     known = {each.name: each for each in measures}
     if known:
         rows.append(("middle", _said(known["x"], x), _said(known["y"], y), ""))
-        rows.append(("size", written(known["length"]), written(known["width"]), ""))
-        for row, names in ((len(rows) - 2, ("x", "y")), (len(rows) - 1, ("length", "width"))):
+        length, width = (name if name in known else along(name) for name in ("length", "width"))
+        rows.append(("size", written(known[length]), written(known[width]), ""))
+        for row, names in ((len(rows) - 2, ("x", "y")), (len(rows) - 1, (length, width))):
             for column, name in enumerate(names, 1):
-                claims = [c for c in side.claims([k], name) if not (isinstance(side.features[k], Groove) and c.place == 0)]
-                side.ledger.cell(title, row, column, claims)
+                side.ledger.cell(title, row, column, side.claims([k], name))
     side.ledger.tables.append(Table(title, ("No.", "X", "Y", "arc to next"), tuple(rows)))
 
 

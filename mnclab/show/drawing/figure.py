@@ -17,13 +17,13 @@ from matplotlib.transforms import Affine2D
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.vectors import Floats
 from mnclab.show.drawing.dimensions import Point
-from mnclab.show.drawing.ink import Arrow, Label, Stroke
+from mnclab.show.drawing.ink import Arrow, Label, Stroke, corners_of
 from mnclab.show.drawing.lettering import CAPITAL, FACE
 from mnclab.show.drawing.view import Kind
 
 MM = 72 / 25.4  # points to a millimetre
 INCH = 25.4
-INK = "black"
+INK, PAPER = "black", "white"
 
 
 def curve(contours: Iterable[Contour]) -> Path:
@@ -75,7 +75,7 @@ def draw_strokes(ax: Axes, strokes: Sequence[Stroke], at: Point = (0.0, 0.0)) ->
         ax.add_patch(path)
 
 
-def draw_thin(ax: Axes, segments: Floats, layer: str, at: Point = (0.0, 0.0), zorder: float = 2.1) -> None:
+def draw_thin(ax: Axes, segments: Floats, layer: str, at: Point = (0.0, 0.0), zorder: float = 2.45) -> None:
     """Thin straight lines `(n, 2, 2)`."""
     if len(segments):
         width = Kind.THIN.width * MM
@@ -89,6 +89,14 @@ def draw_arrows(ax: Axes, arrows: Sequence[Arrow], at: Point = (0.0, 0.0)) -> No
         heads = [Polygon(arrow.corners + at, closed=True) for arrow in arrows]
         filled = PatchCollection(heads, facecolor=INK, edgecolor="none", zorder=3, gid="DIMENSIONS")
         ax.add_collection(filled, autolim=False)
+
+
+def draw_clear(ax: Axes, labels: Sequence[Label], at: Point = (0.0, 0.0)) -> None:
+    """Centre lines and other thin lines of the part stop beside texts, as ISO 128 has it."""
+    if labels:
+        boxes = corners_of(np.array([label.box(0.2) for label in labels])) + at
+        empty = PatchCollection([Polygon(box) for box in boxes], facecolor=PAPER, edgecolor="none", zorder=2.4, gid="PAPER")
+        ax.add_collection(empty, autolim=False)
 
 
 def draw_label(ax: Axes, label: Label, at: Point = (0.0, 0.0)) -> None:

@@ -24,7 +24,7 @@ from mnclab.show.drawing.view import Axis, Cross, Cut, Kind
 from mnclab.show.drawing.wording import DIAMETER, valued
 from mnclab.workpiece.blank import Box
 from mnclab.workpiece.design.design import Design
-from mnclab.workpiece.design.features import Feature, Groove, Hole, Pocket, Slot
+from mnclab.workpiece.design.features import Feature, Groove, Hole, Pocket, Slope, Slot
 from mnclab.workpiece.design.shapes import Circle, Rectangle
 from mnclab.workpiece.design.threads import core_of
 
@@ -81,7 +81,7 @@ def _items(design: Design, turn: Floats) -> Iterator[Item]:
     told = set[object]()
     for back, features in ((False, design.features), (True, design.back)):
         for k, each in enumerate(features):
-            if not isinstance(each, Pocket | Slot | Groove | Hole):
+            if not isinstance(each, Pocket | Slot | Groove | Hole | Slope):
                 continue
             key = type(each), back, tuple(m for m in each.measures() if m.kind != "place" or m.name == "top")
             worth = _worth(each) if key not in told else 0.1
@@ -89,7 +89,7 @@ def _items(design: Design, turn: Floats) -> Iterator[Item]:
             line = _placed(design, each, back, turn)
             (u0, v0), (u1, v1) = line.bounds.tolist()
             low = high = (v0 + v1) / 2
-            shape = each.contour if isinstance(each, Pocket) else None
+            shape = each.contour if isinstance(each, Pocket | Slope) else None
             if isinstance(shape, Rectangle) and abs(shape.turned) < SAME:
                 low, high = v0 + shape.corner + 1e-3, v1 - shape.corner - 1e-3
                 low, high = (low, high) if low < high else ((v0 + v1) / 2,) * 2
@@ -113,7 +113,7 @@ def _placed(design: Design, feature: Feature, back: bool, turn: Floats) -> Conto
     elif isinstance(feature, Groove):
         line = feature.area.loops[0]
     else:
-        assert isinstance(feature, Pocket)
+        assert isinstance(feature, Pocket | Slope)
         line = feature.contour.contour
     return line.transformed(turn @ design.flip[0] if back else turn)
 

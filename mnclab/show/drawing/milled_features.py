@@ -24,10 +24,11 @@ from mnclab.show.drawing.feature_marks import (
 )  # fmt: skip
 from mnclab.show.drawing.feature_tables import corner_table, feature_table, hole_table
 from mnclab.show.drawing.ledger import Claim, Draft, Ledger
+from mnclab.show.drawing.patterns import pattern_of, write_pattern
 from mnclab.show.drawing.view import Kind, Line, Origin
 from mnclab.show.drawing.wording import DIAMETER, at_place, chamfer_text, hole_lines, times, valued, written
 from mnclab.workpiece.design.design import Design
-from mnclab.workpiece.design.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slot, Stud
+from mnclab.workpiece.design.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slope, Slot, Stud, along
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle, Shape
 from mnclab.workpiece.design.threads import core_of
@@ -99,7 +100,9 @@ class Side:
         for k, each in enumerate(self.features):
             key = type(each), tuple(m for m in each.measures() if m.kind != "place" or m.name == "top")
             alike.setdefault((*key, k) if isinstance(shape_in(each), Outline) else key, []).append(k)
-        holes = [k for k, each in enumerate(self.features) if isinstance(each, Hole)]
+        patterns = {tuple(some): found for some in alike.values() if (found := pattern_of([self.features[k] for k in some]))}
+        ordered = {k for some in patterns for k in some}
+        holes = [k for k, each in enumerate(self.features) if isinstance(each, Hole) and k not in ordered]
         coordinates = max(len({round(getattr(self.features[k], axis), 6) for k in holes}) for axis in "xy") if holes else 0
         if len([k for k, *_ in alike if not issubclass(k, Face | Chamfer)]) > MOST_KINDS:
             self.tabled = 2
@@ -110,11 +113,14 @@ class Side:
                 feature_marks(self.draft, self.features[k])
             if self.tabled > 1 and not isinstance(first, Face | Chamfer):
                 continue
-            if not (isinstance(first, Hole) and in_table):
+            found = patterns.get(tuple(numbers))
+            if found or not (isinstance(first, Hole) and in_table):
                 self._sizes(first, numbers)
                 self.tops(numbers)
-                for k in numbers:
-                    self._place(k)
+                if found:
+                    write_pattern(self, numbers, found)
+                for k in () if found else numbers:
+                    self.place(k)
         if self.tabled > 1:
             feature_table(self, [k for k, each in enumerate(self.features) if not isinstance(each, Face | Chamfer)])
         elif in_table:
@@ -140,6 +146,9 @@ class Side:
             self._deep(numbers, first.outline)
         elif isinstance(first, Groove):
             self._groove(first, numbers)
+        elif isinstance(first, Slope):
+            self._rectangle(first.contour, known, numbers)
+            self._fall(first, known, numbers)
         elif shape is not None:
             deep = isinstance(shape, Circle) and not isinstance(first, Stud)
             self._shape(shape, first.measures(), numbers, (written(known["depth"]),) if deep else ())
@@ -175,11 +184,11 @@ class Side:
         at = frame_at((shape.x, shape.y), shape.turned)
         a, b, count = shape.length / 2, shape.width / 2, len(numbers)
         straight = abs(shape.turned) < SAME
-        for name, start, end, along, side in (
+        for size, start, end, way, side in (
             ("length", (-a, b), (a, b), "x", "above"), ("width", (a, -b), (a, b), "y", "right"),
         ):  # fmt: skip
-            way = (along, side) if straight else ("ab", "")
-            said = Linear(at(*start), at(*end), valued(known[name], count=count), *way)
+            name = size if size in known else along(size)
+            said = Linear(at(*start), at(*end), valued(known[name], count=count), *((way, side) if straight else ("ab", "")))
             self.ledger.say(self.draft, said, self.claims(numbers, name))
         if "corner radius" in known:
             r = shape.corner
@@ -221,13 +230,7 @@ class Side:
         aside = np.array([-ahead[1], ahead[0]]) * wide
         width = Linear(point_of(at - aside), point_of(at + aside), valued(measures[0], count=len(numbers)), direction_of(aside))
         self.ledger.say(self.draft, width, [Claim(self.back, k, 0, "width") for k in numbers])
-        self._once(measures, numbers)
         self._deep(numbers, line)
-
-    def _once(self, measures: Sequence[Measure], numbers: list[int]) -> None:
-        """The width of a groove along a rectangle is another than that of the rectangle."""
-        for _, claims in self.ledger.said[:-1]:
-            claims[:] = [each for each in claims if not (each.back == self.back and each.feature in numbers and each.place == 0)]
 
     def _hole(self, hole: Hole, numbers: list[int]) -> None:
         wide = core_of(hole.thread, 0.0) if hole.thread else mouth_of(hole)
@@ -250,6 +253,20 @@ class Side:
         at = outline.point_at(0.35 * outline.length)[0]
         note = Note(point_of(at), (times(len(numbers)) + written(depth),))
         self.ledger.say(self.draft, note, self.claims(numbers, "depth"))
+
+    def _fall(self, slope: Slope, known: dict[str, Measure], numbers: list[int]) -> None:
+        """The depths at both ends: in the section along it, or with leaders."""
+        cut = next((self.features[k] for k in numbers if (self.back, k) in self.shows), None)
+        for name, side in (("start depth", -1), ("end depth", 1)):
+            depth, claims = known[name], self.claims(numbers, name)
+            if isinstance(cut, Slope) and abs(math.remainder(cut.turned, 180)) < SAME:
+                x, y = frame_at((cut.x, cut.y), cut.turned)(side * cut.length / 2, 0.0)
+                u = float((self.design.flip[0] @ [x, y, 1.0])[0]) if self.back else x
+                top = self.top(slope)
+                self.levels.append(Level(self._across(top), self._across(top - depth.nominal), u, depth, claims))
+            else:
+                at = frame_at((slope.x, slope.y), slope.turned)(0.47 * side * slope.length, 0.3 * slope.width)
+                self.ledger.say(self.draft, Note(at, (times(len(numbers)) + written(depth),)), claims)
 
     def _level(self, numbers: list[int], line: Contour, axis: int = 0) -> None:
         """A depth in the section, at that wall of an outline which is nearer to the edge of the part."""
@@ -283,13 +300,14 @@ class Side:
 
     # ---- places ----
 
-    def _place(self, k: int) -> None:
+    def place(self, k: int, axes: str = "xy") -> None:
+        """The coordinates of a feature are dimensioned."""
         shape = shape_in(self.features[k])
         if isinstance(shape, Outline):
             return
         centre = centre_of(self.features[k])
         for place, each in enumerate(self.features[k].measures()):
-            if each.name in self.places:
+            if each.name in self.places and each.name in axes:
                 self.places[each.name].append((each, centre, Claim(self.back, k, place, each.name)))
 
     def _coordinates(self) -> None:

@@ -7,11 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.apart import Where, joined, where
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.vectors import Floats
 from mnclab.show.drawing.levels import Levels
-from mnclab.workpiece.design.removals import Slanting
+from mnclab.workpiece.design.removals import Slant, Wedge
 
 NEAR = 1e-6  # mm, within which a line lies on another
 SPOTS = np.array([0.02, 0.25, 0.5, 0.75, 0.98])  # of an element, by which is told whether all of it does
@@ -37,7 +38,7 @@ def _sections(levels: Levels, below: bool) -> Iterator[tuple[float, Region]]:
 def _more(levels: Levels, covered: Region, section: Region) -> Region:
     if not covered.loops or not section.loops:
         return section if section.loops else covered
-    return section if levels.nested else covered.union(section)
+    return section if levels.nested else joined(covered, section)
 
 
 def _seen(levels: Levels, below: bool) -> Iterator[tuple[float, Contour]]:
@@ -49,16 +50,27 @@ def _seen(levels: Levels, below: bool) -> Iterator[tuple[float, Contour]]:
             yield from ((z, loop) for loop in section.loops)
             covered = section
             continue
-        for loop in (section if levels.nested else section.difference(covered)).loops:
-            yield from ((z, line) for line in _off(loop, covered))
+        yield from ((z, line) for line in _beside(levels, section, covered))
         covered = _more(levels, covered, section)
+
+
+def _beside(levels: Levels, section: Region, covered: Region) -> Iterator[Contour]:
+    """The edges of a section that are not below what covers it, nor on the edge of that."""
+    places = [(loop, where(loop, covered)) for loop in section.loops]
+    if any(place is Where.ACROSS for _, place in places) and not levels.nested:
+        places = [(loop, Where.ACROSS) for loop in section.difference(covered).loops]
+    for loop, place in places:
+        if place is Where.ACROSS:
+            yield from _off(loop, covered)
+        elif place is Where.OUTSIDE:
+            yield loop
 
 
 def _mitres(levels: Levels, below: bool) -> Iterator[Contour]:
     """Where two slanting faces meet: lines from the corners of the upper edge to those of the lower one."""
     for slab in levels.slabs:
         for each in slab.slants:
-            if isinstance(each.base, Region) and each.up != below:
+            if not isinstance(each, Wedge) and isinstance(each.base, Region) and each.up != below:
                 upper, lower = (_corners(levels.section(slab, z), each, z) for z in (slab.high, slab.low))
                 wide = abs(each.at(slab.high) - each.at(slab.low))
                 for corner in upper:
@@ -67,7 +79,7 @@ def _mitres(levels: Levels, below: bool) -> Iterator[Contour]:
                         yield Contour([corner, lower[off.argmin()]], closed=False)
 
 
-def _corners(section: Region, slant: Slanting, z: float) -> Floats:
+def _corners(section: Region, slant: Slant, z: float) -> Floats:
     """Sharp corners (n, 2) of a section that lie on a slanting face."""
     spots = [loop.starts[np.abs(loop.turns()) > SHARP] for loop in section.loops]
     found = np.concatenate([np.zeros((0, 2)), *spots])

@@ -31,7 +31,8 @@ def write(found: Any, picture: Figure, path: Path) -> None:
     data = BytesIO()
     undated = {"CreationDate": None, "Title": whole(found.title)}
     with mpl.rc_context({"pdf.fonttype": 42}), PdfPages(data, metadata=undated) as pages:
-        for page in (*map(_page, chunks([*front(found)])), picture, *map(_page, chunks([*texts(found)]))):
+        record = [] if found.difference is None else [found.difference.plot(table=True)]
+        for page in (*map(_page, chunks([*front(found)])), picture, *record, *map(_page, chunks([*texts(found)]))):
             pages.savefig(page)
     path.write_bytes(data.getvalue())
 

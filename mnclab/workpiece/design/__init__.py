@@ -8,7 +8,7 @@ cut into it, `turned_features` all of it by names, `turned_body` what they ask o
 """
 
 from mnclab.workpiece.design.design import Design
-from mnclab.workpiece.design.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slot, Stud
+from mnclab.workpiece.design.features import Chamfer, Face, Feature, Groove, Hole, Pocket, Slope, Slot, Stud
 from mnclab.workpiece.design.shapes import Circle, Outline, Rectangle
 from mnclab.workpiece.design.turned_design import TurnedDesign
 from mnclab.workpiece.design.turned_features import (
@@ -23,5 +23,5 @@ from mnclab.workpiece.design.turned_features import (
 
 __all__ = [
     "Bore", "CentreHole", "Chamfer", "Circle", "Design", "Face", "FaceGroove", "Feature", "Groove", "Hole", "Outline",
-    "Pocket", "Rectangle", "RingGroove", "Slot", "Stud", "Thread", "TurnedDesign", "TurnedFeature", "Undercut",
+    "Pocket", "Rectangle", "RingGroove", "Slope", "Slot", "Stud", "Thread", "TurnedDesign", "TurnedFeature", "Undercut",
 ]  # fmt: skip

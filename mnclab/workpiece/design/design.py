@@ -52,6 +52,9 @@ class Design:
     `back` are features of the lower side, as a program sees them after the part was turned over about X (or Y: `turn`)
     in its place: it takes up the same box as before. `title`, `number`, `material`, `general` (the general tolerance),
     `author` and `date` stand in the title block of the drawing.
+
+    `plot()` is that drawing, `volume` exact, `part` what a probe touches; `workpiece.compare(design)` measures a part by it.
+    In files it is a TOML, which `mnclab help design` explains; `data/designs` has some.
     """
 
     blank: Any
@@ -262,7 +265,7 @@ class Design:
         return save(self, path, **options)
 
     def plot(self, **options: Any) -> Figure:
-        """The dimensioned drawing; see `show.drawing`."""
+        """The dimensioned drawing in true size; `size` "A4", "A4 landscape", "A3" or "A2", `scale` 0.5 for 1:2, and `sheet`."""
         from mnclab.show.drawing import plot
 
         return plot(self, **options)

@@ -70,6 +70,15 @@ depth = 2
 kind = "face"                  # the whole top
 depth = 0.5
 
+[[features]]
+kind = "slope"                 # a rectangle with a plane floor, from the depth at its end of least X to that at the other
+x = 70
+y = 10
+length = 20
+width = 6
+start_depth = 1
+end_depth = 3
+
 [[back]]                       # a feature of the lower side, as it is seen once the part is turned over
 kind = "pocket"
 x = 50

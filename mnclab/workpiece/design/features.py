@@ -24,8 +24,11 @@ from mnclab.workpiece.design.holes import Hole
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.removals import Flat, Removal
 from mnclab.workpiece.design.shapes import Circle, Rectangle, shape_of
+from mnclab.workpiece.design.slopes import Slope
 
-__all__ = ["EXAMPLE", "FEATURES", "Chamfer", "Face", "Feature", "Groove", "Hole", "Pocket", "Site", "Slot", "Stud", "area_of"]
+__all__ = [
+    "EXAMPLE", "FEATURES", "Chamfer", "Face", "Feature", "Groove", "Hole", "Pocket", "Site", "Slope", "Slot", "Stud", "area_of",
+]  # fmt: skip
 
 
 @dataclass(frozen=True, repr=False)
@@ -189,7 +192,7 @@ class Groove(Feature):
 
     def _measures(self) -> Iterator[Measure]:
         yield Measure("width", self.width)
-        yield from self.contour.measures()
+        yield from (each._replace(name=along(each.name)) for each in self.contour.measures())
         yield Measure("depth", self.depth, "depth")
 
     def removals(self, site: Site) -> Iterator[Removal]:
@@ -199,4 +202,9 @@ class Groove(Feature):
         return replace(self, contour=self.contour.moved(dx, dy), **self.raised(dz))
 
 
-FEATURES: dict[str, type[Feature]] = {each.kind: each for each in (Face, Pocket, Stud, Slot, Groove, Hole, Chamfer)}
+def along(name: str) -> str:
+    """What a measure of the outline that a groove goes along is called: its sizes are not those of the groove."""
+    return f"outline {name}" if name in ("length", "width") else name
+
+
+FEATURES: dict[str, type[Feature]] = {each.kind: each for each in (Face, Pocket, Stud, Slot, Groove, Hole, Chamfer, Slope)}

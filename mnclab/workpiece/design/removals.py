@@ -1,15 +1,18 @@
-"""What features take away, as simple bodies: all above a level within a region, and what a cone or a chamfer slants off.
+"""What features take away, as simple bodies: all above a level within a region, what a cone or a chamfer slants off, and
+all above a plane that falls.
 
 The lower side of a part has the same bodies upside down: what they take away lies below.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from mnclab.geometry import shapes
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.geometry.signed import contains, signed
@@ -178,6 +181,106 @@ class Slanting:
         return in_triangle(*corners, out, z)
 
 
+@dataclass(frozen=True, eq=False)
+class Wedge:
+    """All above a plane over a rectangle, up to the height `open`: its floor rises from `deep` at the middle of its first
+    edge, `start` (x, y), over `far` mm in the unit direction `ahead`; `width` mm across. Upside down with `open` below.
+    """
+
+    start: tuple[float, float]
+    ahead: tuple[float, float]
+    far: float
+    width: float
+    deep: float
+    open: float
+    near = 0.0
+
+    @property
+    def up(self) -> bool:
+        return self.open > self.deep
+
+    def reaches(self, z: float) -> bool:
+        """Whether material at a height, or at one beyond it, is taken away."""
+        return z > self.deep if self.up else z < self.deep
+
+    @property
+    def low(self) -> float:
+        return min(self.deep, self.open)
+
+    @property
+    def high(self) -> float:
+        return max(self.deep, self.open)
+
+    def away(self, x: Array, y: Array) -> Array:
+        """How far points (m,) are from the deep edge, along."""
+        (x0, y0), (c, s) = self.start, self.ahead
+        return np.asarray(c * (x - x0) + s * (y - y0))
+
+    def beside(self, x: Array, y: Array) -> Array:
+        """How far points (m,) are beside the rectangle, across."""
+        (x0, y0), (c, s) = self.start, self.ahead
+        return np.maximum(np.abs(c * (y - y0) - s * (x - x0)) - self.width / 2, 0.0)
+
+    def at(self, z: float) -> float:
+        """How far out it reaches at a height, mm."""
+        return self.far * min(max((z - self.deep) / (self.open - self.deep), 0.0), 1.0)
+
+    def outline(self, out: float) -> Contour:
+        """The part of the rectangle within `out` mm of the deep edge."""
+        (x, y), (c, s) = self.start, self.ahead
+        middle = x + c * out / 2, y + s * out / 2
+        return shapes.rectangle(out, self.width, 0.0, centre=middle, angle=math.atan2(s, c))
+
+    def section(self, z: float) -> Region:
+        """What it takes away at a height between both ends."""
+        out = self.at(z)
+        return Region((self.outline(out),)) if out > TINY else NOTHING
+
+    @cached_property
+    def region(self) -> Region:
+        """The whole rectangle."""
+        return Region((self.outline(self.far),))
+
+    @property
+    def reach(self) -> Region:
+        """All that it takes something of, from above."""
+        return self.region
+
+    @cached_property
+    def sky(self) -> Flat:
+        """What is above it."""
+        return Flat(self.region, self.open, self.up)
+
+    def level(self, x: Array, y: Array) -> Array:
+        """How far down (up) it reaches at points (m,); infinite beside it."""
+        return np.where(within(self.region, x, y), self.level_within(x, y), np.inf if self.up else -np.inf)
+
+    def level_within(self, x: Array, y: Array) -> Array:
+        """The same at points (m,) within its reach."""
+        share = np.clip(self.away(x, y) / self.far, 0.0, 1.0)
+        return np.asarray(self.deep + share * (self.open - self.deep))
+
+    def turned_over(self, flip: Array, z: float) -> Wedge:
+        x, y, _ = (flip @ [*self.start, 1.0]).tolist()
+        c, s = (flip[:2, :2] @ self.ahead).tolist()
+        return replace(self, start=(x, y), ahead=(c, s), deep=z - self.deep, open=z - self.open)
+
+    # Distances along it are those of triangles in the plane of the way along and the height; `beside` stands across them.
+
+    def taken(self, x: Array, y: Array, z: Array) -> Array:
+        """How far points (m,) are from what it takes away, mm; 0 within."""
+        return np.hypot(self.taken_out(self.away(x, y), z), self.beside(x, y))
+
+    def taken_out(self, out: Array, z: Array) -> Array:
+        """The same along, at distances `out` (m,) from the deep edge."""
+        return in_triangle((0.0, self.deep), (0.0, self.open), (self.far, self.open), out, z)
+
+    def left(self, low: float, high: float, out: Array, z: Array) -> Array:
+        """How far points (m,), `out` from the deep edge, are along from the material under the slant between two heights."""
+        first, last = (low, high) if self.up else (high, low)
+        return in_triangle((self.at(first), first), (self.at(last), first), (self.at(last), last), out, z)
+
+
 def in_triangle(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], s: Array, z: Array) -> Array:
     """How far points (m,) of a plane are from a triangle, 0 within."""
     sides, inside = [], np.ones(len(s), dtype=bool)
@@ -205,4 +308,5 @@ def flipped(region: Region, flip: Array) -> Region:
     return Region(tuple(loop.transformed(flip).reversed() for loop in region.loops))
 
 
-Removal = Flat | Slanting
+Slant = Slanting | Wedge
+Removal = Flat | Slant

@@ -17,7 +17,7 @@ from mnclab.geometry.apart import less
 from mnclab.geometry.regions import Region
 from mnclab.geometry.signed import signed
 from mnclab.path.columns import Array, Index, Mask
-from mnclab.workpiece.design.removals import NOTHING, Flat, Removal, Slanting
+from mnclab.workpiece.design.removals import NOTHING, Flat, Removal, Slant, Slanting
 from mnclab.workpiece.design.slanted import slanted_off
 
 THIN = 1e-9  # mm, of a slab that is none
@@ -30,7 +30,7 @@ class Slab:
     low: float
     high: float
     region: Region
-    slants: tuple[Slanting, ...] = ()
+    slants: tuple[Slant, ...] = ()
 
     def section(self, z: float) -> Region:
         return less(self.region, [each.section(z) for each in self.slants])
@@ -56,7 +56,7 @@ class Stack:
     def of(cls, outline: Region, low: float, high: float, removals: Sequence[Removal]) -> Stack:
         """A blank that stands upright on an outline, and what is taken away from it."""
         flats = [each for each in removals if isinstance(each, Flat)]
-        slants = [each for each in removals if isinstance(each, Slanting)]
+        slants = [each for each in removals if not isinstance(each, Flat)]
         heights = [low, high, *(each.floor for each in flats)]
         heights += [z for each in slants for z in (each.low, each.high)]
         levels = sorted(z for z in heights if low <= z <= high)
@@ -94,7 +94,7 @@ class Stack:
             here = np.flatnonzero((slab.low <= z) & (z <= slab.high))
             here = here[known.signed(slab.region, here) <= 0]
             for each in slab.slants:
-                here = here[each.taken_out(known.away(each, here), z[here]) > 0]
+                here = here[known.taken(each, here, z) > 0]
             inside[here] = True
         found[inside] = np.minimum(np.abs(z - low), np.abs(high - z))[inside]
         for slab in self.slabs:
@@ -116,10 +116,21 @@ class _Planes:
     def signed(self, region: Region, index: Index) -> Array:
         return self._once(region, index, lambda some: signed(region, some))
 
-    def away(self, slant: Slanting, index: Index) -> Array:
+    def away(self, slant: Slant, index: Index) -> Array:
         return self._once(slant, index, lambda some: slant.away(*some.T))
 
-    def _once(self, what: Region | Slanting, index: Index, of: Callable[[Array], Array]) -> Array:
+    def taken(self, slant: Slant, index: Index, z: Array) -> Array:
+        """How far points are from what a slant takes away; 0 within."""
+        return self._across(slant, index, slant.taken_out(self.away(slant, index), z[index]))
+
+    def left(self, slab: Slab, slant: Slant, index: Index, z: Array) -> Array:
+        """How far points are from what a slant leaves of a slab, at least."""
+        return self._across(slant, index, slant.left(slab.low, slab.high, self.away(slant, index), z[index]))
+
+    def _across(self, slant: Slant, index: Index, along: Array) -> Array:
+        return along if isinstance(slant, Slanting) else np.hypot(along, slant.beside(*self._spots[index].T))
+
+    def _once(self, what: Region | Slant, index: Index, of: Callable[[Array], Array]) -> Array:
         known = self._known.setdefault(id(what), np.full(len(self._spots), np.nan))
         new = index[np.isnan(known[index])]
         if len(new):
@@ -140,7 +151,7 @@ def _nearer(slab: Slab, index: Index, z: Array, inside: Mask, found: Array, know
         found[inner] = np.minimum(found[inner], np.hypot(np.maximum(-known.signed(slab.region, inner), 0.0), beyond[inner]))
     for each in slab.slants:
         if len(outer):
-            left = each.left(slab.low, slab.high, known.away(each, outer), z[outer])
-            found[outer] = np.minimum(found[outer], left)
+            whole = np.hypot(np.maximum(known.signed(slab.region, outer), 0.0), beyond[outer])
+            found[outer] = np.minimum(found[outer], np.maximum(known.left(slab, each, outer, z), whole))
         if len(inner):
-            found[inner] = np.minimum(found[inner], each.taken_out(known.away(each, inner), z[inner]))
+            found[inner] = np.minimum(found[inner], known.taken(each, inner, z))

@@ -16,7 +16,7 @@ from mnclab.geometry import shapely
 from mnclab.geometry.apart import CLEAR, rough
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region, bands_beside, covered, polygons_of
-from mnclab.workpiece.design.removals import TINY, Slanting
+from mnclab.workpiece.design.removals import TINY, Slant, Slanting, Wedge
 
 SAME = 1e-9  # of an area, and mm
 ROUNDED = 1e-8  # of an area, by which corners that are rounded to 1e-9 mm may change it
@@ -24,7 +24,7 @@ MEETING = 3e-9  # of the volume of a slab, by which what is taken of it may be o
 HALVINGS = 12
 
 
-def slanted_off(region: Region, slants: Sequence[Slanting], low: float, high: float) -> float:
+def slanted_off(region: Region, slants: Sequence[Slant], low: float, high: float) -> float:
     """mm³ that slants take away of a slab that stands on a region."""
     if not region.loops or not slants:
         return 0.0
@@ -54,12 +54,16 @@ def _groups(widest: list[Region]) -> list[list[int]]:
     return [[k for k, each in enumerate(group) if each == which] for which in dict.fromkeys(group)]
 
 
-def _alone(region: Region, slant: Slanting, widest: Region, far: float) -> Callable[[float], float] | None:
+def _alone(region: Region, slant: Slant, widest: Region, far: float) -> Callable[[float], float] | None:
     """The area that a slant takes of a region, by how far it reaches, at most `far`; None where anything else is in its way."""
-    if not isinstance(slant.base, Region):
+    if isinstance(slant, Slanting) and not isinstance(slant.base, Region):
         return _cone(region, slant, widest)
     if abs(region.intersection(widest).area - widest.area) > SAME * max(widest.area, 1.0):
         return None
+    if isinstance(slant, Wedge):
+        width = slant.width
+        return lambda out: width * out
+    assert isinstance(slant.base, Region)
     base, sign = slant.base.area, -1 if slant.inside else 1
     whole = widest.area
     half, part = (sign * (slant.grown(far * share).area - base) for share in (0.5, 0.75))
@@ -85,7 +89,7 @@ def _cone(region: Region, slant: Slanting, widest: Region) -> Callable[[float], 
     return lambda out: np.pi * (out * out - hole * hole)
 
 
-def _together(near: Region, slants: Sequence[Slanting]) -> Callable[[float], float]:
+def _together(near: Region, slants: Sequence[Slant]) -> Callable[[float], float]:
     """The area that some slants take together of a region, by the height: of fine polygons, none of which is traced."""
     places = [_open_to(near, each) for each in slants]
 
@@ -99,19 +103,21 @@ def _together(near: Region, slants: Sequence[Slanting]) -> Callable[[float], flo
     return area
 
 
-def _bands(slant: Slanting, out: float) -> Iterator[Contour]:
+def _bands(slant: Slant, out: float) -> Iterator[Contour]:
     """What lies nearer to the edge of its base than a distance, on its side."""
-    if isinstance(slant.base, Region):
+    if isinstance(slant, Wedge):
+        yield slant.outline(out)
+    elif isinstance(slant.base, Region):
         for edge in slant.edges:
             yield from bands_beside(edge.reversed(), out)
     else:
         yield Contour.circle(slant.base, out)
 
 
-def _open_to(near: Region, slant: Slanting) -> Any:
+def _open_to(near: Region, slant: Slant) -> Any:
     """Where a slant may take something of a region: on its side of the edge."""
     place = polygons_of(near)
-    if not isinstance(slant.base, Region):
+    if isinstance(slant, Wedge) or not isinstance(slant.base, Region):
         return place
     cut = shapely.intersection if slant.inside else shapely.difference
     return cut(place, polygons_of(slant.base))

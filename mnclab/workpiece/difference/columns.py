@@ -31,7 +31,7 @@ class Columns(NamedTuple):
     its_floor: Array
     its_top: Array
 
-    def some(self, which: Mask) -> Columns:
+    def some(self, which: Mask | Index) -> Columns:
         """Those of some points."""
         return Columns(*(column[which] for column in self))
 

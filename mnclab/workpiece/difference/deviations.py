@@ -78,6 +78,21 @@ class Seen:
         own[away] = self.target.owners(self.place[away], off_[away])
         return own
 
+    def cells_above(self, owners: list[int], back: bool) -> Index:
+        """Which of the cells have the upper side of one of some owners, or the lower."""
+        order, sorted_ = self._by_owner[back]
+        ends = zip(np.searchsorted(sorted_, owners), np.searchsorted(sorted_, owners, side="right"))
+        return np.sort(np.concatenate([order[:0], *(order[a:b] for a, b in ends)]))
+
+    @cached_property
+    def _by_owner(self) -> list[tuple[Index, Index]]:
+        found = []
+        for whose in (self.grid.owner, self.grid.under):
+            mine = whose[self.cells.row, self.cells.column].astype(np.int64)
+            order = np.argsort(mine, kind="stable").astype(np.int64)
+            found.append((order, mine[order]))
+        return found
+
     @cached_property
     def sizes(self) -> tuple[Index, Index]:
         """How many cells are the upper side of each owner, and how many the lower; the first is that of none."""

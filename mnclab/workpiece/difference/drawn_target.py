@@ -15,7 +15,7 @@ from mnclab.geometry.vectors import at_angle, left
 from mnclab.path.columns import Array, Index, Mask
 from mnclab.workpiece.design.design import Design
 from mnclab.workpiece.design.measures import Measure
-from mnclab.workpiece.design.removals import Flat, Slanting, signed, within
+from mnclab.workpiece.design.removals import Flat, Slant, Slanting, Wedge, signed, within
 from mnclab.workpiece.difference.target import BLANK, Grid, Owner, Slopes, Walls
 from mnclab.workpiece.milling.raster import Raster
 from mnclab.workpiece.workpiece import Workpiece
@@ -85,7 +85,7 @@ class DrawnTarget:
         """Owner, region, and on which side of its boundary the void is: 1 left."""
         yield BLANK, self.design.outline_of_blank, -1.0
         for k, (_, _, body) in enumerate(self.design.taken):
-            if isinstance(body, Flat):
+            if not isinstance(body, Slanting):
                 yield k, body.region, 1.0
 
     def walls(self, spacing: float) -> Walls:
@@ -107,10 +107,14 @@ class DrawnTarget:
             tall, hair = high - low, min(EDGE, (high - low) / 4)
             stands = self._material(spots, (low + high) / 2)
             on = stands[: len(place)] & ~stands[len(place) :] & self._reached(owner, (low + high) / 2)
+            falls = any(isinstance(body, Wedge) and body.low < high and body.high > low for body in self._slants)
             for z, counts in ((low + hair, 0.0), ((low + high) / 2, tall), (high - hair, 0.0)):
+                if falls:
+                    stands = self._material(spots, z)
+                    on = stands[: len(place)] & ~stands[len(place) :] & self._reached(owner, z)
                 here = np.flatnonzero(on)
                 for body in self._slants:
-                    if body.low < z < body.high:
+                    if isinstance(body, Slanting) and body.low < z < body.high:
                         here = here[body.taken(spots[here, 0], spots[here, 1], np.full(len(here), z)) > ASIDE]
                 spot.append(here)
                 heights.append(np.full(len(here), z))
@@ -130,22 +134,22 @@ class DrawnTarget:
         return [z for k, z in enumerate(inside) if k == 0 or z - inside[k - 1] > SAME]
 
     @cached_property
-    def _slants(self) -> list[Slanting]:
-        return [each.body for each in self.design.taken if isinstance(each.body, Slanting)]
+    def _slants(self) -> list[Slant]:
+        return [each.body for each in self.design.taken if not isinstance(each.body, Flat)]
 
     def _material(self, spots: Array, z: float) -> Mask:
         """Whether upright material stands at places (m, 2) in a height, with what slants off."""
         found = self.design.outline_of_blank.contains(spots)
         for each in self.design.taken:
-            if isinstance(each.body, Flat) and each.body.reaches(z):
+            if not isinstance(each.body, Slanting) and each.body.reaches(z):
                 some = np.flatnonzero(found)
-                found[some[within(each.body.region, *spots[some].T)]] = False
+                found[some[within(_at(each.body, z), *spots[some].T)]] = False
         return found
 
     def _reached(self, owner: Index, z: float) -> Mask:
         """Whether the feature that a wall belongs to (m,) goes as far as a height."""
         taken = self.design.taken
-        reaches = [bool(each.body.reaches(z)) if isinstance(each.body, Flat) else False for each in taken]
+        reaches = [bool(each.body.reaches(z)) if not isinstance(each.body, Slanting) else False for each in taken]
         return np.array([*reaches, True])[owner]
 
     def slopes(self, spacing: float, step: float) -> Slopes:
@@ -181,8 +185,13 @@ class DrawnTarget:
                 inside = spots + share * wide * aside
                 yield inside[((inside >= low) & (inside <= high)).all(axis=1)]
 
-    def _rings(self, body: Slanting, out: float, spacing: float) -> Iterator[Array]:
+    def _rings(self, body: Slant, out: float, spacing: float) -> Iterator[Array]:
         """Places at a distance from the base of a slant."""
+        if isinstance(body, Wedge):
+            across = np.linspace(-0.5, 0.5, max(int(np.ceil(body.width / spacing)), FEWEST) + 2)[1:-1, None] * body.width
+            (c, s), away = body.ahead, out * np.array(body.ahead)
+            yield np.array(body.start) + away + across * (-s, c)
+            return
         if not isinstance(body.base, Region):
             count = max(int(np.ceil(2 * np.pi / (2 * TURN))), 8)
             yield np.array(body.base) + out * at_angle(2 * np.pi * np.arange(count) / count)
@@ -218,14 +227,16 @@ class DrawnTarget:
         return tuple([each.measures() for each in side] for side in (self.design.features, self.design.back))
 
     def role(self, number: int) -> str:
-        """What of its feature a body is: "", "point", "counterbore", "countersink", "slant" (of a chamfer) or "sky"."""
+        """What of its feature a body is: "", "point", "counterbore", "countersink", "slant" (of a chamfer), "slope" or "sky"."""
         feature, back, body = self.design.taken[number]
+        if isinstance(body, Wedge):
+            return "slope"
         if isinstance(body, Slanting):
             return "slant" if isinstance(body.base, Region) else ("point" if body.near == 0 else "countersink")
         if number == 0 or self.design.taken[number - 1][:2] != (feature, back):
             return ""
         before = self.design.taken[number - 1].body
-        return "sky" if isinstance(before, Slanting) and self.role(number - 1) != "point" else "counterbore"
+        return "sky" if not isinstance(before, Flat) and self.role(number - 1) != "point" else "counterbore"
 
     def owners(self, points: Array, off: Array) -> Index:
         low, high = self.bounds[:, 2].tolist()
@@ -261,13 +272,24 @@ def _along(loop: Contour, spacing: float) -> tuple[Array, Array, Array]:
     return spots, left(ahead), np.abs(share - 0.5) <= 0.25 + SAME
 
 
-def _from_faces(body: Flat | Slanting, x: Array, y: Array, z: Array) -> Array:
+def _at(body: Flat | Wedge, z: float) -> Region:
+    """What it takes away at a height that it reaches."""
+    return body.region if isinstance(body, Flat) else body.section(z)
+
+
+def _from_faces(body: Flat | Slant, x: Array, y: Array, z: Array) -> Array:
     """How far points (m,) are from the faces that a body makes, mm."""
     if isinstance(body, Flat):
         beside = signed(body.region, np.stack([x, y], axis=1))
         above = z - body.floor if body.up else body.floor - z
         wall = np.hypot(np.abs(beside), np.maximum(-above, 0.0))
         return np.minimum(wall, np.where(beside <= 0, np.abs(above), np.inf))
+    if isinstance(body, Wedge):  # outside it the distance from it; within, from its floor, or its walls
+        above = (z - body.level_within(x, y)) * (1.0 if body.up else -1.0)
+        floor = np.abs(above) / np.hypot(1.0, (body.open - body.deep) / body.far)
+        beside = signed(body.region, np.stack([x, y], axis=1))
+        walls = np.where(above > 0, -beside, np.inf)
+        return np.where(beside > 0, np.hypot(beside, np.maximum(-above, 0.0)), np.minimum(floor, walls))
     s, ds, dz = body.away(x, y), body.far - body.near, body.open - body.deep
     share = np.clip(((s - body.near) * ds + (z - body.deep) * dz) / (ds * ds + dz * dz), 0.0, 1.0)
     return np.hypot(s - body.near - share * ds, z - body.deep - share * dz)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mnclab.path.columns import Array, Index
-from mnclab.workpiece.difference.rays import ways
+from mnclab.workpiece.difference.rays import PAIRS, about, ways
 from mnclab.workpiece.difference.target import Target
 from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.raster import near
@@ -25,7 +25,10 @@ def first_cuts(workpiece: Milled, places: Array) -> Index:
         return found
     x, y, z = places.T
     for some in grouped(x, y, GROUP):
-        which = near(moves, workpiece.sweep.boxes, x[some], y[some], float(z[some].max()) + 2 * BEFORE)
+        below = float(z[some].max()) + 2 * BEFORE
+        which = about(moves, workpiece.sweep.boxes, x[some], y[some], below)
+        if len(which) * len(some) > PAIRS:
+            which = near(moves, workpiece.sweep.boxes, x[some], y[some], below)
         if not len(which):
             continue
         cut = left_by(moves[which], x[some], y[some]) <= z[some]

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from mnclab.path.columns import Array, Index
-from mnclab.workpiece.design.features import Chamfer, Feature, Groove, Hole, Slot
+from mnclab.workpiece.design.features import Chamfer, Feature, Groove, Hole, Slope, Slot, along
 from mnclab.workpiece.design.measures import Measure
-from mnclab.workpiece.design.removals import Flat, Slanting
+from mnclab.workpiece.design.removals import Flat, Slant, Wedge
 from mnclab.workpiece.difference.deviations import Seen
 from mnclab.workpiece.difference.drawn_target import DrawnTarget
 from mnclab.workpiece.difference.fitting import line
@@ -82,6 +82,10 @@ class _Room:
         if isinstance(feature, Chamfer):
             yield from self._slant("slant", "width", "angle", 1.0)
             return
+        if isinstance(feature, Slope):
+            yield from sizes(feature.contour, self._walls("slope"), 0.0)
+            yield from self._fall(feature)
+            return
         if isinstance(feature, Slot):
             yield from self._slot(feature)
         elif isinstance(feature, Groove):
@@ -93,7 +97,7 @@ class _Room:
             wider = (wide - feature.width) / 2 if good.any() else 0.0  # of both walls: it does not move the middle
             normals = self._normals(faces)
             middle = faces._replace(place=faces.place + feature.width / 2 * normals, moved=faces.moved + wider * normals)
-            yield from sizes(feature.contour, middle, feature.width)
+            yield from ((along(name), found) for name, found in sizes(feature.contour, middle, feature.width))
         elif hasattr(feature, "contour"):
             faces = self._walls("")
             if not self.own and len(faces.place):
@@ -125,17 +129,17 @@ class _Room:
         """Of the place of a floor that is farthest off; where its walls are nearer, what is left or gone is theirs."""
         seen, cells = self.seen, self.seen.cells
         through = floor <= self.bottom + NOISE
-        grid = seen.grid.under if self.back else seen.grid.owner
-        whose = grid[cells.row, cells.column]
+        own = seen.cells_above(owners, self.back)
         if through:
-            off = np.flatnonzero(np.isin(whose, owners) & np.isnan(cells.at.its_top))
+            off = own[np.isnan(cells.at.its_top[own])]
             left = (cells.at.floor if self.back else cells.at.top)[off]
             level = self.turned - left if self.back else left
             return Found(self.top - (floor if not len(off) else float(level.max())), off + seen.of_cells.start)
-        off = np.flatnonzero(np.isin(whose, owners) & np.isfinite(cells.at.its_top))
-        above = cells.at.its_floor - cells.at.floor if self.back else cells.at.top - cells.at.its_top
+        off = own[np.isfinite(cells.at.its_top[own])]
+        at = cells.at.some(off)
+        above = at.its_floor - at.floor if self.back else at.top - at.its_top
         slopes = np.flatnonzero(np.isin(seen.slopes.owner, owners))
-        rise = np.concatenate([above[off], seen.rise[slopes]])
+        rise = np.concatenate([above, seen.rise[slopes]])
         index = np.concatenate([off + seen.of_cells.start, slopes + seen.of_slopes.start])
         cells_of_it = sum(int(seen.sizes[self.back][k + 1]) for k in owners if k + 1 < len(seen.sizes[self.back]))
         if not len(slopes) and not cells_of_it:
@@ -219,7 +223,19 @@ class _Room:
         yield size, Found(sides * (edge - start) / slope, index)
         yield angle, Found(steep if sides == 1 else 2 * (90 - steep), index)
 
-    def _cone(self, role: str, centre: tuple[float, float] | None = None) -> tuple[Array, Array, Index, Slanting | None]:
+    def _fall(self, slope: Slope) -> Iterator[tuple[str, Found]]:
+        """Depths at both ends, by a straight line through the floor found between them."""
+        s, z, index, body = self._cone("slope")
+        ends = "start depth", "end depth"
+        if not isinstance(body, Wedge) or not len(s):
+            yield from ((name, Found(math.nan, NONE, GONE)) for name in ends)
+            return
+        deep, rise = line(s, z)
+        names = ends if slope.start_depth > slope.end_depth else ends[::-1]
+        yield names[0], Found(self.top - deep, index)
+        yield names[1], Found(self.top - (deep + rise * slope.length), index)
+
+    def _cone(self, role: str, centre: tuple[float, float] | None = None) -> tuple[Array, Array, Index, Slant | None]:
         """Distances from the base of a slant and the heights found there, seen from the side of the feature."""
         owners, slopes = self._of_role(role), self.seen.slopes
         body = self.target.design.taken[owners[0]].body if owners else None
@@ -233,7 +249,7 @@ class _Room:
             place = slopes.place[index]
             place = place @ self.flip[:2, :2].T + self.flip[:2, 2] if self.back else place
             out = np.hypot(*(place - np.array(centre)).T)
-        return out, found, index + self.seen.of_slopes.start, body if isinstance(body, Slanting) else None
+        return out, found, index + self.seen.of_slopes.start, body if not isinstance(body, Flat) else None
 
     def _allowed(self, measure: Measure) -> float:
         """How far a measure may be off where the drawing gives no limits: as far as faces may, each by the tolerance."""

@@ -103,7 +103,8 @@ class Mesh:
         long = np.linalg.norm(np.diff(self.points[ends[pair]], axis=1)[:, 0], axis=1)
         wide = 2 * np.minimum(self.area[one], self.area[other]) / np.maximum(long, TINY)
         smooth = (lean > EXACT) & (lean < SMOOTH)
-        return max(EXACT, SINGLE * float(np.abs(self.points).max()), float((wide * np.tan(lean / 4) / 2)[smooth].max(initial=0.0)))
+        rise = (wide * np.tan(lean / 4) / 2)[smooth].max(initial=0.0)
+        return max(EXACT, SINGLE * float(np.abs(self.points).max()), float(rise))
 
     @cached_property
     def _implicit(self) -> Any:

@@ -1,11 +1,14 @@
-"""Where along level rays the material of a workpiece ends, or begins: bracketed by doubling, then narrowed down."""
+"""Where along level rays the material of a workpiece ends, or begins: guessed by the tools, or bracketed by doubling and
+narrowed down."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from mnclab.path.columns import Array, Index, Mask
+from mnclab.workpiece.difference.tracing import guessed
 from mnclab.workpiece.milling.milled import Milled
+from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.sweep import grouped
 from mnclab.workpiece.milling.swept import left_by
 
@@ -22,8 +25,7 @@ def sides(workpiece: Milled, x: Array, y: Array) -> tuple[Array, Array]:
     found, moves, boxes = np.empty(len(x)), workpiece.moves, workpiece.sweep.boxes
     for some in grouped(x, y, max(workpiece.raster.tile, GROUP)):
         px, py = x[some], y[some]
-        near = (boxes[:, 0] <= px.max()) & (boxes[:, 1] <= py.max()) & (boxes[:, 2] >= px.min()) & (boxes[:, 3] >= py.min())
-        which = np.flatnonzero(near & (moves.low < top[some].max()))
+        which = about(moves, boxes, px, py, float(top[some].max()))
         if not len(which):
             found[some] = top[some]
         elif len(which) * len(some) <= PAIRS:
@@ -31,6 +33,12 @@ def sides(workpiece: Milled, x: Array, y: Array) -> tuple[Array, Array]:
         else:
             found[some] = workpiece.sweep.within(px, py, top[some], floor[some])
     return floor, np.maximum(found, floor)
+
+
+def about(moves: Moves, boxes: Array, x: Array, y: Array, below: float) -> Index:
+    """The moves whose boxes some points lie in, and which go deeper than a height."""
+    meets = (boxes[:, 0] <= x.max()) & (boxes[:, 1] <= y.max()) & (boxes[:, 2] >= x.min()) & (boxes[:, 3] >= y.min())
+    return np.flatnonzero(meets & (moves.low < below))
 
 
 def stands(workpiece: Milled, x: Array, y: Array, z: Array) -> Mask:
@@ -45,6 +53,7 @@ def ways(workpiece: Milled, origin: Array, direction: Array, z: Array, material:
     The second is how far it was still so.
     """
     low, high = np.zeros(len(z)), np.full(len(z), np.nan)
+    _guess(workpiece, origin, direction, z, material, low, high)
     steps = FIRST * 2.0 ** np.arange(int(np.ceil(np.log2(reach / FIRST))) + 1)
     for ladder in np.split(steps, [len(steps) - 7]):  # the long steps only where the short ones found no end
         open_ = np.flatnonzero(np.isnan(high))
@@ -61,6 +70,19 @@ def ways(workpiece: Milled, origin: Array, direction: Array, z: Array, material:
         every = np.arange(len(some))
         low[some], high[some] = rungs[every, first], rungs[every, first + 1]
     return high, low
+
+
+def _guess(
+    workpiece: Milled, origin: Array, direction: Array, z: Array, material: Mask, low: Array, high: Array
+) -> None:  # fmt: skip
+    """Narrows rays down at once where the guess of the tools is right."""
+    way = guessed(workpiece, origin, direction, z, material)
+    some = np.flatnonzero(way > NARROW)
+    if len(some):
+        both = way[some, None] + 0.4 * NARROW * np.array([-1.0, 1.0])
+        ends = _ends(workpiece, origin, direction, z, material, both, some)
+        good = ~ends[:, 0] & ends[:, 1]
+        low[some[good]], high[some[good]] = both[good].T
 
 
 def _bracket(

@@ -8,11 +8,12 @@ from mnclab.path.columns import Array, Mask
 from mnclab.workpiece.difference.columns import Columns, columns
 from mnclab.workpiece.difference.deviations import Seen
 from mnclab.workpiece.difference.rays import sides
-from mnclab.workpiece.milling.volumes import ROUGH, within
+from mnclab.workpiece.milling.volumes import ROUGH
 
-LATTICES = ((89, 55), (55, 34), ROUGH, (8, 5))  # points in a cell, and their turn
-POINTS = 1_500_000  # at most, as far as the lattices go
-CHUNK = 200_000
+LATTICES = ((89, 55), (55, 34), ROUGH, (13, 8), (8, 5))  # points in a cell, and their turn
+POINTS = 300_000  # at most, as far as the lattices go
+SHIFTS = np.array([0.7548776662466927, 0.5698402909980532])  # of a cell: those of many cells lie evenly
+CHUNK = 100_000
 ALIKE = 1e-6  # of what is off: neighbours that differ by less tell the same
 MARKS = 3  # places of a cell's width along a wall
 
@@ -34,9 +35,10 @@ def volumes(seen: Seen) -> tuple[float, float]:
     found = np.array([float(gone[~close].sum()), float(left[~close].sum())]) * area
     lattice = next((each for each in LATTICES if len(row) * each[0] <= POINTS), LATTICES[-1])
     many = CHUNK // lattice[0]
+    shifts = np.arange(len(row))[:, None] * SHIFTS % 1.0
     for k in range(0, len(row), many):
         x, y = workpiece.raster.x[column[k : k + many]], workpiece.raster.y[row[k : k + many]]
-        x, y = within(x, y, workpiece.step, lattice)
+        x, y = _within(x, y, shifts[k : k + many], workpiece.step, lattice)
         at = columns(sides(workpiece, x, y), seen.target.faces(x, y), x, y)
         found += np.array([float(each.sum()) for each in thickness(at, seen.least)]) * area / lattice[0]
     return float(found[0]), float(found[1])
@@ -51,12 +53,30 @@ def thickness(at: Columns, error: float) -> tuple[Array, Array]:
     return np.where(gone > error, gone, 0.0), np.where(left > error, left, 0.0)
 
 
+def _within(x: Array, y: Array, shifts: Array, step: float, lattice: tuple[int, int]) -> tuple[Array, Array]:
+    """The points (m n,) of a lattice in each of m cells about their middles, in each of them shifted by a share of the cell
+    (m, 2): many cells along one wall see it at many places, however few points each has."""
+    count, turn = lattice
+    along = np.arange(count)
+    shares = (along + 0.5) / count, (along * turn % count + 0.5) / count
+    px, py = (step * ((share + shift[:, None]) % 1.0 - 0.5) for share, shift in zip(shares, shifts.T))
+    return (x[:, None] + px).ravel(), (y[:, None] + py).ravel()
+
+
 def _uneven(thick: Array) -> Mask:
     """Cells (ny, nx) beside which less or more is off."""
     ny, nx = thick.shape
+    if not thick.any():
+        return np.zeros(thick.shape, dtype=bool)
     wide: Array = np.pad(thick, 1, mode="edge")
-    around = np.stack([wide[j : j + ny, i : i + nx] for j in range(3) for i in range(3)])
-    return np.asarray(np.ptp(around, axis=0) > ALIKE * around.max(axis=0))
+    most, least = (_of_three(_of_three(wide, which, 0), which, 1) for which in (np.maximum, np.minimum))
+    return np.asarray(most - least > ALIKE * most)
+
+
+def _of_three(cells: Array, which: np.ufunc, axis: int) -> Array:
+    """The greatest, or the least, of each cell and both beside it along an axis, but for the first and the last."""
+    one, two, three = (np.take(cells, range(k, cells.shape[axis] - 2 + k), axis) for k in range(3))
+    return np.asarray(which(which(one, two), three))
 
 
 def _beside(found: Mask) -> Mask:
