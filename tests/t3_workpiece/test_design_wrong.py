@@ -57,6 +57,8 @@ def test_nothing_but_alarms(kind):
         (lambda: Pocket(Outline(SQUARE, closed=False), 5), "the contour of a pocket must be a closed contour"),
         (lambda: Pocket.circle(30, 20, -10, 5), "the diameter of a circle .* must be greater than 0, got -10"),
         (lambda: Pocket.rectangle(30, 20, 10, 10, 5, corner=6), "corner radius of 6 does not fit into 10 by 10"),
+        (lambda: Groove(Circle(30, 20, 20), 1e-9, 4), "the width of a groove .* must be at least 1e-06, got 1e-09"),
+        (lambda: Chamfer(SQUARE, 1, angle=5e-324), "the included angle .* must be at least 1, got"),
         (lambda: Hole(20, 20, 8, 5, counterbore=(11, 6)), "a counterbore must be less deep than its hole, 5, got 6"),
         (lambda: Hole(20, 20, 8, counterbore=(7, 6)), "the diameter of a counterbore .* must be greater than 8, got 7"),
         (lambda: Hole(20, 20, None), "the diameter of a hole .* must be a number, got None"),

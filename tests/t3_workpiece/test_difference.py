@@ -103,6 +103,24 @@ def test_a_feature_that_was_forgotten():
     assert not found.ok
 
 
+def test_what_an_earlier_clamping_took_too_much_is_missing_from_the_start():
+    """A pocket of 8.1 for 8 below, seen once the part is turned over: no line of the second program is guilty."""
+    first = part(rings(z=-8.1))
+    found = part("G0 X-20", stock=first.turned_over()).compare(Design(BLOCK, (), (CIRCLE,)))
+    assert found.worst_gouge.value == pytest.approx(0.1, abs=1e-9) and found.worst_gouge.line == 0
+    assert str(found.worst_gouge).endswith("missing from the start")
+    assert row(found, "pocket", "depth").where == "missing from the start"
+
+
+def test_another_blank_than_that_of_the_design_is_said():
+    design = Design(((-2, 0, -20), (60, 40, 0)), (CIRCLE,))
+    found = part(rings()).compare(design)
+    cut_from, drawn = "X0..60 Y0..40 Z-20..0", "X-2..60 Y0..40 Z-20..0"
+    assert found.notes == (f"the part was cut from a blank of {cut_from}, the design has one of {drawn}",)
+    assert found.worst_gouge.where == "missing from the start"
+    assert part(rings()).compare(Design(BLOCK, (CIRCLE,))).notes == ()
+
+
 def test_a_pocket_too_many():
     found = part(rings()).compare(Design(BLOCK))
     assert found.worst_gouge.value == pytest.approx(8, abs=1e-9) and found.worst_gouge.feature == "blank"

@@ -100,8 +100,17 @@ def _spandrel(size, sign):
 def test_a_missing_pass_is_rest_that_nothing_cut():
     found = turned(SHARP, *way()[:4]).compare(DESIGN)
     worst = found.worst_rest
-    assert worst.value == pytest.approx(5, abs=WITHIN) and worst.where == "" and worst.line == 0 and worst.row == -1
+    assert worst.value == pytest.approx(5, abs=WITHIN) and (worst.line, worst.row) == (0, -1)
+    assert worst.where == "nothing cut here"
     assert row_of(found, "diameter 2").where == "nothing cut here"
+
+
+def test_a_corner_that_was_not_cut_has_no_number():
+    """Along a cylinder both faces of a shoulder between a cone and a cylinder are found on one line."""
+    design = TurnedDesign([(0, 10), (-20, 10), (-30, 15), (-40, 15), (-40, 20), (-60, 20)])
+    found = turned(SHARP, (5, 40), (4, 40), stock=cylinder(20, -60, 0)).compare(design)
+    for name in ("length 1", "length 2"):
+        assert row_of(found, name).verdict == "not cut" and math.isnan(row_of(found, name).actual)
 
 
 def test_features_that_were_forgotten():

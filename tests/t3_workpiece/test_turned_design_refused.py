@@ -192,3 +192,13 @@ def test_dimensions_of_features_lie_on_the_section():
             assert each.start[1] == pytest.approx(each.measure.nominal / 2), name
         elif each.measure.name in ("width", "depth", "length") and name != "undercut":
             assert np.hypot(*np.subtract(each.start, each.end)) == pytest.approx(each.measure.nominal), name
+
+
+def test_angles_of_nearly_nothing_and_endless_numbers():
+    profile = [(0, 10), (-20, 10), (-20, 15), (-40, 15)]
+    with pytest.raises(mnc.Alarm, match="the point of a bore .* must be at least 1"):
+        TurnedDesign(profile, Bore(10, 15, point=5e-324))
+    with pytest.raises(mnc.Alarm, match="the angle of an undercut .* must be at least 1"):
+        TurnedDesign(profile, Undercut("M20x1.5", -20, angle=5e-324))
+    with pytest.raises(mnc.Alarm, match="the profile of a turned design must be points"):
+        TurnedDesign(10**400)

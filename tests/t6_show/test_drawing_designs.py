@@ -245,6 +245,8 @@ def test_the_door_of_a_design(tmp_path):
     assert PLATE.save(tmp_path / "plate.pdf").stat().st_size > 5000
     with pytest.raises(Alarm, match="a drawing is made of a design"):
         drawing("plate.toml")
+    with pytest.raises(Alarm, match="there is nothing to draw"):
+        drawing(d.Design(((0, 0, -20), (80, 60, 0)), d.Pocket.rectangle(40, 30, 80, 60, 20)))
 
 
 def plain(drawn):

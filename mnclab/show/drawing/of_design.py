@@ -41,6 +41,8 @@ def drawing(design: Any, *, size: str | None = None, scale: float | None = None)
     """
     if not isinstance(design, Design | TurnedDesign):
         raise Alarm(f"a drawing is made of a design, got {shown(design)}", hint="Design(blank, features).plot()")
+    if not design.volume > 0:
+        raise Alarm("there is nothing to draw: the features take the whole blank away")
     title = Title(design.title or "part", design.number, design.material, design.general, design.date, design.author)
     best: DesignDrawing | None = None
     refused: Alarm | None = None

@@ -35,7 +35,7 @@ def marks_of(difference: Difference) -> list[Marked]:
     for name, worst, sign in (("gouge", difference.worst_gouge, -1), ("rest", difference.worst_rest, 1)):
         if worst.place is not None:
             value = f"{'+' if sign > 0 else chr(0x2212)}{worst.value:.3f} mm"
-            text = f"worst {name} {value}, {worst.feature}: {worst.where or 'nothing cut here'}"
+            text = f"worst {name} {value}, {worst.feature}: {worst.where}"
             found.append(Marked(len(found) + 1, worst.place, sign, -1, text))
     for k, row in enumerate(difference.features):
         if row.ok or row.place is None or len(found) == MOST or row.measure == "form":

@@ -32,7 +32,7 @@ class Chamfer(Feature):
     def _check(self) -> None:
         take_shape(self)
         check_positive(self, "width")
-        check_number(self.angle, "the included angle of the tool of a chamfer (degrees)", above=0, at_most=179)
+        check_number(self.angle, "the included angle of the tool of a chamfer (degrees)", at_least=1, at_most=179)
         if self.inside is not None and not isinstance(self.inside, bool):
             raise Alarm(f"inside of a chamfer must be True, False or None, got {shown(self.inside)}")
 

@@ -15,6 +15,7 @@ from mnclab.workpiece.design.measures import Measure, Tolerance, with_tolerances
 from mnclab.workpiece.design.removals import Flat, Removal
 from mnclab.workpiece.design.shapes import LARGEST, Shape, check_place, shape_of
 
+SMALLEST = 1e-6  # mm, of a size
 BESIDE = 1e-3  # mm, beside an edge, where material is looked for
 
 
@@ -107,7 +108,9 @@ EXAMPLE = 'tolerances={"depth": 0.1}'
 def check_positive(feature: Named, *names: str) -> None:
     """An Alarm unless sizes of a feature are greater than 0."""
     for name in names:
-        check_number(getattr(feature, name), f"the {name} of a {feature.kind} (mm)", above=0, at_most=LARGEST)
+        size, what = getattr(feature, name), f"the {name} of a {feature.kind} (mm)"
+        check_number(size, what, above=0, at_most=LARGEST)
+        check_number(size, what, at_least=SMALLEST)
 
 
 def check_flag(feature: Named, name: str) -> None:

@@ -92,7 +92,7 @@ class Hole(Feature):
         if self.diameter is None and self.thread:
             object.__setattr__(self, "diameter", core_of(self.thread))
         check_positive(self, "diameter", *([] if self.depth is None else ["depth"]))
-        check_number(self.point, "the point of a hole (degrees)", above=0, at_most=180)
+        check_number(self.point, "the point of a hole (degrees)", at_least=1, at_most=180)
         for name, second, most in (("counterbore", "depth (mm)", LARGEST), ("countersink", "angle (degrees)", 179.0)):
             given = getattr(self, name)
             if given is None:

@@ -260,7 +260,7 @@ def _profile(given: Any) -> Outline:
     else:
         try:
             points = np.array(given, dtype=np.float64)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             points = np.zeros(0)
         if points.ndim != 2 or points.shape[1] != 2:
             raise Alarm(f"the profile of a turned design must be points (z, r) or a contour, got {shown(given)}", hint=EXAMPLE)

@@ -39,7 +39,7 @@ class Bore(FromEnd):
 
     def _check(self) -> None:
         check_positive(self, "diameter", *given(self, "depth"))
-        check_number(self.point, "the point of a bore (degrees)", above=0, at_most=180)
+        check_number(self.point, "the point of a bore (degrees)", at_least=1, at_most=180)
         check_number(self.chamfer, "the chamfer of a bore (mm)", at_least=0)
         check_number(self.corner, "the corner of a bore (mm)", at_least=0, at_most=self.diameter / 2)
         if self.corner and (self.point < 180 or self.depth is None):

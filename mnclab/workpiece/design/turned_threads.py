@@ -148,7 +148,7 @@ class Undercut(TurnedFeature):
         check_number(self.z, "the z of an undercut (mm)")
         check_flag(self, "inside")
         check_positive(self, *given(self, "diameter", "width"))
-        check_number(self.angle, "the angle of an undercut (degrees)", above=0, at_most=90)
+        check_number(self.angle, "the angle of an undercut (degrees)", at_least=1, at_most=90)
         choice(self.thread_at, "the thread_at of an undercut", ENDS)
         if None in (self.diameter, self.width, self.corner) and pitch not in UNDERCUTS:
             known = ", ".join(f"{each:g}" for each in UNDERCUTS)

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.path.columns import Index
+from mnclab.path.columns import Array, Index
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import check_number, shown
 from mnclab.workpiece.difference.deviations import Seen, seen
-from mnclab.workpiece.difference.difference import Difference, Worst
+from mnclab.workpiece.difference.difference import Difference, Worst, uncut
+from mnclab.workpiece.difference.drawn_target import DrawnTarget
 from mnclab.workpiece.difference.guilt import guilty
 from mnclab.workpiece.difference.reading import NONE, Reading
 from mnclab.workpiece.difference.refining import followed
@@ -55,8 +56,8 @@ def difference_of(workpiece: Milled, target: Target, tolerance: float) -> Differ
     rows = Features([_row(found, reading, *each) for reading, each in zip(readings, first)])
     gone, left = volumes(found)
     return Difference(
-        target.name, tolerance, found.error, _worst(found, -1.0, *gouge), _worst(found, 1.0, *rest), gone, left,
-        workpiece.x, workpiece.y, signed, rows, tuple(_notes(workpiece, rows)), workpiece, target, found,
+        target.name, tolerance, found.error, _worst(found, -1.0, *gouge), _worst(found, 1.0, *rest), gone, left, workpiece.x,
+        workpiece.y, signed, rows, tuple(_notes(workpiece, target, rows, tolerance)), workpiece, target, found,
     )  # fmt: skip
 
 
@@ -72,7 +73,7 @@ def _worst(found: Seen, sign: float, k: int, row: int) -> Worst:
         return Worst()
     x, y, z = found.place[k].tolist()
     name = found.target.owner(int(found.owner[k])).name
-    return Worst(float((sign * found.off).max()), (x, y, z), *_line(found, row), name, _where(found, row))
+    return Worst(float((sign * found.off).max()), (x, y, z), *_line(found, row), name, _where(found, row, k))
 
 
 def _followed(found: Seen) -> Seen:
@@ -114,9 +115,12 @@ def _line(found: Seen, row: int) -> tuple[int, int, int]:
     return (int(path.line[row]), row, int(path.program[row])) if row >= 0 else (0, -1, 0)
 
 
-def _where(found: Seen, row: int) -> str:
+def _where(found: Seen, row: int, k: int) -> str:
+    """"FILE:LINE" of the row that made a place, or that none did; nothing of no place."""
     line, _, program = _line(found, row)
-    return str(found.workpiece.cutting.name(line, program)) if row >= 0 else ""
+    if row >= 0:
+        return str(found.workpiece.cutting.name(line, program))
+    return uncut(float(found.off[k])) if k >= 0 else ""
 
 
 def _row(found: Seen, reading: Reading, k: int, row: int) -> Row:
@@ -134,10 +138,9 @@ def _row(found: Seen, reading: Reading, k: int, row: int) -> Row:
         x, y, z = found.place[k].tolist()
         place = x, y, z
     line, row, program = _line(found, row)
-    where = _where(found, row) if row >= 0 else ("nothing cut here" if place else "")
     return Row(
         reading.side, reading.feature, measure.name, measure.nominal, measure.nominal + deviation, deviation, lower, upper,
-        verdict, line, row, place, program, where,
+        verdict, line, row, place, program, _where(found, row, k),
     )  # fmt: skip
 
 
@@ -147,9 +150,16 @@ def _worst_of(found: Seen, among: Index) -> Index:
     return among[(off > 0) & (off >= off.max(initial=0.0) - ALIKE)]
 
 
-def _notes(workpiece: Milled, rows: Features) -> Iterator[str]:
+def _box(bounds: Array) -> str:
+    return " ".join(f"{axis}{low:g}..{high:g}" for axis, low, high in zip("XYZ", *bounds.tolist()))
+
+
+def _notes(workpiece: Milled, target: Target, rows: Features, tolerance: float) -> Iterator[str]:
     """What was not judged."""
     yield from workpiece.notes
+    box, drawn = (np.asarray(each, dtype=np.float64) for each in (workpiece.cutting.stock.bounds, target.bounds))
+    if isinstance(target, DrawnTarget) and np.abs(box - drawn).max() > tolerance:
+        yield f"the part was cut from a blank of {_box(box)}, the design has one of {_box(drawn)}"
     if threads := list(dict.fromkeys(row.feature for row in rows if row.measure.startswith("thread"))):
         yield f"threads were not measured ({', '.join(threads)})"
     if workpiece.many:

@@ -15,12 +15,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+def uncut(off: float) -> str:
+    """Why no line made a place that is off: + what is left there, - what is gone."""
+    return "nothing cut here" if off > 0 else "missing from the start"
+
+
 class Worst(NamedTuple):
     """The worst place: `value` mm, never negative, normal to the surface of the design; `place` (x, y, z), None where
     nothing is off.
 
     `line` of `program` and `row` of the path made it, line 0 and row -1 where nothing was cut there; `where` is
-    "FILE:LINE". `feature` is the name of the feature that it is off.
+    "FILE:LINE", or says that no line did. `feature` is the name of the feature that it is off.
     """
 
     value: float = 0.0
@@ -35,7 +40,7 @@ class Worst(NamedTuple):
         if self.place is None:
             return "none"
         x, y, z = self.place
-        return f"{self.value:.4f} mm at X{x:.3f} Y{y:.3f} Z{z:.3f}, {self.feature}: {self.where or 'nothing cut here'}"
+        return f"{self.value:.4f} mm at X{x:.3f} Y{y:.3f} Z{z:.3f}, {self.feature}: {self.where}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.regions import Region
 from mnclab.path.columns import Array, Index, Mask
-from mnclab.workpiece.difference.difference import Difference, Worst
+from mnclab.workpiece.difference.difference import Difference, Worst, uncut
 from mnclab.workpiece.difference.farthest import deepest, narrowed
 from mnclab.workpiece.difference.half_surface import HalfSurface, Places
 from mnclab.workpiece.difference.half_target import HalfTarget
@@ -171,6 +171,7 @@ def _worst(found: Compared, target: HalfTarget, at: Array, off: Array, owner: In
     k, row = first_made(found, at, np.flatnonzero(off >= off.max() - ALIKE))
     line, program, where = line_of(found.part, row)
     z, r = at[k].tolist()
+    where = where or uncut(sign)
     return Worst(float(off.max()), (found.part.axis + r, 0.0, z), line, row, program, target.names[owner[k]], where)
 
 

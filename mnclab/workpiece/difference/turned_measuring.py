@@ -25,6 +25,7 @@ from mnclab.workpiece.turning import revolved
 FORM = "form"
 UNMEASURED, NOT_CUT, IN_CHUCK = "not measured", "not cut", "in the chuck"
 STRAIGHT = 1e-7  # mm, by which a face across or along the axis may lean
+PARALLEL = 1e-6  # sine of the angle between two faces, which do not meet
 Point = tuple[float, float]
 Off = tuple[Array, Array, Index]
 
@@ -193,7 +194,7 @@ class _Room:
         slanting = sorted(faces, key=lambda each: each.from_(point))
         for k, one in enumerate(slanting):
             for two in slanting[k + 1 :]:
-                if abs(_cross(one.ahead, two.ahead)) > 1e-6:
+                if abs(_cross(one.ahead, two.ahead)) > PARALLEL:
                     return self._meeting(one, two, axis)
         along = [each for each in self.faces if each.supports(point) and abs(each.end[other] - each.start[other]) <= STRAIGHT]
         return self._end(point) if axis == 0 and not along else NOTHING
@@ -215,7 +216,9 @@ class _Room:
         if np.isnan(a).any() or np.isnan(b).any():
             return self._lost(one if np.isnan(a).any() else two)
         across = _cross(u, v)
-        share = _cross(b - a, v) / across if across else math.nan
+        if abs(across) <= PARALLEL:  # both found on one face: the corner between them was not cut
+            return self._lost(two)
+        share = _cross(b - a, v) / across
         spots = np.concatenate([one.middle, two.middle])
         off = np.concatenate([_beside(each.middle, each) for each in (one, two)])
         return Found(float((a + share * u)[axis]), spots, off)
