@@ -47,6 +47,12 @@ def test_a_bore_of_24_04_for_24_and_a_depth_of_7_98_for_8():
     assert found.ok
 
 
+def test_a_bore_too_wide_leaves_the_top_face_as_drawn():
+    found = part(rings(), Tool(radius=5.05, number=1, kind="mill")).compare(Design(BLOCK, (CIRCLE,)))
+    assert (row(found, "blank", "form").actual, row(found, "blank", "form").line) == (0.0, 0)
+    assert row(found, "pocket", "form").actual == pytest.approx(-0.05, abs=1e-6)
+
+
 def test_volumes_of_thin_bands():
     wide = part(rings(), Tool(radius=5.05, number=1, kind="mill")).compare(Design(BLOCK, (CIRCLE,)))
     assert wide.gouge_volume == pytest.approx(math.pi * (12.05**2 - 12**2) * 8, rel=0.02) and wide.rest_volume == 0

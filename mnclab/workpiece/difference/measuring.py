@@ -21,6 +21,7 @@ from mnclab.workpiece.difference.target import BLANK
 from mnclab.workpiece.milling.raster import NOISE
 
 FORM = "form"
+OWN = 0.1  # of how far a void goes: at the edge of two faces one that is less off has no part in it
 UNMEASURED = "not measured"
 TWO_SIDED = ("length", "diameter", "radius")  # kinds whose both ends may be off
 
@@ -36,7 +37,10 @@ def readings(target: DrawnTarget, seen: Seen) -> Iterator[Reading]:
 
 def _form(target: DrawnTarget, seen: Seen, side: str, name: str, owners: list[int]) -> Reading:
     """How far the faces of a feature are off at the worst, + what is left on them, - what is gone."""
-    among = np.flatnonzero(np.isin(seen.owner, owners))
+    mine = np.isin(seen.owner, owners)
+    for places, way in ((seen.of_walls, seen.moved), (seen.of_slopes, seen.rise)):
+        mine[places] &= ~(np.abs(seen.off[places]) < OWN * np.abs(way))
+    among = np.flatnonzero(mine)
     worst = among[np.abs(seen.off[among]).argmax()] if len(among) else None
     allowed = max(target.tolerance, *(max(target.owner(each)[2:]) for each in owners))
     value = float(seen.off[worst]) if worst is not None else 0.0
