@@ -286,8 +286,8 @@ def compare(chosen: argparse.Namespace) -> int:
         worst = () if found.ok else (("gouge", found.worst_gouge), ("rest", found.worst_rest))
         for kind, place in worst:
             if place.value > 0:
-                told = str(place).removesuffix(f": {place.where}")
-                print(f"{place.where or chosen.file}: {kind}: {told}", file=sys.stderr)
+                told = str(place).removesuffix(f": {place.where}") if place.line else str(place)
+                print(f"{place.where if place.line else chosen.file}: {kind}: {told}", file=sys.stderr)
     return verdict(result, quiet=chosen.json) or (CLEAN if found.ok else ALARMS)
 
 

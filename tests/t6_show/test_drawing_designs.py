@@ -314,3 +314,13 @@ def test_a_thread_from_end_to_end_has_the_length_of_the_part():
     drawn = drawing(nut)
     check(drawn, nut)
     assert [box.text for box in drawn.boxes()].count("25") == 1
+
+
+def test_a_contour_of_very_many_points_has_some_of_them_in_its_table():
+    angle = np.radians(np.arange(0, 360, 3))
+    oval = d.Pocket(np.stack([50 + 30 * np.cos(angle), 30 + 18 * np.sin(angle)], axis=1), 5)
+    drawn = drawing(d.Design(((0, 0, -20), (100, 60, 0)), (oval,)))
+    said = [box.text for box in drawn.boxes() if box.kind == "text"]
+    assert sum(text.startswith("a") and text[1:].isdigit() for text in said) == 2 * 30  # in the view and in the table
+    assert any("1 of every 4 of its 120 points" in text for text in said)
+    check(drawn, d.Design(((0, 0, -20), (100, 60, 0)), (oval,)))

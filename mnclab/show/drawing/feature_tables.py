@@ -9,12 +9,14 @@ from mnclab.show.drawing.dimensions import Note, number
 from mnclab.show.drawing.feature_marks import mouth_of, outline_of, point_of, shape_in
 from mnclab.show.drawing.sheet import Table
 from mnclab.show.drawing.wording import SIGNS, hole_lines, written
-from mnclab.workpiece.design.features import Hole, along
+from mnclab.workpiece.design.features import Hole, Pocket, along
 from mnclab.workpiece.design.measures import Measure
 from mnclab.workpiece.design.shapes import Circle, Outline
 
 if TYPE_CHECKING:
     from mnclab.show.drawing.milled_features import Side
+
+MOST, FEW = 30, 8  # corners of outlines on one side that are all told; of one outline that always are
 
 
 def hole_table(side: Side, holes: list[int]) -> None:
@@ -63,13 +65,20 @@ def feature_table(side: Side, numbers: list[int]) -> None:
 
 
 def corner_table(side: Side, shape: Outline, measures: Sequence[Measure], k: int, title: str = "") -> None:
-    """Numbered corners, and a table of them; with `measures` its middle and sizes below."""
+    """Numbered corners, and a table of them; with `measures` its middle and sizes below.
+
+    Where a side has more than `MOST` corners, as with contours made of chords, the table of a long contour has every second,
+    third, … of its points, and says so.
+    """
     title, line = title or f"contour of {side.names()[k]}", shape.contour
+    each = -(-_corners(side) // MOST) if len(line.points) > FEW else 1
+    if each > 1:
+        title += f": 1 of every {each} of its {len(line.points)} points"
     letter = chr(97 + len(side.ledger.tables) % 26)
     x, y = side.datum
     rows = []
     radii = line.radii.tolist()
-    for n, (px, py) in enumerate(line.points.tolist()):
+    for n, (px, py) in list(enumerate(line.points.tolist()))[::each]:
         label = f"{letter}{n + 1}"
         side.draft.dimensions.append(Note((px, py), (label,)))
         bend = line.bulge[n] if n < len(line.bulge) else 0.0
@@ -84,6 +93,13 @@ def corner_table(side: Side, shape: Outline, measures: Sequence[Measure], k: int
             for column, name in enumerate(names, 1):
                 side.ledger.cell(title, row, column, side.claims([k], name))
     side.ledger.tables.append(Table(title, ("No.", "X", "Y", "arc to next"), tuple(rows)))
+
+
+def _corners(side: Side) -> int:
+    """How many corners the outlines of a side have together."""
+    shapes = [shape_in(each) for each in side.features]
+    shapes += [island for each in side.features if isinstance(each, Pocket) for island in each.islands]
+    return sum(len(each.points) for each in shapes if isinstance(each, Outline))
 
 
 def _said(measure: Measure, datum: float) -> str:

@@ -36,8 +36,8 @@ def drawing(design: Any, *, size: str | None = None, scale: float | None = None)
     """The dimensioned drawing of a design, on "A4", "A4 landscape", "A3" or "A2" and at a scale (0.5 is 1:2), both chosen
     where they are not given.
 
-    Where a view has no room for its dimensions, or only in a small scale, holes, then all features stand in a table; an
-    Alarm where that fails too.
+    Where a view has no room for its dimensions, or only in a small scale, holes, then all features stand in a table, and the
+    sheet may be A2; an Alarm where that fails too.
     """
     if not isinstance(design, Design | TurnedDesign):
         raise Alarm(f"a drawing is made of a design, got {shown(design)}", hint="Design(blank, features).plot()")
@@ -61,6 +61,8 @@ def drawing(design: Any, *, size: str | None = None, scale: float | None = None)
         part = max(float(np.ptp(view.bounds, axis=0).max()) for view in views)
         if scale is not None or found.scale >= 1 or found.scale * part >= LEGIBLE:
             break
+    if best is None and size is None:
+        return drawing(design, size="A2", scale=scale)
     if best is None:
         assert refused is not None
         raise refused

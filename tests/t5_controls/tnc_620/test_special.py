@@ -185,6 +185,7 @@ def test_facing_leaves_nothing_of_the_surface(
     a: float, b: float, sa: int, sb: int, k: float, strategy: int, radius: float
 ) -> None:
     """On every level the lines lie close enough to meet, reach over both sides, and are as long as the surface."""
+    radius = round(radius, 6)  # as exact as the other numbers of the program
     found = faced(
         mnc.Tool(radius=radius), Q389=strategy, Q218=sa * round(a, 6), Q219=sb * round(b, 6), Q370=round(k, 4)
     )
