@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
+from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -142,15 +144,15 @@ def _workpiece(run: Run, last: int | None, step: float | None, stock: Any) -> Wo
 
 
 def design(run: Run, stock: Any = None) -> Proposal | TurnedProposal:
-    """The design that a run makes."""
-    cutting = cutting_of(run, stock)
+    """The design that a run makes, with the name of its program."""
+    cutting, title = cutting_of(run, stock), Path(run.program.name).stem
     if cutting.lathe:
         from mnclab.workpiece.recognition.turned import proposed as turned
 
-        return turned(cutting)
+        return replace(turned(cutting), title=title)
     from mnclab.workpiece.recognition.proposal import proposed
 
-    return proposed(cutting)
+    return replace(proposed(cutting), title=title)
 
 
 def collisions(run: Run, stock: Any = None, step: float | None = None) -> Collisions:

@@ -1,5 +1,7 @@
 """From path to design: the features that a program makes are those that it was written for, by their numbers."""
 
+from pathlib import Path
+
 import pytest
 from designs_as_programs import TIP3, TOOLS, plate, run_of, studs
 
@@ -170,3 +172,8 @@ def test_a_proposal_is_a_design_that_is_kept(tmp_path):
     design, text = studs(3)
     found = run_of(design, text).design()
     assert Design.load(found.save(tmp_path / "part.toml")).features == found.features
+
+
+def test_it_has_the_name_of_its_program():
+    programs = Path(__file__).parents[2] / "data" / "programs"
+    assert mnclab.run(programs / "tnc-620" / "holes.h").design().title == "holes"
