@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -20,6 +19,7 @@ from mnclab.text.given import check_number, check_point, choice, shown
 from mnclab.text.records import exactly
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Blank, Box, Revolved, blank
+from mnclab.workpiece.design.as_drawn import AsDrawn
 from mnclab.workpiece.design.features import FEATURES, Chamfer, Feature, Pocket, Site, Stud
 from mnclab.workpiece.design.measures import HEAD, rows
 from mnclab.workpiece.design.removals import Flat, Removal
@@ -27,8 +27,6 @@ from mnclab.workpiece.design.slabs import Stack
 from mnclab.workpiece.part import Part
 
 if TYPE_CHECKING:
-    import pyvista
-    from matplotlib.figure import Figure
 
     from mnclab.workpiece.workpiece import Workpiece
 
@@ -45,7 +43,7 @@ class Taken(NamedTuple):
 
 
 @dataclass(frozen=True, repr=False)
-class Design:
+class Design(AsDrawn):
     """A part as drawn. `blank`: two corners, a box or an upright cylinder, in the frame of the toolpath, mm; `features`:
     those of `mnclab.design`, in any order.
 
@@ -248,31 +246,6 @@ class Design:
     def as_blank(self) -> Blank:
         """The finished part as a blank, for a Setup."""
         return self
-
-    # --- doors -------------------------------------------------------------------------------------------------------
-
-    @staticmethod
-    def load(path: str | Path) -> Any:
-        """The design of a TOML file, a `Design` or a `TurnedDesign`; an Alarm shows the line that is wrong."""
-        from mnclab.workpiece.design.design_file import load
-
-        return load(path)
-
-    def save(self, path: str | Path, **options: Any) -> Path:
-        """Write one file: toml the design; svg, pdf, png, dxf its drawing; stl, gltf, glb, vtk, csv its body."""
-        from mnclab.workpiece.design.saving import save
-
-        return save(self, path, **options)
-
-    def plot(self, **options: Any) -> Figure:
-        """The dimensioned drawing in true size; `size` "A4", "A4 landscape", "A3" or "A2", `scale` 0.5 for 1:2, and `sheet`."""
-        from mnclab.show.drawing import plot
-
-        return plot(self, **options)
-
-    def scene(self, **options: Any) -> pyvista.Plotter:
-        """The part as a body (needs pyvista)."""
-        return self.workpiece().scene(**{"colour": "none"} | options)
 
     def drawn_names(self, back: bool = False) -> tuple[str, ...]:
         """What drawing and tables call the features of a side: their names, else their kinds, numbered."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from mnclab.text.given import check_point, faults_as_alarms, plain, shown
 from mnclab.text.records import exactly
 from mnclab.text.tables import html_table
 from mnclab.workpiece.blank import Revolved, blank
+from mnclab.workpiece.design.as_drawn import AsDrawn
 from mnclab.workpiece.design.design import TEXTS, name_of
 from mnclab.workpiece.design.measures import Measure, Tolerance, with_tolerances
 from mnclab.workpiece.design.shapes import Outline
@@ -29,8 +29,6 @@ from mnclab.workpiece.turning import revolved
 from mnclab.workpiece.turning.turned_blank import TurnedBlank
 
 if TYPE_CHECKING:
-    import pyvista
-    from matplotlib.figure import Figure
 
     from mnclab.workpiece.workpiece import Workpiece
 
@@ -38,7 +36,7 @@ EXAMPLE = "TurnedDesign([(0, 10), (-30, 10), (-30, 20), (-50, 20)])"
 
 
 @dataclass(frozen=True, repr=False)
-class TurnedDesign:
+class TurnedDesign(AsDrawn):
     """A turned part as drawn, in the frame of the toolpath, mm.
 
     `profile`: points (z, r) of the outside from one end to the other, r a radius, closed to the axis at both; or a
@@ -192,31 +190,6 @@ class TurnedDesign:
     @property
     def threads(self) -> tuple[Thread, ...]:
         return tuple(each for each in self.features if isinstance(each, Thread))
-
-    # --- doors -------------------------------------------------------------------------------------------------------
-
-    @staticmethod
-    def load(path: str | Path) -> Any:
-        """The design of a TOML file, a `TurnedDesign` or a `Design`; an Alarm shows the line that is wrong."""
-        from mnclab.workpiece.design.design_file import load
-
-        return load(path)
-
-    def save(self, path: str | Path, **options: Any) -> Path:
-        """Write one file: toml the design; svg, pdf, png, dxf its drawing; stl, gltf, glb, vtk its body."""
-        from mnclab.workpiece.design.saving import save
-
-        return save(self, path, **options)
-
-    def plot(self, **options: Any) -> Figure:
-        """The dimensioned drawing; see `show.drawing`."""
-        from mnclab.show.drawing import plot
-
-        return plot(self, **options)
-
-    def scene(self, **options: Any) -> pyvista.Plotter:
-        """The part as a body (needs pyvista)."""
-        return self.workpiece().scene(**{"colour": "none"} | options)
 
     def _check_blank(self) -> None:
         if self.blank is None:
