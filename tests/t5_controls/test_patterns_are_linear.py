@@ -28,6 +28,7 @@ SEEKS = ("search", "finditer", "findall", "sub", "subn", "split")
 PUT_TOGETHER = {
     "labels.py": (r"GT(?![A-Z])", "match"),
     "formulas.py": (r"[ \t]*LEN(?![A-Z])", "match"),
+    "feature_file.py": (r"\bdepth", "search"),
     "reader.py": (r"/[ \t]?/|;", "search"),
     "program.py": (r"/[ \t]?/", "search"),
     "toml_file.py": (r"""(?:^|[\s.{,])(["']?start["']?)\s*=""", "search"),
