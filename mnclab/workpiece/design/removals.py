@@ -52,20 +52,11 @@ class Flat:
         return Flat(flipped(self.region, flip), z - self.floor, not self.up)
 
 
-@dataclass(frozen=True, eq=False)
-class Slanting:
-    """A slanting face about a contour, or a cone about a point, and all between it and the feature that it stands on.
+class _Sloped:
+    """What goes from the height `deep` to the height `open`, where it meets the air; mm."""
 
-    At a distance `near` from `base`, mm, it is at the height `deep`, at `far` at the height `open`. The base is a region,
-    from whose edge distances count outwards (`inside`: inwards), or a point.
-    """
-
-    base: Region | tuple[float, float]
-    near: float
-    far: float
     deep: float
     open: float
-    inside: bool = False
 
     @property
     def up(self) -> bool:
@@ -82,6 +73,22 @@ class Slanting:
     @property
     def high(self) -> float:
         return max(self.deep, self.open)
+
+
+@dataclass(frozen=True, eq=False)
+class Slanting(_Sloped):
+    """A slanting face about a contour, or a cone about a point, and all between it and the feature that it stands on.
+
+    At a distance `near` from `base`, mm, it is at the height `deep`, at `far` at the height `open`. The base is a region,
+    from whose edge distances count outwards (`inside`: inwards), or a point.
+    """
+
+    base: Region | tuple[float, float]
+    near: float
+    far: float
+    deep: float
+    open: float
+    inside: bool = False
 
     def away(self, x: Array, y: Array) -> Array:
         """How far points (m,) are from the base; negative before its edge."""
@@ -182,7 +189,7 @@ class Slanting:
 
 
 @dataclass(frozen=True, eq=False)
-class Wedge:
+class Wedge(_Sloped):
     """All above a plane over a rectangle, up to the height `open`: its floor rises from `deep` at the middle of its first
     edge, `start` (x, y), over `far` mm in the unit direction `ahead`; `width` mm across. Upside down with `open` below.
     """
@@ -194,22 +201,6 @@ class Wedge:
     deep: float
     open: float
     near = 0.0
-
-    @property
-    def up(self) -> bool:
-        return self.open > self.deep
-
-    def reaches(self, z: float) -> bool:
-        """Whether material at a height, or at one beyond it, is taken away."""
-        return z > self.deep if self.up else z < self.deep
-
-    @property
-    def low(self) -> float:
-        return min(self.deep, self.open)
-
-    @property
-    def high(self) -> float:
-        return max(self.deep, self.open)
 
     def away(self, x: Array, y: Array) -> Array:
         """How far points (m,) are from the deep edge, along."""
