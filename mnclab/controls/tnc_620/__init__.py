@@ -40,10 +40,13 @@ from mnclab.controls.tnc_620.language import (
     joints,
     machine_datum,
     motion,
+    no_effect,
     parameters,
     pattern_definitions,
     pole,
     program,
+    retraction,
+    rotary_rules,
     tools,
 )
 from mnclab.controls.tnc_620.probing import presets
@@ -84,7 +87,7 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
-    *tilting.SETTINGS, *engraving.SETTINGS,
+    *tools.SETTINGS, *no_effect.SETTINGS, *retraction.SETTINGS, *tilting.SETTINGS, *engraving.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -92,6 +95,7 @@ FUNCTIONS = (
     pole.FUNCTIONS | motion.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
+    | no_effect.FUNCTIONS | rotary_rules.FUNCTIONS | retraction.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
@@ -119,6 +123,8 @@ MEANINGS = {
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
+    **no_effect.WORDS, **rotary_rules.WORDS, **retraction.WORDS,
+    **{f"PLANE RESET {address}": meaning for address, meaning in retraction.PLANE.items()},
     "FSELECT number": "number of the solution, as the control shows them", **free_words.WORDS,
     **{f"PATTERN DEF {address}": meaning for address, meaning in pattern_definitions.MEANINGS.items()},
 }  # fmt: skip

@@ -78,6 +78,11 @@ def finish(m: Machine) -> None:
     m.ended = True
 
 
+@FUNCTIONS("FUNCTION RESET TCPM,", "End of TCPM", source="Klartext, not described")
+def reset_tcpm(m: Machine, words: Words) -> None:
+    """TCPM is refused where it begins: there is nothing to end."""
+
+
 @FUNCTIONS("BLK FORM 0.1,", "Blank: least corner", takes="axis X Y Z", source="4.11, example")
 def least_corner(m: Machine, words: Words) -> None:
     """Tool axis and the corner with the least coordinates; for pictures only, no motion."""
