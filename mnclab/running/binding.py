@@ -52,8 +52,12 @@ def value_of(m: Machine, parameter: Parameter, code: str, word: Word, in_variabl
 
 
 def unit_of(m: Machine, parameter: Parameter) -> float:
-    """What a number of a parameter that lives in a variable is multiplied with: 25.4 for lengths and feeds in inches."""
-    return m.variable_unit if parameter.in_units else 1.0
+    """What a number of a parameter is multiplied with: 25.4 for lengths and feeds in inches.
+
+    Where cycles live in variables, the reader has done so with those that are none.
+    """
+    written = parameter.is_variable or m.control.storage != "variables"
+    return m.variable_unit if parameter.in_units and written else 1.0
 
 
 def store(m: Machine, definition: Definition) -> None:
