@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from mnclab.controls.g43.remarks import ISO, undescribed
 from mnclab.controls.g43.language.lengths import activate
+from mnclab.controls.g43.remarks import ISO, undescribed
 from mnclab.controls.g43.state import memory
 from mnclab.controls.word_address import holes
 from mnclab.machine.control import Words
