@@ -6,13 +6,15 @@ for machining centres, Haas's for mills, the documentation of LinuxCNC.
 
 from __future__ import annotations
 
+from typing import Any
+
 from mnclab.machine.settings import Setting, one_of
 
 FANUC, HAAS, LINUXCNC = "Fanuc", "Haas", "LinuxCNC"
 ALL = "Fanuc, Haas, LinuxCNC"
 
 #: What a dialect chooses; Fanuc's are the defaults.
-DIALECTS = {
+DIALECTS: dict[str, dict[str, Any]] = {
     "fanuc": {},
     "haas": {"dwell_p": "point"},
     "linuxcnc": {"dwell_p": "seconds", "peck_clearance": 0.254, "arc_by_both": "refuse"},
