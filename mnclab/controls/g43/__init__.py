@@ -31,6 +31,10 @@ SETTINGS = (
     Setting("block_skip", False, "operator mode: blocks with / are passed over", "ISO 6983"),
     one_of("undescribed", "codes of chapters that the source does not have", "other chapters",
            warn="their ISO meaning, with a warning", accept="their ISO meaning, without a word", refuse="an alarm"),
+    one_of("motion_in_cycle", "what G0, G1, G2 and G3 do while a cycle is active", "FANUC, LinuxCNC",
+           ends="they end the cycle", waits="they wait until its end, and each position is a hole"),
+    one_of("below_r", "which way a cycle begins from below level R", "LinuxCNC",
+           up="first up to level R, then over the hole", across="FANUC: first over the hole, then up to level R"),
     Setting("peck_clearance", 1.0, "where G83 returns to above the last depth, and how far G73 lifts", "", {}, "mm", 0),
     Setting("arc_tolerance", 0.01, "difference of the radii at start and end of an arc", "", {}, "mm", 0),
     one_of("gouge", "what happens where a compensated tool does not fit",
@@ -41,7 +45,6 @@ SETTINGS = (
 _NO_SYNTAX = "the source does not say how this control writes it"
 REFUSED = (
     {code: f"not built: subprograms; {_NO_SYNTAX}" for code in ("M98", "M99", "G65", "G66", "G67")}
-    | {code: "not built: boring that needs an operator or a shifted tool" for code in ("G87", "G88")}
     | {code: "not built: only the first reference point is, G28" for code in ("G29", "G30")}
 )
 
