@@ -30,7 +30,6 @@ PHASES = (
 _NO_SYNTAX = "the source does not say how this control writes it"
 REFUSED = (
     {code: f"not built: subprograms; {_NO_SYNTAX}" for code in ("M98", "M99", "G65", "G66", "G67")}
-    | {code: "not built: boring that needs an operator or a shifted tool" for code in ("G87", "G88")}
     | {code: "not built: only the first reference point is, G28" for code in ("G29", "G30")}
 )
 

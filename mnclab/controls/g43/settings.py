@@ -48,4 +48,11 @@ TECHNOLOGY = (
     Setting("bulk", True, "obey long runs of plain blocks at once"),
 )  # fmt: skip
 
-SETTINGS = PROGRAM + MOTION + TECHNOLOGY
+HOLES = (
+    one_of("motion_in_cycle", "what G0, G1, G2 and G3 do while a cycle is active", ALL,
+           ends="they end the cycle", waits="they wait until its end, and each position is a hole"),
+    one_of("below_r", "which way a cycle begins from below level R", LINUXCNC,
+           up="first up to level R, then over the hole", across="first over the hole, then up to level R (Fanuc)"),
+)  # fmt: skip
+
+SETTINGS = PROGRAM + MOTION + TECHNOLOGY + HOLES
