@@ -25,7 +25,9 @@ def assign(
     words: dict[str, Word] = {}
     for word in given:
         fitting = (p for p in cycle.parameters() if word.address in (p.address, *p.aliases))
-        parameter = next(p for p in fitting if p.several or p.name not in words)
+        parameter = next((p for p in fitting if p.several or p.name not in words), None)
+        if parameter is None:
+            m.alarm(f"{word} says again what another word of {code} says", word, hint="keep one of them")
         value = value_of(m, parameter, code, word, cycle.in_variables)
         words.setdefault(parameter.name, word)
         values[parameter.name] = (*values.get(parameter.name, ()), value) if parameter.several else value

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 import re
 
-from mnclab.controls.g43 import cycles
+from mnclab.controls.g43 import cycles, remarks
 from mnclab.controls.g43.language import lengths, motion, offsets, references, units
-from mnclab.controls.g43.state import Memory, memory
+from mnclab.controls.g43.settings import SETTINGS
+from mnclab.controls.g43.state import Memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
 from mnclab.machine.control import Control, FunctionTable
 from mnclab.machine.cycle import Cycle
 from mnclab.machine.machine import Machine
-from mnclab.machine.settings import Setting, one_of
 from mnclab.machine.trial import TrialWords, in_block
 from mnclab.path.compensation import Compensation
 from mnclab.running.bulk import PlainWords
@@ -27,21 +27,9 @@ PHASES = (
     *("compensation", "dwell", "motion", "call", "end"),
 )
 
-SETTINGS = (
-    Setting("block_skip", False, "operator mode: blocks with / are passed over", "ISO 6983"),
-    one_of("undescribed", "codes of chapters that the source does not have", "other chapters",
-           warn="their ISO meaning, with a warning", accept="their ISO meaning, without a word", refuse="an alarm"),
-    Setting("peck_clearance", 1.0, "where G83 returns to above the last depth, and how far G73 lifts", "", {}, "mm", 0),
-    Setting("arc_tolerance", 0.01, "difference of the radii at start and end of an arc", "", {}, "mm", 0),
-    one_of("gouge", "what happens where a compensated tool does not fit",
-           refuse="an alarm, before the tool goes there", mark="it cuts anyway: marked rows and warnings"),
-    Setting("bulk", True, "obey long runs of plain blocks at once"),
-)  # fmt: skip
-
 _NO_SYNTAX = "the source does not say how this control writes it"
 REFUSED = (
     {code: f"not built: subprograms; {_NO_SYNTAX}" for code in ("M98", "M99", "G65", "G66", "G67")}
-    | {code: "not built: boring that needs an operator or a shifted tool" for code in ("G87", "G88")}
     | {code: "not built: only the first reference point is, G28" for code in ("G29", "G30")}
 )
 
@@ -49,7 +37,7 @@ MEANINGS = {
     **{f"G{n} {letter}": f"centre along {axis} from the start" for n in (2, 3) for letter, axis in zip("IJK", "XYZ")},
     **{f"G52 {axis}": f"origin's {axis} from the work offset" for axis in "XYZ"},
     **{f"G92 {axis}": f"new value of {axis} where the tool stands" for axis in "XYZ"},
-    "R": "radius", "G4 P": "milliseconds", "G4 X": "seconds",
+    "R": "radius", "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
 }  # fmt: skip
 
 _LENGTHS = re.compile(r"^[^;\n]*G[ \t]*4[349](?!\d)", re.I | re.M)
@@ -90,7 +78,7 @@ CONTROL = Control(
     together=motion.together,
     bulk=PlainWords(
         motions={0.0: ("G0", 0), 1.0: ("G1", 1), 2.0: ("G2", -2), 3.0: ("G3", 2)},
-        ready=lambda m: not lengths.pending(m) and {"G2", "G3"} <= memory(m).undescribed,
+        ready=lambda m: not lengths.pending(m) and remarks.silent(m, "G2", "G3"),
         helices=more_helices,
         unit=lambda m: m.variable_unit,
     ),

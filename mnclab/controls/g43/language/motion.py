@@ -58,17 +58,31 @@ def arc(m: Machine, words: Words) -> None:
     motion.arc(m, words, -1 if words.code == "G2" else 1, m.modal["dimension"] == "G90")
 
 
+def seconds_of_p(m: Machine, word: Word) -> float:
+    """What 1 of a P that is a dwell stands for, s."""
+    in_seconds = m.settings["dwell_p"]
+    if in_seconds == "point":
+        in_seconds = "seconds" if "." in written(m, word) else "milliseconds"
+    return 1.0 if in_seconds == "seconds" else 0.001
+
+
+def written(m: Machine, word: Word) -> str:
+    """A word of the running program as it stands in the text."""
+    line, column, length, _ = word.span
+    return m.flow.program.line_text(line)[column - 1 : column - 1 + length]
+
+
 @FUNCTIONS("G4", "Dwell", phase="dwell", takes="P X", still=True, modal=False, source=ISO)
 def dwell(m: Machine, words: Words) -> None:
-    """A pause of X seconds or P milliseconds."""
+    """A pause of X seconds, or of P as the setting dwell_p has it."""
     undescribed(m, words)
     if len(words.words) != 2:
-        m.alarm("G4 needs P (milliseconds) or X (seconds)", first_word(words))
+        m.alarm("G4 needs P or X, the time", first_word(words))
     word = words.words[1]
     value = m.value(word)
     if not 0 <= value <= 1e6:
         m.alarm(f"G4 {word.address} (dwell) must be at least 0 and at most 1e+06, got {value:g}", word)
-    m.dwell(value if word.address == "X" else value / 1000)
+    m.dwell(value if word.address == "X" else value * seconds_of_p(m, word))
 
 
 FUNCTIONS("F", "Feed", phase="feed", source="7.1, example")(motion.feed)
