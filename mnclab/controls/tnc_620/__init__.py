@@ -32,6 +32,7 @@ from mnclab.controls.tnc_620.cycles import patterns as point_patterns
 from mnclab.controls.tnc_620.language import (
     approach,
     auxiliary,
+    blank,
     calls,
     feeds,
     flow,
@@ -92,7 +93,7 @@ SETTINGS = (
 
 FUNCTIONS = (
     pole.FUNCTIONS | motion.FUNCTIONS | joints.FUNCTIONS | approach.FUNCTIONS
-    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS
+    | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS | blank.FUNCTIONS
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
 )  # fmt: skip
@@ -116,7 +117,10 @@ MEANINGS = {
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
-    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length", "file": "name of a file",
+    "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
+    "BLK FORM CYLINDER L": "length", "BLK FORM CYLINDER D": "diameter", "DIST": "from the datum to the front face",
+    "RI": "radius of the bore", "DI": "diameter of the bore", "DIM": "whether X is the radius or the diameter",
+    "BLK FORM CYLINDER axis": "axis", "BLK FORM ROTATION axis": "axis", "file": "name of a file",
     **{axis: f"angle of the rotary axis {axis}" for axis in "ABC"},
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},

@@ -49,7 +49,7 @@ STATEMENTS = {
     "TRANS DATUM": "datum shift", "QC": "contour formula",
     **{f"PLANE {form}": "tilted plane" for form in "SPATIAL PROJECTED EULER VECTOR POINTS RELATIV AXIAL RESET".split()},
     **{f"FUNCTION {form}": "special function" for form in "TCPM PARAXMODE PARAXCOMP RESET MODE DWELL FEED".split()},
-    **{f"BLK FORM {form}": "blank" for form in "CYLINDER ROTATION FILE".split()},
+    "BLK FORM FILE": "blank from a file",
 }  # fmt: skip
 
 FN = {
