@@ -34,6 +34,7 @@ from mnclab.controls.tnc_620.language import (
     auxiliary,
     blank,
     calls,
+    circle_data,
     feeds,
     flow,
     free_contours,
@@ -43,7 +44,9 @@ from mnclab.controls.tnc_620.language import (
     motion,
     parameters,
     pattern_definitions,
+    plc,
     pole,
+    preset,
     program,
     system_access,
     system_data,
@@ -96,6 +99,7 @@ FUNCTIONS = (
     | flow.FUNCTIONS | parameters.FUNCTIONS | tools.FUNCTIONS | program.FUNCTIONS | blank.FUNCTIONS
     | machine_datum.FUNCTIONS | feeds.FUNCTIONS | auxiliary.FUNCTIONS | calls.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | datum_tables.FUNCTIONS | system_access.FUNCTIONS
+    | circle_data.FUNCTIONS | plc.FUNCTIONS | preset.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
@@ -116,6 +120,8 @@ MEANINGS = {
     "text": "name of the tool in a text parameter",
     "first": "the first operand", "second": "the second operand", "parameter": "the parameter that is asked about",
     "state": "whether it has a value", "undefined": "it has no value any more", "FN 14 number": "error number",
+    "points": "the first parameter of the points", "FN 25 axis": "axis of the datum",
+    "FN 25 first": "coordinate that a point has", "FN 25 second": "coordinate that it gets",
     "ID": "group of system data", "NR": "number in its group", "IDX": "index", "FN 17 value": "the value to write",
     "TOOL CALL DR2": "delta corner radius", "TOOL DEF L": "length",
     "BLK FORM CYLINDER L": "length", "BLK FORM CYLINDER D": "diameter", "DIST": "from the datum to the front face",

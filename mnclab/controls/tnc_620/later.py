@@ -53,10 +53,8 @@ STATEMENTS = {
 }  # fmt: skip
 
 FN = {
-    15: "unformatted output", 16: "formatted output", 19: "values to the PLC", 20: "synchronizing with the PLC",
-    23: "circle from three points", 24: "circle from four points", 25: "setting the datum", 26: "opening a table",
-    27: "writing to a table", 28: "reading from a table", 29: "values to the PLC", 37: "exporting parameters",
-    38: "sending to a log",
+    15: "unformatted output", 16: "formatted output", 26: "opening a table", 27: "writing to a table",
+    28: "reading from a table",
 }  # fmt: skip
 
 M = {
