@@ -1,4 +1,4 @@
-"""The HEIDENHAIN TNC 620 milling control (NC software 81760x-06, 2018), conversational programs.
+"""The HEIDENHAIN TNC 620 milling control (NC software 81760x-06, 2018), conversational programs and DIN/ISO programs.
 
 `reader` makes blocks of lines, `statements` and `words` say how each is written, `language` obeys statements and M
 functions, `cycles` holds the fixed cycles by chapter of the manual, `later` names what is not built yet.
@@ -139,9 +139,11 @@ _KLARTEXT = re.compile(
     r"(?im)^[ \t\ufeff]*(?:\d+[ \t]*)?(BEGIN[ \t]+PGM|TOOL[ \t]+CALL|CYCL[ \t]+DEF|CALL[ \t]+LBL|L[ \t]+I?[XYZ])"
 )
 
+_DIN_ISO = re.compile(r"(?im)^[ \t\ufeff]*%[^\r\n;*]*?[ \t]G[ \t]*7[01]\b")
+
 CONTROL = Control(
-    name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=(".h",),
-    read=reader.read, looks_like=lambda text: _KLARTEXT.search(text) is not None,
+    name="tnc-620", title="HEIDENHAIN TNC 620 (2018)", suffixes=(".h", ".i"),
+    read=reader.read, looks_like=lambda text: _KLARTEXT.search(text) is not None or _DIN_ISO.search(text) is not None,
     functions=FUNCTIONS, cycles=CYCLES, names=ISO_NAMES, refused=later.REFUSED, together=later.strange_parameters(CYCLES),
     phases=PHASES, codes=("M",), word_functions=False, meanings=MEANINGS, told=motion.turning_sense, trial=trial_program,
     settings=SETTINGS, memory=Memory, start=program.start, frames=("preset",),
