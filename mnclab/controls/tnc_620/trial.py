@@ -17,9 +17,10 @@ def klartext(value: float | str) -> str:
 
 def as_sub_blocks(cycle: type[Cycle], words: Sequence[tuple[str, Any]]) -> list[str]:
     """The lines of an obsolete cycle, which has no Q parameters."""
-    texts = {address: klartext(value) for address, value in words}
-    texts |= {address: number(value) for address, value in words if address in ("DWELL", "F", "PECKG:F")}
-    texts |= {"DR": "+" if value > 0 else "-" for address, value in words if address == "DR"}
+    plain = ("DWELL", "F", "PECKG:F")
+    texts = {address: number(value) if address in plain else klartext(value) for address, value in words}
+    if "DR" in texts:
+        texts["DR"] = texts["DR"][0]  # the sign alone
     return list(obsolete_blocks.written(int(cycle.code.split()[-1]), cycle.title.upper(), texts))
 
 

@@ -1,4 +1,4 @@
-"""Finishing round a figure from a place beside its wall: down, up to the wall on an arc, once round, off it, back; on every level.
+"""Finishing round a figure from a place beside its wall: down, up to the wall on an arc, round, off it, back; on every level.
 
 The tool stays on its level between two rounds, for all of that way is clear. Lengths in mm, feeds in mm/min.
 """

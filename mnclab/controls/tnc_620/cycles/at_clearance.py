@@ -18,8 +18,6 @@ from mnclab.machine.machine import Machine
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Say
 
-SOURCE = "TNC 426/430 manual, 8"  # of the cycles with sub-blocks
-
 clearance = partial(
     addresses.increment, "SETUP", "set-up clearance", note="from the tool to the surface; its sign is that of the depth, or +",
     example=2,

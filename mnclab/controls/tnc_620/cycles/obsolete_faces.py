@@ -13,7 +13,7 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import coordinate, increment, number
 from mnclab.controls.tnc_620.cycles.faults import Fault, at_least, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.planes import in_program_coordinates
-from mnclab.machine.cycle import Cycle, CycleTable
+from mnclab.machine.cycle import Cycle, CycleTable, few_passes
 from mnclab.machine.machine import Machine
 from mnclab.machine.settings import Setting
 from mnclab.machine.true_size import MILLS
@@ -23,8 +23,6 @@ from mnclab.machining.milling.ruled import mill_ruled, passes
 from mnclab.machining.steps import Go, Say, Step
 
 CYCLES = CycleTable()
-SOURCE = "TNC 426/430 manual, 8.8"
-MOST = 20_000  # lines
 SETTINGS = (
     Setting(
         "multipass", "within", "how far apart the lines of cycle 230 lie, of which the first is R inside the edge", "",
@@ -33,7 +31,7 @@ SETTINGS = (
 )  # fmt: skip
 
 
-@CYCLES("CYCL DEF 230", "Multipass milling", source=SOURCE)
+@CYCLES("CYCL DEF 230", "Multipass milling", source="1.2")
 class MultipassMilling(Cycle):
     """Mills a level surface once, on parallel lines to and fro."""
 
@@ -44,7 +42,7 @@ class MultipassMilling(Cycle):
     start_3rd_axis: float = coordinate("Q227", "coordinate of the milled surface", example=2.5)
     first_side_length: float = increment("Q218", "first side length", at_least=0, example=150)
     second_side_length: float = increment("Q219", "second side length", at_least=0, example=75)
-    cuts: float = number("Q240", "number of cuts", note="over the width", at_most=MOST, example=10)
+    cuts: float = number("Q240", "number of cuts", note="over the width", example=10)
     plunging_feed: float = addresses.plunge_feed()
     milling_feed: float = addresses.milling_feed()
     stepover_feed: float = addresses.feed("Q209", "feed rate for the stepover", also=addresses.PLANE, example=200)
@@ -53,6 +51,7 @@ class MultipassMilling(Cycle):
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from with_radius(m)
         yield from not_zero(self, "plunging_feed", "milling_feed", "stepover_feed", purpose="to mill with")
+        yield from few_passes("cuts", 1, int(self.cuts))
         if self.cuts > 1:
             yield from at_least(self, "second_side_length", 2 * m.radius, "the tool diameter")
 
@@ -71,7 +70,7 @@ class MultipassMilling(Cycle):
         yield Go("retract", above)
 
 
-@CYCLES("CYCL DEF 231", "Ruled surface", source=SOURCE)
+@CYCLES("CYCL DEF 231", "Ruled surface", source="1.2")
 class RuledSurface(Cycle):
     """Mills the surface between the lines 1-2 and 4-3 with the tip of the tool on straight lines, all the same way."""
 
@@ -89,12 +88,13 @@ class RuledSurface(Cycle):
     x_4: float = coordinate("Q234", "fourth point, first axis", example=5)
     y_4: float = coordinate("Q235", "fourth point, second axis", example=70)
     z_4: float = coordinate("Q236", "fourth point, tool axis", example=3)
-    cuts: float = number("Q240", "number of cuts", note="from 1-2 to 4-3", at_most=MOST, example=20)
+    cuts: float = number("Q240", "number of cuts", note="from 1-2 to 4-3", example=20)
     milling_feed: float = addresses.milling_feed()
 
     def check(self, m: Machine) -> Iterator[Fault]:
         yield from with_radius(m)
         yield from not_zero(self, "milling_feed", purpose="to mill with")
+        yield from few_passes("cuts", 1, int(self.cuts))
 
     def moves(self, m: Machine) -> Iterator[Step]:
         first, second = (self.x_1, self.y_1, self.z_1), (self.x_2, self.y_2, self.z_2)

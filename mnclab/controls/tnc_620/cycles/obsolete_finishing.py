@@ -30,11 +30,10 @@ from mnclab.machining.milling.rounds import finish_rounds
 from mnclab.machining.steps import Go, Step, moved
 
 CYCLES = CycleTable()
-SOURCE = "TNC 426/430 manual, 8.4"
 ASIDE = 3.5  # times R, from the blank of a stud to S
 
 
-@CYCLES("CYCL DEF 212", "Pocket finishing", source=SOURCE)
+@CYCLES("CYCL DEF 212", "Pocket finishing", source="1.2")
 class PocketFinishing(AtSurface):
     """Finishes the wall of a rectangular pocket on each infeed."""
 
@@ -47,8 +46,8 @@ class PocketFinishing(AtSurface):
     milling_feed: float = addresses.milling_feed()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)
-    center_axis_1: float = coordinate("Q216", "centre along the first axis", example=50)
-    center_axis_2: float = coordinate("Q217", "centre along the second axis", example=50)
+    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
+    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
     first_side_length: float = increment("Q218", "first side length", at_least=0, example=80)
     second_side_length: float = increment("Q219", "second side length", at_least=0, example=60)
     corner_radius: float = length("Q220", "corner radius", note="0: the tool radius", example=8)
@@ -72,7 +71,7 @@ class PocketFinishing(AtSurface):
         return finish(self, m, wall, start, min(wide - start, self.second_side_length - 2 * r))
 
 
-@CYCLES("CYCL DEF 213", "Stud finishing", source=SOURCE)
+@CYCLES("CYCL DEF 213", "Stud finishing", source="1.2")
 class StudFinishing(AtSurface):
     """Finishes the side of a rectangular stud on each infeed."""
 
@@ -85,8 +84,8 @@ class StudFinishing(AtSurface):
     milling_feed: float = addresses.milling_feed()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)
-    center_axis_1: float = coordinate("Q216", "centre along the first axis", example=50)
-    center_axis_2: float = coordinate("Q217", "centre along the second axis", example=50)
+    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
+    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
     first_side_length: float = increment("Q218", "first side length", at_least=0, example=80)
     second_side_length: float = increment("Q219", "second side length", at_least=0, example=60)
     corner_radius: float = length("Q220", "corner radius", example=5)
@@ -105,7 +104,7 @@ class StudFinishing(AtSurface):
         return finish(self, m, wall.reversed(), start, start - self.first_side_length / 2 - r)
 
 
-@CYCLES("CYCL DEF 214", "Circular pocket finishing", source=SOURCE)
+@CYCLES("CYCL DEF 214", "Circular pocket finishing", source="1.2")
 class CircularPocketFinishing(AtSurface):
     """Finishes the wall of a circular pocket on each infeed."""
 
@@ -118,8 +117,8 @@ class CircularPocketFinishing(AtSurface):
     milling_feed: float = addresses.milling_feed()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)
-    center_axis_1: float = coordinate("Q216", "centre along the first axis", example=50)
-    center_axis_2: float = coordinate("Q217", "centre along the second axis", example=50)
+    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
+    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
     blank_diameter: float = length("Q222", "diameter of the rough pocket", note="less than Q223; 0: down at C", example=76)
     finished_diameter: float = length("Q223", "diameter of the finished pocket", example=80)
 
@@ -137,7 +136,7 @@ class CircularPocketFinishing(AtSurface):
         return finish(self, m, Contour.circle((0, 0), reach), start, reach - start)
 
 
-@CYCLES("CYCL DEF 215", "Circular stud finishing", source=SOURCE)
+@CYCLES("CYCL DEF 215", "Circular stud finishing", source="1.2")
 class CircularStudFinishing(AtSurface):
     """Finishes the side of a circular stud on each infeed."""
 
@@ -150,8 +149,8 @@ class CircularStudFinishing(AtSurface):
     milling_feed: float = addresses.milling_feed()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)
-    center_axis_1: float = coordinate("Q216", "centre along the first axis", example=50)
-    center_axis_2: float = coordinate("Q217", "centre along the second axis", example=50)
+    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
+    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
     blank_diameter: float = length("Q222", "diameter of the blank", note="greater than Q223", example=84)
     finished_diameter: float = length("Q223", "diameter of the finished stud", example=80)
 
@@ -193,7 +192,7 @@ def finish(c: AnyFinishing, m: Machine, wall: Contour, start: float, aside: floa
     if not c.down:
         yield c.left_out
         return
-    x, y = c.center_axis_1, c.center_axis_2
+    x, y = c.centre_x, c.centre_y
     arcs, feeds = half_circles(wall, aside, 1), Feeds(c.milling_feed, c.plunging_feed)
     yield Go("to the second set-up clearance", max(m.programmed[2], c.end))
     yield Go("over the centre", x=x, y=y)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import addresses, at_clearance
-from mnclab.controls.tnc_620.cycles.at_clearance import SOURCE, AtClearance
+from mnclab.controls.tnc_620.cycles.at_clearance import AtClearance
 from mnclab.controls.tnc_620.cycles.faults import Fault, not_zero, oriented
 from mnclab.controls.tnc_620.cycles.tapping import pitch_of
 from mnclab.machine.cycle import CycleTable, param
@@ -31,7 +31,7 @@ def advanced_stop(depth: float) -> float:
     return 0.6 if depth <= 30 else min(depth / 50, 7.0)
 
 
-@CYCLES("CYCL DEF 1", "Pecking", source=SOURCE)
+@CYCLES("CYCL DEF 1", "Pecking", source="1.2")
 class Pecking(AtClearance):
     """Drills in infeeds with full retraction to where the tool stood, and waits at the bottom."""
 
@@ -54,7 +54,7 @@ class Pecking(AtClearance):
         yield Go("retract", above)
 
 
-@CYCLES("CYCL DEF 2", "Tapping with a floating holder", source=SOURCE)
+@CYCLES("CYCL DEF 2", "Tapping with a floating holder", source="1.2")
 class FloatingTapping(AtClearance):
     """Taps at a feed in one pass with the spindle as it turns, reversed at the bottom and where the tool stood."""
 
@@ -80,7 +80,7 @@ class FloatingTapping(AtClearance):
         )  # fmt: skip
 
 
-@CYCLES("CYCL DEF 17", "Rigid tapping", source=SOURCE)
+@CYCLES("CYCL DEF 17", "Rigid tapping", source="1.2")
 class RigidTapping(AtClearance):
     """Taps with the spindle locked to the feed; it stops at the end, and M3 or M4 starts it again."""
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from mnclab.controls.tnc_620.cycles import at_clearance
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, length
-from mnclab.controls.tnc_620.cycles.at_clearance import SOURCE, AtClearance
+from mnclab.controls.tnc_620.cycles.at_clearance import AtClearance
 from mnclab.controls.tnc_620.cycles.faults import SAME, Fault, at_least, not_zero, with_radius
 from mnclab.controls.tnc_620.cycles.pockets import CORNERS
 from mnclab.geometry import shapes
@@ -34,7 +34,7 @@ CYCLES = CycleTable()
 SENSE: dict[float, str] = {1: "+: counter-clockwise, climb milling with M3", -1: "-: clockwise"}
 
 
-@CYCLES("CYCL DEF 3", "Slot milling", source=SOURCE)
+@CYCLES("CYCL DEF 3", "Slot milling", source="1.2")
 class SlotMilling(AtClearance):
     """Mills a slot along X or Y: along its middle with an infeed at each end, then once round its wall in climb milling.
 
@@ -101,7 +101,7 @@ def _wall(line: Contour, inset: float) -> tuple[Contour, tuple[Contour, ...]]:
     return side, quarter_circles(side, inset, 1)
 
 
-@CYCLES("CYCL DEF 4", "Pocket milling", source=SOURCE)
+@CYCLES("CYCL DEF 4", "Pocket milling", source="1.2")
 class PocketMilling(AtClearance):
     """Roughs a rectangular pocket about the tool in layers, outwards on rectangles, from the middle and back to it.
 
@@ -140,7 +140,7 @@ class PocketMilling(AtClearance):
         return layers(self, m)
 
 
-@CYCLES("CYCL DEF 5", "Circular pocket", source=SOURCE)
+@CYCLES("CYCL DEF 5", "Circular pocket", source="1.2")
 class CircularPocket(AtClearance):
     """Roughs a circular pocket about the tool in layers, each on a spiral from the middle to the wall."""
 

@@ -32,11 +32,10 @@ from mnclab.machining.milling.to_and_fro import oblique_infeeds
 from mnclab.machining.steps import Along, Go, Say, Step, moved
 
 CYCLES = CycleTable()
-SOURCE = "TNC 426/430 manual, 8.4"
 WIDEST = 3  # tool diameters
 
 
-@CYCLES("CYCL DEF 210", "Slot with reciprocating plunge", source=SOURCE)
+@CYCLES("CYCL DEF 210", "Slot with reciprocating plunge", source="1.2")
 class StraightSlot(AtSurface):
     """Mills a straight slot along its middle, to and fro and down on the way, then round its wall."""
 
@@ -49,8 +48,8 @@ class StraightSlot(AtSurface):
     machining_operation: float = addresses.operation()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)
-    center_axis_1: float = coordinate("Q216", "centre along the first axis", example=50)
-    center_axis_2: float = coordinate("Q217", "centre along the second axis", example=50)
+    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
+    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
     slot_length: float = length("Q218", "slot length", note="over all", example=80)
     slot_width: float = addresses.slot_width()
     rotation_angle: float = addresses.angle("Q224", "angle of rotation", note="about the centre of the slot", example=15)
@@ -74,7 +73,7 @@ class StraightSlot(AtSurface):
         return mill(self, m, Slot(line, back, (self.slot_width / 2 - m.radius) * math.pi / 2 + half))
 
 
-@CYCLES("CYCL DEF 211", "Circular slot with reciprocating plunge", source=SOURCE)
+@CYCLES("CYCL DEF 211", "Circular slot with reciprocating plunge", source="1.2")
 class CircularSlot(AtSurface):
     """Mills a slot on an arc along its middle, to and fro and down on the way, then round its wall."""
 
@@ -87,8 +86,8 @@ class CircularSlot(AtSurface):
     machining_operation: float = addresses.operation()
     surface: float = addresses.surface()
     second_clearance: float = addresses.second_clearance(example=50)
-    center_axis_1: float = coordinate("Q216", "centre along the first axis", example=50)
-    center_axis_2: float = coordinate("Q217", "centre along the second axis", example=50)
+    centre_x: float = coordinate("Q216", "centre along the first axis", example=50)
+    centre_y: float = coordinate("Q217", "centre along the second axis", example=50)
     pitch_circle_diameter: float = length("Q244", "diameter of the pitch circle", example=80)
     slot_width: float = addresses.slot_width()
     starting_angle: float = addresses.angle("Q245", "starting angle", example=45)
@@ -163,9 +162,9 @@ def mill(c: AnySlot, m: Machine, slot: Slot) -> Iterator[Step]:
     else:
         x, y = (slot.back.points[-1] if c.machining_operation == 2 else slot.line.points[0]).tolist()
         yield Go("to the second set-up clearance", max(m.programmed[2], c.end))
-        yield Go("over the start", x=c.center_axis_1 + x, y=c.center_axis_2 + y)
+        yield Go("over the start", x=c.centre_x + x, y=c.centre_y + y)
         yield Go("to the set-up clearance", c.above)
-        yield from moved(cut(c, slot, inset if finishes else 0.0), c.center_axis_1, c.center_axis_2)
+        yield from moved(cut(c, slot, inset if finishes else 0.0), c.centre_x, c.centre_y)
         yield from c.leave()
 
 

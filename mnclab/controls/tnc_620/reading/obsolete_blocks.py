@@ -73,7 +73,6 @@ def written(cycle: int, title: str, words: Mapping[str, str]) -> Iterator[str]:
     """The lines of a definition, of the values that are there as they are written."""
     yield f"CYCL DEF {cycle}.0 {title}"
     for part, addresses in enumerate(PLACES[cycle], 1):
-        there = [address for address in addresses.split() if address in words]
-        names = (address if address in ("X", "Y") else NAMES[address.rpartition(":")[2]][1] for address in there)
+        there = [(address.rpartition(":")[2], words[address]) for address in addresses.split() if address in words]
         if there:
-            yield f"CYCL DEF {cycle}.{part} " + " ".join(name + words[address] for name, address in zip(names, there, strict=True))
+            yield f"CYCL DEF {cycle}.{part} " + " ".join(NAMES.get(kind, ("", kind))[1] + text for kind, text in there)
