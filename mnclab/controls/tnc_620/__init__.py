@@ -16,6 +16,11 @@ from mnclab.controls.tnc_620.cycles import (
     drilling,
     engraving,
     face_milling,
+    obsolete_faces,
+    obsolete_finishing,
+    obsolete_holes,
+    obsolete_milling,
+    obsolete_slots,
     pecking,
     pockets,
     program_call,
@@ -90,7 +95,7 @@ SETTINGS = (
         "thread_wait", 0.0, "how long the spindle stands at the bottom of a tapped thread (thrdWaitingTime, no. 113601)", "5.2",
         unit="s", at_least=0,
     ),
-    *tilting.SETTINGS, *engraving.SETTINGS, *system_data.SETTINGS,
+    *tilting.SETTINGS, *engraving.SETTINGS, *obsolete_faces.SETTINGS, *system_data.SETTINGS,
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
 
@@ -104,6 +109,7 @@ FUNCTIONS = (
 CHAPTERS = (
     defaults, drilling, boring, pecking, tapping, threads, point_patterns, pockets, slots, studs, walled_faces,
     contours, transformations, tilting, special, engraving, face_milling, presets, program_call,
+    obsolete_holes, obsolete_milling, obsolete_slots, obsolete_finishing, obsolete_faces,
 )  # fmt: skip
 CYCLES = CycleTable()
 for chapter in CHAPTERS:
