@@ -192,4 +192,4 @@ def test_the_control_is_found_by_the_text_and_the_suffix(tmp_path) -> None:
     assert not CONTROL.looks_like("N10 G1 X5\nN20 M30\n")
     file = tmp_path / "A.H"
     file.write_text("1 L X+1\n")
-    assert mnc.read(file, "tnc-620").control == "tnc-620" and CONTROL.suffixes == (".h",)
+    assert mnc.read(file, "tnc-620").control == "tnc-620" and CONTROL.suffixes == (".h", ".i")

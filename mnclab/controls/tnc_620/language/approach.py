@@ -14,7 +14,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.language.checks import above_zero
 from mnclab.controls.tnc_620.language.motion import SIDED, SIDES, coordinates, feed, heading, refuse_rapid, scaled, side
-from mnclab.controls.tnc_620.language.pole import polar_point
+from mnclab.controls.tnc_620.language.pole import polar_point, pole
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine
@@ -86,7 +86,10 @@ def point(m: Machine, words: Words, meaning: str) -> dict[str, float]:
     """Where an approach ends, or a departure of the form LCT; z where it is written."""
     to = coordinates(m, words)
     if words.code.split()[1].startswith("P"):
-        to["x"], to["y"] = polar_point(m, words)
+        plane, _ = pole(m, words)
+        if plane != m.plane:
+            m.alarm(f"{words.code}: the pole CC lies in {plane}, approaches and departures in {m.plane}")
+        to |= polar_point(m, words)
     elif "x" not in to or "y" not in to:
         m.alarm(f"{words.code} needs X and Y of {meaning}")
     return to
@@ -107,11 +110,16 @@ def begin_side(m: Machine, words: Words) -> None:
 @FUNCTIONS("DEP LT,", "Departure on a tangent line", takes="Z LEN R0 F FAUTO FU FZ", source="8.10")
 @FUNCTIONS("DEP LN,", "Departure on a line square to the contour", takes="Z LEN R0 F FAUTO FU FZ", source="8.10")
 @FUNCTIONS("DEP CT,", "Departure on a tangent arc", takes="Z CCA R R0 F FAUTO FU FZ", source="8.10")
-@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R R0 F FAUTO FU FZ", source="8.10")
+@FUNCTIONS("DEP LCT,", "Departure on a tangent arc and a line", takes="X Y Z R R0 F FAUTO FU FZ G00", source="8.10")
 @FUNCTIONS("DEP PLCT,", "Departure on a tangent arc and a line, polar", takes="PR PA Z R R0 F FAUTO FU FZ", source="8.10")
 def departure(m: Machine, words: Words) -> None:
-    """From the last contour point; at its end the compensation is off (R0 may say so), and the tool stands at the register."""
+    """From the last contour point; at its end the compensation is off (R0 may say so), and the tool stands at the register.
+
+    G00 of DIN/ISO programs: the line behind the arc is at rapid.
+    """
     f, lead = feed(m, words), shape(m, words)._replace(departs=True)
+    if "G00" in words:
+        lead = lead._replace(feed=INF)
     if form(words) in ("LN", "CT") and not m.side:
         m.alarm(f"{words.code} needs radius compensation: without a side it has no direction")
     travel = heading(m, words)

@@ -41,22 +41,22 @@ _SENSE = re.compile(r"DR[ \t]*([+-])(?![ \t]*[\dQ.,])", FLAGS)
 
 _ADDRESSES = (
     "X Y Z U V W A B C R LEN CCA PR PA F FU FZ S M T DL DR L REP ROT SCL CCX CCY CCZ CCPR CCPA ABST AN D CLSD "
-    "P1X P1Y P2X P2Y P3X P3Y PDX PDY RX RY RPR RPA RAN PAR DP RCCX RCCY RCCPR RCCPA"
+    "DIST RI DI P1X P1Y P2X P2Y P3X P3Y PDX PDY RX RY RPR RPA RAN PAR DP RCCX RCCY RCCPR RCCPA"
 ).split()
 _NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=len, reverse=True))})", FLAGS)
 
 #: Addresses of lengths and of feeds along a path: inches in a program that begins with INCH.
 LENGTHS = frozenset(
-    "X Y Z U V W R LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
-    "DP DEPTH PITCH length M140:MB M140:F M128:F".split()
+    "X Y Z U V W R RI DI DIST LEN PR F FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P2X P2Y P3X P3Y PDX PDY DX DY "
+    "DP DEPTH PITCH SETUP PECKG PECKG:F RADIUS length M140:MB M140:F M128:F".split()
 )
 
 #: Addresses that belong to an M function when they stand directly behind it: `M103 F20` beside a feed F of the block.
-OWN = {
+_OWN = {
     94: "[ABC]", 101: "BT", 103: "F", 118: "[XYZABC]", 120: "LA", 128: "F[ \t]*MAX|F", 138: "[ABC]",
     140: "MB[ \t]*MAX|MB|F[ \t]*MAX|F", 200: "V", 201: "V", 202: "FNR", 203: "V|TIME", 204: "V|TIME",
 }  # fmt: skip
-_OWN = {code: re.compile(rf"(?:{words})(?![A-PR-Z])", FLAGS) for code, words in OWN.items()}
+OWN = {code: re.compile(rf"(?:{words})(?![A-PR-Z])", FLAGS) for code, words in _OWN.items()}
 
 LETTER_O = "the letter O stands where the digit 0 was meant"
 _G_NAME = re.compile(r"G[ \t]*(\d{1,4})(?!\d)", FLAGS)
@@ -186,7 +186,7 @@ class Cursor:
         """Words directly behind an M function that belong to it: `M103:F` with or without a number."""
         while not self.done:
             begin = self.at
-            found = self.match(_OWN[code])
+            found = self.match(OWN[code])
             if found is None:
                 return
             self.add(f"M{code}:{''.join(found.group().upper().split())}", self.value(), begin)
