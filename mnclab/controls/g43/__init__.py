@@ -6,9 +6,8 @@
 
 from __future__ import annotations
 
-import re
-
 from mnclab.controls.g43 import cycles, language, lengths
+from mnclab.controls.g43.signs import SIGNS
 from mnclab.controls.g43.state import Memory, memory
 from mnclab.controls.word_address.motion import more_helices
 from mnclab.controls.word_address.reader import reader
@@ -52,8 +51,6 @@ MEANINGS = {
     "R": "radius", "G4 P": "milliseconds", "G4 X": "seconds",
 }  # fmt: skip
 
-_LENGTHS = re.compile(r"^[^;\n]*G[ \t]*4[349](?!\d)", re.I | re.M)
-
 
 def start(m: Machine) -> None:
     """G54 is active at the start; the tip hangs below the spindle by the length of the tool."""
@@ -84,7 +81,7 @@ CONTROL = Control(
     memory=Memory,
     compensation=Compensation(approach="corner", change=True, look_ahead=True),
     start=start,
-    looks_like=lambda text: _LENGTHS.search(text) is not None,
+    signs=SIGNS,
     refused=REFUSED,
     meanings=MEANINGS,
     together=language.together,
